@@ -1,0 +1,118 @@
+use super::{Error, Expression};
+
+/// A line of text with values in it: `p = {p:.2}, area {p * r}`.
+///
+/// `{expression}` is a value in the shortest form that reads back, `{expression:.2}` one with two decimals, `{{` and
+/// `}}` are braces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Caption {
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Piece {
+    Text(String),
+    Value { expression: Expression, decimals: Option<usize>, start: usize },
+}
+
+impl Caption {
+    /// Reads a caption.
+    ///
+    /// # Errors
+    /// A brace without its partner, an expression or a number of decimals that cannot be read; spans are in the
+    /// caption's own text.
+    pub fn parse(text: &str) -> Result<Caption, Error> {
+        let mut pieces = Vec::new();
+        let mut plain = String::new();
+        let mut at = 0;
+        while let Some(c) = text[at..].chars().next() {
+            let rest = &text[at..];
+            if rest.starts_with("{{") || rest.starts_with("}}") {
+                plain.push(c);
+                at += 2;
+            } else if c == '{' {
+                let end = at
+                    + rest.find('}').ok_or_else(|| {
+                        Error::new(
+                            at..at + 1,
+                            "this brace is never closed",
+                            "close it with `}`, or write `{{` for a brace",
+                        )
+                    })?;
+                pieces.push(Piece::Text(std::mem::take(&mut plain)));
+                pieces.push(value(text, at + 1, end)?);
+                at = end + 1;
+            } else if c == '}' {
+                return Err(Error::new(at..at + 1, "a closing brace without its partner", "write `}}` for a brace"));
+            } else {
+                plain.push(c);
+                at += c.len_utf8();
+            }
+        }
+        pieces.push(Piece::Text(plain));
+        Ok(Caption { pieces })
+    }
+
+    /// The expressions in it, each with the place of its first byte in the caption.
+    pub fn expressions(&self) -> impl Iterator<Item = (&Expression, usize)> {
+        self.pieces.iter().filter_map(|piece| match piece {
+            Piece::Value { expression, start, .. } => Some((expression, *start)),
+            Piece::Text(_) => None,
+        })
+    }
+
+    /// The text, where `load(name)` is the value of a name.
+    pub fn format(&self, load: impl Fn(&str) -> f64) -> String {
+        let mut out = String::new();
+        for piece in &self.pieces {
+            match piece {
+                Piece::Text(text) => out.push_str(text),
+                Piece::Value { expression, decimals, .. } => {
+                    // Adding 0 makes a negative zero positive.
+                    let value = expression.evaluate(|i| load(&expression.names()[i])) + 0.0;
+                    match decimals {
+                        Some(n) => out.push_str(&format!("{value:.n$}")),
+                        None => out.push_str(&value.to_string()),
+                    }
+                }
+            }
+        }
+        out
+    }
+}
+
+fn value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
+    let inner = &text[start..end];
+    let (source, decimals) = match inner.rfind(':') {
+        None => (inner, None),
+        Some(colon) => {
+            let bad = || Error::new(start + colon..end, "this is not a format", "two decimals are written `{x:.2}`");
+            let digits = inner[colon + 1..].strip_prefix('.').ok_or_else(bad)?;
+            // Seventeen decimals tell any two numbers near 1 apart.
+            let n = digits.parse().ok().filter(|&n: &usize| n <= 17).ok_or_else(bad)?;
+            (&inner[..colon], Some(n))
+        }
+    };
+    let expression =
+        Expression::parse(source).map_err(|e| Error { span: start + e.span.start..start + e.span.end, ..e })?;
+    Ok(Piece::Value { expression, decimals, start })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_stand_where_their_names_stood() {
+        let caption = Caption::parse("p = {p:.2}, {{2p}} = {2 * p}").unwrap();
+        assert_eq!(caption.format(|_| 2.5), "p = 2.50, {2p} = 5");
+        assert_eq!(caption.expressions().count(), 2);
+    }
+
+    #[test]
+    fn braces_and_formats_are_checked() {
+        for (text, at) in [("a {p", 2), ("a }", 2), ("{p:2}", 2), ("{p:.99}", 2), ("{p +}", 4), ("{}", 1)] {
+            assert_eq!(Caption::parse(text).expect_err(text).span.start, at, "{text}");
+        }
+    }
+}

@@ -1,0 +1,90 @@
+use crate::geometry::trig;
+
+/// A function an expression can call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// Square root.
+    Sqrt,
+    /// Sine of radians.
+    Sin,
+    /// Cosine of radians.
+    Cos,
+    /// Tangent of radians.
+    Tan,
+    /// Arc sine, in radians.
+    Asin,
+    /// Arc cosine, in radians.
+    Acos,
+    /// `atan2(y, x)`: the direction of the vector (x, y), in radians.
+    Atan2,
+    /// Magnitude.
+    Abs,
+    /// The least of one or more.
+    Min,
+    /// The greatest of one or more.
+    Max,
+    /// `hypot(x, y)`: the length of the vector (x, y).
+    Hypot,
+    /// Radians to degrees.
+    Deg,
+    /// Degrees to radians.
+    Rad,
+}
+
+impl Function {
+    /// Every function by the name it is called with.
+    pub const ALL: [(&'static str, Function); 13] = [
+        ("sqrt", Function::Sqrt),
+        ("sin", Function::Sin),
+        ("cos", Function::Cos),
+        ("tan", Function::Tan),
+        ("asin", Function::Asin),
+        ("acos", Function::Acos),
+        ("atan2", Function::Atan2),
+        ("abs", Function::Abs),
+        ("min", Function::Min),
+        ("max", Function::Max),
+        ("hypot", Function::Hypot),
+        ("deg", Function::Deg),
+        ("rad", Function::Rad),
+    ];
+
+    /// The function of that name.
+    pub fn named(name: &str) -> Option<Function> {
+        Function::ALL.iter().find(|(n, _)| *n == name).map(|&(_, f)| f)
+    }
+
+    /// The least and the greatest number of arguments.
+    pub fn arity(self) -> (usize, usize) {
+        match self {
+            Function::Atan2 | Function::Hypot => (2, 2),
+            Function::Min | Function::Max => (1, usize::MAX),
+            _ => (1, 1),
+        }
+    }
+
+    /// The value. Not a number where the function is not defined, or an argument is missing.
+    pub(super) fn call(self, arguments: &[f64]) -> f64 {
+        let x = arguments[0];
+        match self {
+            Function::Sqrt => x.sqrt(),
+            Function::Sin => trig::sin(x),
+            Function::Cos => trig::cos(x),
+            Function::Tan => trig::tan(x),
+            Function::Asin => trig::asin(x),
+            Function::Acos => trig::acos(x),
+            Function::Atan2 => trig::atan2(x, arguments[1]),
+            Function::Abs => x.abs(),
+            Function::Min => arguments.iter().copied().fold(f64::INFINITY, least),
+            Function::Max => -arguments.iter().map(|x| -x).fold(f64::INFINITY, least),
+            Function::Hypot => trig::hypot(x, arguments[1]),
+            Function::Deg => trig::degrees(x),
+            Function::Rad => trig::radians(x),
+        }
+    }
+}
+
+/// The lesser of two; missing where either is (`f64::min` would pass over it).
+fn least(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+}

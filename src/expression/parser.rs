@@ -1,0 +1,330 @@
+use super::lexer::{Token, tokens};
+use super::program::{Expression, Instruction, Operator};
+use super::{CONSTANTS, Error, Function, MAX_DEPTH};
+use crate::problem::{Span, nearest};
+
+/// Reads a whole text as an expression.
+pub(super) fn expression(text: &str) -> Result<Expression, Error> {
+    let mut parser = Parser::new(text)?;
+    parser.binary(0)?;
+    match parser.peek() {
+        (Token::End, _) => Ok(parser.out),
+        (_, span) => Err(parser.unexpected(span)),
+    }
+}
+
+/// Reads an expression and the word after it, if any: `360/7 deg`.
+pub(super) fn expression_and_word(text: &str) -> Result<(Expression, Option<(String, Span)>), Error> {
+    let mut parser = Parser::new(text)?;
+    parser.binary(0)?;
+    let word = match parser.peek() {
+        (Token::Name(word), span) => {
+            parser.at += 1;
+            Some((word.to_owned(), span))
+        }
+        _ => None,
+    };
+    match parser.peek() {
+        (Token::End, _) => Ok((parser.out, word)),
+        (_, span) => Err(parser.unexpected(span)),
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: Vec<(Token<'a>, Span)>,
+    at: usize,
+    depth: usize,
+    out: Expression,
+}
+
+impl<'a> Parser<'a> {
+    fn new(text: &'a str) -> Result<Parser<'a>, Error> {
+        let out = Expression { program: Vec::new(), names: Vec::new() };
+        let parser = Parser { text, tokens: tokens(text)?, at: 0, depth: 0, out };
+        match parser.peek() {
+            (Token::End, span) => Err(Error::new(span, "an empty expression", "give a number or an expression")),
+            _ => Ok(parser),
+        }
+    }
+
+    fn peek(&self) -> (Token<'a>, Span) {
+        self.tokens[self.at].clone()
+    }
+
+    fn emit(&mut self, instruction: Instruction, span: Span) {
+        self.out.program.push((instruction, span));
+    }
+
+    fn unexpected(&self, span: Span) -> Error {
+        match &self.text[span.clone()] {
+            "" => Error::new(span, "the expression ends too soon", "something is wanted after the last sign"),
+            word => Error::new(
+                span,
+                format!("`{word}` was not expected here"),
+                "between two values there is an operator, as in `2 * a`",
+            ),
+        }
+    }
+
+    /// Runs `inner` one level deeper.
+    fn nested(&mut self, span: Span, inner: impl FnOnce(&mut Self) -> Result<(), Error>) -> Result<(), Error> {
+        if self.depth == MAX_DEPTH {
+            return Err(Error::new(
+                span,
+                format!("nested deeper than {MAX_DEPTH}"),
+                "name its parts under `let` and put them together",
+            ));
+        }
+        self.depth += 1;
+        inner(self)?;
+        self.depth -= 1;
+        Ok(())
+    }
+
+    /// Operators at least as tight as `floor`; `not` stands between `and` and the comparisons.
+    fn binary(&mut self, floor: u8) -> Result<(), Error> {
+        let (token, span) = self.peek();
+        if token == Token::Not && floor <= 3 {
+            self.at += 1;
+            self.nested(span.clone(), |p| p.binary(3))?;
+            self.emit(Instruction::Not, span);
+        } else {
+            self.unary()?;
+        }
+        loop {
+            let (token, span) = self.peek();
+            let (tightness, operator) = match token {
+                Token::Or => (1, Operator::Or),
+                Token::And => (2, Operator::And),
+                Token::Equal => (4, Operator::Equal),
+                Token::NotEqual => (4, Operator::NotEqual),
+                Token::Less => (4, Operator::Less),
+                Token::LessOrEqual => (4, Operator::LessOrEqual),
+                Token::Greater => (4, Operator::Greater),
+                Token::GreaterOrEqual => (4, Operator::GreaterOrEqual),
+                Token::Plus => (5, Operator::Add),
+                Token::Minus => (5, Operator::Subtract),
+                Token::Star => (6, Operator::Multiply),
+                Token::Slash => (6, Operator::Divide),
+                _ => return Ok(()),
+            };
+            if tightness < floor {
+                return Ok(());
+            }
+            self.at += 1;
+            // One tighter on the right: all of these are left-associative. At most one level for each tightness.
+            self.binary(tightness + 1)?;
+            self.emit(Instruction::Binary(operator), span);
+        }
+    }
+
+    fn unary(&mut self) -> Result<(), Error> {
+        match self.peek() {
+            (Token::Minus, span) => {
+                self.at += 1;
+                self.nested(span.clone(), Self::unary)?;
+                self.emit(Instruction::Negate, span);
+                Ok(())
+            }
+            (Token::Plus, span) => {
+                self.at += 1;
+                self.nested(span, Self::unary)
+            }
+            _ => self.power(),
+        }
+    }
+
+    fn power(&mut self) -> Result<(), Error> {
+        self.primary()?;
+        if let (Token::Caret, span) = self.peek() {
+            self.at += 1;
+            // The exponent may have a sign and its own power: both associate to the right.
+            self.nested(span.clone(), Self::unary)?;
+            self.emit(Instruction::Binary(Operator::Power), span);
+        }
+        Ok(())
+    }
+
+    fn primary(&mut self) -> Result<(), Error> {
+        let (token, span) = self.peek();
+        match token {
+            Token::Number(value) if value.is_finite() => {
+                self.at += 1;
+                self.emit(Instruction::Push(value), span);
+                Ok(())
+            }
+            Token::Number(_) => Err(Error::new(span, "the number is too large", "the largest is about 1.8e308")),
+            Token::Open => {
+                self.at += 1;
+                self.nested(span.clone(), |p| p.binary(0))?;
+                self.close(span)
+            }
+            Token::Name(name) => {
+                self.at += 1;
+                match self.peek() {
+                    (Token::Open, open) => self.call(name, span, open),
+                    _ => self.name(name, span),
+                }
+            }
+            _ => Err(self.unexpected(span)),
+        }
+    }
+
+    fn close(&mut self, open: Span) -> Result<(), Error> {
+        match self.peek() {
+            (Token::Close, _) => {
+                self.at += 1;
+                Ok(())
+            }
+            (Token::End, _) => Err(Error::new(open, "this parenthesis is never closed", "add `)`")),
+            (_, span) => Err(self.unexpected(span)),
+        }
+    }
+
+    fn name(&mut self, name: &str, span: Span) -> Result<(), Error> {
+        if let Some((_, value)) = CONSTANTS.iter().find(|(n, _)| *n == name) {
+            self.emit(Instruction::Push(*value), span);
+            return Ok(());
+        }
+        let index = self.out.names.iter().position(|n| n == name).unwrap_or_else(|| {
+            self.out.names.push(name.to_owned());
+            self.out.names.len() - 1
+        });
+        self.emit(Instruction::Load(index), span);
+        Ok(())
+    }
+
+    fn call(&mut self, name: &str, span: Span, open: Span) -> Result<(), Error> {
+        let names = Function::ALL.map(|(n, _)| n);
+        let function = Function::named(name).ok_or_else(|| {
+            let help = match nearest(name, names) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the functions are {}", names.join(", ")),
+            };
+            Error::new(span.clone(), format!("there is no function `{name}`"), help)
+        })?;
+        self.at += 1;
+        let mut given = 0;
+        if !matches!(self.peek().0, Token::Close) {
+            loop {
+                self.nested(open.clone(), |p| p.binary(0))?;
+                given += 1;
+                match self.peek() {
+                    (Token::Comma, _) => self.at += 1,
+                    _ => break,
+                }
+            }
+        }
+        self.close(open)?;
+        let (least, most) = function.arity();
+        if given < least || given > most {
+            let wanted =
+                if most == usize::MAX { "one or more arguments".to_owned() } else { format!("{least} of them") };
+            let message = format!("`{name}` has {given} arguments");
+            return Err(Error::new(span, message, format!("it takes {wanted}, parted by commas")));
+        }
+        self.emit(Instruction::Call(function, given), span);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        Expression::parse(text).unwrap_or_else(|e| panic!("{text}: {e}")).evaluate(|_| f64::NAN)
+    }
+
+    #[test]
+    fn precedence_and_associativity_are_those_of_the_page() {
+        let cases = [
+            ("-2^2", -4.0),
+            ("2^3^2", 512.0),
+            ("2^-1", 0.5),
+            ("2^-2^2", 0.0625),
+            ("--2", 2.0),
+            ("8/4/2", 1.0),
+            ("8-4-2", 2.0),
+            ("2+3*4", 14.0),
+            ("-2*3", -6.0),
+            ("(1 + 2)^1.5 / 2", 2.598_076_211_353_316),
+            ("1 < 2 and not 2 < 1", 1.0),
+            ("not 1 == 2", 1.0),
+            ("1 == 1 or 1 == 2 and 1 == 3", 1.0),
+            ("not 1 == 1 or 1 == 1", 1.0),
+            ("1 <= 1 and 1 >= 1 and 1 != 2", 1.0),
+            ("min(3, 1, 2) + max(3, 1, 2)", 4.0),
+            ("hypot(3, 4)", 5.0),
+            ("deg(pi)", 180.0),
+            ("rad(180) == pi", 1.0),
+            ("atan2(1, -1) / pi", 0.75),
+            ("abs(-3) + sqrt(16)", 7.0),
+            ("acos(1) + asin(0) + tan(0) + sin(0) + cos(0)", 1.0),
+            (".5 + 1. + 1e1 + 2E-1", 11.7),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(value(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_missing_value_makes_every_comparison_false() {
+        for text in ["x < 1", "x > 1", "x == x", "x != 1", "x <= 1", "1 >= min(x, 0)", "max(x, 2) > 1"] {
+            assert_eq!(value(text), 0.0, "{text}");
+        }
+        assert_eq!(value("not x < 1"), 1.0);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_at_its_place() {
+        let cases = [
+            ("", 0, "an empty expression"),
+            ("2 +", 3, "the expression ends too soon"),
+            ("2 a", 2, "`a` was not expected here"),
+            ("(1", 0, "this parenthesis is never closed"),
+            ("sine(1)", 0, "there is no function `sine`"),
+            ("atan2(1)", 0, "`atan2` has 1 arguments"),
+            ("min()", 0, "`min` has 0 arguments"),
+            ("2 ** 3", 2, "`**` has no meaning here"),
+            ("a = 2", 2, "`=` has no meaning here"),
+            ("1..2", 2, "`.2` was not expected here"),
+            ("1e999", 0, "the number is too large"),
+            (")", 0, "`)` was not expected here"),
+        ];
+        for (text, at, message) in cases {
+            let error = Expression::parse(text).expect_err(text);
+            assert_eq!((error.span.start, error.message.as_str()), (at, message), "{text}");
+            assert!(!error.help.is_empty());
+        }
+    }
+
+    #[test]
+    fn nesting_has_a_limit_and_length_has_none() {
+        let nested = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
+        assert!(Expression::parse(&nested(100)).is_ok());
+        assert!(Expression::parse(&nested(101)).is_err());
+        for deep in ["-".repeat(1_000_000), "not ".repeat(100_000), "2^".repeat(100_000), "sqrt(".repeat(100_000)] {
+            assert!(Expression::parse(&format!("{deep}1")).is_err());
+        }
+        assert_eq!(value(&format!("0{}", "+1".repeat(100_000))), 100_000.0);
+    }
+
+    #[test]
+    fn numbers_and_truths_do_not_mix() {
+        let kind = |text: &str| {
+            let known = |name: &str| match name {
+                "a" => Some(super::super::Kind::Number),
+                "is_open" => Some(super::super::Kind::Truth),
+                _ => None,
+            };
+            Expression::parse(text).unwrap().check(&["a", "is_open"], known)
+        };
+        assert_eq!(kind("a + 1").unwrap(), super::super::Kind::Number);
+        assert_eq!(kind("is_open and a > 1").unwrap(), super::super::Kind::Truth);
+        assert_eq!(kind("1 < a < 2").unwrap_err().message, "a truth where a number is wanted");
+        assert_eq!(kind("a and 1").unwrap_err().message, "a number where a truth is wanted");
+        assert_eq!(kind("b + 1").unwrap_err().help, "did you mean `a`?");
+    }
+}

@@ -1,0 +1,170 @@
+use super::{Error, Function, parser};
+use crate::geometry::trig;
+use crate::problem::{Span, nearest_or_all};
+
+/// What an expression's value is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A number.
+    Number,
+    /// True or false.
+    Truth,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Instruction {
+    Push(f64),
+    Load(usize),
+    Negate,
+    Not,
+    Binary(Operator),
+    Call(Function, usize),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    And,
+    Or,
+}
+
+/// An expression: a flat program for a stack machine, so that evaluation never recurses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    pub(super) program: Vec<(Instruction, Span)>,
+    pub(super) names: Vec<String>,
+}
+
+impl Expression {
+    /// Reads an expression.
+    ///
+    /// # Errors
+    /// What is wrong with the text and where in it. Whether its names exist is asked by [`Expression::check`].
+    pub fn parse(text: &str) -> Result<Expression, Error> {
+        parser::expression(text)
+    }
+
+    /// The expression that is always `value`.
+    pub fn constant(value: f64) -> Expression {
+        Expression { program: vec![(Instruction::Push(value), 0..0)], names: Vec::new() }
+    }
+
+    /// The names it asks for, each once, in the order met; constants such as `pi` are not among them.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// What its value is, given what each name stands for (`None`: there is no such name).
+    ///
+    /// # Errors
+    /// A name that does not exist, with the nearest of `known`; a number where a truth is wanted, or the reverse.
+    pub fn check(&self, known: &[&str], kind_of: impl Fn(&str) -> Option<Kind>) -> Result<Kind, Error> {
+        let mut stack: Vec<(Kind, Span)> = Vec::new();
+        for (instruction, span) in &self.program {
+            let popped = match instruction {
+                Instruction::Push(_) | Instruction::Load(_) => 0,
+                Instruction::Negate | Instruction::Not => 1,
+                Instruction::Binary(_) => 2,
+                Instruction::Call(_, n) => *n,
+            };
+            let operands = stack.split_off(stack.len() - popped);
+            let (wanted, given) = match instruction {
+                Instruction::Load(name) => {
+                    let name = &self.names[*name];
+                    let unknown =
+                        || Error::new(span.clone(), format!("there is no `{name}`"), nearest_or_all(name, known));
+                    (Kind::Number, kind_of(name).ok_or_else(unknown)?)
+                }
+                Instruction::Push(_) | Instruction::Negate | Instruction::Call(..) => (Kind::Number, Kind::Number),
+                Instruction::Not => (Kind::Truth, Kind::Truth),
+                Instruction::Binary(op) => op.kinds(),
+            };
+            if let Some((_, at)) = operands.iter().find(|(kind, _)| *kind != wanted) {
+                let (message, help) = match wanted {
+                    Kind::Number => {
+                        ("a truth where a number is wanted", "join comparisons with `and`: `1 < x and x < 2`")
+                    }
+                    Kind::Truth => ("a number where a truth is wanted", "compare it: `x > 0`"),
+                };
+                return Err(Error::new(at.clone(), message, help));
+            }
+            let start = operands.iter().map(|(_, s)| s.start).min().unwrap_or(span.start).min(span.start);
+            let end = operands.iter().map(|(_, s)| s.end).max().unwrap_or(span.end).max(span.end);
+            stack.push((given, start..end));
+        }
+        Ok(stack.pop().map_or(Kind::Number, |(kind, _)| kind))
+    }
+
+    /// The value, where `load(i)` is the value of the i-th of [`Expression::names`] (not a number where missing).
+    ///
+    /// A truth is 1 or 0. Not a number where the value is not defined.
+    pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
+        let mut stack: Vec<f64> = Vec::with_capacity(8);
+        for (instruction, _) in &self.program {
+            let value = match *instruction {
+                Instruction::Push(value) => value,
+                Instruction::Load(name) => load(name),
+                Instruction::Negate => -pop(&mut stack),
+                Instruction::Not => f64::from(u8::from(pop(&mut stack) == 0.0)),
+                Instruction::Binary(op) => {
+                    let right = pop(&mut stack);
+                    op.apply(pop(&mut stack), right)
+                }
+                Instruction::Call(function, n) => {
+                    let value = function.call(&stack[stack.len() - n..]);
+                    stack.truncate(stack.len() - n);
+                    value
+                }
+            };
+            stack.push(value);
+        }
+        pop(&mut stack)
+    }
+}
+
+/// The parser leaves every operator its operands; a program that lost one would give what a missing value gives.
+fn pop(stack: &mut Vec<f64>) -> f64 {
+    stack.pop().unwrap_or(f64::NAN)
+}
+
+impl Operator {
+    /// What it takes and what it gives.
+    fn kinds(self) -> (Kind, Kind) {
+        use Operator::{Add, And, Divide, Multiply, Or, Power, Subtract};
+        match self {
+            Add | Subtract | Multiply | Divide | Power => (Kind::Number, Kind::Number),
+            And | Or => (Kind::Truth, Kind::Truth),
+            _ => (Kind::Number, Kind::Truth),
+        }
+    }
+
+    fn apply(self, a: f64, b: f64) -> f64 {
+        let truth = |t: bool| f64::from(u8::from(t));
+        match self {
+            Operator::Add => a + b,
+            Operator::Subtract => a - b,
+            Operator::Multiply => a * b,
+            Operator::Divide => a / b,
+            Operator::Power => trig::pow(a, b),
+            Operator::Equal => truth(a == b),
+            // `a != b` alone is true of missing values.
+            Operator::NotEqual => truth(a != b && !a.is_nan() && !b.is_nan()),
+            Operator::Less => truth(a < b),
+            Operator::LessOrEqual => truth(a <= b),
+            Operator::Greater => truth(a > b),
+            Operator::GreaterOrEqual => truth(a >= b),
+            Operator::And => truth(a != 0.0 && b != 0.0),
+            Operator::Or => truth(a != 0.0 || b != 0.0),
+        }
+    }
+}

@@ -1,0 +1,97 @@
+use super::{Error, Expression, parser};
+use crate::geometry::trig;
+
+/// A unit a quantity can be given in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Degrees.
+    Deg,
+    /// Radians.
+    Rad,
+    /// Millimetres.
+    Mm,
+    /// Inches of 25.4 mm.
+    In,
+    /// Points, 72 to the inch.
+    Pt,
+}
+
+/// What a quantity measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// An angle, evaluated in degrees: an angle in a manifest is a stated one, and 2 deg must stay 2.
+    Angle,
+    /// A length on paper, evaluated in millimetres.
+    Paper,
+}
+
+impl Dimension {
+    fn units(self) -> &'static [(&'static str, Unit)] {
+        match self {
+            Dimension::Angle => &[("deg", Unit::Deg), ("rad", Unit::Rad)],
+            Dimension::Paper => &[("mm", Unit::Mm), ("in", Unit::In), ("pt", Unit::Pt)],
+        }
+    }
+
+    fn example(self) -> &'static str {
+        match self {
+            Dimension::Angle => "an angle is written like \"2 deg\" or \"pi / 90 rad\"",
+            Dimension::Paper => "a length on paper is written like \"432 mm\", \"17 in\" or \"1224 pt\"",
+        }
+    }
+}
+
+/// An expression and its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// The number of units.
+    pub expression: Expression,
+    /// The unit.
+    pub unit: Unit,
+}
+
+impl Quantity {
+    /// Reads a quantity such as `360/7 deg`.
+    ///
+    /// # Errors
+    /// What is wrong with the expression; a unit that is missing, or of another dimension.
+    pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, Error> {
+        let (expression, word) = parser::expression_and_word(text)?;
+        let Some((word, span)) = word else {
+            return Err(Error::new(0..text.len(), "the unit is missing", dimension.example()));
+        };
+        match dimension.units().iter().find(|(name, _)| *name == word) {
+            Some(&(_, unit)) => Ok(Quantity { expression, unit }),
+            None => Err(Error::new(span, format!("`{word}` is not a unit here"), dimension.example())),
+        }
+    }
+
+    /// The value in degrees or millimetres; names are loaded as in [`Expression::evaluate`].
+    pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
+        let value = self.expression.evaluate(load);
+        match self.unit {
+            Unit::Deg | Unit::Mm => value,
+            Unit::Rad => trig::degrees(value),
+            // 254 and 10 are exact, 25.4 is not.
+            Unit::In => value * 254.0 / 10.0,
+            Unit::Pt => value * 254.0 / 720.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_convert_and_strangers_are_refused() {
+        let value = |text, dimension| Quantity::parse(text, dimension).map(|q| q.evaluate(|_| f64::NAN));
+        assert_eq!(value("2 deg", Dimension::Angle), Ok(2.0));
+        assert_eq!(value("pi rad", Dimension::Angle), Ok(180.0));
+        assert_eq!(value("deg(pi) deg", Dimension::Angle), Ok(180.0));
+        assert_eq!(value("17 in", Dimension::Paper), Ok(431.8));
+        assert_eq!(value("72 pt", Dimension::Paper), Ok(25.4));
+        assert_eq!(value("2", Dimension::Angle).unwrap_err().message, "the unit is missing");
+        assert_eq!(value("2 mm", Dimension::Angle).unwrap_err().message, "`mm` is not a unit here");
+    }
+}

@@ -1,0 +1,53 @@
+use super::{Point, Vector};
+
+/// The smallest upright box round some points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The lower left corner.
+    pub min: Point,
+    /// The upper right corner.
+    pub max: Point,
+}
+
+impl Bounds {
+    /// The box of no points: [`Bounds::include`] makes it one of some.
+    pub const EMPTY: Bounds =
+        Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+
+    /// The box round all finite points of `points`.
+    pub fn of(points: impl IntoIterator<Item = Point>) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for p in points {
+            bounds.include(p);
+        }
+        bounds
+    }
+
+    /// Widens the box to hold `p`; a point that is not finite is passed over.
+    pub fn include(&mut self, p: Point) {
+        if p.x.is_finite() && p.y.is_finite() {
+            self.min = self.min.inf(&p);
+            self.max = self.max.sup(&p);
+        }
+    }
+
+    /// The box round both.
+    pub fn union(self, other: Bounds) -> Bounds {
+        Bounds { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+    }
+
+    /// Whether no point was included.
+    pub fn is_empty(&self) -> bool {
+        self.min.x > self.max.x
+    }
+
+    /// Width and height; zero where empty.
+    pub fn size(&self) -> Vector {
+        if self.is_empty() { Vector::zeros() } else { self.max - self.min }
+    }
+
+    /// The middle of the box; the origin where empty.
+    pub fn centre(&self) -> Point {
+        if self.is_empty() { Point::origin() } else { nalgebra::center(&self.min, &self.max) }
+    }
+}

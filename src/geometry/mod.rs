@@ -1,0 +1,59 @@
+//! Points, vectors, similarities and boxes of the plane, and the trigonometry everyone shares.
+//!
+//! Axes are right-handed, counter-clockwise is positive, y points up. Angles are radians unless a name ends in
+//! `_deg`. Trigonometry and powers go through the `libm` crate, so that a manifest gives the same bits on every
+//! machine; `+ - * / sqrt` are exact everywhere by IEEE 754.
+
+mod bounds;
+mod similarity;
+pub mod trig;
+
+pub use bounds::Bounds;
+pub use similarity::Similarity;
+
+/// A point of the plane.
+pub type Point = nalgebra::Point2<f64>;
+
+/// A vector of the plane.
+pub type Vector = nalgebra::Vector2<f64>;
+
+/// The vector turned a quarter turn counter-clockwise: the positive normal of its direction.
+pub fn left_normal(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
+
+/// The cross product `a.x b.y - a.y b.x`: positive when `b` points to the left of `a`.
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// Distance of `p` from the segment `a b`; from `a` where the segment has no length.
+pub fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let along = b - a;
+    let length2 = along.norm_squared();
+    if length2 == 0.0 {
+        return (p - a).norm();
+    }
+    let t = ((p - a).dot(&along) / length2).clamp(0.0, 1.0);
+    (p - (a + along * t)).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn left_is_the_side_of_the_positive_normal() {
+        let east = Vector::new(1.0, 0.0);
+        assert_eq!(left_normal(east), Vector::new(0.0, 1.0));
+        assert!(cross(east, Vector::new(0.0, 1.0)) > 0.0);
+    }
+
+    #[test]
+    fn distance_to_a_segment_is_taken_at_its_ends_too() {
+        let (a, b) = (Point::new(0.0, 0.0), Point::new(2.0, 0.0));
+        assert_eq!(distance_to_segment(Point::new(1.0, 3.0), a, b), 3.0);
+        assert_eq!(distance_to_segment(Point::new(5.0, 4.0), a, b), 5.0);
+        assert_eq!(distance_to_segment(Point::new(3.0, 4.0), a, a), 5.0);
+    }
+}

@@ -1,0 +1,246 @@
+use super::{Joint, JointId, Link, Linkage, MAX_DYADS, Side, Signs, Step, Travel};
+use crate::geometry::{Point, Vector, left_normal};
+
+/// Why a joint cannot be placed the way it is described, whatever the input.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// Two joints are wanted and one was given twice.
+    #[error("`{joint}` is placed from `{base}` and `{base}`, which are one joint")]
+    OneJointTwice {
+        /// The joint to place.
+        joint: String,
+        /// The joint given twice.
+        base: String,
+    },
+    /// A rigid point hangs on joints of different links.
+    #[error("`{joint}` is a point of the link through `{}` and `{}`, but no link has both", base[0], base[1])]
+    NoCommonLink {
+        /// The joint to place.
+        joint: String,
+        /// The joints it hangs on.
+        base: [String; 2],
+    },
+    /// A length is negative, zero or not finite.
+    #[error("the length {length} of `{joint}` is not positive")]
+    Length {
+        /// The joint to place.
+        joint: String,
+        /// The length.
+        length: f64,
+    },
+    /// The joints that fix a direction coincide.
+    #[error("`{joint}` has no direction to go by: `{}` and `{}` are one point", base[0], base[1])]
+    NoDirection {
+        /// The joint to place.
+        joint: String,
+        /// The joints that coincide.
+        base: [String; 2],
+    },
+    /// Two distances and the link between them are no triangle.
+    #[error("`{joint}` cannot be {} from one joint and {} from another {span} away", distances[0], distances[1])]
+    NoTriangle {
+        /// The joint to place.
+        joint: String,
+        /// Its distances.
+        distances: [f64; 2],
+        /// The distance of the joints they are taken from.
+        span: f64,
+    },
+    /// More dyads than [`MAX_DYADS`].
+    #[error("`{joint}` is one dyad more than the {MAX_DYADS} a linkage may have")]
+    TooManyDyads {
+        /// The joint to place.
+        joint: String,
+    },
+}
+
+/// A linkage being put together, joint by joint.
+///
+/// ```
+/// use coupler_atlas::linkage::{Assembly, Side};
+/// let mut four_bar = Assembly::default();
+/// let o = four_bar.fixed("O", [0.0, 0.0].into());
+/// let c = four_bar.fixed("C", [4.0, 0.0].into());
+/// let a = four_bar.crank("A", o, 1.0)?;
+/// let b = four_bar.dyad("B", [a, c], [3.0, 3.5], Side::Left)?;
+/// let m = four_bar.point("M", [a, b], 1.5, 1.0)?;
+/// let linkage = four_bar.finish(vec![m], None, Default::default())?;
+/// assert_eq!(linkage.links.len(), 4);
+/// # Ok::<(), coupler_atlas::linkage::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Assembly {
+    joints: Vec<Joint>,
+    links: Vec<Link>,
+    signs: Signs,
+    dyads: usize,
+}
+
+impl Assembly {
+    /// A fixed joint.
+    pub fn fixed(&mut self, name: &str, at: Point) -> JointId {
+        let id = self.add(name, Step::Fixed(at));
+        if self.links.is_empty() {
+            self.links.push(Link { joints: Vec::new() });
+        }
+        self.links[0].joints.push((id, at.coords));
+        id
+    }
+
+    /// The pin of a crank about `pivot`.
+    ///
+    /// # Errors
+    /// A length that is not positive.
+    pub fn crank(&mut self, name: &str, pivot: JointId, length: f64) -> Result<JointId, Error> {
+        positive(name, length)?;
+        let id = self.add(name, Step::Crank { pivot, length });
+        self.bar(pivot, id, length);
+        Ok(id)
+    }
+
+    /// The common pin of two links that hang on two joints, on a side of `base[0] -> base[1]`.
+    ///
+    /// On two joints of one link it is a point of that link, and not two-valued.
+    ///
+    /// # Errors
+    /// One joint given twice, a length that is not positive, one dyad too many.
+    pub fn dyad(&mut self, name: &str, base: [JointId; 2], lengths: [f64; 2], side: Side) -> Result<JointId, Error> {
+        self.two(name, base)?;
+        for length in lengths {
+            positive(name, length)?;
+        }
+        if self.common_link(base).is_some() {
+            return self.distances(name, base, lengths, side);
+        }
+        if self.dyads == MAX_DYADS {
+            return Err(Error::TooManyDyads { joint: name.to_owned() });
+        }
+        let index = self.dyads;
+        self.dyads += 1;
+        self.signs = self.signs.with(index, side);
+        let id = self.add(name, Step::Dyad { base, lengths, index });
+        self.bar(base[0], id, lengths[0]);
+        self.bar(base[1], id, lengths[1]);
+        Ok(id)
+    }
+
+    /// A point of the link through two joints: `along` from the first towards the second, `across` to the left.
+    ///
+    /// # Errors
+    /// One joint given twice, joints on no common link, joints that coincide.
+    pub fn point(&mut self, name: &str, base: [JointId; 2], along: f64, across: f64) -> Result<JointId, Error> {
+        let (link, from, to) = self.directed_link(name, base)?;
+        let span = (to - from).norm();
+        let (along, across) = (along / span, across / span);
+        let id = self.add(name, Step::Rigid { base, along, across });
+        let place = from + (to - from) * along + left_normal(to - from) * across;
+        self.links[link].joints.push((id, place));
+        Ok(id)
+    }
+
+    /// A point of the link through two joints by its distances from them, on a side of the first to the second.
+    ///
+    /// # Errors
+    /// As [`Assembly::point`], and distances that make no triangle. A flat triangle is one.
+    pub fn distances(&mut self, name: &str, base: [JointId; 2], d: [f64; 2], side: Side) -> Result<JointId, Error> {
+        let (_, from, to) = self.directed_link(name, base)?;
+        let span = (to - from).norm();
+        let along = ((d[0] - d[1]) * (d[0] + d[1]) + span * span) / (2.0 * span);
+        let across2 = (d[0] - along) * (d[0] + along);
+        // Rounding may leave a flat triangle a few ulps short of closing.
+        if across2 < -4.0 * f64::EPSILON * (d[0] * d[0] + d[1] * d[1]) || d.iter().any(|d| d.is_nan() || *d < 0.0) {
+            return Err(Error::NoTriangle { joint: name.to_owned(), distances: d, span });
+        }
+        let across = across2.max(0.0).sqrt();
+        self.point(name, base, along, if side == Side::Left { across } else { -across })
+    }
+
+    /// The linkage of these joints.
+    ///
+    /// # Errors
+    /// `seen_from` names joints on no common link, or that coincide.
+    pub fn finish(
+        self,
+        traced: Vec<JointId>,
+        seen_from: Option<[JointId; 2]>,
+        travel: Travel,
+    ) -> Result<Linkage, Error> {
+        if let Some(joints) = seen_from {
+            self.directed_link("seen_from", joints)?;
+        }
+        let travel = Travel { signs: self.signs, ..travel };
+        Ok(Linkage { joints: self.joints, links: self.links, traced, seen_from, travel })
+    }
+
+    fn add(&mut self, name: &str, step: Step) -> JointId {
+        self.joints.push(Joint { name: name.to_owned(), step });
+        self.joints.len() - 1
+    }
+
+    fn bar(&mut self, from: JointId, to: JointId, length: f64) {
+        self.links.push(Link { joints: vec![(from, Vector::zeros()), (to, Vector::new(length, 0.0))] });
+    }
+
+    fn two(&self, name: &str, base: [JointId; 2]) -> Result<(), Error> {
+        if base[0] == base[1] {
+            return Err(Error::OneJointTwice { joint: name.to_owned(), base: self.joints[base[0]].name.clone() });
+        }
+        Ok(())
+    }
+
+    /// The link that has both joints, which are apart, and where they are on it.
+    fn directed_link(&self, name: &str, base: [JointId; 2]) -> Result<(usize, Vector, Vector), Error> {
+        self.two(name, base)?;
+        let names = || base.map(|j| self.joints[j].name.clone());
+        match self.common_link(base) {
+            None => Err(Error::NoCommonLink { joint: name.to_owned(), base: names() }),
+            Some((_, from, to)) if from == to => Err(Error::NoDirection { joint: name.to_owned(), base: names() }),
+            Some(found) => Ok(found),
+        }
+    }
+
+    /// The link that has both joints, and where they are on it.
+    fn common_link(&self, [from, to]: [JointId; 2]) -> Option<(usize, Vector, Vector)> {
+        self.links.iter().enumerate().find_map(|(k, link)| Some((k, link.place(from)?, link.place(to)?)))
+    }
+}
+
+fn positive(joint: &str, length: f64) -> Result<(), Error> {
+    if length > 0.0 && length.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Length { joint: joint.to_owned(), length })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame() -> (Assembly, JointId, JointId) {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", Point::new(0.0, 0.0));
+        let c = assembly.fixed("C", Point::new(4.0, 0.0));
+        (assembly, o, c)
+    }
+
+    #[test]
+    fn a_dyad_on_one_link_is_a_point_of_it() {
+        let (mut assembly, o, c) = frame();
+        assembly.dyad("P", [o, c], [3.0, 5.0], Side::Right).unwrap();
+        let linkage = assembly.finish(vec![], None, Travel::default()).unwrap();
+        assert_eq!(linkage.dyads(), 0);
+        assert_eq!(linkage.links[0].place(2), Some(Vector::new(0.0, -3.0)));
+    }
+
+    #[test]
+    fn impossible_joints_are_refused() {
+        let (mut assembly, o, c) = frame();
+        let a = assembly.crank("A", o, 1.0).unwrap();
+        assert!(matches!(assembly.crank("X", o, 0.0), Err(Error::Length { .. })));
+        assert!(matches!(assembly.dyad("X", [a, a], [1.0, 1.0], Side::Left), Err(Error::OneJointTwice { .. })));
+        assert!(matches!(assembly.point("X", [a, c], 1.0, 1.0), Err(Error::NoCommonLink { .. })));
+        assert!(matches!(assembly.distances("X", [o, c], [1.0, 1.0], Side::Left), Err(Error::NoTriangle { .. })));
+        assert!(assembly.distances("X", [o, c], [1.0, 3.0], Side::Left).is_ok(), "a flat triangle");
+        assert!(assembly.finish(vec![], Some([a, c]), Travel::default()).is_err());
+    }
+}

@@ -1,0 +1,184 @@
+//! A linkage in numbers: joints, the steps that place them, the input and the traced points.
+//!
+//! A planar linkage of one degree of freedom is a list of [`Joint`]s, each placed by a [`Step`] from joints before
+//! it. The joints that keep their distances form a [`Link`]. How a linkage is to travel (from where, how far, which
+//! circuits) is its [`Travel`].
+
+mod assembly;
+mod four_bar;
+
+pub use assembly::{Assembly, Error};
+pub(crate) use four_bar::tolerance as four_bar_tolerance;
+pub use four_bar::{Class, FourBar};
+
+use crate::geometry::{Point, Vector};
+
+/// The most two-valued joints a linkage may have: [`Signs`] has a bit for each.
+pub const MAX_DYADS: usize = 16;
+
+/// A joint's place in [`Linkage::joints`].
+pub type JointId = usize;
+
+/// A linkage in numbers. Lengths are in the manifest's own unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linkage {
+    /// The joints in the order they are placed: each step refers to earlier joints only.
+    pub joints: Vec<Joint>,
+    /// The rigid bodies; the first is the one that the fixed joints are on.
+    pub links: Vec<Link>,
+    /// The joints whose curves are wanted, in the order of the manifest.
+    pub traced: Vec<JointId>,
+    /// The link whose frame everything is reported in, by its origin and a joint on its x-axis.
+    pub seen_from: Option<[JointId; 2]>,
+    /// How it is to travel.
+    pub travel: Travel,
+}
+
+/// A named point of a linkage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Its name; points of a grid share one.
+    pub name: String,
+    /// How it is placed.
+    pub step: Step,
+}
+
+/// How a joint is placed from joints before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// At a fixed place.
+    Fixed(Point),
+    /// On a crank that turns about `pivot`; its angle is the linkage's input.
+    Crank {
+        /// The crank's pivot.
+        pivot: JointId,
+        /// Its length, positive.
+        length: f64,
+    },
+    /// At the third corner of a triangle of two links on two joints (the RRR dyad).
+    Dyad {
+        /// The joints the links hang on.
+        base: [JointId; 2],
+        /// Their lengths, positive.
+        lengths: [f64; 2],
+        /// Which dyad of the linkage this is, counted from 0: its bit in [`Signs`].
+        index: usize,
+    },
+    /// On a link: `base[0] + along (base[1] - base[0]) + across n`, with `n` that vector turned to the left.
+    Rigid {
+        /// Two joints of the link.
+        base: [JointId; 2],
+        /// Along the line of the two, in parts of their distance.
+        along: f64,
+        /// To the left of that line, in parts of their distance.
+        across: f64,
+    },
+}
+
+/// A rigid body: joints that keep their distances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Its joints, each with its place in the link's own frame.
+    pub joints: Vec<(JointId, Vector)>,
+}
+
+impl Link {
+    /// Where a joint is in the link's own frame.
+    pub fn place(&self, joint: JointId) -> Option<Vector> {
+        self.joints.iter().find(|(j, _)| *j == joint).map(|&(_, place)| place)
+    }
+}
+
+/// The side of a line: left of A -> B is the side of the positive normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The side of the positive normal, +1.
+    Left,
+    /// The other, -1.
+    Right,
+}
+
+/// The sides of all dyads at once: the assembly mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Signs(u32);
+
+impl Signs {
+    /// The sign of a dyad: 1 left, -1 right.
+    pub fn get(self, dyad: usize) -> i8 {
+        if self.0 >> dyad & 1 == 0 { 1 } else { -1 }
+    }
+
+    /// The same with another side of one dyad.
+    #[must_use]
+    pub fn with(self, dyad: usize, side: Side) -> Signs {
+        match side {
+            Side::Left => Signs(self.0 & !(1 << dyad)),
+            Side::Right => Signs(self.0 | 1 << dyad),
+        }
+    }
+
+    /// The same with one dyad on its other side.
+    #[must_use]
+    pub fn flipped(self, dyad: usize) -> Signs {
+        Signs(self.0 ^ 1 << dyad)
+    }
+}
+
+/// How a linkage is to travel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Travel {
+    /// The sides of the dyads at the start.
+    pub signs: Signs,
+    /// The input at the start, in degrees; by default the middle of the first assemblable range from 0 upward.
+    pub start_deg: Option<f64>,
+    /// The input to stay within, from and to, in degrees; by default the whole turn.
+    pub range_deg: Option<[f64; 2]>,
+    /// Which circuits are wanted.
+    pub circuits: Circuits,
+    /// What happens at a change point.
+    pub continuation: Continuation,
+    /// The part of the curve that a source's figure shows; the rest is drawn lighter.
+    pub arc: Option<Arc>,
+}
+
+/// Which circuits are wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Circuits {
+    /// The one through the start pose.
+    #[default]
+    Start,
+    /// Every one.
+    All,
+}
+
+/// What happens at a change point, where a dyad lies flat and both branches meet without a limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Continuation {
+    /// The joints move on smoothly, and so onto the other branch; a circuit may then take two turns.
+    #[default]
+    Smooth,
+    /// The branch is kept, and the joints turn a corner.
+    Branch,
+}
+
+/// Part of one branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// From and to, in degrees of input.
+    pub input_deg: [f64; 2],
+    /// The side of the first dyad, 1 or -1.
+    pub branch: i8,
+}
+
+impl Linkage {
+    /// How many two-valued joints there are.
+    pub fn dyads(&self) -> usize {
+        self.joints.iter().filter(|joint| matches!(joint.step, Step::Dyad { .. })).count()
+    }
+
+    /// The link that is at rest for the observer: the one seen from, or the one the fixed joints are on.
+    pub fn ground(&self) -> &Link {
+        let seen = |link: &&Link| self.seen_from.is_some_and(|joints| joints.iter().all(|&j| link.place(j).is_some()));
+        self.links.iter().find(seen).unwrap_or(&self.links[0])
+    }
+}

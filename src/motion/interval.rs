@@ -1,0 +1,141 @@
+//! Where a linkage can be assembled: for each assembly mode, the intervals of the input.
+//!
+//! The dyads are taken in the order they are placed. Each cuts the intervals left by those before it to where its
+//! base is within its reach; both of its sides then share what is left. So an end of an interval belongs to one
+//! dyad, and has one number by which the intervals that meet there are recognised.
+
+use super::circuit::{End, Pass, Stop};
+use super::reach;
+use crate::linkage::{Linkage, Side, Signs};
+
+/// Why an interval ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Cause {
+    /// A dyad is fully stretched or folded and cannot go on.
+    Limit(usize),
+    /// A dyad is stretched or folded and can go on. It is `bound` to change its side where its base vanishes.
+    Change { dyad: usize, bound: bool },
+    /// The range asked for ends.
+    Asked,
+}
+
+/// An end of an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct IntervalEnd {
+    pub stop: Stop,
+    pub cause: Cause,
+    /// Intervals that meet have ends of one number.
+    pub id: usize,
+}
+
+impl IntervalEnd {
+    /// The dyad that lies flat there.
+    pub fn flat(&self) -> Option<usize> {
+        match self.cause {
+            Cause::Limit(dyad) | Cause::Change { dyad, .. } => Some(dyad),
+            Cause::Asked => None,
+        }
+    }
+
+    /// The same end with an angle that many degrees greater, a whole number of turns.
+    pub fn turned(self, deg: f64) -> IntervalEnd {
+        IntervalEnd { stop: Stop { deg: self.stop.deg + deg, ..self.stop }, ..self }
+    }
+}
+
+/// A stretch of the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Span {
+    /// The whole turn.
+    Turn,
+    /// From a lower end to an upper, at most a turn apart.
+    Arc { lower: IntervalEnd, upper: IntervalEnd },
+}
+
+impl Span {
+    /// The angle that differs from `deg` by whole turns and lies in the span.
+    pub fn turns_to(&self, deg: f64) -> Option<f64> {
+        let Span::Arc { lower, upper } = self else { return Some(deg.rem_euclid(360.0)) };
+        let over = (deg - lower.stop.deg).rem_euclid(360.0);
+        let length = upper.stop.deg - lower.stop.deg;
+        // At a change point the start pose is that of the interval above.
+        let inside = over < length || (over == length && !matches!(upper.cause, Cause::Change { .. }));
+        inside.then_some(lower.stop.deg + over)
+    }
+}
+
+/// A stretch of the input on which one assembly mode is possible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    pub span: Span,
+    pub signs: Signs,
+}
+
+impl Interval {
+    /// The end that a rising or falling input comes to; none on a full turn.
+    pub fn end(&self, rising: bool) -> Option<IntervalEnd> {
+        match self.span {
+            Span::Turn => None,
+            Span::Arc { lower, upper } => Some(if rising { upper } else { lower }),
+        }
+    }
+
+    /// The interval traversed with a rising or falling input; a full turn from 0 to 360 degrees.
+    pub fn pass(&self, rising: bool) -> Pass {
+        let end = |end: IntervalEnd| End { stop: end.stop, flat: end.flat() };
+        let (from, to) = match self.span {
+            Span::Turn => (End { stop: Stop::at(0.0), flat: None }, End { stop: Stop::at(360.0), flat: None }),
+            Span::Arc { lower, upper } => (end(lower), end(upper)),
+        };
+        if rising { Pass { from, to, signs: self.signs } } else { Pass { from: to, to: from, signs: self.signs } }
+    }
+}
+
+/// What [`intervals`] finds.
+pub(super) struct Reach {
+    pub intervals: Vec<Interval>,
+    /// Why there are none.
+    pub shortfall: Option<String>,
+}
+
+/// All intervals of all assembly modes, within the range asked for.
+pub(super) fn intervals(linkage: &Linkage) -> Reach {
+    let asked = |deg: f64, id| IntervalEnd { stop: Stop::at(deg), cause: Cause::Asked, id };
+    let span = match linkage.travel.range_deg {
+        Some([from, to]) if to - from < 360.0 => Span::Arc { lower: asked(from, 0), upper: asked(to, 1) },
+        _ => Span::Turn,
+    };
+    let mut explorer = Explorer { linkage, dyads: linkage.dyads(), next_id: 2, out: Vec::new(), shortfall: None };
+    explorer.explore(0, span, Signs::default());
+    let shortfall = if explorer.out.is_empty() { explorer.shortfall } else { None };
+    Reach { intervals: explorer.out, shortfall }
+}
+
+struct Explorer<'a> {
+    linkage: &'a Linkage,
+    dyads: usize,
+    next_id: usize,
+    out: Vec<Interval>,
+    shortfall: Option<String>,
+}
+
+impl Explorer<'_> {
+    fn explore(&mut self, dyad: usize, span: Span, signs: Signs) {
+        if dyad == self.dyads {
+            self.out.push(Interval { span, signs });
+            return;
+        }
+        let spans = match reach::cut(self.linkage, dyad, span, signs, &mut self.next_id) {
+            Ok(spans) => spans,
+            Err(reason) => {
+                self.shortfall.get_or_insert(reason);
+                return;
+            }
+        };
+        for side in [Side::Left, Side::Right] {
+            for &span in &spans {
+                self.explore(dyad + 1, span, signs.with(dyad, side));
+            }
+        }
+    }
+}

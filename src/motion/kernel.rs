@@ -1,0 +1,215 @@
+use std::ops::Range;
+
+use crate::geometry::{Point, Vector, cross, left_normal};
+use crate::linkage::{JointId, Linkage, MAX_DYADS, Signs, Step};
+
+/// Positions of all joints at all samples, joint by joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Columns {
+    len: usize,
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl Columns {
+    /// Room for `joints` columns of `len` samples.
+    pub fn new(joints: usize, len: usize) -> Columns {
+        Columns { len, x: vec![0.0; joints * len], y: vec![0.0; joints * len] }
+    }
+
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The abscissas of a joint.
+    pub fn x(&self, joint: JointId) -> &[f64] {
+        &self.x[joint * self.len..][..self.len]
+    }
+
+    /// The ordinates of a joint.
+    pub fn y(&self, joint: JointId) -> &[f64] {
+        &self.y[joint * self.len..][..self.len]
+    }
+
+    /// Where a joint is at a sample; not a number where the pose is undefined.
+    pub fn point(&self, joint: JointId, sample: usize) -> Point {
+        Point::new(self.x(joint)[sample], self.y(joint)[sample])
+    }
+
+    fn set(&mut self, joint: JointId, sample: usize, at: Point) {
+        self.x[joint * self.len + sample] = at.x;
+        self.y[joint * self.len + sample] = at.y;
+    }
+}
+
+/// What each dyad's height is multiplied by: 1 to the left of its base, -1 to the right, 0 where it lies flat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Modes([f64; MAX_DYADS]);
+
+impl Modes {
+    /// The modes of an assembly, with one dyad flat if wanted.
+    pub fn new(signs: Signs, flat: Option<usize>) -> Modes {
+        let mut modes = [0.0; MAX_DYADS];
+        for (dyad, mode) in modes.iter_mut().enumerate() {
+            *mode = if flat == Some(dyad) { 0.0 } else { f64::from(signs.get(dyad)) };
+        }
+        Modes(modes)
+    }
+}
+
+/// Places the first `joints` joints at the samples of `range`, in the frame of the fixed joints.
+///
+/// `cos` and `sin` are the input's direction at those samples, from the start of `range`. A dyad whose base is longer
+/// or shorter than it can reach is laid flat; one whose base has no length is not a number.
+pub fn place(
+    linkage: &Linkage,
+    joints: usize,
+    (cos, sin): (&[f64], &[f64]),
+    modes: &Modes,
+    out: &mut Columns,
+    range: Range<usize>,
+) {
+    let len = out.len;
+    for (id, joint) in linkage.joints[..joints].iter().enumerate() {
+        let (x_before, x_after) = out.x.split_at_mut(id * len);
+        let (y_before, y_after) = out.y.split_at_mut(id * len);
+        let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
+        let of = |j: JointId| (&x_before[j * len..][range.clone()], &y_before[j * len..][range.clone()]);
+        match joint.step {
+            Step::Fixed(at) => {
+                x.fill(at.x);
+                y.fill(at.y);
+            }
+            Step::Crank { pivot, length } => crank(of(pivot), length, (cos, sin), x, y),
+            Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
+            Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
+        }
+    }
+}
+
+type Column<'a> = (&'a [f64], &'a [f64]);
+
+// In each kernel the slices are first cut to one length, so that the loop has no bounds checks and vectorises.
+
+fn crank((ox, oy): Column, length: f64, (cos, sin): Column, x: &mut [f64], y: &mut [f64]) {
+    let n = x.len();
+    let (ox, oy, cos, sin, y) = (&ox[..n], &oy[..n], &cos[..n], &sin[..n], &mut y[..n]);
+    for i in 0..n {
+        x[i] = ox[i] + length * cos[i];
+        y[i] = oy[i] + length * sin[i];
+    }
+}
+
+/// The RRR dyad: with d the length of the base, the foot of its height is `(d^2 + l0^2 - l1^2) / 2d` along it, and
+/// the height `sqrt((l0+l1+d)(l0+l1-d)(d+l0-l1)(d-l0+l1)) / 2d` (Natesan 5.7-5.10, with the root factored: the
+/// factors lose no digits where the dyad is nearly flat, and keep a short link's length beside a long base).
+fn dyad((px, py): Column, (qx, qy): Column, [l0, l1]: [f64; 2], mode: f64, x: &mut [f64], y: &mut [f64]) {
+    let n = x.len();
+    let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    let (sum, difference) = (l0 + l1, l0 - l1);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        let d2 = dx * dx + dy * dy;
+        let d = d2.sqrt();
+        let discriminant = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
+        let half = 0.5 / d2;
+        let along = (d2 + sum * difference) * half;
+        let across = mode * (discriminant.max(0.0).sqrt() * half);
+        x[i] = px[i] + along * dx - across * dy;
+        y[i] = py[i] + along * dy + across * dx;
+    }
+}
+
+fn rigid((px, py): Column, (qx, qy): Column, along: f64, across: f64, x: &mut [f64], y: &mut [f64]) {
+    let n = x.len();
+    let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        x[i] = px[i] + along * dx - across * dy;
+        y[i] = py[i] + along * dy + across * dx;
+    }
+}
+
+/// Puts the poses at `range` into the frame the linkage is seen from: origin at its first joint, x towards the second.
+pub(super) fn see(linkage: &Linkage, out: &mut Columns) {
+    let Some([origin, end]) = linkage.seen_from else { return };
+    // The link is rigid: its length is known, and dividing by it keeps every other length too.
+    let ground = linkage.ground();
+    let length = match (ground.place(origin), ground.place(end)) {
+        (Some(from), Some(to)) => (to - from).norm(),
+        _ => return,
+    };
+    for i in 0..out.len {
+        let (o, e) = (out.point(origin, i), out.point(end, i));
+        let axis = (e - o) / length;
+        for joint in 0..linkage.joints.len() {
+            let v = out.point(joint, i) - o;
+            out.set(joint, i, Point::new(axis.dot(&v), cross(axis, v)));
+        }
+    }
+}
+
+/// Places every joint at one sample where a pass ends, before [`see`].
+///
+/// `flat` is the dyad that lies flat there. Where the base of a dyad vanishes its joint is placed by continuity:
+/// just after this input the base points along its rate of change, just before it the other way, and `after` tells
+/// which of the two (1 or -1) the joint belongs to. Where that rate vanishes too, or an earlier flat dyad makes it
+/// infinite, the joint stays undefined.
+pub(super) fn place_end(
+    linkage: &Linkage,
+    direction: (f64, f64),
+    (signs, flat): (Signs, Option<usize>),
+    after: f64,
+    out: &mut Columns,
+    sample: usize,
+) {
+    let modes = Modes::new(signs, flat);
+    let all = linkage.joints.len();
+    place(linkage, all, (&[direction.0], &[direction.1]), &modes, out, sample..sample + 1);
+    for (id, joint) in linkage.joints.iter().enumerate() {
+        match joint.step {
+            Step::Dyad { base: [p, q], lengths: [l0, _], index } if out.point(p, sample) == out.point(q, sample) => {
+                let rate = |j| velocity(linkage, out, sample, j);
+                let base = rate(q).zip(rate(p)).map(|(vq, vp)| (vq - vp) * after).filter(|v| v.norm() > 0.0);
+                // On a base of no length the two links have one length and lie on one line, square to the base.
+                let mode = f64::from(signs.get(index));
+                let place = base.map(|v| out.point(p, sample) + left_normal(v.normalize()) * (mode * l0));
+                out.set(id, sample, place.unwrap_or(Point::new(f64::NAN, f64::NAN)));
+            }
+            Step::Rigid { base: [p, q], along, across } => {
+                let (p, q) = (out.point(p, sample), out.point(q, sample));
+                out.set(id, sample, p + (q - p) * along + left_normal(q - p) * across);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// How fast a joint moves, to a radian of input; `None` where a flat dyad makes it infinite.
+fn velocity(linkage: &Linkage, at: &Columns, sample: usize, joint: JointId) -> Option<Vector> {
+    let point = |j| at.point(j, sample);
+    match linkage.joints[joint].step {
+        Step::Fixed(_) => Some(Vector::zeros()),
+        Step::Crank { pivot, .. } => {
+            Some(velocity(linkage, at, sample, pivot)? + left_normal(point(joint) - point(pivot)))
+        }
+        Step::Rigid { base: [p, q], along, across } => {
+            let (vp, vq) = (velocity(linkage, at, sample, p)?, velocity(linkage, at, sample, q)?);
+            Some(vp + (vq - vp) * along + left_normal(vq - vp) * across)
+        }
+        Step::Dyad { base: [p, q], .. } => {
+            // Both links keep their lengths: u . v = u . vp and w . v = w . vq.
+            let (u, w) = (point(joint) - point(p), point(joint) - point(q));
+            let (vp, vq) = (velocity(linkage, at, sample, p)?, velocity(linkage, at, sample, q)?);
+            let (a, b, det) = (u.dot(&vp), w.dot(&vq), cross(u, w));
+            let v = Vector::new(a * w.y - b * u.y, b * u.x - a * w.x) / det;
+            (v.x.is_finite() && v.y.is_finite()).then_some(v)
+        }
+    }
+}

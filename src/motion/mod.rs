@@ -1,0 +1,55 @@
+//! Positions: where a linkage can go, and where its joints are on the way.
+//!
+//! [`Motion::of`] finds the circuits of a linkage and samples them. A *circuit* is a maximal motion that keeps the
+//! assembly. It is a chain of [`Pass`]es: on a pass the input goes one way and no dyad changes its side. A pass ends
+//! at a *limit*, where a dyad lies flat and the input turns round while that dyad changes its side; at a *change
+//! point*, where a dyad lies flat and the input goes on; at the end of the range asked for; or, on a full turn, at
+//! input 0.
+//!
+//! Positions come from kernels over columns (one joint, all samples). At the end of a pass the flat dyad's height is
+//! multiplied by exactly 0, and a limit of a dyad on crank and frame is carried as its cosine, not its angle.
+
+mod circuit;
+mod interval;
+mod kernel;
+mod path;
+mod reach;
+mod sampling;
+
+pub use circuit::{End, Pass, Stop};
+pub use kernel::{Columns, Modes, place};
+pub use path::{Dashes, Stroke, strokes};
+pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
+
+use crate::geometry::Point;
+use crate::linkage::{JointId, Linkage};
+
+/// All that a linkage does as its input travels.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// The circuits wanted: those that start on branch 1 first, then by least input. Empty where the linkage cannot
+    /// be assembled.
+    pub circuits: Vec<Circuit>,
+    /// Why the linkage is not assembled at all, or not over the whole range asked for.
+    pub shortfall: Option<String>,
+}
+
+impl Motion {
+    /// Finds and samples the circuits of a linkage.
+    pub fn of(linkage: &Linkage, sampler: &Sampler) -> Motion {
+        let found = circuit::find(linkage);
+        let circuits = found.circuits.into_iter().map(|route| sampler.sample(linkage, route)).collect();
+        Motion { circuits, shortfall: found.shortfall }
+    }
+
+    /// Whether there is any motion.
+    pub fn is_assembled(&self) -> bool {
+        !self.circuits.is_empty()
+    }
+}
+
+/// Where every joint is at one input of a pass, as seen from the linkage's own view.
+pub fn pose(linkage: &Linkage, pass: &Pass, input_deg: f64) -> Vec<Point> {
+    let columns = path::at(linkage, pass, &[input_deg]);
+    (0..linkage.joints.len()).map(|joint: JointId| columns.point(joint, 0)).collect()
+}

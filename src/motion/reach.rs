@@ -1,0 +1,405 @@
+//! Where one dyad can close: the inputs at which its base is neither too long nor too short.
+//!
+//! A dyad between a point of the crank's link and a fixed point has its limits in closed form (McCarthy 2.53,
+//! Natesan 4.3-4.9). For any other, the distance that is left to stretch or fold is sampled along the input, its
+//! zeros are bracketed and refined to the last bit, and dips between samples are looked into.
+
+use super::circuit::Stop;
+use super::interval::{Cause, IntervalEnd, Span};
+use super::kernel::{Columns, Modes, place};
+use crate::geometry::{Vector, trig};
+use crate::linkage::{JointId, Linkage, Signs, Step, four_bar_tolerance};
+
+/// Samples to a turn when zeros are bracketed.
+const SAMPLES: usize = 720;
+
+/// The parts of `span` where a dyad closes, given the sides of the dyads before it.
+///
+/// # Errors
+/// Why there are none.
+pub(super) fn cut(
+    linkage: &Linkage,
+    dyad: usize,
+    span: Span,
+    signs: Signs,
+    next_id: &mut usize,
+) -> Result<Vec<Span>, String> {
+    let dyad = Dyad::of(linkage, dyad);
+    let spans = match dyad.swing(linkage) {
+        Some(swing) => intersect(span, swing.spans(&dyad, next_id)),
+        None => Sampled { linkage, dyad: &dyad, span, signs }.spans(next_id),
+    };
+    if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) }
+}
+
+struct Dyad {
+    joint: JointId,
+    index: usize,
+    base: [JointId; 2],
+    lengths: [f64; 2],
+}
+
+impl Dyad {
+    fn of(linkage: &Linkage, wanted: usize) -> Dyad {
+        let found = linkage.joints.iter().enumerate().find_map(|(joint, j)| match j.step {
+            Step::Dyad { base, lengths, index } if index == wanted => Some(Dyad { joint, index, base, lengths }),
+            _ => None,
+        });
+        found.expect("an assembly numbers its dyads without gaps")
+    }
+
+    /// The longest and the shortest base.
+    fn reach(&self) -> (f64, f64) {
+        (self.lengths[0] + self.lengths[1], (self.lengths[0] - self.lengths[1]).abs())
+    }
+
+    /// The base as an arm that swings about a fixed point, if it is one.
+    fn swing(&self, linkage: &Linkage) -> Option<Swing> {
+        let (pivot, crank) = linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.step {
+            Step::Crank { pivot, .. } => Some((pivot, id)),
+            _ => None,
+        })?;
+        let frame = &linkage.links[0];
+        let arm = linkage.links[1..].iter().find(|link| link.place(pivot).is_some() && link.place(crank).is_some())?;
+        let [p, q] = self.base;
+        let (on_arm, fixed) = match (arm.place(p), frame.place(q), arm.place(q), frame.place(p)) {
+            (Some(on_arm), Some(fixed), ..) | (.., Some(on_arm), Some(fixed)) => (on_arm, fixed),
+            _ => return None,
+        };
+        // The pivot is on both links, and so may be the joint: then the base is rigid, which `Swing` allows.
+        let to_fixed = fixed - frame.place(pivot)?;
+        Some(Swing::new(on_arm, to_fixed))
+    }
+
+    /// Why it closes nowhere in `span`.
+    fn shortfall(&self, linkage: &Linkage, span: Span, signs: Signs) -> String {
+        let [nearest, furthest] = match self.swing(linkage) {
+            Some(swing) if span == Span::Turn => [(swing.fixed - swing.arm).abs(), swing.fixed + swing.arm],
+            _ => Sampled { linkage, dyad: self, span, signs }.base_range(),
+        };
+        let name = |id: JointId| linkage.joints[id].name.as_str();
+        let (joint, from, to) = (name(self.joint), name(self.base[0]), name(self.base[1]));
+        let [l0, l1] = self.lengths.map(short);
+        let (sum, difference) = self.reach();
+        let bases = format!("{joint} cannot be placed: {from} and {to}");
+        if nearest >= sum {
+            format!("{bases} are {} or more apart, links of {l0} and {l1} reach {}", short(nearest), short(sum))
+        } else if furthest <= difference {
+            format!("{bases} are {} or less apart, links of {l0} and {l1} need {}", short(furthest), short(difference))
+        } else {
+            format!("{bases} are nowhere in the range at a distance that links of {l0} and {l1} span")
+        }
+    }
+}
+
+/// Up to six significant digits.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    rounded.to_string()
+}
+
+/// A base whose one end is fixed at a distance `fixed` from the crank's pivot, the other on an arm of length `arm`.
+struct Swing {
+    fixed: f64,
+    arm: f64,
+    /// The input's direction when the arm points at the fixed end.
+    towards: Vector,
+}
+
+impl Swing {
+    fn new(on_arm: Vector, to_fixed: Vector) -> Swing {
+        let (fixed, arm) = (to_fixed.norm(), on_arm.norm());
+        // The quotient of two directions, as of complex numbers.
+        let towards = Vector::new(to_fixed.dot(&on_arm), on_arm.x * to_fixed.y - on_arm.y * to_fixed.x);
+        let towards = if fixed * arm > 0.0 { towards / (fixed * arm) } else { Vector::new(1.0, 0.0) };
+        Swing { fixed, arm, towards }
+    }
+
+    /// The input whose angle from `towards` has this cosine and sine.
+    fn stop(&self, cos: f64, sin: f64) -> Stop {
+        let t = self.towards;
+        // Both angles are exact where the arm starts on the frame line.
+        let deg = trig::degrees(trig::atan2(t.y, t.x)) + trig::degrees(trig::atan2(sin, cos));
+        Stop { deg, cos: t.x * cos - t.y * sin, sin: t.y * cos + t.x * sin }
+    }
+
+    /// The spans of the whole turn on which a dyad closes.
+    ///
+    /// With the angle measured from `towards`, the base is shortest at 0 and longest at 180 degrees. What is compared
+    /// there is a sum of lengths with a sum of lengths; equal within their rounding, they make a change point.
+    fn spans(&self, dyad: &Dyad, next_id: &mut usize) -> Vec<Span> {
+        let (sum, difference) = dyad.reach();
+        let (nearest, furthest) = ((self.fixed - self.arm).abs(), self.fixed + self.arm);
+        let tolerance = four_bar_tolerance(furthest + sum);
+        let fold = Gate::new(nearest - difference, tolerance);
+        let stretch = Gate::new(sum - furthest, tolerance);
+        if nearest - sum >= -tolerance || difference - furthest >= -tolerance {
+            return Vec::new();
+        }
+        let product = 2.0 * self.fixed * self.arm;
+        // 1 - cos at the inner limit and 1 + cos at the outer: exact factors, and accurate when small.
+        let versine = (difference - nearest) * (difference + nearest) / product;
+        let inner = (1.0 - versine, (versine * (2.0 - versine)).sqrt());
+        let versine = (furthest - sum) * (furthest + sum) / product;
+        let outer = (versine - 1.0, (versine * (2.0 - versine)).sqrt());
+
+        let mut new_end = |stop: Stop, cause: Cause| {
+            *next_id += 1;
+            IntervalEnd { stop, cause, id: *next_id }
+        };
+        let change = Cause::Change { dyad: dyad.index, bound: false };
+        let folding = Cause::Change { dyad: dyad.index, bound: nearest <= tolerance };
+        let limit = Cause::Limit(dyad.index);
+        let mut at = |(cos, sin): (f64, f64), cause| new_end(self.stop(cos, sin), cause);
+        let arc = |lower: IntervalEnd, upper: IntervalEnd| {
+            // Both ends are within half a turn of `towards`; the upper one follows the lower.
+            let turn = if upper.stop.deg > lower.stop.deg { 0.0 } else { 360.0 };
+            Span::Arc { lower, upper: upper.turned(turn) }
+        };
+        let mirrored = |(cos, sin): (f64, f64)| (cos, -sin);
+        match (fold, stretch) {
+            (Gate::Open, Gate::Open) => vec![Span::Turn],
+            (Gate::Touched, Gate::Open) => {
+                let near = at((1.0, 0.0), folding);
+                vec![arc(near, near)]
+            }
+            (Gate::Open, Gate::Touched) => {
+                let far = at((-1.0, 0.0), change);
+                vec![arc(far, far)]
+            }
+            (Gate::Touched, Gate::Touched) => {
+                let (near, far) = (at((1.0, 0.0), folding), at((-1.0, 0.0), change));
+                vec![arc(near, far), arc(far, near)]
+            }
+            (Gate::Shut, Gate::Open) => {
+                let (lower, upper) = (at(inner, limit), at(mirrored(inner), limit));
+                vec![arc(lower, upper)]
+            }
+            (Gate::Open, Gate::Shut) => {
+                let (lower, upper) = (at(mirrored(outer), limit), at(outer, limit));
+                vec![arc(lower, upper)]
+            }
+            (Gate::Touched, Gate::Shut) => {
+                let near = at((1.0, 0.0), folding);
+                let (lower, upper) = (at(mirrored(outer), limit), at(outer, limit));
+                vec![arc(lower, near), arc(near, upper)]
+            }
+            (Gate::Shut, Gate::Touched) => {
+                let far = at((-1.0, 0.0), change);
+                let (lower, upper) = (at(inner, limit), at(mirrored(inner), limit));
+                vec![arc(lower, far), arc(far, upper)]
+            }
+            (Gate::Shut, Gate::Shut) => {
+                let up = [at(inner, limit), at(outer, limit)];
+                let down = [at(mirrored(outer), limit), at(mirrored(inner), limit)];
+                vec![arc(down[0], down[1]), arc(up[0], up[1])]
+            }
+        }
+    }
+}
+
+/// Whether a dyad can pass the shortest or the longest its base can be.
+#[derive(Clone, Copy, PartialEq)]
+enum Gate {
+    Open,
+    /// It lies flat there, and can.
+    Touched,
+    Shut,
+}
+
+impl Gate {
+    fn new(room: f64, tolerance: f64) -> Gate {
+        if room.abs() <= tolerance {
+            Gate::Touched
+        } else if room > 0.0 {
+            Gate::Open
+        } else {
+            Gate::Shut
+        }
+    }
+}
+
+/// The parts of `span` that are in one of `allowed`. Of two ends at one input, that of the earlier dyad is kept.
+fn intersect(span: Span, allowed: Vec<Span>) -> Vec<Span> {
+    let Span::Arc { lower, upper } = span else { return allowed };
+    let mut out = Vec::new();
+    for piece in allowed {
+        let Span::Arc { lower: from, upper: to } = piece else {
+            out.push(span);
+            continue;
+        };
+        for turn in -3..=3 {
+            let (from, to) = (from.turned(360.0 * f64::from(turn)), to.turned(360.0 * f64::from(turn)));
+            let low = if from.stop.deg > lower.stop.deg { from } else { lower };
+            let high = if to.stop.deg < upper.stop.deg { to } else { upper };
+            if low.stop.deg < high.stop.deg {
+                out.push(Span::Arc { lower: low, upper: high });
+            }
+        }
+    }
+    out.sort_by(|a, b| match (a, b) {
+        (Span::Arc { lower: a, .. }, Span::Arc { lower: b, .. }) => a.stop.deg.total_cmp(&b.stop.deg),
+        _ => std::cmp::Ordering::Equal,
+    });
+    out
+}
+
+/// A dyad whose reach is sampled along a span.
+struct Sampled<'a> {
+    linkage: &'a Linkage,
+    dyad: &'a Dyad,
+    span: Span,
+    signs: Signs,
+}
+
+impl Sampled<'_> {
+    /// Length of the base at each input; the ends of the span with the dyad flat that ends it.
+    fn bases(&self, degs: &[f64]) -> Vec<f64> {
+        let stops: Vec<Stop> = degs.iter().map(|&deg| Stop::at(deg)).collect();
+        let (cos, sin): (Vec<f64>, Vec<f64>) = stops.iter().map(|s| (s.cos, s.sin)).unzip();
+        let mut out = Columns::new(self.linkage.joints.len(), degs.len());
+        let joints = self.dyad.joint;
+        let modes = Modes::new(self.signs, None);
+        place(self.linkage, joints, (&cos, &sin), &modes, &mut out, 0..degs.len());
+        if let Span::Arc { lower, upper } = self.span {
+            for (i, deg) in degs.iter().enumerate() {
+                for end in [lower, upper].into_iter().filter(|end| end.stop.deg == *deg) {
+                    let modes = Modes::new(self.signs, end.flat());
+                    place(self.linkage, joints, (&[end.stop.cos], &[end.stop.sin]), &modes, &mut out, i..i + 1);
+                }
+            }
+        }
+        let [p, q] = self.dyad.base;
+        (0..degs.len()).map(|i| (out.point(q, i) - out.point(p, i)).norm()).collect()
+    }
+
+    /// What is left to stretch or to fold at an input, whichever is less; negative where the dyad does not close.
+    fn room(&self, deg: f64) -> f64 {
+        self.room_of(self.bases(&[deg])[0])
+    }
+
+    fn room_of(&self, base: f64) -> f64 {
+        let (sum, difference) = self.dyad.reach();
+        let room = (sum - base).min(base - difference);
+        if room.is_nan() { -sum } else { room }
+    }
+
+    fn grid(&self) -> Vec<f64> {
+        let (from, to) = match self.span {
+            Span::Turn => (0.0, 360.0),
+            Span::Arc { lower, upper } => (lower.stop.deg, upper.stop.deg),
+        };
+        let n = ((to - from) / 360.0 * SAMPLES as f64).ceil() as usize + 4;
+        let at = |i: usize| if i == n { to } else { from + (to - from) * i as f64 / n as f64 };
+        (0..=n).map(at).collect()
+    }
+
+    /// The least and the greatest base.
+    fn base_range(&self) -> [f64; 2] {
+        let bases = self.bases(&self.grid());
+        let fold = |pick: fn(f64, f64) -> f64, start| bases.iter().copied().fold(start, pick);
+        [fold(f64::min, f64::INFINITY), fold(f64::max, 0.0)]
+    }
+
+    fn spans(&self, next_id: &mut usize) -> Vec<Span> {
+        let mut degs = self.grid();
+        let mut rooms: Vec<f64> = self.bases(&degs).into_iter().map(|b| self.room_of(b)).collect();
+        self.look_between(&mut degs, &mut rooms);
+        let open: Vec<bool> = rooms.iter().map(|room| *room >= 0.0).collect();
+        let mut end = |inside: f64, outside: f64| {
+            *next_id += 1;
+            let stop = Stop::at(self.refine(inside, outside));
+            IntervalEnd { stop, cause: Cause::Limit(self.dyad.index), id: *next_id }
+        };
+        let mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)> = Vec::new();
+        let mut lower = open[0].then_some(None);
+        for i in 1..degs.len() {
+            match (open[i - 1], open[i]) {
+                (false, true) => lower = Some(Some(end(degs[i], degs[i - 1]))),
+                (true, false) => arcs.extend(lower.take().map(|from| (from, Some(end(degs[i - 1], degs[i]))))),
+                _ => {}
+            }
+        }
+        arcs.extend(lower.map(|from| (from, None)));
+        self.joined(arcs)
+    }
+
+    /// Gives the arcs that reach the ends of the span those ends; on a whole turn, joins them over input 0.
+    fn joined(&self, mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)>) -> Vec<Span> {
+        match self.span {
+            Span::Turn => {
+                let over_zero = arcs.len() > 1 && arcs[0].0.is_none() && arcs[arcs.len() - 1].1.is_none();
+                if over_zero {
+                    let (_, upper) = arcs.remove(0);
+                    let last = arcs.len() - 1;
+                    arcs[last].1 = upper.map(|end| end.turned(360.0));
+                }
+                let span = |arc| match arc {
+                    (Some(lower), Some(upper)) => Span::Arc { lower, upper },
+                    _ => Span::Turn,
+                };
+                arcs.into_iter().map(span).collect()
+            }
+            Span::Arc { lower, upper } => arcs
+                .into_iter()
+                .map(|(from, to)| Span::Arc { lower: from.unwrap_or(lower), upper: to.unwrap_or(upper) })
+                .filter(|span| matches!(span, Span::Arc { lower, upper } if lower.stop.deg < upper.stop.deg))
+                .collect(),
+        }
+    }
+
+    /// Inserts the bottom of a dip, or the top of a rise, that crosses zero between samples.
+    fn look_between(&self, degs: &mut Vec<f64>, rooms: &mut Vec<f64>) {
+        let mut found = Vec::new();
+        for i in 1..degs.len() - 1 {
+            let (before, here, after) = (rooms[i - 1], rooms[i], rooms[i + 1]);
+            let sign = if here >= 0.0 { 1.0 } else { -1.0 };
+            let is_turning = sign * before >= sign * here && sign * here <= sign * after;
+            // Between samples the room changes by no more than a few times what it changed to the next one.
+            let is_near = here.abs() <= 4.0 * (before - here).abs().max((after - here).abs());
+            if is_turning && is_near {
+                let deg = golden(degs[i - 1], degs[i + 1], |deg| sign * self.room(deg));
+                let room = self.room(deg);
+                if sign * room < 0.0 {
+                    found.push((deg, room));
+                }
+            }
+        }
+        for (deg, room) in found {
+            let at = degs.partition_point(|d| *d < deg);
+            degs.insert(at, deg);
+            rooms.insert(at, room);
+        }
+    }
+
+    /// The last input, going from `inside` towards `outside`, at which the dyad still closes.
+    fn refine(&self, mut inside: f64, mut outside: f64) -> f64 {
+        loop {
+            let middle = inside + (outside - inside) / 2.0;
+            if middle == inside || middle == outside {
+                return inside;
+            }
+            if self.room(middle) >= 0.0 { inside = middle } else { outside = middle }
+        }
+    }
+}
+
+/// Where `f` is least between `a` and `b`, by golden section.
+fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const RATIO: f64 = 0.618_033_988_749_894_9;
+    let (mut x, mut y) = (b - RATIO * (b - a), a + RATIO * (b - a));
+    let (mut fx, mut fy) = (f(x), f(y));
+    // 0.618^40 of a sample is below the rounding of an angle.
+    for _ in 0..40 {
+        if fx < fy {
+            (b, y, fy) = (y, x, fx);
+            x = b - RATIO * (b - a);
+            fx = f(x);
+        } else {
+            (a, x, fx) = (x, y, fy);
+            y = a + RATIO * (b - a);
+            fy = f(y);
+        }
+    }
+    if fx < fy { x } else { y }
+}

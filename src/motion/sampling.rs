@@ -1,0 +1,228 @@
+use std::ops::Range;
+
+use super::circuit::{Pass, Route, Stop};
+use super::kernel::{Columns, Modes, place, place_end, see};
+use crate::geometry::Point;
+use crate::linkage::{JointId, Linkage, Signs};
+
+/// How densely a circuit is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sampling {
+    /// Every whole multiple of a step in degrees, and the ends of the passes.
+    Step(f64),
+    /// That many samples in the whole circuit, evenly over each pass.
+    Samples(usize),
+}
+
+/// The most samples a circuit may have.
+pub const MAX_SAMPLES: usize = 1_000_000;
+
+/// Samples circuits; holds the sines and cosines of a full turn, made once for all cells.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    sampling: Sampling,
+    /// The samples of a full turn.
+    turn: Vec<Stop>,
+}
+
+/// A sampled circuit.
+#[derive(Clone, Debug)]
+pub struct Circuit {
+    /// Whether it comes back to where it began.
+    pub closed: bool,
+    /// Its passes, in order.
+    pub passes: Vec<Pass>,
+    /// The input of each sample, in degrees, continuous and never wrapped.
+    pub input_deg: Vec<f64>,
+    /// Where each joint is at each sample, in the frame the linkage is seen from.
+    pub places: Columns,
+    signs: Vec<Signs>,
+}
+
+impl Circuit {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.input_deg.len()
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.input_deg.is_empty()
+    }
+
+    /// The sides of the dyads at a sample; at the end of a pass, those of the pass it ends.
+    pub fn signs(&self, sample: usize) -> Signs {
+        self.signs[sample]
+    }
+
+    /// A joint's places, sample by sample.
+    pub fn points(&self, joint: JointId) -> impl Iterator<Item = Point> {
+        self.places.x(joint).iter().zip(self.places.y(joint)).map(|(&x, &y)| Point::new(x, y))
+    }
+}
+
+impl Sampler {
+    /// A sampler.
+    ///
+    /// # Panics
+    /// If a step is not positive or there would be more than [`MAX_SAMPLES`] to a turn.
+    pub fn new(sampling: Sampling) -> Sampler {
+        let turn = match sampling {
+            Sampling::Step(step) => {
+                assert!(step > 0.0 && 360.0 / step <= MAX_SAMPLES as f64, "a step of {step}");
+                multiples(step, 0.0, 360.0).map(Stop::at).collect()
+            }
+            Sampling::Samples(n) => {
+                assert!(n <= MAX_SAMPLES, "{n} samples");
+                (0..n).map(|i| Stop::at(360.0 * i as f64 / n as f64)).collect()
+            }
+        };
+        Sampler { sampling, turn }
+    }
+
+    /// The samples of a whole turn from input 0: the table of sines and cosines.
+    pub fn turn(&self) -> &[Stop] {
+        &self.turn
+    }
+
+    pub(super) fn sample(&self, linkage: &Linkage, route: Route) -> Circuit {
+        let mut plan = self.plan(&route);
+        let mut places = Columns::new(linkage.joints.len(), plan.stops.len());
+        let (cos, sin): (Vec<f64>, Vec<f64>) = plan.stops.iter().map(|s| (s.cos, s.sin)).unzip();
+        let all = linkage.joints.len();
+        for (run, pass) in plan.runs.iter().zip(&route.passes) {
+            let modes = Modes::new(pass.signs, None);
+            place(linkage, all, (&cos[run.clone()], &sin[run.clone()]), &modes, &mut places, run.clone());
+        }
+        for &(sample, pass, is_first) in &plan.ends {
+            let pass = &route.passes[pass];
+            let (end, after) = if is_first { (pass.from, pass.heading()) } else { (pass.to, -pass.heading()) };
+            let direction = (end.stop.cos, end.stop.sin);
+            place_end(linkage, direction, (pass.signs, end.flat), after, &mut places, sample);
+            plan.signs[sample] = pass.signs;
+        }
+        see(linkage, &mut places);
+        let input_deg = plan.stops.iter().map(|stop| stop.deg).collect();
+        Circuit { closed: route.closed, passes: route.passes, input_deg, places, signs: plan.signs }
+    }
+
+    /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which
+    /// of a closed circuit is the end of its last pass.
+    fn plan(&self, route: &Route) -> Plan {
+        let mut plan = Plan::default();
+        if let [pass] = route.passes[..]
+            && route.closed
+            && pass.from.flat.is_none()
+        {
+            // A full turn on one branch: the table as it is.
+            plan.stops = self.turn.clone();
+            plan.signs = vec![pass.signs; plan.stops.len()];
+            plan.runs.push(0..plan.stops.len());
+            return plan;
+        }
+        let last = route.passes.len() - 1;
+        plan.ends.push(if route.closed { (0, last, false) } else { (0, 0, true) });
+        plan.stops.push(route.passes[0].from.stop);
+        plan.signs.push(route.passes[0].signs);
+        for (k, (pass, intervals)) in route.passes.iter().zip(self.intervals(route)).enumerate() {
+            let begin = plan.stops.len();
+            self.inside(pass, intervals, &mut plan.stops);
+            if k < last || !route.closed {
+                plan.ends.push((plan.stops.len(), k, false));
+                plan.stops.push(pass.to.stop);
+            }
+            plan.runs.push(begin..plan.stops.len());
+            plan.signs.resize(plan.stops.len(), pass.signs);
+        }
+        plan
+    }
+
+    /// The samples strictly inside a pass.
+    fn inside(&self, pass: &Pass, intervals: usize, out: &mut Vec<Stop>) {
+        let (from, to) = (pass.from.stop.deg, pass.to.stop.deg);
+        match self.sampling {
+            Sampling::Samples(_) => out.extend((1..intervals).map(|i| {
+                let t = i as f64 / intervals as f64;
+                // From both ends, so that equal passes there and back have equal samples.
+                Stop::at(if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
+            })),
+            Sampling::Step(step) => {
+                let begin = out.len();
+                let apart = |deg: &f64| (deg - from).abs() > 1e-9 && (deg - to).abs() > 1e-9;
+                out.extend(multiples(step, from.min(to), from.max(to)).filter(apart).map(|deg| self.stop(deg, step)));
+                if from > to {
+                    out[begin..].reverse();
+                }
+            }
+        }
+    }
+
+    /// The input at a multiple of the step, from the table where the step divides the turn.
+    fn stop(&self, deg: f64, step: f64) -> Stop {
+        let n = self.turn.len();
+        if n as f64 * step == 360.0 {
+            let index = ((deg / step).round() as i64).rem_euclid(n as i64) as usize;
+            return Stop { deg, ..self.turn[index] };
+        }
+        Stop::at(deg)
+    }
+
+    /// How many intervals each pass gets: in proportion to its length, at least one, by largest remainder.
+    fn intervals(&self, route: &Route) -> Vec<usize> {
+        let Sampling::Samples(samples) = self.sampling else { return vec![0; route.passes.len()] };
+        let wanted = if route.closed { samples } else { samples.saturating_sub(1) };
+        let total: f64 = route.passes.iter().map(Pass::length).sum();
+        let exact: Vec<f64> = route.passes.iter().map(|p| wanted as f64 * p.length() / total).collect();
+        // A share a rounding error below a whole number is that number.
+        let mut shares: Vec<usize> = exact.iter().map(|e| ((e + 1e-9).floor() as usize).max(1)).collect();
+        let mut order: Vec<usize> = (0..shares.len()).collect();
+        order.sort_by(|&a, &b| (exact[b] - shares[b] as f64).total_cmp(&(exact[a] - shares[a] as f64)));
+        for k in order.into_iter().cycle() {
+            if shares.iter().sum::<usize>() >= wanted {
+                break;
+            }
+            shares[k] += 1;
+        }
+        shares
+    }
+}
+
+#[derive(Default)]
+struct Plan {
+    stops: Vec<Stop>,
+    signs: Vec<Signs>,
+    /// The samples of each pass.
+    runs: Vec<Range<usize>>,
+    /// The samples at the ends of passes: sample, pass, and whether it is where the pass begins.
+    ends: Vec<(usize, usize, bool)>,
+}
+
+/// The whole multiples of `step` in `[from, to)`, as the decimals say: the third multiple of 0.1 is 0.3.
+fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
+    // Where the step is a decimal of up to nine places, the multiple is one division and so correctly rounded.
+    let whole = (0..=9).map(|d| 10u64.pow(d) as f64).find_map(|scale| {
+        let units = (step * scale).round();
+        (units / scale == step).then_some((units, scale))
+    });
+    let multiple = move |k: f64| match whole {
+        Some((units, scale)) => k * units / scale,
+        None => k * step,
+    };
+    let first = (from / step).ceil() as i64;
+    (first..).map(move |k| multiple(k as f64)).skip_while(move |deg| *deg < from).take_while(move |deg| *deg < to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multiples_are_what_the_decimals_say() {
+        let of = |step, from, to| multiples(step, from, to).collect::<Vec<f64>>();
+        assert_eq!(of(0.1, 0.0, 0.45), [0.0, 0.1, 0.2, 0.3, 0.4]);
+        assert_eq!(of(2.0, -3.0, 3.0), [-2.0, 0.0, 2.0]);
+        assert_eq!(of(360.0 / 7.0, 0.0, 360.0).len(), 7);
+        assert_eq!(of(2.0, 0.0, 360.0).len(), 180);
+        assert_eq!(of(0.1, 0.0, 360.0).len(), 3600);
+    }
+}

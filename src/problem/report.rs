@@ -1,0 +1,77 @@
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+use super::{Gravity, Problem};
+
+/// Draws problems for a person to read: each with file, line and column, the offending text underlined and `help:`.
+///
+/// `path` is the name the text goes by. Spans beyond the text are brought to its end. With `styled` the report has
+/// a terminal's colours.
+pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> String {
+    let renderer = if styled { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
+    let mut ordered: Vec<&Problem> = problems.iter().collect();
+    ordered.sort_by_key(|p| (p.gravity != Gravity::Error, p.span.start));
+    let mut out = String::new();
+    for problem in ordered {
+        out.push_str(&renderer.render(&[group(problem, path, text)]));
+        out.push_str("\n\n");
+    }
+    out
+}
+
+fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_snippets::Group<'a> {
+    let level = match problem.gravity {
+        Gravity::Error => Level::ERROR,
+        Gravity::Warning => Level::WARNING,
+    };
+    let annotation = AnnotationKind::Primary.span(within(problem, text));
+    let annotation = match problem.label.as_str() {
+        "" => annotation,
+        label => annotation.label(label),
+    };
+    let group =
+        level.primary_title(problem.message.as_str()).element(Snippet::source(text).path(path).annotation(annotation));
+    match problem.help.as_str() {
+        "" => group,
+        help => group.element(Level::HELP.message(help)),
+    }
+}
+
+/// The span brought inside the text and onto whole characters; only the first line of a longer one is underlined.
+fn within(problem: &Problem, text: &str) -> std::ops::Range<usize> {
+    let start = floor_char(text, problem.span.start);
+    let end = floor_char(text, problem.span.end).max(start);
+    let end = text[start..end].find('\n').map_or(end, |n| start + n);
+    start..end
+}
+
+fn floor_char(text: &str, mut at: usize) -> usize {
+    at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_names_place_and_remedy() {
+        let text = "title = \"x\"\nstep = 0\n";
+        let problem = Problem::error(19..20, "a step of 0 never ends").help("give a step of more than 0");
+        let report = report(&[problem], "atlas.toml", text, false);
+        assert!(report.contains("error: a step of 0 never ends"), "{report}");
+        assert!(report.contains("atlas.toml:2:8"), "{report}");
+        assert!(report.contains("help: give a step of more than 0"), "{report}");
+    }
+
+    #[test]
+    fn no_span_is_too_odd_to_be_drawn() {
+        for span in [0..0, 3..1, 900..1000, 1..2] {
+            report(&[Problem::error(span, "odd")], "x", "é\nü", false);
+        }
+        report(&[Problem::error(0..0, "empty")], "x", "", false);
+    }
+}

@@ -1,0 +1,178 @@
+//! Circuits of four-bars of every class: how many, how far they go, and that nothing jumps.
+
+use coupler_atlas::geometry::{Point, trig};
+use coupler_atlas::linkage::{Assembly, Circuits, Continuation, FourBar, Linkage, Side, Travel};
+use coupler_atlas::motion::{Motion, Sampler, Sampling};
+use proptest::prelude::*;
+
+fn four_bar(lengths: [f64; 4], travel: Travel) -> Linkage {
+    let [frame, crank, coupler, rocker] = lengths;
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", Point::new(0.0, 0.0));
+    let c = assembly.fixed("C", Point::new(frame, 0.0));
+    let a = assembly.crank("A", o, crank).unwrap();
+    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = assembly.point("M", [a, b], coupler / 3.0, coupler / 4.0).unwrap();
+    assembly.finish(vec![m], None, travel).unwrap()
+}
+
+fn all() -> Travel {
+    Travel { circuits: Circuits::All, ..Travel::default() }
+}
+
+fn motion(lengths: [f64; 4], travel: Travel, sampling: Sampling) -> Motion {
+    Motion::of(&four_bar(lengths, travel), &Sampler::new(sampling))
+}
+
+/// Input ranges and branches of the passes of each circuit.
+fn passes(lengths: [f64; 4], travel: Travel) -> Vec<Vec<(i64, i64, i8)>> {
+    let milli = |deg: f64| (deg * 1000.0).round() as i64;
+    let motion = motion(lengths, travel, Sampling::Samples(12));
+    let pass = |p: &coupler_atlas::motion::Pass| (milli(p.from.stop.deg), milli(p.to.stop.deg), p.signs.get(0));
+    motion.circuits.iter().map(|c| c.passes.iter().map(pass).collect()).collect()
+}
+
+#[test]
+fn a_crank_rocker_has_a_turn_on_each_branch() {
+    assert_eq!(passes([4.0, 1.0, 3.0, 3.5], all()), [vec![(0, 360_000, 1)], vec![(0, 360_000, -1)]]);
+    assert_eq!(passes([4.0, 1.0, 3.0, 3.5], Travel::default()), [vec![(0, 360_000, 1)]]);
+}
+
+#[test]
+fn a_double_rocker_rocks_above_and_below_its_frame() {
+    let [below, above]: [_; 2] = passes([4.0, 3.0, 1.0, 3.0], all()).try_into().unwrap();
+    // cos = (16 + 9 - (3 -+ 1)^2) / 24
+    let degs = |c: f64| (trig::degrees(trig::acos(c)) * 1000.0).round() as i64;
+    let (inner, outer) = (degs(21.0 / 24.0), degs(9.0 / 24.0));
+    assert_eq!(above, [(inner, outer, 1), (outer, inner, -1)]);
+    assert_eq!(below, [(-outer, -inner, 1), (-inner, -outer, -1)]);
+}
+
+#[test]
+fn a_triple_rocker_has_one_circuit_about_0_or_about_180() {
+    let about_zero = passes([4.0, 2.0, 2.0, 2.0], all());
+    assert_eq!(about_zero.len(), 1);
+    assert_eq!((about_zero[0][0].0, about_zero[0].len()), (-about_zero[0][0].1, 2));
+    let about_180 = passes([2.0, 3.0, 1.0, 4.5], all());
+    assert_eq!(about_180.len(), 1);
+    let (from, to, branch) = about_180[0][0];
+    assert_eq!((from + to, branch), (360_000, 1));
+}
+
+#[test]
+fn change_points_continue_smoothly_or_on_their_branch() {
+    // Roberts, figure 36: folded at input 0.
+    let limit = (trig::degrees(trig::acos(1.0 / 3.0)) * 1000.0).round() as i64;
+    let smooth = [(-limit, 0, 1), (0, limit, -1), (limit, 0, 1), (0, -limit, -1)];
+    assert_eq!(passes([3.0, 2.0, 1.0, 2.0], all()), [smooth.to_vec()]);
+    let branch = Travel { continuation: Continuation::Branch, ..all() };
+    let kept = [(-limit, 0, 1), (0, limit, 1), (limit, 0, -1), (0, -limit, -1)];
+    assert_eq!(passes([3.0, 2.0, 1.0, 2.0], branch.clone()), [kept.to_vec()]);
+    // Stretched at 180: smoothly two turns, else a turn on each branch.
+    let smooth = [(0, 180_000, 1), (180_000, 360_000, -1), (360_000, 540_000, -1), (540_000, 720_000, 1)];
+    assert_eq!(passes([3.0, 1.0, 2.0, 2.0], all()), [smooth.to_vec()]);
+    assert_eq!(passes([3.0, 1.0, 2.0, 2.0], branch).len(), 2);
+    // A parallelogram: itself, and the antiparallelogram.
+    let parallelogram = passes([3.0, 1.0, 3.0, 1.0], all());
+    assert_eq!(
+        parallelogram,
+        [vec![(0, 180_000, 1), (180_000, 360_000, -1)], vec![(0, 180_000, -1), (180_000, 360_000, 1)]]
+    );
+}
+
+#[test]
+fn a_kite_keeps_its_rocker_where_its_base_vanishes() {
+    for continuation in [Continuation::Smooth, Continuation::Branch] {
+        let travel = Travel { continuation, ..all() };
+        let motion = motion([2.0, 2.0, 3.0, 3.0], travel, Sampling::Step(1.0));
+        assert_eq!(motion.circuits.len(), 1);
+        no_jumps(&motion, 3.0, 1.0);
+    }
+}
+
+#[test]
+fn a_linkage_that_cannot_close_says_why() {
+    let far = motion([9.0, 1.0, 2.0, 3.0], all(), Sampling::Step(2.0));
+    assert!(!far.is_assembled());
+    assert_eq!(far.shortfall.unwrap(), "B cannot be placed: A and C are 8 or more apart, links of 2 and 3 reach 5");
+    let near = motion([1.0, 1.0, 9.0, 3.0], all(), Sampling::Step(2.0));
+    assert_eq!(near.shortfall.unwrap(), "B cannot be placed: A and C are 2 or less apart, links of 9 and 3 need 6");
+}
+
+#[test]
+fn a_range_that_is_not_reached_is_reported() {
+    let travel = |range| Travel { range_deg: Some(range), ..Travel::default() };
+    let whole = motion([4.0, 1.0, 3.0, 3.5], travel([30.0, 120.0]), Sampling::Step(10.0));
+    assert_eq!(whole.shortfall, None);
+    assert_eq!(whole.circuits[0].input_deg, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
+    assert!(!whole.circuits[0].closed);
+    let part = motion([4.0, 2.0, 2.0, 2.0], travel([0.0, 120.0]), Sampling::Step(10.0));
+    assert!(part.shortfall.unwrap().starts_with("the input goes from 0 to 75.5225 deg only"));
+    assert_eq!(part.circuits[0].passes.len(), 2, "out on one branch and back on the other");
+    let none = motion([4.0, 2.0, 2.0, 2.0], travel([100.0, 120.0]), Sampling::Step(10.0));
+    assert!(!none.is_assembled() && none.shortfall.is_some());
+    // From the upper end down to a limit and back.
+    let down = motion([2.0, 3.0, 1.0, 4.5], travel([0.0, 180.0]), Sampling::Step(10.0));
+    assert_eq!((down.circuits[0].input_deg[0], down.circuits[0].passes.len()), (180.0, 2));
+}
+
+/// Neighbouring samples are no further apart than the fastest joint can go: sqrt-like at a limit.
+fn no_jumps(motion: &Motion, size: f64, step_deg: f64) {
+    for circuit in &motion.circuits {
+        let n = circuit.len();
+        let allowed = 12.0 * size * trig::radians(step_deg).sqrt();
+        for i in 0..(if circuit.closed { n } else { n - 1 }) {
+            for joint in 0..5 {
+                let moved = circuit.places.point(joint, (i + 1) % n) - circuit.places.point(joint, i);
+                assert!(
+                    moved.norm() <= allowed,
+                    "{} to {}: {moved}",
+                    circuit.input_deg[i],
+                    circuit.input_deg[(i + 1) % n]
+                );
+            }
+        }
+    }
+}
+
+/// Lengths with many a change point and near-change point among them.
+fn lengths() -> impl Strategy<Value = [f64; 4]> {
+    let plain = prop::array::uniform4(0.1f64..4.0);
+    let tenths = prop::array::uniform4((1..30u32).prop_map(|n| f64::from(n) / 10.0));
+    let near = (prop::array::uniform3(0.5f64..3.0), prop::sample::select(vec![0.0, 1e-15, 1e-12, -1e-12, 1e-9, -1e-9]))
+        .prop_map(|([a, b, c], off)| [a + b + c * 0.5, a, b, c * 0.5 + off + b + a - b - a + b]);
+    let folded = (prop::array::uniform3(0.5f64..3.0), prop::sample::select(vec![0.0, 1e-12, -1e-12]))
+        .prop_map(|([a, b, c], off)| [a, b, c, (a + c - b).abs().max(0.1) + off]);
+    prop_oneof![plain, tenths, near, folded]
+}
+
+proptest! {
+    #[test]
+    fn every_circuit_keeps_lengths_and_never_jumps(lengths in lengths(), branch: bool) {
+        let continuation = if branch { Continuation::Branch } else { Continuation::Smooth };
+        let motion = motion(lengths, Travel { continuation, ..all() }, Sampling::Step(0.5));
+        let [frame, crank, coupler, rocker] = lengths;
+        for circuit in &motion.circuits {
+            for i in 0..circuit.len() {
+                let p = |j| circuit.places.point(j, i);
+                // A length beside a longer base keeps as many digits fewer as it is shorter.
+                let scale = frame + crank;
+                prop_assert!(((p(3) - p(2)).norm() - coupler).abs() <= 1e-12 * coupler.max(1e-2 * scale));
+                prop_assert!(((p(3) - p(1)).norm() - rocker).abs() <= 1e-12 * rocker.max(1e-2 * scale));
+            }
+        }
+        // A change point turns a corner in branch mode, which is no jump.
+        no_jumps(&motion, lengths.iter().sum(), 0.5);
+    }
+
+    #[test]
+    fn a_crank_turns_fully_when_its_class_says_so(lengths in prop::array::uniform4(0.1f64..4.0)) {
+        use coupler_atlas::linkage::Class;
+        let [frame, crank, coupler, rocker] = lengths;
+        let class = FourBar { frame, crank, coupler, rocker }.class();
+        let motion = motion(lengths, all(), Sampling::Step(5.0));
+        let turns = motion.circuits.first().is_some_and(|c| c.passes[0].from.flat.is_none());
+        let expected = class == Class::DragLink || class == Class::CrankRocker && crank < rocker;
+        prop_assert_eq!(turns, expected);
+    }
+}
