@@ -1,7 +1,13 @@
 //! Atlases of coupler curves.
 
+pub mod catalogue;
 pub mod expression;
+pub mod family;
 pub mod geometry;
 pub mod linkage;
+pub mod measure;
 pub mod motion;
+pub mod notation;
 pub mod problem;
+pub mod sweep;
+pub mod template;

@@ -105,6 +105,25 @@ impl Expression {
         Ok(stack.pop().map_or(Kind::Number, |(kind, _)| kind))
     }
 
+    /// The expression with its names looked up in `scope`, ready to be evaluated often.
+    ///
+    /// # Errors
+    /// As [`Expression::check`], and a value that is not of the `wanted` kind.
+    pub fn bind(&self, scope: &[(&str, Kind)], wanted: Kind) -> Result<Bound, Error> {
+        let known: Vec<&str> = scope.iter().map(|(name, _)| *name).collect();
+        let slot = |name: &str| known.iter().position(|n| *n == name);
+        let given = self.check(&known, |name| slot(name).map(|k| scope[k].1))?;
+        if given != wanted {
+            let span = self.program.first().map_or(0, |p| p.1.start)..self.program.last().map_or(0, |p| p.1.end);
+            return Err(match wanted {
+                Kind::Number => Error::new(span, "a truth where a number is wanted", "give a number"),
+                Kind::Truth => Error::new(span, "a number where a truth is wanted", "compare it: `x > 0`"),
+            });
+        }
+        let slots = self.names.iter().filter_map(|name| slot(name)).collect();
+        Ok(Bound { expression: self.clone(), slots })
+    }
+
     /// The value, where `load(i)` is the value of the i-th of [`Expression::names`] (not a number where missing).
     ///
     /// A truth is 1 or 0. Not a number where the value is not defined.
@@ -129,6 +148,25 @@ impl Expression {
             stack.push(value);
         }
         pop(&mut stack)
+    }
+}
+
+/// An expression whose names are places in a scope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    expression: Expression,
+    slots: Vec<usize>,
+}
+
+impl Bound {
+    /// The value, where `load(slot)` is the value of the name at a place of the scope.
+    pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
+        self.expression.evaluate(|name| load(self.slots[name]))
+    }
+
+    /// The places of the names it asks for.
+    pub fn slots(&self) -> &[usize] {
+        &self.slots
     }
 }
 

@@ -68,8 +68,14 @@ impl Quantity {
 
     /// The value in degrees or millimetres; names are loaded as in [`Expression::evaluate`].
     pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
-        let value = self.expression.evaluate(load);
-        match self.unit {
+        self.unit.convert(self.expression.evaluate(load))
+    }
+}
+
+impl Unit {
+    /// A number of this unit in degrees or millimetres.
+    pub fn convert(self, value: f64) -> f64 {
+        match self {
             Unit::Deg | Unit::Mm => value,
             Unit::Rad => trig::degrees(value),
             // 254 and 10 are exact, 25.4 is not.

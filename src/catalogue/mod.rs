@@ -1,0 +1,44 @@
+//! The built-in linkages: one TOML file each, in the language of a manifest's own `[[linkage]]`.
+//!
+//! A new linkage is a file here and a line in `FILES`; lists and validation follow.
+
+use std::sync::{Arc, LazyLock};
+
+use crate::notation;
+use crate::template::Template;
+
+const FILES: [&str; 5] = [
+    include_str!("four-bar.toml"),
+    include_str!("evans.toml"),
+    include_str!("chebyshev.toml"),
+    include_str!("watt.toml"),
+    include_str!("roberts.toml"),
+];
+
+static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {
+    let read = |text: &&str| notation::templates(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
+    FILES.iter().flat_map(read).map(Arc::new).collect()
+});
+
+/// Every built-in linkage.
+pub fn all() -> &'static [Arc<Template>] {
+    &TEMPLATES
+}
+
+/// The built-in linkage of that name.
+pub fn find(id: &str) -> Option<Arc<Template>> {
+    all().iter().find(|template| template.id == id).cloned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_is_a_linkage_with_a_source() {
+        assert_eq!(all().len(), FILES.len());
+        for template in all() {
+            assert!(!template.source.is_empty() && template.caption.is_some(), "{}", template.id);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+use super::{Measure, Subject, Value};
+use crate::linkage::FourBar;
+
+/// Grashof's class.
+pub const CLASS: Measure = Measure {
+    name: "class",
+    unit: "",
+    definition: "Grashof's class of a four-bar, as seen from its frame (Natesan, table 3.1)",
+    take: |subject: &Subject| match FourBar::of(subject.linkage) {
+        Some(four_bar) => Value::Word(four_bar.class().name()),
+        None => Value::Missing,
+    },
+};

@@ -1,0 +1,27 @@
+use super::{Measure, Subject, Value};
+
+/// The least input of the circuit.
+pub const INPUT_MIN: Measure = Measure {
+    name: "input_min_deg",
+    unit: "deg",
+    definition: "least input of the circuit; empty on a full turn",
+    take: |subject: &Subject| extreme(subject, f64::INFINITY, f64::min),
+};
+
+/// The greatest input of the circuit.
+pub const INPUT_MAX: Measure = Measure {
+    name: "input_max_deg",
+    unit: "deg",
+    definition: "greatest input of the circuit; empty on a full turn",
+    take: |subject: &Subject| extreme(subject, f64::NEG_INFINITY, f64::max),
+};
+
+fn extreme(subject: &Subject, start: f64, pick: fn(f64, f64) -> f64) -> Value {
+    let passes = &subject.circuit.passes;
+    let turns_round = passes.iter().any(|pass| pass.heading() != passes[0].heading());
+    if subject.circuit.closed && !turns_round {
+        return Value::Missing;
+    }
+    let ends = passes.iter().flat_map(|pass| [pass.from.stop.deg, pass.to.stop.deg]);
+    Value::Number(ends.fold(start, pick))
+}

@@ -1,0 +1,284 @@
+//! The `[linkage.joints]` table: read joint by joint, then put in an order in which each can be placed.
+
+use super::reader::{Fields, Reader, Value};
+use crate::expression::Kind;
+use crate::linkage::Side;
+use crate::problem::{Problem, Span, nearest_or_all};
+use crate::template::{Coordinate, JointTemplate, Placing};
+
+/// The joints of a linkage in the order they are placed.
+pub(super) struct Joints {
+    pub joints: Vec<JointTemplate>,
+    pub traced: Vec<usize>,
+    pub seen_from: Option<[usize; 2]>,
+    /// Each joint's name and place in the text.
+    pub places: Vec<(String, Span)>,
+}
+
+/// A way to place a joint: the key it is known by, and the keys that go with it.
+const KINDS: [(&str, &[&str]); 5] = [
+    ("fixed", &["fixed"]),
+    ("crank", &["crank", "length"]),
+    ("dyad", &["dyad", "lengths", "side"]),
+    ("distances", &["point", "distances", "side"]),
+    ("point", &["point", "along", "across"]),
+];
+
+/// The most points a grid in one joint may have.
+const MAX_POINTS: usize = 10_000;
+
+pub(super) fn read<'t>(
+    value: &Value<'t>,
+    linkage: &Fields<'_, 't>,
+    scope: &[(&str, Kind)],
+    reader: &mut Reader<'t>,
+) -> Option<Joints> {
+    let table = Fields::open(value, "`joints`", reader)?;
+    let names = table.keys();
+    let entries: Vec<(&str, Span, &Value<'t>)> = table.entries().collect();
+    let read: Vec<Option<Placing>> =
+        entries.iter().map(|(name, _, value)| joint(name, value, &names, scope, reader)).collect();
+    let traced = traced(linkage, &names, reader);
+    let seen_from = linkage.get("seen_from").map(|value| base(value, &names, reader));
+    inputs(&entries, &read, &table, reader);
+    let placings: Vec<Placing> = read.into_iter().collect::<Option<_>>()?;
+    grids_are_only_traced(&entries, &placings, reader);
+    let order = order(&entries, &placings, reader)?;
+    let traced = traced?;
+    let seen_from = match seen_from {
+        None => None,
+        Some(found) => Some(found?),
+    };
+    unused(&entries, &placings, &traced, seen_from, reader);
+    let now = |joint: usize| order.iter().position(|&k| k == joint).unwrap_or(joint);
+    let joints = order
+        .iter()
+        .map(|&k| JointTemplate { name: names[k].to_owned(), placing: renumbered(placings[k].clone(), now) })
+        .collect();
+    let places = entries.iter().map(|(name, span, _)| ((*name).to_owned(), span.clone())).collect();
+    Some(Joints {
+        joints,
+        traced: traced.into_iter().map(now).collect(),
+        seen_from: seen_from.map(|p| p.map(now)),
+        places,
+    })
+}
+
+fn joint<'t>(
+    name: &str,
+    value: &Value<'t>,
+    names: &[&str],
+    scope: &[(&str, Kind)],
+    reader: &mut Reader<'t>,
+) -> Option<Placing> {
+    let open = Fields::open(value, "a joint", reader)?;
+    let given = |key: &&(&str, &[&str])| open.get(key.0).is_some();
+    let Some((kind, keys)) = KINDS.iter().find(given) else {
+        let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
+        reader.note(problem.help("it is `fixed`, a `crank`, a `dyad` or a `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+        return None;
+    };
+    let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
+    let mut two = |key: &str, reader: &mut Reader<'t>| {
+        let value = fields.required(key, &format!("{key} = [2, 3]"), reader)?;
+        let [a, b] = reader.pair(value)?;
+        let (a, b) = (reader.bound(a, scope), reader.bound(b, scope));
+        Some([a?, b?])
+    };
+    match *kind {
+        "fixed" => Some(Placing::Fixed(two("fixed", reader)?)),
+        "crank" => {
+            let pivot = fields.get("crank").and_then(|value| reference(value, names, reader));
+            let length = fields.required("length", "length = 1", reader).and_then(|value| reader.bound(value, scope));
+            Some(Placing::Crank { pivot: pivot?, length: length? })
+        }
+        "dyad" => {
+            let base = fields.get("dyad").and_then(|value| base(value, names, reader));
+            let lengths = two("lengths", reader);
+            let side = side(&fields, reader);
+            Some(Placing::Dyad { base: base?, lengths: lengths?, side: side? })
+        }
+        "distances" => {
+            let base = fields.required("point", "point = [\"A\", \"B\"]", reader).and_then(|v| base(v, names, reader));
+            let distances = two("distances", reader);
+            let side = side(&fields, reader);
+            Some(Placing::Distances { base: base?, distances: distances?, side: side? })
+        }
+        _ => {
+            let base = fields.get("point").and_then(|value| base(value, names, reader));
+            let mut coordinate = |key: &str| match fields.get(key) {
+                None => {
+                    Some(Coordinate::One(crate::expression::Expression::constant(0.0).bind(&[], Kind::Number).ok()?))
+                }
+                Some(value) => coordinate(value, scope, reader),
+            };
+            let (along, across) = (coordinate("along"), coordinate("across"));
+            let (along, across) = (along?, across?);
+            if along.count().saturating_mul(across.count()) > MAX_POINTS {
+                let problem = Problem::error(fields.span.clone(), format!("the grid `{name}` has too many points"));
+                reader.note(problem.help(format!("{MAX_POINTS} is the most")));
+                return None;
+            }
+            Some(Placing::Point { base: base?, along, across })
+        }
+    }
+}
+
+fn coordinate<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader<'t>) -> Option<Coordinate> {
+    if value.get_ref().as_table().is_none() {
+        return reader.bound(value, scope).map(Coordinate::One);
+    }
+    let fields = Fields::of(value, "a range", &["from", "to", "count"], reader)?;
+    let mut end = |key: &str| fields.required(key, &format!("{key} = 1"), reader).and_then(|v| reader.bound(v, scope));
+    let (from, to) = (end("from"), end("to"));
+    let count = fields.required("count", "count = 5", reader).and_then(|v| reader.count(v, 1, MAX_POINTS));
+    Some(Coordinate::Range { from: from?, to: to?, count: count? })
+}
+
+fn side<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) -> Option<Side> {
+    let value = fields.required("side", "side = \"left\"", reader)?;
+    reader.word(value, &[("left", Side::Left), ("right", Side::Right)])
+}
+
+/// A joint by its name.
+fn reference<'t>(value: &Value<'t>, names: &[&str], reader: &mut Reader<'t>) -> Option<usize> {
+    let name = reader.text(value)?;
+    let found = names.iter().position(|n| *n == name);
+    if found.is_none() {
+        let problem = Problem::error(value.span(), format!("there is no joint `{name}`"));
+        reader.note(problem.help(nearest_or_all(&name, names)));
+    }
+    found
+}
+
+/// Two different joints by their names.
+fn base<'t>(value: &Value<'t>, names: &[&str], reader: &mut Reader<'t>) -> Option<[usize; 2]> {
+    let [a, b] = reader.pair(value)?;
+    let (a, b) = (reference(a, names, reader), reference(b, names, reader));
+    let (a, b) = (a?, b?);
+    if a == b {
+        let problem = Problem::error(value.span(), format!("`{}` is named twice", names[a]));
+        reader.note(problem.help("name two different joints"));
+        return None;
+    }
+    Some([a, b])
+}
+
+fn traced<'t>(linkage: &Fields<'_, 't>, names: &[&str], reader: &mut Reader<'t>) -> Option<Vec<usize>> {
+    let value = linkage.required("trace", "trace = [\"M\"]", reader)?;
+    let list = reader.list(value)?;
+    if list.is_empty() {
+        reader.note(Problem::error(value.span(), "no joint is traced").help("name at least one, as in [\"M\"]"));
+        return None;
+    }
+    let found: Vec<Option<usize>> = list.iter().map(|value| reference(value, names, reader)).collect();
+    let found: Vec<usize> = found.into_iter().collect::<Option<_>>()?;
+    for (k, joint) in found.iter().enumerate() {
+        if found[..k].contains(joint) {
+            let problem = Problem::error(list[k].span(), format!("`{}` is traced twice", names[*joint]));
+            reader.note(problem.help("name each joint once"));
+        }
+    }
+    Some(found)
+}
+
+/// A linkage has one input.
+fn inputs(entries: &[(&str, Span, &Value)], read: &[Option<Placing>], table: &Fields, reader: &mut Reader) {
+    let cranks: Vec<usize> = (0..read.len()).filter(|&k| matches!(read[k], Some(Placing::Crank { .. }))).collect();
+    // A joint that could not be read may be the crank.
+    if cranks.is_empty() && read.iter().all(Option::is_some) {
+        let problem = Problem::error(table.span.clone(), "the linkage has no input");
+        reader.note(problem.help("one joint is driven: { crank = \"O\", length = 1 }"));
+    }
+    for &k in cranks.iter().skip(1) {
+        let (first, second) = (entries[cranks[0]].0, entries[k].0);
+        let problem = Problem::error(entries[k].2.span(), format!("`{second}` is a second input beside `{first}`"));
+        reader.note(problem.help("a linkage of one degree of freedom has one crank; place the other joints by dyads"));
+    }
+}
+
+/// A grid of points has no one place that another joint could hang on.
+fn grids_are_only_traced(entries: &[(&str, Span, &Value)], placings: &[Placing], reader: &mut Reader) {
+    let is_grid = |k: usize| match &placings[k] {
+        Placing::Point { along, across, .. } => {
+            matches!(along, Coordinate::Range { .. }) || matches!(across, Coordinate::Range { .. })
+        }
+        _ => false,
+    };
+    for (k, placing) in placings.iter().enumerate() {
+        for base in placing.bases().into_iter().filter(|&base| is_grid(base)) {
+            let (name, grid) = (entries[k].0, entries[base].0);
+            let problem =
+                Problem::error(entries[k].2.span(), format!("`{name}` hangs on `{grid}`, which is a grid of points"));
+            reader.note(problem.help("a grid can only be traced: hang the joint on a single point"));
+        }
+    }
+}
+
+/// An order in which every joint comes after those it refers to; as written, where that is one.
+fn order(entries: &[(&str, Span, &Value)], placings: &[Placing], reader: &mut Reader) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = Vec::new();
+    while order.len() < placings.len() {
+        let ready = |k: &usize| !order.contains(k) && placings[*k].bases().iter().all(|base| order.contains(base));
+        match (0..placings.len()).find(ready) {
+            Some(next) => order.push(next),
+            None => {
+                let stuck = (0..placings.len()).find(|k| !order.contains(k))?;
+                let cycle = cycle(placings, &order, stuck);
+                let names: Vec<String> = cycle.iter().map(|&k| format!("`{}`", entries[k].0)).collect();
+                let first = cycle[0];
+                let message = format!("the joint `{}` is placed from itself", entries[first].0);
+                let problem = Problem::error(entries[first].2.span(), message);
+                let help = format!("the cycle is {}: place one of them from joints already placed", names.join(" -> "));
+                reader.note(problem.help(help));
+                return None;
+            }
+        }
+    }
+    Some(order)
+}
+
+/// The joints of a cycle, the first once more at the end.
+fn cycle(placings: &[Placing], placed: &[usize], start: usize) -> Vec<usize> {
+    let mut path = vec![start];
+    loop {
+        let at = path[path.len() - 1];
+        // A joint that cannot be placed has a base that cannot be placed.
+        let next = placings[at].bases().into_iter().find(|base| !placed.contains(base)).unwrap_or(start);
+        if let Some(first) = path.iter().position(|&k| k == next) {
+            path.drain(..first);
+            path.push(next);
+            return path;
+        }
+        path.push(next);
+    }
+}
+
+/// Every joint is traced, seen from, or carries another.
+fn unused(
+    entries: &[(&str, Span, &Value)],
+    placings: &[Placing],
+    traced: &[usize],
+    seen_from: Option<[usize; 2]>,
+    reader: &mut Reader,
+) {
+    for (k, (name, span, _)) in entries.iter().enumerate() {
+        let carries = placings.iter().any(|placing| placing.bases().contains(&k));
+        let is_seen = seen_from.is_some_and(|joints| joints.contains(&k));
+        let is_driven = matches!(placings[k], Placing::Crank { .. });
+        if !carries && !is_seen && !is_driven && !traced.contains(&k) {
+            let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
+            reader.note(problem.help(format!("trace it, hang another joint on it, or take `{name}` away")));
+        }
+    }
+}
+
+fn renumbered(placing: Placing, now: impl Fn(usize) -> usize) -> Placing {
+    match placing {
+        Placing::Fixed(at) => Placing::Fixed(at),
+        Placing::Crank { pivot, length } => Placing::Crank { pivot: now(pivot), length },
+        Placing::Dyad { base, lengths, side } => Placing::Dyad { base: base.map(now), lengths, side },
+        Placing::Point { base, along, across } => Placing::Point { base: base.map(now), along, across },
+        Placing::Distances { base, distances, side } => Placing::Distances { base: base.map(now), distances, side },
+    }
+}

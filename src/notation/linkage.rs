@@ -1,0 +1,170 @@
+use super::joints;
+use super::reader::{Fields, Reader, Value};
+use crate::expression::Kind;
+use crate::linkage::{Circuits, Continuation};
+use crate::problem::{Problem, Span};
+use crate::template::{Angle, Parameter, Template};
+
+const KEYS: [&str; 14] = [
+    "id",
+    "source",
+    "legend",
+    "parameters",
+    "caption",
+    "note",
+    "trace",
+    "joints",
+    "circuits",
+    "continuation",
+    "start",
+    "input",
+    "seen_from",
+    "arc",
+];
+
+/// The words for [`Circuits`].
+pub const CIRCUITS: [(&str, Circuits); 2] = [("start", Circuits::Start), ("all", Circuits::All)];
+
+/// The words for [`Continuation`].
+pub const CONTINUATIONS: [(&str, Continuation); 2] =
+    [("smooth", Continuation::Smooth), ("branch", Continuation::Branch)];
+
+/// The template a `[[linkage]]` table describes; `None` where a problem stands in the way of it.
+pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Template> {
+    let before = reader.noted();
+    let fields = Fields::of(value, "a [[linkage]]", &KEYS, reader)?;
+    let id = fields.required("id", "id = \"my-linkage\"", reader).and_then(|value| slug(value, reader));
+    let parameters = fields.get("parameters").map(|value| parameters(value, reader)).unwrap_or_default();
+    let scope: Vec<(&str, Kind)> = parameters.iter().map(|p| (p.name.as_str(), Kind::Number)).collect();
+    let text = |key: &str, reader: &mut Reader<'t>| fields.get(key).and_then(|value| reader.text(value));
+    let source = text("source", reader).unwrap_or_default();
+    let legend = text("legend", reader).unwrap_or_default();
+    let caption = fields.get("caption").and_then(|value| reader.caption(value, &scope));
+    let note = fields.get("note").and_then(|value| reader.caption(value, &scope));
+    let circuits = fields.get("circuits").and_then(|value| reader.word(value, &CIRCUITS)).unwrap_or_default();
+    let continuation =
+        fields.get("continuation").and_then(|value| reader.word(value, &CONTINUATIONS)).unwrap_or_default();
+    let start = fields.get("start").and_then(|value| reader.angle(value, &scope));
+    let input = fields.get("input").and_then(|value| range(value, "an input", &["from", "to"], &scope, reader));
+    let arc = fields.get("arc").and_then(|value| arc(value, &scope, reader));
+    let joints = fields
+        .required("joints", "a table [linkage.joints]", reader)
+        .and_then(|value| joints::read(value, &fields, &scope, reader));
+    let (id, joints) = (id?, joints?);
+    let template = Template {
+        id,
+        source,
+        legend,
+        caption,
+        note,
+        joints: joints.joints,
+        traced: joints.traced,
+        seen_from: joints.seen_from,
+        circuits,
+        continuation,
+        start,
+        input,
+        arc,
+        parameters,
+    };
+    if reader.noted() > before {
+        return None;
+    }
+    if let Some(error) = template.structural_error() {
+        let named = error.to_string();
+        let place = joints.places.iter().find(|(name, _)| named.contains(&format!("`{name}`")));
+        let span = place.map_or(fields.span.clone(), |(_, span)| span.clone());
+        reader.note(
+            Problem::error(span, named)
+                .help("a point hangs on two joints of one link, a dyad on two of different links"),
+        );
+        return None;
+    }
+    Some(template)
+}
+
+/// A name for folders and files: lower-case letters, digits and single hyphens.
+pub fn slug<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<String> {
+    let text = reader.text(value)?;
+    let parts_are_plain = text
+        .split('-')
+        .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()));
+    if parts_are_plain && text.len() <= 64 {
+        return Some(text);
+    }
+    let lower = text.to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| !c.is_ascii_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let suggestion = if words.is_empty() { "evans".to_owned() } else { words.join("-").chars().take(64).collect() };
+    let problem = Problem::error(value.span(), format!("the id `{}` is not a slug", text.escape_debug()));
+    reader.note(
+        problem.help(format!(
+            "it names folders and files: lower-case letters, digits and hyphens, as in \"{suggestion}\""
+        )),
+    );
+    None
+}
+
+fn parameters<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Vec<Parameter> {
+    let Some(table) = Fields::open(value, "`parameters`", reader) else { return Vec::new() };
+    let names = table.keys();
+    let scope: Vec<(&str, Kind)> = names.iter().map(|name| (*name, Kind::Number)).collect();
+    let mut out = Vec::new();
+    for (name, span, value) in table.entries() {
+        check_name(name, span, reader);
+        let Some(fields) = Fields::of(value, "a parameter", &["default", "min", "max"], reader) else { continue };
+        let default = fields.get("default").and_then(|value| {
+            let expression = reader.expression(value)?;
+            let bound = expression.bind(&scope, Kind::Number);
+            reader.placed(value, bound).map(|_| expression)
+        });
+        let limit = |key, reader: &mut Reader<'t>| fields.get(key).and_then(|value| reader.constant(value));
+        let (min, max) = (limit("min", reader), limit("max", reader));
+        out.push(Parameter { name: name.to_owned(), default, min, max });
+    }
+    out
+}
+
+/// Whether a parameter, helper or grid name can be used in an expression.
+pub fn check_name(name: &str, span: Span, reader: &mut Reader) {
+    let first = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
+    let is_word = first && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let is_taken = ["and", "or", "not", "pi"].contains(&name);
+    if !is_word || is_taken {
+        let why = if is_taken { "has a meaning of its own" } else { "cannot be used in an expression" };
+        let problem = Problem::error(span, format!("the name `{}` {why}", name.escape_debug()));
+        reader.note(problem.help("a name is a letter, then letters, digits and underscores"));
+    }
+}
+
+fn range<'t>(
+    value: &Value<'t>,
+    what: &str,
+    keys: &[&str],
+    scope: &[(&str, Kind)],
+    reader: &mut Reader<'t>,
+) -> Option<[Angle; 2]> {
+    let fields = Fields::of(value, what, keys, reader)?;
+    let mut angle = |key| {
+        let value = fields.required(key, &format!("{key} = \"90 deg\""), reader)?;
+        reader.angle(value, scope)
+    };
+    let (from, to) = (angle("from"), angle("to"));
+    Some([from?, to?])
+}
+
+fn arc<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader<'t>) -> Option<([Angle; 2], i8)> {
+    let angles = range(value, "an arc", &["from", "to", "branch"], scope, reader)?;
+    let fields = Fields::open(value, "an arc", reader)?;
+    let branch = match fields.get("branch") {
+        None => 1,
+        Some(branch) => match reader.constant(branch)? {
+            1.0 => 1,
+            -1.0 => -1,
+            _ => {
+                reader.note(Problem::error(branch.span(), "a branch is 1 or -1").help("1 is left, -1 right"));
+                return None;
+            }
+        },
+    };
+    Some((angles, branch))
+}

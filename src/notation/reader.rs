@@ -1,0 +1,350 @@
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::expression::{self, Bound, Caption, Dimension, Expression, Kind, Quantity};
+use crate::problem::{Problem, Span, nearest_or_all};
+use crate::template::Angle;
+
+/// A TOML value and its place in the text.
+pub type Value<'t> = Spanned<DeValue<'t>>;
+
+/// Reads a TOML text and gathers what is wrong with it.
+pub struct Reader<'t> {
+    text: &'t str,
+    problems: Vec<Problem>,
+}
+
+impl<'t> Reader<'t> {
+    /// A reader of a text.
+    pub fn new(text: &'t str) -> Reader<'t> {
+        Reader { text, problems: Vec::new() }
+    }
+
+    /// The text as TOML: what can be made of it where its syntax is wrong.
+    pub fn document(&mut self) -> Value<'t> {
+        // A byte order mark is no part of the text, but a place in it counts from there.
+        let (table, errors) = DeTable::parse_recoverable(self.text);
+        for error in errors {
+            let span = error.span().unwrap_or(0..0);
+            let problem = Problem::error(span, format!("this is not TOML: {}", error.message()));
+            self.note(problem.help("see https://toml.io for how tables, keys and values are written"));
+        }
+        let span = table.span();
+        Spanned::new(span, DeValue::Table(table.into_inner()))
+    }
+
+    /// Notes a problem and reads on.
+    pub fn note(&mut self, problem: Problem) {
+        self.problems.push(problem);
+    }
+
+    /// How many problems were noted so far.
+    pub fn noted(&self) -> usize {
+        self.problems.len()
+    }
+
+    /// What was wrong.
+    pub fn into_problems(self) -> Vec<Problem> {
+        self.problems
+    }
+
+    fn wanted(&mut self, value: &Value, wanted: &str, help: &str) {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "text",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.note(Problem::error(value.span(), format!("{wanted} is wanted here, and this is {found}")).help(help));
+    }
+
+    /// Text.
+    pub fn text(&mut self, value: &Value<'t>) -> Option<String> {
+        match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => {
+                self.wanted(value, "text", "put it in quotes");
+                None
+            }
+        }
+    }
+
+    /// True or false, or one word of several.
+    pub fn word<T: Copy>(&mut self, value: &Value<'t>, words: &[(&str, T)]) -> Option<T> {
+        let text = self.text(value)?;
+        if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == text) {
+            return Some(*meaning);
+        }
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let help = format!("it can be {}", known.iter().map(|w| format!("\"{w}\"")).collect::<Vec<_>>().join(" or "));
+        self.note(Problem::error(value.span(), format!("`{text}` is not one of the words allowed here")).help(help));
+        None
+    }
+
+    /// A list.
+    pub fn list<'v>(&mut self, value: &'v Value<'t>) -> Option<&'v [Value<'t>]> {
+        match value.get_ref() {
+            DeValue::Array(list) => Some(list),
+            _ => {
+                self.wanted(value, "a list", "put it in brackets: [1, 2]");
+                None
+            }
+        }
+    }
+
+    /// A list of two.
+    pub fn pair<'v>(&mut self, value: &'v Value<'t>) -> Option<[&'v Value<'t>; 2]> {
+        match self.list(value)? {
+            [a, b] => Some([a, b]),
+            list => {
+                let problem =
+                    Problem::error(value.span(), format!("two values are wanted here, and there are {}", list.len()));
+                self.note(problem.help("write them like [1, 2]"));
+                None
+            }
+        }
+    }
+
+    /// A whole number between two bounds.
+    pub fn count(&mut self, value: &Value<'t>, least: usize, most: usize) -> Option<usize> {
+        let help = format!("give a whole number from {least} to {most}");
+        let number = match value.get_ref() {
+            DeValue::Integer(n) => i128::from_str_radix(n.as_str(), n.radix()).ok(),
+            // Integers and floats are alike: 5.0 is 5.
+            DeValue::Float(x) => x.as_str().parse().ok().filter(|x: &f64| x.fract() == 0.0).map(|x| x as i128),
+            _ => {
+                self.wanted(value, "a whole number", &help);
+                return None;
+            }
+        };
+        let count = number.and_then(|n| usize::try_from(n).ok()).filter(|n| (least..=most).contains(n));
+        if count.is_none() {
+            let written = self.written(value).to_owned();
+            self.note(Problem::error(value.span(), format!("{written} will not do here")).help(help));
+        }
+        count
+    }
+
+    /// A number or an expression in quotes.
+    pub fn expression(&mut self, value: &Value<'t>) -> Option<Expression> {
+        match value.get_ref() {
+            DeValue::Integer(_) | DeValue::Float(_) => self.literal(value).map(Expression::constant),
+            DeValue::String(text) => {
+                let parsed = Expression::parse(text);
+                self.placed(value, parsed)
+            }
+            _ => {
+                self.wanted(
+                    value,
+                    "a number or an expression",
+                    "write a number, or an expression in quotes: \"2 * a\"",
+                );
+                None
+            }
+        }
+    }
+
+    /// A number or an expression over the names of `scope`, with a numeric value.
+    pub fn bound(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<Bound> {
+        let expression = self.expression(value)?;
+        let bound = expression.bind(scope, Kind::Number);
+        self.placed(value, bound)
+    }
+
+    /// A number, or an expression without names.
+    pub fn constant(&mut self, value: &Value<'t>) -> Option<f64> {
+        let bound = self.bound(value, &[])?;
+        self.finite(value, bound.evaluate(|_| f64::NAN))
+    }
+
+    /// An angle over the names of `scope`.
+    pub fn angle(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<Angle> {
+        let quantity = self.quantity(value, Dimension::Angle)?;
+        let bound = quantity.expression.bind(scope, Kind::Number);
+        Some(Angle { value: self.placed(value, bound)?, unit: quantity.unit })
+    }
+
+    /// An angle in degrees, or a length on paper in millimetres, without names.
+    pub fn measure(&mut self, value: &Value<'t>, dimension: Dimension) -> Option<f64> {
+        let quantity = self.quantity(value, dimension)?;
+        let bound = quantity.expression.bind(&[], Kind::Number);
+        self.placed(value, bound)?;
+        self.finite(value, quantity.evaluate(|_| f64::NAN))
+    }
+
+    fn quantity(&mut self, value: &Value<'t>, dimension: Dimension) -> Option<Quantity> {
+        match value.get_ref() {
+            DeValue::String(text) => {
+                let parsed = Quantity::parse(text, dimension);
+                self.placed(value, parsed)
+            }
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                let written = self.written(value);
+                let unit = if dimension == Dimension::Angle { "deg" } else { "mm" };
+                let help = format!("write \"{written} {unit}\" with its quotes");
+                self.note(Problem::error(value.span(), "the unit is missing").help(help));
+                None
+            }
+            _ => {
+                self.wanted(value, "a quantity", "write a number and a unit in quotes: \"5 deg\"");
+                None
+            }
+        }
+    }
+
+    /// A line of text with values of `scope` in it.
+    pub fn caption(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<Caption> {
+        let text = self.text(value)?;
+        let parsed = Caption::parse(&text);
+        let caption = self.placed(value, parsed)?;
+        for (expression, start) in caption.expressions() {
+            if let Err(error) = expression.bind(scope, Kind::Number) {
+                let span = start + error.span.start..start + error.span.end;
+                self.placed::<()>(value, Err(expression::Error { span, ..error }));
+            }
+        }
+        Some(caption)
+    }
+
+    /// The value of a TOML number.
+    fn literal(&mut self, value: &Value<'t>) -> Option<f64> {
+        let number = match value.get_ref() {
+            DeValue::Integer(n) if n.radix() == 10 => n.as_str().parse().ok(),
+            DeValue::Integer(n) => i128::from_str_radix(n.as_str(), n.radix()).ok().map(|n| n as f64),
+            DeValue::Float(x) => x.as_str().parse().ok(),
+            _ => None,
+        };
+        self.finite(value, number.unwrap_or(f64::NAN))
+    }
+
+    /// The value if it is finite.
+    pub fn finite(&mut self, value: &Value<'t>, number: f64) -> Option<f64> {
+        if number.is_finite() {
+            return Some(number);
+        }
+        let problem = Problem::error(value.span(), format!("its value is {number}, which is not a finite number"));
+        self.note(problem.help("every value must be finite"));
+        None
+    }
+
+    /// The decimal digits of a number, where it is written as one.
+    pub fn decimal(&self, value: &Value<'t>) -> Option<&str> {
+        match value.get_ref() {
+            DeValue::Integer(_) | DeValue::Float(_) => Some(self.written(value)),
+            DeValue::String(text) if text.parse::<f64>().is_ok() => Some(self.written(value).trim_matches(['"', '\''])),
+            _ => None,
+        }
+    }
+
+    /// The value as it stands in the text.
+    fn written(&self, value: &Value<'t>) -> &'t str {
+        self.text.get(value.span()).unwrap_or_default()
+    }
+
+    /// The result, or its error noted at its place inside a string.
+    pub fn placed<T>(&mut self, value: &Value<'t>, result: Result<T, expression::Error>) -> Option<T> {
+        match result {
+            Ok(found) => Some(found),
+            Err(error) => {
+                let problem = error.problem(|inner| self.inside(value, inner));
+                self.note(problem);
+                None
+            }
+        }
+    }
+
+    /// The place in the text of a part of a string; the whole string where it is written with escapes.
+    fn inside(&self, value: &Value<'t>, inner: Span) -> Span {
+        let whole = value.span();
+        let DeValue::String(content) = value.get_ref() else { return whole };
+        let written = self.written(value);
+        let quotes = written.len().saturating_sub(content.len()) / 2;
+        let as_is = matches!(quotes, 1 | 3) && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
+        if as_is {
+            let start = whole.start + quotes;
+            start + inner.start..start + inner.end.max(inner.start)
+        } else {
+            whole
+        }
+    }
+}
+
+/// The keys of a table.
+pub struct Fields<'v, 't> {
+    table: &'v DeTable<'t>,
+    /// The place of the whole table.
+    pub span: Span,
+    /// What the table is, for messages.
+    pub what: String,
+}
+
+impl<'v, 't> Fields<'v, 't> {
+    /// The keys of a table, all of which must be `known`. `None` where the value is no table.
+    pub fn of(value: &'v Value<'t>, what: &str, known: &[&str], reader: &mut Reader<'t>) -> Option<Fields<'v, 't>> {
+        let fields = Fields::open(value, what, reader)?;
+        for key in fields.table.keys() {
+            let name = key.get_ref().as_ref();
+            if !known.contains(&name) {
+                let problem = Problem::error(key.span(), format!("{what} has no key `{name}`"));
+                reader.note(problem.help(nearest_or_all(name, known)));
+            }
+        }
+        Some(fields)
+    }
+
+    /// The keys of a table whose keys are names of the writer's own.
+    pub fn open(value: &'v Value<'t>, what: &str, reader: &mut Reader<'t>) -> Option<Fields<'v, 't>> {
+        match value.get_ref() {
+            DeValue::Table(table) => Some(Fields { table, span: value.span(), what: what.to_owned() }),
+            _ => {
+                reader.wanted(value, "a table", "write it like { key = value }");
+                None
+            }
+        }
+    }
+
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<&'v Value<'t>> {
+        self.table.get(key)
+    }
+
+    /// The value of a key that must be there; `example` shows how it is written.
+    pub fn required(&self, key: &str, example: &str, reader: &mut Reader<'t>) -> Option<&'v Value<'t>> {
+        let found = self.get(key);
+        if found.is_none() {
+            let problem = Problem::error(self.span.clone(), format!("{} has no `{key}`", self.what));
+            reader.note(problem.help(format!("add {example}")));
+        }
+        found
+    }
+
+    /// The text of a key that must be there.
+    pub fn required_text(&self, key: &str, example: &str, reader: &mut Reader<'t>) -> Option<String> {
+        let value = self.required(key, example, reader)?;
+        reader.text(value)
+    }
+
+    /// The tables of an array of tables, in their order; none where the key is absent.
+    pub fn tables(&self, key: &str, reader: &mut Reader<'t>) -> &'v [Value<'t>] {
+        match self.get(key).map(|value| (value, value.get_ref())) {
+            None => &[],
+            Some((_, DeValue::Array(tables))) => tables,
+            Some((value, _)) => {
+                reader.wanted(value, "a list of tables", &format!("write it as [[{key}]]"));
+                &[]
+            }
+        }
+    }
+
+    /// Every key with its place and its value, in the order written.
+    pub fn entries(&self) -> impl Iterator<Item = (&'v str, Span, &'v Value<'t>)> + use<'v, 't> {
+        self.table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value))
+    }
+
+    /// The keys, in the order written.
+    pub fn keys(&self) -> Vec<&'v str> {
+        self.table.keys().map(|key| key.get_ref().as_ref()).collect()
+    }
+}

@@ -1,0 +1,145 @@
+//! Every cell of a family through linkage, motion and measure: in parallel, in order, in bounded memory.
+
+use rayon::prelude::*;
+
+use crate::family::{Cell, Family};
+use crate::linkage::{JointId, Linkage};
+use crate::measure::{self, Subject, Value};
+use crate::motion::{Circuit, Motion, Sampler};
+
+/// A solved and measured cell.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The parameter set.
+    pub cell: Cell,
+    /// Its linkage.
+    pub linkage: Linkage,
+    /// What the linkage does.
+    pub motion: Motion,
+    /// The curves that `where` keeps, in order of trace and circuit.
+    pub curves: Vec<Curve>,
+    /// How many curves `where` left out.
+    pub left_out: usize,
+}
+
+/// A traced joint on a circuit, and what was measured of it.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// The number of the traced joint, from 1.
+    pub trace: usize,
+    /// The number of the circuit, from 1.
+    pub circuit: usize,
+    /// The joint.
+    pub joint: JointId,
+    /// The values of [`measure::ALL`].
+    pub measures: Vec<Value>,
+}
+
+/// How far a cell was assembled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Over all that was asked for.
+    Ok,
+    /// Over a part of the range asked for.
+    Partial,
+    /// Nowhere.
+    None,
+}
+
+impl Status {
+    /// Its name in `cells.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Ok => "ok",
+            Status::Partial => "partial",
+            Status::None => "none",
+        }
+    }
+}
+
+impl Solved {
+    /// How far the cell was assembled.
+    pub fn status(&self) -> Status {
+        match (&self.motion.shortfall, self.motion.is_assembled()) {
+            (_, false) => Status::None,
+            (Some(_), true) => Status::Partial,
+            (None, true) => Status::Ok,
+        }
+    }
+
+    /// The circuit of a curve.
+    pub fn circuit(&self, curve: &Curve) -> &Circuit {
+        &self.motion.circuits[curve.circuit - 1]
+    }
+
+    /// Whether nothing of the cell is kept.
+    pub fn is_left_out(&self) -> bool {
+        self.curves.is_empty() && self.left_out > 0
+    }
+}
+
+/// Solves and measures the `k`-th cell of a family.
+pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
+    let cell = family.cell(k);
+    // A family is validated cell by cell before it is swept, so every cell makes a linkage.
+    let linkage = family.linkage(&cell).ok()?;
+    let motion = Motion::of(&linkage, sampler);
+    let mut solved = Solved { cell, linkage, motion, curves: Vec::new(), left_out: 0 };
+    let mut curves = Vec::new();
+    for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
+        for (number, circuit) in (1..).zip(&solved.motion.circuits) {
+            let subject = Subject { linkage: &solved.linkage, motion: &solved.motion, circuit, joint };
+            let measures = measure::take(&subject);
+            if family.keeps(&solved.cell, &measures) {
+                curves.push(Curve { trace, circuit: number, joint, measures });
+            } else {
+                solved.left_out += 1;
+            }
+        }
+    }
+    // A cell without any motion is one row, of which only its own values can be asked.
+    if !solved.motion.is_assembled() && !family.keeps(&solved.cell, &[]) {
+        solved.left_out += 1;
+    }
+    solved.curves = curves;
+    Some(solved)
+}
+
+/// The cells of which something is kept, by their places; all of them where nothing is asked.
+pub fn select(family: &Family, sampler: &Sampler) -> Vec<usize> {
+    let all = 0..family.cells();
+    if family.filter.is_none() {
+        return all.collect();
+    }
+    let is_kept = |&k: &usize| solve(family, sampler, k).is_some_and(|solved| !solved.is_left_out());
+    all.into_par_iter().filter(is_kept).collect()
+}
+
+/// Takes groups of cells through `work` on all threads and hands the results to `take` in order.
+///
+/// `work` is given the number of the group, from 0, and its solved cells. No more than a few groups to a thread are
+/// held at once. Results and their order do not depend on the number of threads.
+///
+/// # Errors
+/// The first error of `take`, after which nothing more is done.
+pub fn run<T: Send, E: Send>(
+    family: &Family,
+    sampler: &Sampler,
+    (cells, group): (&[usize], usize),
+    work: impl Fn(usize, Vec<Solved>) -> T + Sync,
+    mut take: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let groups: Vec<&[usize]> = cells.chunks(group.max(1)).collect();
+    let at_once = rayon::current_num_threads() * 4;
+    for (batch, groups) in groups.chunks(at_once).enumerate() {
+        let solve_group = |(k, cells): (usize, &&[usize])| {
+            let solved = cells.iter().filter_map(|&cell| solve(family, sampler, cell)).collect();
+            work(batch * at_once + k, solved)
+        };
+        let done: Vec<T> = groups.par_iter().enumerate().map(solve_group).collect();
+        for result in done {
+            take(result)?;
+        }
+    }
+    Ok(())
+}

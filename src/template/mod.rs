@@ -1,0 +1,305 @@
+//! A linkage with expressions for numbers; a parameter set makes it a [`Linkage`].
+
+use crate::expression::{Bound, Caption, Expression, Unit};
+use crate::geometry::Point;
+use crate::linkage::{self, Arc, Assembly, Circuits, Continuation, JointId, Linkage, Side, Travel};
+
+/// A linkage family before it has numbers. All [`Bound`] expressions are over [`Template::parameters`].
+#[derive(Clone, Debug)]
+pub struct Template {
+    /// The name manifests call it by.
+    pub id: String,
+    /// Where it comes from.
+    pub source: String,
+    /// What its letters mean; may be empty.
+    pub legend: String,
+    /// Its parameters, in the order of the columns of `cells.csv`.
+    pub parameters: Vec<Parameter>,
+    /// The line under each figure.
+    pub caption: Option<Caption>,
+    /// A smaller line under that.
+    pub note: Option<Caption>,
+    /// The joints in the order they are placed.
+    pub joints: Vec<JointTemplate>,
+    /// The joints whose curves are wanted, by their place in `joints`.
+    pub traced: Vec<usize>,
+    /// The link whose frame everything is reported in.
+    pub seen_from: Option<[usize; 2]>,
+    /// Which circuits are wanted.
+    pub circuits: Circuits,
+    /// What happens at a change point.
+    pub continuation: Continuation,
+    /// The input at which the sides hold.
+    pub start: Option<Angle>,
+    /// The range of the input.
+    pub input: Option<[Angle; 2]>,
+    /// The part of the curve that the source's figure shows: input from, to, and branch.
+    pub arc: Option<([Angle; 2], i8)>,
+}
+
+/// A parameter of a template.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its value where none is given; may use the other parameters.
+    pub default: Option<Expression>,
+    /// Its least value; 0 itself is excluded.
+    pub min: Option<f64>,
+    /// Its greatest value; 0 itself is excluded.
+    pub max: Option<f64>,
+}
+
+impl Parameter {
+    /// What is wrong with a value, if anything.
+    pub fn objection(&self, value: f64) -> Option<String> {
+        let name = &self.name;
+        if !value.is_finite() {
+            return Some(format!("`{name}` is {value}, which is not a finite number"));
+        }
+        match (self.min, self.max) {
+            (Some(0.0), _) if value <= 0.0 => Some(format!("`{name}` is {value}, and must be more than 0")),
+            (Some(min), _) if value < min => Some(format!("`{name}` is {value}, below its least value of {min}")),
+            (_, Some(0.0)) if value >= 0.0 => Some(format!("`{name}` is {value}, and must be less than 0")),
+            (_, Some(max)) if value > max => Some(format!("`{name}` is {value}, above its greatest value of {max}")),
+            _ => None,
+        }
+    }
+}
+
+/// An angle with expressions in it, evaluated in degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Angle {
+    /// The number of units.
+    pub value: Bound,
+    /// Degrees or radians.
+    pub unit: Unit,
+}
+
+impl Angle {
+    fn degrees(&self, values: &[f64]) -> f64 {
+        self.unit.convert(self.value.evaluate(|slot| values[slot]))
+    }
+}
+
+/// A joint with expressions for numbers.
+#[derive(Clone, Debug)]
+pub struct JointTemplate {
+    /// Its name.
+    pub name: String,
+    /// How it is placed.
+    pub placing: Placing,
+}
+
+/// How a joint is placed; joints are named by their place in [`Template::joints`].
+#[derive(Clone, Debug)]
+pub enum Placing {
+    /// At fixed coordinates.
+    Fixed([Bound; 2]),
+    /// On a crank.
+    Crank {
+        /// The pivot.
+        pivot: usize,
+        /// The length.
+        length: Bound,
+    },
+    /// By two links.
+    Dyad {
+        /// The joints they hang on.
+        base: [usize; 2],
+        /// Their lengths.
+        lengths: [Bound; 2],
+        /// The side of the base at the start.
+        side: Side,
+    },
+    /// On a link, by coordinates; ranges make a grid of points, `across` fastest.
+    Point {
+        /// Two joints of the link.
+        base: [usize; 2],
+        /// From the first joint towards the second.
+        along: Coordinate,
+        /// To the left.
+        across: Coordinate,
+    },
+    /// On a link, by distances.
+    Distances {
+        /// Two joints of the link.
+        base: [usize; 2],
+        /// The distances from them.
+        distances: [Bound; 2],
+        /// The side of the first to the second.
+        side: Side,
+    },
+}
+
+impl Placing {
+    /// The joints it refers to.
+    pub fn bases(&self) -> Vec<usize> {
+        match self {
+            Placing::Fixed(_) => Vec::new(),
+            Placing::Crank { pivot, .. } => vec![*pivot],
+            Placing::Dyad { base, .. } | Placing::Point { base, .. } | Placing::Distances { base, .. } => base.to_vec(),
+        }
+    }
+}
+
+/// A coordinate on a link.
+#[derive(Clone, Debug)]
+pub enum Coordinate {
+    /// A single value.
+    One(Bound),
+    /// Evenly spaced values, both ends among them.
+    Range {
+        /// The first.
+        from: Bound,
+        /// The last.
+        to: Bound,
+        /// How many, at least one.
+        count: usize,
+    },
+}
+
+impl Coordinate {
+    /// How many values it has.
+    pub fn count(&self) -> usize {
+        match self {
+            Coordinate::One(_) => 1,
+            Coordinate::Range { count, .. } => *count,
+        }
+    }
+
+    fn values(&self, number: impl Fn(&Bound) -> f64) -> Vec<f64> {
+        match self {
+            Coordinate::One(value) => vec![number(value)],
+            Coordinate::Range { from, to, count } => {
+                let (from, to) = (number(from), number(to));
+                let step = |i: usize| if *count == 1 { 0.0 } else { i as f64 / (*count - 1) as f64 };
+                (0..*count).map(|i| from + (to - from) * step(i)).collect()
+            }
+        }
+    }
+}
+
+/// Why a parameter set makes no linkage.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// An expression has no finite value.
+    #[error("{what} of `{joint}` is {value}, which is not a finite number")]
+    NotFinite {
+        /// The joint.
+        joint: String,
+        /// Which number of it.
+        what: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// An angle has no finite value, or a range none to go over.
+    #[error("{what} is {value} deg, {why}")]
+    Angle {
+        /// Which angle.
+        what: &'static str,
+        /// The value in degrees.
+        value: f64,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// A joint cannot be placed.
+    #[error(transparent)]
+    Assembly(#[from] linkage::Error),
+}
+
+impl Template {
+    /// The linkage of a parameter set, `values` in the order of [`Template::parameters`].
+    ///
+    /// # Errors
+    /// A number that is not finite, a length that is not positive, a joint that cannot be placed.
+    pub fn linkage(&self, values: &[f64]) -> Result<Linkage, Error> {
+        self.assemble(values, |_, bound| bound.evaluate(|slot| values[slot]))
+    }
+
+    /// What is wrong with the joints whatever the numbers: one joint given twice, a point on no link, too many dyads.
+    pub fn structural_error(&self) -> Option<linkage::Error> {
+        // Any numbers will do; fixed joints in general position have distances to measure along.
+        let place = |joint: usize| (joint * joint) as f64;
+        let numbers = |joint: usize, _: &Bound| {
+            if matches!(self.joints[joint].placing, Placing::Fixed(_)) { place(joint) } else { 1.0 }
+        };
+        match self.assemble(&vec![1.0; self.parameters.len()], numbers) {
+            Err(Error::Assembly(linkage::Error::Length { .. } | linkage::Error::NoTriangle { .. })) => None,
+            Err(Error::Assembly(error)) => Some(error),
+            _ => None,
+        }
+    }
+
+    fn assemble(&self, values: &[f64], number: impl Fn(usize, &Bound) -> f64) -> Result<Linkage, Error> {
+        let mut assembly = Assembly::default();
+        // Where each joint of the template has gone: a grid of points makes several.
+        let mut made: Vec<Vec<JointId>> = Vec::with_capacity(self.joints.len());
+        for (k, joint) in self.joints.iter().enumerate() {
+            let name = joint.name.as_str();
+            let finite = |what, value: f64| {
+                if value.is_finite() {
+                    Ok(value)
+                } else {
+                    Err(Error::NotFinite { joint: name.to_owned(), what, value })
+                }
+            };
+            let two = |base: &[usize; 2]| base.map(|j| made[j][0]);
+            let ids = match &joint.placing {
+                Placing::Fixed([x, y]) => {
+                    let at = Point::new(finite("the x", number(k, x))?, finite("the y", number(k, y))?);
+                    vec![assembly.fixed(name, at)]
+                }
+                Placing::Crank { pivot, length } => vec![assembly.crank(name, made[*pivot][0], number(k, length))?],
+                Placing::Dyad { base, lengths: [l0, l1], side } => {
+                    vec![assembly.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
+                }
+                Placing::Distances { base, distances: [d0, d1], side } => {
+                    vec![assembly.distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
+                }
+                Placing::Point { base, along, across } => {
+                    let across = across.values(|b| number(k, b));
+                    let mut ids = Vec::new();
+                    for along in along.values(|b| number(k, b)) {
+                        for &across in &across {
+                            let (along, across) = (finite("`along`", along)?, finite("`across`", across)?);
+                            ids.push(assembly.point(name, two(base), along, across)?);
+                        }
+                    }
+                    ids
+                }
+            };
+            made.push(ids);
+        }
+        let traced = self.traced.iter().flat_map(|&k| made[k].clone()).collect();
+        let seen_from = self.seen_from.map(|joints| joints.map(|k| made[k][0]));
+        Ok(assembly.finish(traced, seen_from, self.travel(values)?)?)
+    }
+
+    fn travel(&self, values: &[f64]) -> Result<Travel, Error> {
+        let degrees = |what, angle: &Angle| match angle.degrees(values) {
+            value if value.is_finite() => Ok(value),
+            value => Err(Error::Angle { what, value, why: "which is not a finite number" }),
+        };
+        let range_deg = match &self.input {
+            None => None,
+            Some([from, to]) => {
+                let (from, to) = (degrees("the input's `from`", from)?, degrees("the input's `to`", to)?);
+                let too_far = |why| Err(Error::Angle { what: "the input's `to`", value: to, why });
+                match to - from {
+                    length if length <= 0.0 => return too_far("and must be more than `from`"),
+                    length if length > 360.0 => return too_far("more than a turn from `from`"),
+                    _ => Some([from, to]),
+                }
+            }
+        };
+        let start_deg = self.start.as_ref().map(|start| degrees("`start`", start)).transpose()?;
+        // An arc whose ends do not exist for these lengths is no part of the curve: nothing is set apart then.
+        let arc = self.arc.as_ref().and_then(|([from, to], branch)| {
+            let input_deg = [from.degrees(values), to.degrees(values)];
+            input_deg.iter().all(|deg| deg.is_finite()).then_some(Arc { input_deg, branch: *branch })
+        });
+        let (circuits, continuation) = (self.circuits, self.continuation);
+        Ok(Travel { start_deg, range_deg, circuits, continuation, arc, ..Travel::default() })
+    }
+}
