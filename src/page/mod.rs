@@ -1,0 +1,115 @@
+//! What stands where on a page: paper, theme and layouts, drawn through plotters onto a [`Scene`].
+
+mod arrangement;
+mod element;
+mod figure;
+mod panels;
+mod pose;
+mod theme;
+
+pub use theme::Theme;
+
+use crate::scene::Scene;
+use crate::sweep::Solved;
+
+/// The size of the paper, in millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paper {
+    /// Its width.
+    pub width: f64,
+    /// Its height.
+    pub height: f64,
+}
+
+impl Paper {
+    /// The papers with a name; all lie on their long side.
+    pub const NAMED: [(&'static str, Paper); 4] = [
+        ("letter", Paper { width: 279.4, height: 215.9 }),
+        ("tabloid", Paper { width: 431.8, height: 279.4 }),
+        ("a4", Paper { width: 297.0, height: 210.0 }),
+        ("a3", Paper { width: 420.0, height: 297.0 }),
+    ];
+
+    /// The least and the greatest side a page may have.
+    pub const SIDES: [f64; 2] = [50.0, 2000.0];
+}
+
+/// How a family's cells are laid out on pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// A grid of panels, each with a cell's linkage and curves.
+    Panels {
+        /// Panels in a row.
+        columns: usize,
+        /// Rows.
+        rows: usize,
+    },
+}
+
+impl Layout {
+    /// Every layout's name and what it shows.
+    pub const ALL: [(&'static str, &'static str); 1] =
+        [("panels", "a grid of panels, each with a cell's linkage, its curves and its caption")];
+
+    /// How many cells a page holds.
+    pub fn cells(self) -> usize {
+        match self {
+            Layout::Panels { columns, rows } => columns * rows,
+        }
+    }
+}
+
+/// What all pages of an atlas have in common.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The paper.
+    pub paper: Paper,
+    /// The input a dash and its gap span, in degrees.
+    pub dash_deg: f64,
+}
+
+/// A page to be composed.
+#[derive(Clone, Debug)]
+pub struct Sheet<'a> {
+    /// The atlas's title.
+    pub atlas: &'a str,
+    /// The family's id.
+    pub family: &'a str,
+    /// The family's title.
+    pub title: &'a str,
+    /// Where the linkage comes from and what its letters mean.
+    pub source: String,
+    /// The page's number in the family, from 1.
+    pub page: usize,
+    /// How many pages the family has.
+    pub of: usize,
+    /// How the cells are laid out.
+    pub layout: Layout,
+    /// The cells.
+    pub panels: Vec<Panel<'a>>,
+}
+
+/// A cell of a page.
+#[derive(Clone, Debug)]
+pub struct Panel<'a> {
+    /// The line under it.
+    pub caption: String,
+    /// A smaller line under that; may be empty.
+    pub note: String,
+    /// Words that stand for values, set in italics.
+    pub symbols: &'a [String],
+    /// The cell.
+    pub solved: &'a Solved,
+}
+
+/// Draws a page.
+pub fn compose(sheet: &Sheet, options: &Options) -> Scene {
+    let theme = Theme::for_paper(options.paper);
+    let title = format!("{}, page {} of {}: {}", sheet.title, sheet.page, sheet.of, sheet.atlas);
+    let Paper { width, height } = options.paper;
+    let mut scene = Scene { width, height, paper: theme.paper, title, items: Vec::new() };
+    match sheet.layout {
+        Layout::Panels { columns, rows } => panels::compose(&mut scene, sheet, (columns, rows), options, &theme),
+    }
+    scene
+}

@@ -1,0 +1,118 @@
+//! The `panels` layout: a grid of cells, each with its figure, its number and its caption.
+
+use plotters::drawing::IntoDrawingArea;
+use plotters::element::Rectangle;
+use plotters::style::{RGBColor, ShapeStyle};
+
+use super::arrangement::{Arrangement, Extents, Frame};
+use super::element::{Area, Drawing, Words, draw, size};
+use super::figure::Figure;
+use super::theme::Theme;
+use super::{Options, Panel, Sheet};
+use crate::geometry::{Point, Vector};
+use crate::scene::{Anchor, Canvas, Color, Item, Scene};
+
+pub(super) fn compose(scene: &mut Scene, sheet: &Sheet, grid: (usize, usize), options: &Options, theme: &Theme) {
+    let root = Canvas::new(scene).into_drawing_area();
+    furniture(&root, sheet, theme);
+    panels(&root, sheet, grid, options, theme);
+}
+
+/// Border, title, source line and folio.
+fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
+    let page = size(root);
+    let Color(r, g, b) = theme.ink;
+    let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
+    let border = [corner(theme.border, theme.border), corner(page.x - theme.border, page.y - theme.border)];
+    let style =
+        ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width: Canvas::pixels(theme.fine) as u32 };
+    draw(root, &Rectangle::new(border, style));
+    let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
+    let top = theme.border + theme.title;
+    let title =
+        Words::new(sheet.title, Point::new(left, top + 0.9 * theme.title), Anchor::Start, theme.title, theme.ink);
+    draw(root, &title.fitted(right - left));
+    let at = Point::new(left, top + 0.9 * theme.title + 1.85 * theme.source);
+    draw(root, &Words::new(&sheet.source, at, Anchor::Start, theme.source, theme.grey).fitted(right - left));
+    let folio = format!("{} · page {} of {}", sheet.atlas, sheet.page, sheet.of);
+    let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
+    draw(root, &Words::new(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
+}
+
+fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
+    let edge = theme.border + theme.margin;
+    let top = theme.border + 2.3 * theme.title + 2.5 * theme.source;
+    let bottom = theme.border + theme.margin + theme.source;
+    let [top, bottom, side] = [top, bottom, edge - 0.5 * theme.margin].map(Canvas::pixels);
+    let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
+    let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
+    let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
+    let foot = theme.caption * 1.5 + if has_notes { theme.note * 1.5 } else { 0.0 } + theme.caption;
+    // The figure's frame is that of any panel: plotters splits a page to within a hundredth of a millimetre.
+    let room = |area: &Area| {
+        let gap = 1.2 * theme.caption;
+        let size = size(area) - Vector::new(gap, 0.0) - Vector::new(gap, foot);
+        Frame { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
+    };
+    let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
+    let arrangement = Arrangement::best(room(&areas[0]), 2.0 * theme.joint, &extents);
+    for ((panel, figure), area) in sheet.panels.iter().zip(&figures).zip(&areas) {
+        let frame = room(area);
+        match figure {
+            Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
+            None => draw_reason(area, frame, panel, theme),
+        }
+        caption(area, foot, panel, theme);
+    }
+}
+
+/// The cell's number at its upper left, and its lines below.
+fn caption(area: &Area, foot: f64, panel: &Panel, theme: &Theme) {
+    let page = size(area);
+    let number = panel.solved.cell.number.to_string();
+    let at = Point::new(0.8 * theme.caption, theme.note);
+    draw(area, &Words::new(&number, at, Anchor::Start, theme.note, theme.grey));
+    let width = page.x - 1.2 * theme.caption;
+    let mut y = page.y - foot + 1.5 * theme.caption;
+    let mut line = |text: &str, size: f64, color, symbols: &[String]| {
+        let words = Words::new(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color);
+        draw(area, &words.italic(symbols).fitted(width));
+        y += 1.45 * theme.note;
+    };
+    line(&panel.caption, theme.caption, theme.ink, panel.symbols);
+    if !panel.note.is_empty() {
+        line(&panel.note, theme.note, theme.grey, panel.symbols);
+    }
+    if let (Some(reason), true) = (&panel.solved.motion.shortfall, panel.solved.motion.is_assembled()) {
+        line(reason, theme.note, theme.curve_ink(0), &[]);
+    }
+}
+
+/// Where there is no curve to draw: that it cannot be assembled, and why.
+fn draw_reason(area: &Area, frame: Frame, panel: &Panel, theme: &Theme) {
+    let reason = panel.solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
+    let centre = frame.centre();
+    let width = 0.9 * frame.size.x;
+    let words = |text: &str, y: f64, size: f64, color: Color| {
+        Words::new(text, Point::new(centre.x, y), Anchor::Middle, size, color)
+    };
+    let mut lines = vec![words("not assembled", 0.0, theme.caption, theme.curve_ink(0)).text];
+    let mut line = String::new();
+    for word in reason.split(' ') {
+        let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+        if words(&longer, 0.0, theme.note, theme.grey).text.width() > width && !line.is_empty() {
+            lines.push(words(&line, 0.0, theme.note, theme.grey).text);
+            line = word.to_owned();
+        } else {
+            line = longer;
+        }
+    }
+    lines.push(words(&line, 0.0, theme.note, theme.grey).text);
+    let step = 1.5 * theme.note;
+    let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;
+    for (k, text) in lines.iter_mut().enumerate() {
+        text.at.y = first + step * k as f64;
+    }
+    let items = lines.into_iter().map(Item::Text).collect();
+    draw(area, &Drawing { class: "not-assembled", title: String::new(), items });
+}

@@ -1,0 +1,277 @@
+use std::fmt::Write;
+
+use super::TextMode;
+use crate::geometry::Point;
+use crate::scene::{Anchor, Circle, Color, Face, Group, Item, Path, Scene, Segment, Stroke, Text};
+
+/// A scene as an SVG document, in millimetres to 1/1000 mm.
+pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
+    let mut out = Writer { out: String::with_capacity(64 * 1024), text };
+    let (w, h) = (Number(micrometres(scene.width)), Number(micrometres(scene.height)));
+    out.raw(format_args!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
+         font-family=\"{}\" font-kerning=\"none\" style=\"font-variant-ligatures:none\" \
+         stroke-linejoin=\"round\" fill=\"none\">\n",
+        Face::FAMILIES
+    ));
+    out.raw(format_args!("<title>{}</title>\n", Escaped(&scene.title)));
+    out.raw(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", Hex(scene.paper)));
+    for item in &scene.items {
+        out.item(item);
+    }
+    out.out.push_str("</svg>\n");
+    out.out.into_bytes()
+}
+
+struct Writer {
+    out: String,
+    text: TextMode,
+}
+
+impl Writer {
+    fn raw(&mut self, arguments: std::fmt::Arguments) {
+        // Writing to a string cannot fail.
+        let _ = self.out.write_fmt(arguments);
+    }
+
+    fn item(&mut self, item: &Item) {
+        match item {
+            Item::Group(group) => self.group(group),
+            Item::Path(path) => self.path(path),
+            Item::Circle(circle) => self.circle(circle),
+            Item::Text(text) if self.text == TextMode::Outlines => self.outlines(text),
+            Item::Text(text) => self.text(text),
+        }
+    }
+
+    fn group(&mut self, group: &Group) {
+        self.out.push_str("<g");
+        if !group.id.is_empty() {
+            self.raw(format_args!(" id=\"{}\"", Escaped(&group.id)));
+        }
+        if !group.class.is_empty() {
+            self.raw(format_args!(" class=\"{}\"", group.class));
+        }
+        for (name, value) in &group.data {
+            self.raw(format_args!(" data-{name}=\"{}\"", Escaped(value)));
+        }
+        self.out.push('>');
+        if !group.title.is_empty() {
+            self.raw(format_args!("<title>{}</title>", Escaped(&group.title)));
+        }
+        self.out.push('\n');
+        for item in &group.items {
+            self.item(item);
+        }
+        self.out.push_str("</g>\n");
+    }
+
+    fn paint(&mut self, stroke: Option<Stroke>, fill: Option<Color>) {
+        if let Some(fill) = fill {
+            self.raw(format_args!(" fill=\"{}\"", Hex(fill)));
+        }
+        if let Some(stroke) = stroke {
+            let width = Number(micrometres(stroke.width));
+            self.raw(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", Hex(stroke.color)));
+            if stroke.round {
+                self.out.push_str(" stroke-linecap=\"round\"");
+            }
+        }
+        self.out.push_str("/>\n");
+    }
+
+    fn path(&mut self, path: &Path) {
+        self.out.push_str("<path d=\"");
+        let mut pen = Pen::default();
+        for line in &path.lines {
+            for (k, &point) in line.points.iter().enumerate() {
+                pen.to(&mut self.out, if k == 0 { 'm' } else { 'l' }, &[point]);
+            }
+            if line.closed {
+                pen.close(&mut self.out);
+            }
+        }
+        self.out.push('"');
+        self.paint(path.stroke, path.fill);
+    }
+
+    fn circle(&mut self, circle: &Circle) {
+        let [x, y] = [circle.centre.x, circle.centre.y].map(|c| Number(micrometres(c)));
+        let radius = Number(micrometres(circle.radius));
+        self.raw(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""));
+        self.paint(circle.stroke, circle.fill);
+    }
+
+    fn text(&mut self, text: &Text) {
+        let [x, y, size] = [text.at.x, text.at.y, text.size].map(|c| Number(micrometres(c)));
+        self.raw(format_args!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", Hex(text.color)));
+        match text.anchor {
+            Anchor::Start => {}
+            Anchor::Middle => self.out.push_str(" text-anchor=\"middle\""),
+            Anchor::End => self.out.push_str(" text-anchor=\"end\""),
+        }
+        if text.quarter_turns != 0 {
+            self.raw(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
+        }
+        self.out.push('>');
+        for run in &text.runs {
+            match run.face {
+                Face::Regular => self.raw(format_args!("{}", Escaped(&run.text))),
+                Face::Italic => {
+                    self.raw(format_args!("<tspan font-style=\"italic\">{}</tspan>", Escaped(&run.text)));
+                }
+            }
+        }
+        self.out.push_str("</text>\n");
+    }
+
+    fn outlines(&mut self, text: &Text) {
+        let words: String = text.runs.iter().map(|run| run.text.as_str()).collect();
+        self.raw(format_args!("<path role=\"img\" aria-label=\"{}\"", Escaped(&words)));
+        if text.quarter_turns != 0 {
+            let [x, y] = [text.at.x, text.at.y].map(|c| Number(micrometres(c)));
+            self.raw(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
+        }
+        self.out.push_str(" d=\"");
+        let mut pen = Pen::default();
+        let mut at = text.start();
+        for run in &text.runs {
+            for c in run.text.chars() {
+                let place = |[x, y]: [f64; 2]| Point::new(at.x + x * text.size, at.y - y * text.size);
+                for segment in run.face.outline(c) {
+                    match segment {
+                        Segment::Move(p) => pen.to(&mut self.out, 'm', &[place(p)]),
+                        Segment::Line(p) => pen.to(&mut self.out, 'l', &[place(p)]),
+                        Segment::Quad(c, p) => pen.to(&mut self.out, 'q', &[place(c), place(p)]),
+                        Segment::Cubic(c, d, p) => pen.to(&mut self.out, 'c', &[place(c), place(d), place(p)]),
+                        Segment::Close => pen.close(&mut self.out),
+                    }
+                }
+                at.x += run.face.advance(c) * text.size;
+            }
+        }
+        self.out.push('"');
+        self.paint(None, Some(text.color));
+    }
+}
+
+/// Writes path data in relative coordinates. Places are rounded to micrometres before they are subtracted, so that
+/// no error adds up.
+#[derive(Default)]
+struct Pen {
+    at: [i64; 2],
+    start: [i64; 2],
+    last: Option<char>,
+}
+
+impl Pen {
+    fn to(&mut self, out: &mut String, command: char, points: &[Point]) {
+        let begin = self.at;
+        if self.last == Some(command) && command != 'm' || self.last == Some('m') && command == 'l' {
+            // A repeated command is not written again, and what follows a move is a line.
+            self.last = Some(command);
+            self.pair(out, begin, points[0], true);
+        } else {
+            out.push(if self.last.is_none() { 'M' } else { command });
+            self.last = Some(command);
+            self.pair(out, begin, points[0], false);
+        }
+        for &point in &points[1..] {
+            self.pair(out, begin, point, true);
+        }
+        if command == 'm' {
+            self.start = self.at;
+        }
+    }
+
+    fn pair(&mut self, out: &mut String, from: [i64; 2], point: Point, parted: bool) {
+        self.at = [micrometres(point.x), micrometres(point.y)];
+        let (x, y) = (self.at[0] - from[0], self.at[1] - from[1]);
+        if parted && x >= 0 {
+            out.push(' ');
+        }
+        let _ = write!(out, "{}", Number(x));
+        if y >= 0 {
+            out.push(' ');
+        }
+        let _ = write!(out, "{}", Number(y));
+    }
+
+    fn close(&mut self, out: &mut String) {
+        out.push('z');
+        self.at = self.start;
+        self.last = Some('z');
+    }
+}
+
+fn micrometres(mm: f64) -> i64 {
+    (mm * 1000.0).round() as i64
+}
+
+/// Micrometres written as millimetres, in as few characters as it takes.
+struct Number(i64);
+
+impl std::fmt::Display for Number {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (sign, size) = (if self.0 < 0 { "-" } else { "" }, self.0.unsigned_abs());
+        let (whole, part) = (size / 1000, size % 1000);
+        f.write_str(sign)?;
+        if whole > 0 || part == 0 {
+            write!(f, "{whole}")?;
+        }
+        match part {
+            0 => Ok(()),
+            p if p % 100 == 0 => write!(f, ".{}", p / 100),
+            p if p % 10 == 0 => write!(f, ".{:02}", p / 10),
+            p => write!(f, ".{p:03}"),
+        }
+    }
+}
+
+struct Hex(Color);
+
+impl std::fmt::Display for Hex {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Color(r, g, b) = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// Text that no reader takes for markup; characters XML has no place for become a replacement character.
+struct Escaped<'a>(&'a str);
+
+impl std::fmt::Display for Escaped<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for c in self.0.chars() {
+            match c {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                '\t' | '\n' => f.write_str(" ")?,
+                '\0'..='\x1f' | '\x7f' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
+                c => f.write_char(c)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (micrometres, written) in
+            [(0, "0"), (500, ".5"), (-10, "-.01"), (1234, "1.234"), (-2000, "-2"), (1050, "1.05")]
+        {
+            assert_eq!(Number(micrometres).to_string(), written);
+        }
+    }
+
+    #[test]
+    fn markup_in_a_title_stays_text() {
+        assert_eq!(Escaped("<a href=\"x\">&\u{7}\n").to_string(), "&lt;a href=&quot;x&quot;&gt;&amp;\u{fffd} ");
+    }
+}
