@@ -79,7 +79,7 @@ fn joint<'t>(
         return None;
     };
     let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
-    let mut two = |key: &str, reader: &mut Reader<'t>| {
+    let two = |key: &str, reader: &mut Reader<'t>| {
         let value = fields.required(key, &format!("{key} = [2, 3]"), reader)?;
         let [a, b] = reader.pair(value)?;
         let (a, b) = (reader.bound(a, scope), reader.bound(b, scope));

@@ -1,0 +1,29 @@
+use std::io::ErrorKind;
+use std::path::PathBuf;
+
+use clap::Args;
+use coupler_atlas::build;
+
+use super::{Outcome, WrongInput, print};
+
+/// Write a commented manifest to start from.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The file to write; it must not exist.
+    #[arg(default_value = "atlas.toml")]
+    file: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let file = arguments.file.display();
+    match build::write_new(&arguments.file, include_bytes!("starter.toml")) {
+        Err(build::Error::Write { source, .. }) if source.kind() == ErrorKind::AlreadyExists => {
+            Err(WrongInput(format!("{file} exists already; name another file, or remove it first")).into())
+        }
+        written => {
+            written?;
+            print(&format!("written to {file}; `coupler-atlas render {file}` draws it\n"))?;
+            Ok(Outcome::Done)
+        }
+    }
+}

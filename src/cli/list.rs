@@ -1,0 +1,60 @@
+use clap::{Args, ValueEnum};
+use coupler_atlas::page::Layout;
+use coupler_atlas::template::Template;
+use coupler_atlas::{catalogue, measure};
+
+use super::{Outcome, print};
+
+/// List the built-in linkages, the measures and the layouts.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// What to list [default: everything].
+    what: Option<What>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum What {
+    /// The catalogue, with parameters and sources.
+    Linkages,
+    /// The columns of `cells.csv` and names of `where`.
+    Measures,
+    /// The ways a page can be laid out.
+    Layouts,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let wanted = |what| arguments.what.is_none_or(|given| given == what);
+    let mut out = String::new();
+    let mut section = |what, title: &str, rows: String| {
+        if wanted(what) {
+            if arguments.what.is_none() {
+                out.push_str(&format!("{}{title}\n", if out.is_empty() { "" } else { "\n" }));
+            }
+            out.push_str(&rows);
+        }
+    };
+    section(What::Linkages, "linkages", catalogue::all().iter().map(|template| linkage(template)).collect());
+    let measures = measure::ALL.iter().map(|m| {
+        let unit = if m.unit.is_empty() { "-" } else { m.unit };
+        format!("{:<16} {unit:<4} {}\n", m.name, m.definition)
+    });
+    let truths = measure::TRUTHS.iter().map(|(name, word)| format!("{name:<16} -    the class is {word}\n"));
+    section(What::Measures, "measures", measures.chain(truths).collect());
+    let layouts = Layout::ALL.iter().map(|(name, shows)| format!("{name:<16} {shows}\n"));
+    section(What::Layouts, "layouts", layouts.collect());
+    print(&out)?;
+    Ok(Outcome::Done)
+}
+
+fn linkage(template: &Template) -> String {
+    let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    format!(
+        "{:<16} {}\n{:16} {}\n{:16} {}\n",
+        template.id,
+        parameters.join(", "),
+        "",
+        template.source,
+        "",
+        template.legend
+    )
+}

@@ -1,0 +1,95 @@
+//! Arguments, one file a subcommand, progress and exit codes. Every print is here.
+
+mod init;
+mod list;
+mod plan;
+mod render;
+mod validate;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use coupler_atlas::build;
+
+/// Atlases of coupler curves: solves families of planar linkages and draws them as pages.
+#[derive(Debug, Parser)]
+#[command(name = "coupler-atlas", version, about, disable_help_subcommand = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Render(render::Arguments),
+    Validate(validate::Arguments),
+    List(list::Arguments),
+    Init(init::Arguments),
+}
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// Done.
+    Done,
+    /// Done, and a difference or an unassembled cell was found where none was allowed.
+    Difference,
+}
+
+/// The input was wrong; what is wrong has been said, or is this message.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct WrongInput(String);
+
+const WRONG_INPUT: u8 = 2;
+const MACHINE_FAILED: u8 = 3;
+
+/// Runs the program.
+pub fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Validate(arguments) => validate::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
+        Command::Init(arguments) => init::run(&arguments),
+    };
+    match result {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::Difference) => ExitCode::from(1),
+        Err(error) => failure(&error),
+    }
+}
+
+/// Says what went wrong and finds the exit code for it.
+fn failure(error: &anyhow::Error) -> ExitCode {
+    // Whoever reads our output has seen enough: no failure of ours, and nobody to tell.
+    let is_pipe = |e: &io::Error| e.kind() == io::ErrorKind::BrokenPipe;
+    if error.downcast_ref::<io::Error>().is_some_and(is_pipe) {
+        return ExitCode::SUCCESS;
+    }
+    let message = format!("{error:#}");
+    if !message.is_empty() {
+        let _ = writeln!(io::stderr(), "error: {message}");
+    }
+    let is_input = error.downcast_ref::<WrongInput>().is_some()
+        || matches!(error.downcast_ref(), Some(build::Error::Read { .. } | build::Error::Record { .. }));
+    ExitCode::from(if is_input { WRONG_INPUT } else { MACHINE_FAILED })
+}
+
+/// Writes a result to standard output.
+fn print(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(())
+}
+
+/// Says something on standard error; nobody may be listening.
+fn say(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// "1 page", "2 pages".
+fn count(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}

@@ -1,0 +1,51 @@
+//! Reading a manifest, and saying what is wrong with it.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use coupler_atlas::build;
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::problem::{self, Problem};
+
+use super::{WrongInput, count, say};
+
+/// A manifest that was read, with what is needed to speak of it.
+pub struct Source {
+    pub path: PathBuf,
+    pub text: String,
+    pub plan: Plan,
+}
+
+/// Reads a manifest; every problem in it goes to standard error.
+pub fn read(path: &Path) -> anyhow::Result<Source> {
+    let text = build::read_manifest(path)?;
+    let loaded = manifest::load(&text);
+    report(path, &text, &loaded.problems);
+    match loaded.plan {
+        Some(plan) => Ok(Source { path: path.to_owned(), text, plan }),
+        None => {
+            let errors = loaded.problems.iter().filter(|p| p.is_error()).count();
+            Err(WrongInput(format!("{}: {}", path.display(), count(errors, "problem"))).into())
+        }
+    }
+}
+
+impl Source {
+    /// Says more of what is wrong with the manifest.
+    pub fn report(&self, problems: &[Problem]) {
+        report(&self.path, &self.text, problems);
+    }
+
+    /// The folder results go to: as given on the command line, or beside the manifest.
+    pub fn output(&self, given: Option<&Path>) -> PathBuf {
+        match given {
+            Some(folder) => folder.to_owned(),
+            None => self.path.parent().unwrap_or(Path::new("")).join(&self.plan.output),
+        }
+    }
+}
+
+fn report(path: &Path, text: &str, problems: &[Problem]) {
+    let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    say(&problem::report(problems, &path.display().to_string(), text, styled));
+}

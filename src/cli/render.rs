@@ -1,0 +1,120 @@
+use std::path::PathBuf;
+
+use clap::Args;
+use coupler_atlas::build::{self, Event};
+use coupler_atlas::problem::nearest_or_all;
+use coupler_atlas::record::FamilyRecord;
+use coupler_atlas::render::Format;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Outcome, WrongInput, count, plan, print, say};
+
+/// Solve every family of a manifest, and write its pages and point sets.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The manifest.
+    #[arg(default_value = "atlas.toml")]
+    manifest: PathBuf,
+    /// The folder to write to, relative to the current folder [default: the manifest's `output`, beside it].
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// The formats of all pages, in place of the manifest's.
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = format)]
+    format: Option<Vec<Format>>,
+    /// Render this family only, and leave the others' files as they are; may be given more than once.
+    #[arg(long, value_name = "FAMILY")]
+    only: Vec<String>,
+    /// How many threads to use [default: one for each processor].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Exit with 1 if a cell cannot be assembled, or not over the whole range asked for.
+    #[arg(long)]
+    strict: bool,
+    /// Say nothing but what goes wrong.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+fn format(name: &str) -> Result<Format, String> {
+    let known = Format::ALL.map(Format::name);
+    Format::ALL
+        .into_iter()
+        .find(|format| format.name() == name)
+        .ok_or_else(|| format!("there is no format `{name}`: {}", nearest_or_all(name, &known)))
+}
+
+/// How many cells that were not assembled are named one by one.
+const NAMED: usize = 10;
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let source = plan::read(&arguments.manifest)?;
+    let ids: Vec<&str> = source.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
+    for id in &arguments.only {
+        if !ids.contains(&id.as_str()) {
+            return Err(WrongInput(format!("there is no family `{id}`: {}", nearest_or_all(id, &ids))).into());
+        }
+    }
+    if let Some(jobs) = arguments.jobs {
+        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
+    }
+    source.report(&build::empty_families(&source.plan));
+    let output = source.output(arguments.output.as_deref());
+    let options = build::Options { formats: arguments.format.clone(), only: arguments.only.clone() };
+    let mut teller = Teller { quiet: arguments.quiet, bar: ProgressBar::hidden(), named: 0, not_assembled: 0 };
+    let mut lines = String::new();
+    build::run(&source.plan, &output, &options, &mut |event| teller.tell(event, &mut lines))?;
+    if !arguments.quiet {
+        lines.push_str(&format!("written to {}\n", output.display()));
+        print(&lines)?;
+    }
+    Ok(if arguments.strict && teller.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
+}
+
+/// Tells what happens: a bar on a terminal, a line for each family at the end.
+struct Teller {
+    quiet: bool,
+    bar: ProgressBar,
+    named: usize,
+    not_assembled: usize,
+}
+
+impl Teller {
+    fn tell(&mut self, event: Event, lines: &mut String) {
+        match event {
+            Event::Begin { family, pages } if !self.quiet => {
+                let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
+                self.bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
+                self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+                self.bar.set_message(family.to_owned());
+            }
+            Event::Begin { .. } => {}
+            Event::Page => self.bar.inc(1),
+            Event::Shortfall { family, cell, reason } => {
+                self.not_assembled += 1;
+                self.named += 1;
+                if self.named <= NAMED {
+                    self.bar.suspend(|| say(&format!("warning: {family}, cell {cell}: {reason}\n")));
+                }
+            }
+            Event::End { record } => {
+                self.bar.finish_and_clear();
+                if self.named > NAMED {
+                    say(&format!("warning: {}, and {} more, see cells.csv\n", record.id, self.named - NAMED));
+                }
+                self.named = 0;
+                lines.push_str(&summary(record));
+            }
+        }
+    }
+}
+
+fn summary(record: &FamilyRecord) -> String {
+    let mut line = format!("{}: {}", record.id, count(record.cells, "cell"));
+    if record.kept < record.cells {
+        line.push_str(&format!(" ({} left out by `where`)", record.cells - record.kept));
+    }
+    if record.not_assembled > 0 {
+        line.push_str(&format!(" ({} not assembled)", record.not_assembled));
+    }
+    format!("{line}, {}, {}\n", count(record.curves, "curve"), count(record.pages, "page"))
+}

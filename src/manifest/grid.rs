@@ -1,0 +1,167 @@
+//! The values of a grid: lists, ranges by step and ranges by count.
+
+use crate::notation::{Fields, Reader, Value};
+use crate::problem::Problem;
+
+/// The values of one name before they are written out: their number is known first.
+pub(super) enum Values {
+    List(Vec<f64>),
+    Range { from: f64, to: f64, count: f64, step: Option<Step> },
+}
+
+/// A step, with its decimals where it has some.
+pub(super) struct Step {
+    value: f64,
+    decimals: Option<Decimals>,
+}
+
+/// `from` and `step` as whole numbers of units of `1 / scale`.
+struct Decimals {
+    from: f64,
+    step: f64,
+    scale: f64,
+}
+
+impl Values {
+    /// How many there are; as a float, for it may be beyond counting.
+    pub fn count(&self) -> f64 {
+        match self {
+            Values::List(list) => list.len() as f64,
+            Values::Range { count, .. } => *count,
+        }
+    }
+
+    /// Every value.
+    pub fn write_out(self) -> Vec<f64> {
+        let (from, to, count, step) = match self {
+            Values::List(list) => return list,
+            Values::Range { from, to, count, step } => (from, to, count as usize, step),
+        };
+        let at = |k: usize| match &step {
+            // One division of whole numbers: the value its decimals say, correctly rounded.
+            Some(Step { decimals: Some(d), .. }) => (d.from + d.step * k as f64) / d.scale,
+            Some(step) => from + step.value * k as f64,
+            None if k + 1 == count => to,
+            None => from + (to - from) * (k as f64 / (count - 1) as f64),
+        };
+        (0..count).map(at).collect()
+    }
+}
+
+/// Reads what one name of a grid ranges over.
+pub(super) fn values<'t>(name: &str, value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
+    if let Some(list) = value.get_ref().as_array() {
+        if list.is_empty() {
+            let problem = Problem::error(value.span(), format!("`{name}` ranges over nothing"));
+            reader.note(problem.help("give at least one value, as in [2, 3, 4]"));
+            return None;
+        }
+        let read: Vec<Option<f64>> = list.iter().map(|item| reader.constant(item)).collect();
+        return read.into_iter().collect::<Option<_>>().map(Values::List);
+    }
+    if value.get_ref().is_table() {
+        return range(value, reader);
+    }
+    reader.constant(value).map(|value| Values::List(vec![value]))
+}
+
+fn range<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
+    let fields = Fields::of(value, "a range", &["from", "to", "step", "count"], reader)?;
+    let mut end = |key: &str| {
+        let value = fields.required(key, &format!("{key} = 2"), reader)?;
+        Some((reader.constant(value)?, value))
+    };
+    let (from, to) = (end("from"), end("to"));
+    match (fields.get("step"), fields.get("count")) {
+        (Some(step_value), None) => {
+            let step = reader.constant(step_value)?;
+            let ((from, from_value), (to, _)) = (from?, to?);
+            if step == 0.0 {
+                reader
+                    .note(Problem::error(step_value.span(), "a step of 0 never ends").help("give a step other than 0"));
+                return None;
+            }
+            let steps = (to - from) / step;
+            if steps < 0.0 {
+                let problem = Problem::error(value.span(), format!("from {from} by {step} never comes to {to}"));
+                reader.note(problem.help("change the sign of the step, or exchange `from` and `to`"));
+                return None;
+            }
+            let decimals = decimals(reader.decimal(from_value), reader.decimal(step_value));
+            let count = (steps + 1e-9).floor() + 1.0;
+            Some(Values::Range { from, to, count, step: Some(Step { value: step, decimals }) })
+        }
+        (None, Some(count)) => {
+            let count = reader.count(count, 1, usize::MAX >> 12)?;
+            let ((from, _), (to, _)) = (from?, to?);
+            Some(Values::Range { from, to, count: count as f64, step: None })
+        }
+        (step, _) => {
+            let message = if step.is_some() {
+                "a range has a step or a count, not both"
+            } else {
+                "a range needs a step or a count"
+            };
+            reader.note(
+                Problem::error(value.span(), message)
+                    .help("write { from = 2, to = 6, step = 0.5 } or { from = 2, to = 6, count = 9 }"),
+            );
+            None
+        }
+    }
+}
+
+fn decimals(from: Option<&str>, step: Option<&str>) -> Option<Decimals> {
+    let (from, step) = (parts(from?)?, parts(step?)?);
+    let places = from.1.max(step.1);
+    // 10^15 and its multiples by whole numbers below 2^53 are exact.
+    let scale = |places: u32| 10u64.checked_pow(places).filter(|_| places <= 15).map(|n| n as f64);
+    let units = |(digits, own): (f64, u32)| Some(digits * scale(places - own)?).filter(|n| n.abs() < 9e15);
+    Some(Decimals { from: units(from)?, step: units(step)?, scale: scale(places)? })
+}
+
+/// A plain decimal as a whole number and the number of its decimal places.
+fn parts(text: &str) -> Option<(f64, u32)> {
+    let text = text.replace('_', "");
+    let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
+    let digits: f64 = format!("{whole}{fraction}").parse::<i64>().ok()? as f64;
+    Some((digits, u32::try_from(fraction.len()).ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> Result<Vec<f64>, String> {
+        let text = format!("p = {text}");
+        let mut reader = Reader::new(&text);
+        let document = reader.document();
+        let root = Fields::open(&document, "the file", &mut reader).unwrap();
+        let values = root.get("p").and_then(|value| values("p", value, &mut reader));
+        match values {
+            Some(values) => Ok(values.write_out()),
+            None => Err(reader.into_problems().remove(0).message),
+        }
+    }
+
+    #[test]
+    fn values_are_what_the_decimals_say() {
+        assert_eq!(of("{ from = 0.1, to = 0.7, step = 0.1 }").unwrap(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+        assert_eq!(of("{ from = 1, to = -1, step = -0.5 }").unwrap(), [1.0, 0.5, 0.0, -0.5, -1.0]);
+        assert_eq!(of("{ from = 0, to = 1, step = 0.3 }").unwrap(), [0.0, 0.3, 0.6, 0.9]);
+        assert_eq!(of("{ from = 0, to = 1, step = \"1/3\" }").unwrap().len(), 4);
+        assert_eq!(of("{ from = 1.5, to = 4.0, step = 0.5 }").unwrap(), [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]);
+        assert_eq!(of("{ from = 2, to = 3, count = 3 }").unwrap(), [2.0, 2.5, 3.0]);
+        assert_eq!(of("{ from = 2, to = 3, count = 1 }").unwrap(), [3.0]);
+        assert_eq!(of("[\"sqrt(4)\", 3]").unwrap(), [2.0, 3.0]);
+        assert_eq!(of("1_000").unwrap(), [1000.0]);
+    }
+
+    #[test]
+    fn ranges_that_never_end_are_refused() {
+        assert_eq!(of("{ from = 0, to = 1, step = 0 }").unwrap_err(), "a step of 0 never ends");
+        assert_eq!(of("{ from = 0, to = 1, step = -1 }").unwrap_err(), "from 0 by -1 never comes to 1");
+        assert_eq!(of("{ from = 0, to = 1 }").unwrap_err(), "a range needs a step or a count");
+        assert_eq!(of("[]").unwrap_err(), "`p` ranges over nothing");
+    }
+}

@@ -1,0 +1,165 @@
+//! TOML text -> a validated [`Plan`], or every problem in it.
+
+mod family;
+mod grid;
+mod settings;
+
+use std::sync::Arc;
+
+use crate::catalogue;
+use crate::family::Family;
+use crate::motion::Sampling;
+use crate::notation::{self, Fields, Reader, Value};
+use crate::page;
+use crate::problem::{Problem, Span};
+use crate::render::{Format, TextMode};
+use crate::template::Template;
+
+/// All that is to be done.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The atlas's title.
+    pub title: String,
+    /// The folder results go to, as the manifest gives it.
+    pub output: String,
+    /// What all pages have in common.
+    pub page: page::Options,
+    /// The resolution of PNG images, in pixels to the inch.
+    pub dpi: f64,
+    /// How text stands in SVG.
+    pub text: TextMode,
+    /// The families, in order.
+    pub families: Vec<PlannedFamily>,
+}
+
+/// A family and how it is rendered.
+#[derive(Clone, Debug)]
+pub struct PlannedFamily {
+    /// The family.
+    pub family: Family,
+    /// How circuits are sampled.
+    pub sampling: Sampling,
+    /// How pages are laid out.
+    pub layout: page::Layout,
+    /// The formats of its pages.
+    pub formats: Vec<Format>,
+    /// What stands under the title of its pages.
+    pub source: String,
+    /// Where its `where` stands in the manifest.
+    pub filter_span: Option<Span>,
+}
+
+/// What a manifest comes to.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The plan, where no problem is an error.
+    pub plan: Option<Plan>,
+    /// What is wrong with the manifest.
+    pub problems: Vec<Problem>,
+}
+
+/// Reads a manifest.
+pub fn load(text: &str) -> Loaded {
+    let mut reader = Reader::new(text);
+    let plan = read(text, &mut reader);
+    let problems = reader.into_problems();
+    let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
+    Loaded { plan, problems }
+}
+
+fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
+    let document = reader.document();
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        let help = "`coupler-atlas init` writes one to start from";
+        reader.note(Problem::error(0..0, "the manifest is empty").help(help));
+        return None;
+    }
+    let root = Fields::of(&document, "a manifest", &["atlas", "page", "family", "linkage"], reader)?;
+    let atlas = match root.get("atlas") {
+        Some(value) => settings::atlas(value, reader),
+        None => {
+            let problem = Problem::error(0..first_line(text), "the manifest has no [atlas]");
+            reader.note(problem.help("add a table [atlas] with title = \"…\""));
+            None
+        }
+    };
+    let page = settings::page(root.get("page"), reader);
+    let templates = Templates::read(&root, reader);
+    let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
+    let tables = root.tables("family", reader);
+    if tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array()) {
+        let problem = Problem::error(0..first_line(text), "the manifest has no family");
+        reader.note(problem.help("add a table [[family]] with id, linkage, sampling, and grid or cases"));
+    }
+    let mut families: Vec<PlannedFamily> = Vec::new();
+    let mut ids: Vec<String> = Vec::new();
+    for value in tables {
+        let read = family::read(value, &templates, &formats, reader);
+        if let Some((id, span)) = family::id(value) {
+            if ids.contains(&id) {
+                let problem = Problem::error(span, format!("there are two families `{id}`"));
+                reader.note(problem.help("an id names the family's folder: give each family its own"));
+            }
+            ids.push(id);
+        }
+        families.extend(read);
+    }
+    let (atlas, page) = (atlas?, page?);
+    Some(Plan {
+        title: atlas.title,
+        output: atlas.output,
+        page: page.options,
+        dpi: page.dpi,
+        text: page.text,
+        families,
+    })
+}
+
+fn first_line(text: &str) -> usize {
+    text.find('\n').unwrap_or(text.len())
+}
+
+/// The linkages a family may name: those of the catalogue and those of the manifest.
+struct Templates {
+    own: Vec<Arc<Template>>,
+    /// The ids of the manifest's linkages, also of those that could not be read.
+    ids: Vec<String>,
+}
+
+impl Templates {
+    fn read<'t>(root: &Fields<'_, 't>, reader: &mut Reader<'t>) -> Templates {
+        let mut templates = Templates { own: Vec::new(), ids: Vec::new() };
+        for value in root.tables("linkage", reader) {
+            let read = notation::template(value, reader);
+            if let Some((id, span)) = family::id(value) {
+                let taken = if catalogue::find(&id).is_some() {
+                    Some(format!("the catalogue has a linkage `{id}` already"))
+                } else if templates.ids.contains(&id) {
+                    Some(format!("there are two linkages `{id}`"))
+                } else {
+                    None
+                };
+                if let Some(message) = taken {
+                    reader.note(Problem::error(span, message).help("give it an id of its own"));
+                }
+                templates.ids.push(id);
+            }
+            templates.own.extend(read.map(Arc::new));
+        }
+        templates
+    }
+
+    /// The linkage a value names. A linkage that could not be read has been complained of already.
+    fn find<'t>(&self, value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Arc<Template>> {
+        let id = reader.text(value)?;
+        let own = self.own.iter().find(|template| template.id == id).cloned();
+        let found = own.or_else(|| catalogue::find(&id));
+        if found.is_none() && !self.ids.contains(&id) {
+            let built_in = catalogue::all().iter().map(|template| template.id.as_str());
+            let known: Vec<&str> = self.ids.iter().map(String::as_str).chain(built_in).collect();
+            let problem = Problem::error(value.span(), format!("there is no linkage `{}`", id.escape_debug()));
+            reader.note(problem.help(crate::problem::nearest_or_all(&id, &known)));
+        }
+        found
+    }
+}

@@ -1,0 +1,11 @@
+//! What is recorded of a run: `points.csv`, `cells.csv` and `run.json`.
+
+mod cells;
+mod number;
+mod points;
+mod run;
+
+pub use cells::Cells;
+pub use number::shortest;
+pub use points::Points;
+pub use run::{FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};

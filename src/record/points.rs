@@ -1,0 +1,44 @@
+use super::shortest;
+use crate::sweep::Solved;
+
+/// `points.csv`: every sample of every curve.
+#[derive(Clone, Copy, Debug)]
+pub struct Points {
+    /// How many two-valued joints the linkage has: a column of branches for each, and at least one.
+    dyads: usize,
+}
+
+impl Points {
+    /// The table of a linkage with that many two-valued joints.
+    pub fn new(dyads: usize) -> Points {
+        Points { dyads }
+    }
+
+    /// The names of the columns.
+    pub fn header(self) -> String {
+        let further: String = (2..=self.dyads).map(|k| format!(",branch_{k}")).collect();
+        format!("cell,trace,circuit,branch{further},sample,input_deg,x,y\n")
+    }
+
+    /// The rows of a cell.
+    pub fn rows(self, solved: &Solved, out: &mut String) {
+        for curve in &solved.curves {
+            let circuit = solved.circuit(curve);
+            let head = format!("{},{},{},", solved.cell.number, curve.trace, curve.circuit);
+            for sample in 0..circuit.len() {
+                out.push_str(&head);
+                let signs = circuit.signs(sample);
+                for dyad in 0..self.dyads.max(1) {
+                    out.push_str(if signs.get(dyad) > 0 { "1," } else { "-1," });
+                }
+                out.push_str(&sample.to_string());
+                let at = circuit.places.point(curve.joint, sample);
+                for value in [circuit.input_deg[sample], at.x, at.y] {
+                    out.push(',');
+                    shortest(value, out);
+                }
+                out.push('\n');
+            }
+        }
+    }
+}

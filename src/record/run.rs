@@ -1,0 +1,127 @@
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// The version of the format of `run.json`.
+pub const FORMAT: u32 = 1;
+
+/// `run.json`: what a run has written. No time, host, path or number of jobs, so that the same run has the same bytes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Run {
+    /// The version of this format.
+    pub format: u32,
+    /// The program that wrote it.
+    pub program: String,
+    /// The program's version.
+    pub version: String,
+    /// The atlas's title.
+    pub title: String,
+    /// The families, in the order of the manifest.
+    pub families: Vec<FamilyRecord>,
+}
+
+/// What was written of a family.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FamilyRecord {
+    /// Its id, and the name of its folder.
+    pub id: String,
+    /// Its title.
+    pub title: String,
+    /// The linkage.
+    pub linkage: String,
+    /// How many cells it has.
+    pub cells: usize,
+    /// How many of them `where` kept.
+    pub kept: usize,
+    /// How many of those could not be assembled, or not over the whole range asked for.
+    pub not_assembled: usize,
+    /// How many curves were traced.
+    pub curves: usize,
+    /// How many pages there are.
+    pub pages: usize,
+    /// Its files, in its folder.
+    pub files: Vec<FileRecord>,
+}
+
+/// A file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// Its name.
+    pub name: String,
+    /// SHA-256 of its bytes. Of an image, whose bytes may differ from machine to machine, that of what it was drawn
+    /// from: the page's SVG, and the resolution.
+    pub sha256: String,
+}
+
+/// Why a `run.json` cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] std::io::Error),
+    /// It is not what this program writes.
+    #[error("it is no record of a run: {0}")]
+    Syntax(#[from] serde_json::Error),
+    /// It is of another format.
+    #[error("it has format {0}, and this program reads format {FORMAT}")]
+    Format(u32),
+}
+
+impl Run {
+    /// An empty record of an atlas.
+    pub fn new(title: &str) -> Run {
+        let (program, version) = (env!("CARGO_PKG_NAME").to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+        Run { format: FORMAT, program, version, title: title.to_owned(), families: Vec::new() }
+    }
+
+    /// Reads a record.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no record of this format.
+    pub fn read(path: &Path) -> Result<Run, ReadError> {
+        #[derive(Deserialize)]
+        struct Version {
+            format: u32,
+        }
+        let text = std::fs::read_to_string(path)?;
+        let version: Version = serde_json::from_str(&text)?;
+        if version.format != FORMAT {
+            return Err(ReadError::Format(version.format));
+        }
+        Ok(serde_json::from_str(&text)?)
+    }
+
+    /// The bytes of the record.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        // A record has nothing that JSON cannot say.
+        let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
+        bytes.push(b'\n');
+        bytes
+    }
+}
+
+impl FileRecord {
+    /// The record of a file with these bytes.
+    pub fn new(name: impl Into<String>, parts: &[&[u8]]) -> FileRecord {
+        let mut digest = RunningDigest::default();
+        parts.iter().for_each(|part| digest.add(part));
+        digest.record(name)
+    }
+}
+
+/// The digest of a file that is still being written.
+#[derive(Clone, Default)]
+pub struct RunningDigest(Sha256);
+
+impl RunningDigest {
+    /// Takes in more bytes.
+    pub fn add(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// The record of the file.
+    pub fn record(self, name: impl Into<String>) -> FileRecord {
+        FileRecord { name: name.into(), sha256: format!("{:x}", self.0.finalize()) }
+    }
+}
