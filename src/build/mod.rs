@@ -8,7 +8,6 @@ use std::path::Path;
 
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::motion::Sampler;
 use crate::page::{self, Panel, Sheet};
 use crate::problem::Problem;
 use crate::record::{Cells, FamilyRecord, FileRecord, Points, Run};
@@ -81,7 +80,7 @@ pub fn empty_families(plan: &Plan) -> Vec<Problem> {
     let mut problems = Vec::new();
     for planned in &plan.families {
         let Some(span) = &planned.filter_span else { continue };
-        if sweep::select(&planned.family, &Sampler::new(planned.sampling)).is_empty() {
+        if sweep::select(&planned.family).is_empty() {
             let message = format!("`where` keeps none of the {} cells", planned.family.cells());
             problems.push(Problem::warning(span.clone(), message).help("loosen the condition, or leave it out"));
         }
@@ -109,8 +108,7 @@ fn build_family(
     let family = &planned.family;
     let folder = output.join(&family.id);
     files::create_folder(&folder)?;
-    let sampler = Sampler::new(planned.sampling);
-    let kept = sweep::select(family, &sampler);
+    let kept = sweep::select(family);
     let (group, formats) = (planned.layout.cells(), options.formats.as_ref().unwrap_or(&planned.formats));
     let pages = kept.len().div_ceil(group);
     tell(Event::Begin { family: &family.id, pages });
@@ -143,7 +141,7 @@ fn build_family(
         let (pages, records) = draw_page(plan, planned, formats, (page + 1, pages), &solved)?;
         Ok(Made { pages, records, points, cells, curves, shortfalls })
     };
-    sweep::run(family, &sampler, (&kept, group), make, |made| -> Result<(), Error> {
+    sweep::run(family, (&kept, group), make, |made| -> Result<(), Error> {
         let made = made?;
         for (name, bytes) in &made.pages {
             write(&folder.join(name), bytes)?;
@@ -185,17 +183,17 @@ fn draw_page(
     let describe = |caption: &Option<crate::expression::Caption>, solved: &Solved| {
         caption.as_ref().map(|caption| family.describe(caption, &solved.cell)).unwrap_or_default()
     };
-    let panel = |solved| Panel {
-        caption: describe(&template.caption, solved),
-        note: describe(&template.note, solved),
-        symbols: &family.names,
-        solved,
-    };
+    let panel =
+        |solved| Panel { caption: describe(&template.caption, solved), note: describe(&template.note, solved), solved };
     let sheet = Sheet {
         atlas: &plan.title,
         family: &family.id,
         title: &family.title,
-        source: format!("{} · one dash and its gap = {}° of input", planned.source, plan.page.dash_deg),
+        symbols: &family.names,
+        source: format!(
+            "{} · one dash and its gap = {}° of input · scale bars in units of length",
+            planned.source, plan.page.dash_deg
+        ),
         page,
         of,
         layout: planned.layout,

@@ -7,9 +7,10 @@ pub use space::{Axis, Case, MAX_CELLS, Space};
 use std::sync::Arc;
 
 use crate::expression::{Bound, Kind};
-use crate::linkage::Linkage;
 use crate::measure;
-use crate::template::{self, Template};
+use crate::template::{self, Linkage, Template};
+
+pub use crate::motion::{MAX_SAMPLES, Sampling};
 
 /// A linkage over a grid or a list of cases.
 #[derive(Clone, Debug)]
@@ -26,6 +27,8 @@ pub struct Family {
     pub space: Space,
     /// What is computed from what is given: a name's place and its expression over `names`, in order of computation.
     pub derived: Vec<(usize, Bound)>,
+    /// How circuits are sampled.
+    pub sampling: Sampling,
     /// Which curves are kept, over [`Family::scope`].
     pub filter: Option<Bound>,
 }

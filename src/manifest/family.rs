@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::{PlannedFamily, Templates, grid, settings};
 use crate::expression::{Bound, Dimension, Expression, Kind};
-use crate::family::{Axis, Case, CellError, Family, MAX_CELLS, Space};
-use crate::motion::{MAX_SAMPLES, Sampling};
+use crate::family::{Axis, Case, CellError, Family, MAX_CELLS, MAX_SAMPLES, Sampling, Space};
 use crate::notation::{self, Fields, Reader, Value};
 use crate::page::Layout;
 use crate::problem::{Problem, Span, nearest};
@@ -59,7 +58,7 @@ pub(super) fn read<'t>(
         .and_then(|value| sampling(value, reader));
     let layout = layout(&fields, reader);
     let names = template.as_ref().and_then(|template| names(template, &fields, reader));
-    let (id, template, names) = (id?, template?, names?);
+    let (id, template, names, sampling) = (id?, template?, names?, sampling?);
     let family = Family {
         title: title.unwrap_or_else(|| id.clone()),
         id,
@@ -67,6 +66,7 @@ pub(super) fn read<'t>(
         names: names.all,
         space: names.space,
         derived: names.derived,
+        sampling,
         filter: names.filter,
     };
     if reader.noted() == before {
@@ -76,7 +76,7 @@ pub(super) fn read<'t>(
     let source =
         source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
     let filter_span = fields.get("where").map(Value::span);
-    Some(PlannedFamily { family, sampling: sampling?, layout: layout?, formats: formats?, source, filter_span })
+    Some(PlannedFamily { family, layout: layout?, formats: formats?, source, filter_span })
 }
 
 /// The template with what the family says otherwise.

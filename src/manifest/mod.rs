@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use crate::catalogue;
 use crate::family::Family;
-use crate::motion::Sampling;
 use crate::notation::{self, Fields, Reader, Value};
 use crate::page;
 use crate::problem::{Problem, Span};
@@ -37,8 +36,6 @@ pub struct Plan {
 pub struct PlannedFamily {
     /// The family.
     pub family: Family,
-    /// How circuits are sampled.
-    pub sampling: Sampling,
     /// How pages are laid out.
     pub layout: page::Layout,
     /// The formats of its pages.

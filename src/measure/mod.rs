@@ -77,7 +77,8 @@ mod tests {
     #[test]
     fn every_class_has_its_truth() {
         for class in Class::ALL {
-            let truth = TRUTHS.iter().find(|(_, word)| *word == class.name()).expect(class.name());
+            let truth =
+                TRUTHS.iter().find(|(_, word)| *word == class.name()).unwrap_or_else(|| panic!("{}", class.name()));
             assert_eq!(truth.0, format!("is_{}", class.name().replace('-', "_")));
         }
     }

@@ -2,9 +2,8 @@
 
 use super::reader::{Fields, Reader, Value};
 use crate::expression::Kind;
-use crate::linkage::Side;
 use crate::problem::{Problem, Span, nearest_or_all};
-use crate::template::{Coordinate, JointTemplate, Placing};
+use crate::template::{Coordinate, JointTemplate, Placing, Side};
 
 /// The joints of a linkage in the order they are placed.
 pub(super) struct Joints {

@@ -1,9 +1,8 @@
 use super::joints;
 use super::reader::{Fields, Reader, Value};
 use crate::expression::Kind;
-use crate::linkage::{Circuits, Continuation};
 use crate::problem::{Problem, Span};
-use crate::template::{Angle, Parameter, Template};
+use crate::template::{Angle, Circuits, Continuation, Parameter, Template};
 
 const KEYS: [&str; 14] = [
     "id",
@@ -67,20 +66,14 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
         arc,
         parameters,
     };
-    if reader.noted() > before {
-        return None;
-    }
     if let Some(error) = template.structural_error() {
         let named = error.to_string();
         let place = joints.places.iter().find(|(name, _)| named.contains(&format!("`{name}`")));
         let span = place.map_or(fields.span.clone(), |(_, span)| span.clone());
-        reader.note(
-            Problem::error(span, named)
-                .help("a point hangs on two joints of one link, a dyad on two of different links"),
-        );
-        return None;
+        let help = "a point hangs on two joints of one link, a dyad on joints of different links";
+        reader.note(Problem::error(span, named).help(help));
     }
-    Some(template)
+    (reader.noted() == before).then_some(template)
 }
 
 /// A name for folders and files: lower-case letters, digits and single hyphens.

@@ -149,7 +149,7 @@ impl Words {
             Some(last) if last.face == face => last.text.push_str(text),
             _ => runs.push(Run { text: text.to_owned(), face }),
         };
-        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
         let mut rest = text.as_str();
         while !rest.is_empty() {
             let word = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
@@ -205,9 +205,9 @@ mod tests {
     #[test]
     fn single_letters_that_are_parameters_are_italic() {
         let symbols = ["p".to_owned(), "frame".to_owned()];
-        let runs = words("p = 2, prop frame").italic(&symbols).text.runs;
+        let runs = words("p = 2, prop frame's p's").italic(&symbols).text.runs;
         let texts: Vec<(&str, Face)> = runs.iter().map(|run| (run.text.as_str(), run.face)).collect();
-        assert_eq!(texts, [("p", Face::Italic), (" = 2, prop frame", Face::Regular)]);
+        assert_eq!(texts, [("p", Face::Italic), (" = 2, prop frame's p's", Face::Regular)]);
     }
 
     #[test]

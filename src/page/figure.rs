@@ -28,7 +28,7 @@ impl<'a> Figure<'a> {
     pub fn of(panel: &'a Panel<'a>) -> Option<Figure<'a>> {
         let solved = panel.solved;
         let first = solved.curves.first()?;
-        let (_, pose) = pose::clearest(&solved.linkage, solved.circuit(first));
+        let pose = pose::clearest(&solved.linkage, solved.circuit(first));
         let curve = Bounds::of(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
         let drawn = drawn_links(&solved.linkage).concat();
         let key = Bounds::of(drawn.into_iter().map(|joint| pose[joint])).union(curve);
@@ -51,16 +51,20 @@ impl<'a> Figure<'a> {
         if arrangement == Arrangement::Together {
             let plot = key.of(self.extents.key);
             plot.bar(area, theme);
+            self.frame(area, &plot, theme);
+            self.trail(area, &plot, theme.hair, theme);
             self.curves(area, &plot, sheet, dashes, theme);
             self.linkage(area, &plot, theme);
             return;
         }
         let plot = key.of(self.extents.key);
         plot.bar(area, theme);
-        self.trail(area, &plot, theme);
+        self.frame(area, &plot, theme);
+        self.trail(area, &plot, theme.fine, theme);
         self.linkage(area, &plot, theme);
         let plot = curve.of(self.extents.curve);
         plot.bar(area, theme);
+        self.trail(area, &plot, theme.hair, theme);
         self.curves(area, &plot, sheet, dashes, theme);
     }
 
@@ -86,15 +90,15 @@ impl<'a> Figure<'a> {
         draw(area, &Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
-    /// The curves as thin lines, beside the linkage.
-    fn trail(&self, area: &Area, plot: &Plot, theme: &Theme) {
+    /// The curves as light unbroken lines: beside the linkage, and under the dashes to lead the eye over their gaps.
+    fn trail(&self, area: &Area, plot: &Plot, weight: f64, theme: &Theme) {
         let mut items = Vec::new();
         for curve in &self.solved.curves {
             let whole = Dashes { period: 360.0, drawn: 360.0 };
             let line = |points| Line { points, closed: false };
             let lines = self.strokes(curve, plot, whole).into_iter().map(|stroke| line(stroke.points)).collect();
             let ink = theme.faded(self.ink(curve, theme));
-            items.push(Item::Path(Path { lines, stroke: Some(theme.stroke(ink, theme.fine)), fill: None }));
+            items.push(Item::Path(Path { lines, stroke: Some(theme.stroke(ink, weight)), fill: None }));
         }
         draw(area, &Drawing { class: "trail", title: String::new(), items });
     }
@@ -149,14 +153,20 @@ impl<'a> Figure<'a> {
         items
     }
 
-    /// The linkage in ink: the frame as a hairline, links as lines and plates, fixed pivots as double circles.
+    /// The frame, as a hairline under everything else.
+    fn frame(&self, area: &Area, plot: &Plot, theme: &Theme) {
+        let at = |joint: usize| plot.page_from_plane.apply(self.pose[joint]);
+        let points = ground(&self.solved.linkage).into_iter().map(at).collect();
+        let line = Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair)));
+        draw(area, &Drawing { class: "frame", title: String::new(), items: vec![line] });
+    }
+
+    /// The linkage in ink: links as lines and plates, fixed pivots as double circles.
     fn linkage(&self, area: &Area, plot: &Plot, theme: &Theme) {
         let linkage = &self.solved.linkage;
         let at = |joint: usize| plot.page_from_plane.apply(self.pose[joint]);
-        let ground: Vec<usize> = linkage.ground().joints.iter().map(|(joint, _)| *joint).collect();
+        let ground = ground(linkage);
         let mut items = Vec::new();
-        let points: Vec<Point> = ground.iter().map(|&joint| at(joint)).collect();
-        items.push(Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair))));
         let links = drawn_links(linkage);
         for link in &links {
             let points: Vec<Point> = link.iter().map(|&joint| at(joint)).collect();
@@ -184,6 +194,11 @@ impl<'a> Figure<'a> {
         }
         draw(area, &Drawing { class: "linkage", title: String::new(), items });
     }
+}
+
+/// The joints of the link at rest.
+pub(super) fn ground(linkage: &Linkage) -> Vec<usize> {
+    linkage.ground().joints.iter().map(|(joint, _)| *joint).collect()
 }
 
 /// The moving links as they are drawn, each by its joints in order: along a bar, or round a plate.

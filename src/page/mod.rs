@@ -79,6 +79,8 @@ pub struct Sheet<'a> {
     pub title: &'a str,
     /// Where the linkage comes from and what its letters mean.
     pub source: String,
+    /// Words that stand for values, set in italics.
+    pub symbols: &'a [String],
     /// The page's number in the family, from 1.
     pub page: usize,
     /// How many pages the family has.
@@ -96,8 +98,6 @@ pub struct Panel<'a> {
     pub caption: String,
     /// A smaller line under that; may be empty.
     pub note: String,
-    /// Words that stand for values, set in italics.
-    pub symbols: &'a [String],
     /// The cell.
     pub solved: &'a Solved,
 }

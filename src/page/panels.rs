@@ -33,7 +33,8 @@ fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
         Words::new(sheet.title, Point::new(left, top + 0.9 * theme.title), Anchor::Start, theme.title, theme.ink);
     draw(root, &title.fitted(right - left));
     let at = Point::new(left, top + 0.9 * theme.title + 1.85 * theme.source);
-    draw(root, &Words::new(&sheet.source, at, Anchor::Start, theme.source, theme.grey).fitted(right - left));
+    let source = Words::new(&sheet.source, at, Anchor::Start, theme.source, theme.grey);
+    draw(root, &source.italic(sheet.symbols).fitted(right - left));
     let folio = format!("{} · page {} of {}", sheet.atlas, sheet.page, sheet.of);
     let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
     draw(root, &Words::new(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
@@ -41,13 +42,13 @@ fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
 
 fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
     let edge = theme.border + theme.margin;
-    let top = theme.border + 2.3 * theme.title + 2.5 * theme.source;
+    let top = theme.border + 2.3 * theme.title + 3.2 * theme.source;
     let bottom = theme.border + theme.margin + theme.source;
     let [top, bottom, side] = [top, bottom, edge - 0.5 * theme.margin].map(Canvas::pixels);
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
     let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
     let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
-    let foot = theme.caption * 1.5 + if has_notes { theme.note * 1.5 } else { 0.0 } + theme.caption;
+    let foot = theme.caption * 1.5 + if has_notes { theme.note * 1.5 } else { 0.0 } + 2.2 * theme.caption;
     // The figure's frame is that of any panel: plotters splits a page to within a hundredth of a millimetre.
     let room = |area: &Area| {
         let gap = 1.2 * theme.caption;
@@ -62,12 +63,12 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
             Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
             None => draw_reason(area, frame, panel, theme),
         }
-        caption(area, foot, panel, theme);
+        caption(area, foot, panel, sheet.symbols, theme);
     }
 }
 
 /// The cell's number at its upper left, and its lines below.
-fn caption(area: &Area, foot: f64, panel: &Panel, theme: &Theme) {
+fn caption(area: &Area, foot: f64, panel: &Panel, symbols: &[String], theme: &Theme) {
     let page = size(area);
     let number = panel.solved.cell.number.to_string();
     let at = Point::new(0.8 * theme.caption, theme.note);
@@ -79,9 +80,9 @@ fn caption(area: &Area, foot: f64, panel: &Panel, theme: &Theme) {
         draw(area, &words.italic(symbols).fitted(width));
         y += 1.45 * theme.note;
     };
-    line(&panel.caption, theme.caption, theme.ink, panel.symbols);
+    line(&panel.caption, theme.caption, theme.ink, symbols);
     if !panel.note.is_empty() {
-        line(&panel.note, theme.note, theme.grey, panel.symbols);
+        line(&panel.note, theme.note, theme.grey, symbols);
     }
     if let (Some(reason), true) = (&panel.solved.motion.shortfall, panel.solved.motion.is_assembled()) {
         line(reason, theme.note, theme.curve_ink(0), &[]);

@@ -1,29 +1,36 @@
 //! The pose a linkage is drawn in: one in which it can be read.
 
-use super::figure::drawn_links;
-use crate::geometry::{Point, distance_to_segment};
+use super::figure::{drawn_links, ground};
+use crate::geometry::{Point, cross, distance_to_segment};
 use crate::linkage::Linkage;
 use crate::motion::Circuit;
 
 /// The places of all joints in the clearest pose of a circuit.
 ///
-/// The clearest pose is the one in which the nearest two of its joints, or the nearest joint and link, are furthest
-/// apart. Poses within a hundredth of the clearest are as good; the first of them is taken.
-pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> (usize, Vec<Point>) {
+/// A pose is clear when no two joints, and no joint and link, come near each other, and when no two links that meet
+/// lie on one line: its clarity is the least of those distances, times the least sine of those angles. Poses within
+/// a hundredth of the clearest are as good; the first of them is taken.
+pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     /// More samples than this make no difference to the eye.
     const CANDIDATES: usize = 360;
     let stride = circuit.len().div_ceil(CANDIDATES).max(1);
-    let links = drawn_links(linkage);
+    // The frame is a link like the others here: a crank that lies on it cannot be seen.
+    let mut links = drawn_links(linkage);
+    links.push(ground(linkage));
     let pose = |sample: usize| -> Vec<Point> {
         (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
     };
-    let clearances: Vec<(usize, f64)> =
-        (0..circuit.len()).step_by(stride).map(|sample| (sample, clearance(&links, &pose(sample)))).collect();
-    let best = clearances.iter().map(|(_, clearance)| *clearance).fold(0.0, f64::max);
-    let sample = clearances.iter().find(|(_, clearance)| *clearance >= 0.99 * best).map_or(0, |(sample, _)| *sample);
-    (sample, pose(sample))
+    let clarity = |at: &[Point]| {
+        let clarity = clearance(&links, at) * straightest(&links, at);
+        if clarity.is_finite() { clarity } else { 0.0 }
+    };
+    let all: Vec<(usize, f64)> =
+        (0..circuit.len()).step_by(stride).map(|sample| (sample, clarity(&pose(sample)))).collect();
+    let best = all.iter().map(|(_, clarity)| *clarity).fold(0.0, f64::max);
+    pose(all.iter().find(|(_, clarity)| *clarity >= 0.99 * best).map_or(0, |(sample, _)| *sample))
 }
 
+/// The least distance of two joints, or of a joint and a link it is not on.
 fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
     let mut joints: Vec<usize> = links.iter().flatten().copied().collect();
     joints.sort_unstable();
@@ -39,5 +46,24 @@ fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
             }
         }
     }
-    if least.is_nan() { 0.0 } else { least }
+    least
+}
+
+/// The least sine of the angles at which links meet.
+fn straightest(links: &[Vec<usize>], at: &[Point]) -> f64 {
+    let mut least: f64 = 1.0;
+    for (k, link) in links.iter().enumerate() {
+        for other in &links[..k] {
+            for pin in link.iter().filter(|joint| other.contains(joint)) {
+                let arms =
+                    |link: &[usize]| link.iter().filter(|j| *j != pin).map(|&j| at[j] - at[*pin]).collect::<Vec<_>>();
+                for a in arms(link) {
+                    for b in arms(other) {
+                        least = least.min(cross(a, b).abs() / (a.norm() * b.norm()));
+                    }
+                }
+            }
+        }
+    }
+    least
 }

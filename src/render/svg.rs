@@ -172,7 +172,8 @@ impl Pen {
             self.last = Some(command);
             self.pair(out, begin, points[0], true);
         } else {
-            out.push(if self.last.is_none() { 'M' } else { command });
+            // A move that opens a path is from the origin, and what follows it is relative, as after any other.
+            out.push(command);
             self.last = Some(command);
             self.pair(out, begin, points[0], false);
         }
@@ -268,6 +269,19 @@ mod tests {
         {
             assert_eq!(Number(micrometres).to_string(), written);
         }
+    }
+
+    #[test]
+    fn path_data_is_relative_and_adds_up() {
+        let mut out = String::new();
+        let mut pen = Pen::default();
+        let at = Point::new;
+        for (command, point) in [('m', at(1.0, 2.0)), ('l', at(1.5, 1.0)), ('l', at(1.4, 1.0)), ('m', at(0.0, 0.0))] {
+            pen.to(&mut out, command, &[point]);
+        }
+        pen.close(&mut out);
+        pen.to(&mut out, 'l', &[at(3.0, -1.0)]);
+        assert_eq!(out, "m1 2 .5-1-.1 0m-1.4-1zl3-1");
     }
 
     #[test]

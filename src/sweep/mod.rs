@@ -106,12 +106,13 @@ pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
 }
 
 /// The cells of which something is kept, by their places; all of them where nothing is asked.
-pub fn select(family: &Family, sampler: &Sampler) -> Vec<usize> {
+pub fn select(family: &Family) -> Vec<usize> {
+    let sampler = Sampler::new(family.sampling);
     let all = 0..family.cells();
     if family.filter.is_none() {
         return all.collect();
     }
-    let is_kept = |&k: &usize| solve(family, sampler, k).is_some_and(|solved| !solved.is_left_out());
+    let is_kept = |&k: &usize| solve(family, &sampler, k).is_some_and(|solved| !solved.is_left_out());
     all.into_par_iter().filter(is_kept).collect()
 }
 
@@ -124,16 +125,16 @@ pub fn select(family: &Family, sampler: &Sampler) -> Vec<usize> {
 /// The first error of `take`, after which nothing more is done.
 pub fn run<T: Send, E: Send>(
     family: &Family,
-    sampler: &Sampler,
     (cells, group): (&[usize], usize),
     work: impl Fn(usize, Vec<Solved>) -> T + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
+    let sampler = Sampler::new(family.sampling);
     let groups: Vec<&[usize]> = cells.chunks(group.max(1)).collect();
     let at_once = rayon::current_num_threads() * 4;
     for (batch, groups) in groups.chunks(at_once).enumerate() {
         let solve_group = |(k, cells): (usize, &&[usize])| {
-            let solved = cells.iter().filter_map(|&cell| solve(family, sampler, cell)).collect();
+            let solved = cells.iter().filter_map(|&cell| solve(family, &sampler, cell)).collect();
             work(batch * at_once + k, solved)
         };
         let done: Vec<T> = groups.par_iter().enumerate().map(solve_group).collect();

@@ -1,8 +1,9 @@
 //! A linkage with expressions for numbers; a parameter set makes it a [`Linkage`].
 
 use crate::expression::{Bound, Caption, Expression, Unit};
-use crate::geometry::Point;
-use crate::linkage::{self, Arc, Assembly, Circuits, Continuation, JointId, Linkage, Side, Travel};
+use crate::linkage::{self, Arc, Assembly, JointId, Travel};
+
+pub use crate::linkage::{Circuits, Continuation, Linkage, Side};
 
 /// A linkage family before it has numbers. All [`Bound`] expressions are over [`Template::parameters`].
 #[derive(Clone, Debug)]
@@ -247,8 +248,8 @@ impl Template {
             let two = |base: &[usize; 2]| base.map(|j| made[j][0]);
             let ids = match &joint.placing {
                 Placing::Fixed([x, y]) => {
-                    let at = Point::new(finite("the x", number(k, x))?, finite("the y", number(k, y))?);
-                    vec![assembly.fixed(name, at)]
+                    let at = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
+                    vec![assembly.fixed(name, at.into())]
                 }
                 Placing::Crank { pivot, length } => vec![assembly.crank(name, made[*pivot][0], number(k, length))?],
                 Placing::Dyad { base, lengths: [l0, l1], side } => {

@@ -1,0 +1,129 @@
+//! Linkages of several dyads: their limits are found between samples, and their circuits keep every length.
+
+use coupler_atlas::geometry::trig;
+use coupler_atlas::linkage::{Assembly, Circuits, Linkage, Side, Travel};
+use coupler_atlas::motion::{Motion, Sampler, Sampling};
+use proptest::prelude::*;
+
+fn all() -> Travel {
+    Travel { circuits: Circuits::All, ..Travel::default() }
+}
+
+/// A Watt six-bar: a second dyad on a point of the rocker and a third fixed pivot.
+fn six_bar([frame, crank, coupler, rocker, arm, link, output, pivot]: [f64; 8]) -> Option<Linkage> {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [frame, 0.0].into());
+    let d = assembly.fixed("D", [frame + pivot, 0.5].into());
+    let a = assembly.crank("A", o, crank).ok()?;
+    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).ok()?;
+    let e = assembly.point("E", [c, b], arm, 0.4).ok()?;
+    let f = assembly.dyad("F", [e, d], [link, output], Side::Left).ok()?;
+    assembly.finish(vec![f], None, all()).ok()
+}
+
+fn check(linkage: &Linkage, step: f64) -> Result<(), TestCaseError> {
+    let motion = Motion::of(linkage, &Sampler::new(Sampling::Step(step)));
+    for circuit in &motion.circuits {
+        let ends: Vec<f64> = circuit.passes.iter().flat_map(|pass| [pass.from.stop.deg, pass.to.stop.deg]).collect();
+        for i in 0..circuit.len() {
+            // Where two dyads have their limits close together, the base of the second moves so fast that no input
+            // a float can name lays it flat to better than this.
+            let tolerance = if ends.contains(&circuit.input_deg[i]) { 1e-10 } else { 1e-12 };
+            for link in &linkage.links {
+                for pair in link.joints.windows(2) {
+                    let length = (pair[0].1 - pair[1].1).norm();
+                    let found = (circuit.places.point(pair[0].0, i) - circuit.places.point(pair[1].0, i)).norm();
+                    // Places are of the size of the linkage: a short link keeps as many digits fewer.
+                    prop_assert!((found - length).abs() <= tolerance * length.max(0.1), "{found} {length}");
+                }
+            }
+        }
+        for k in 0..circuit.passes.len() {
+            let next = (k + 1) % circuit.passes.len();
+            if next > k || circuit.closed {
+                let (pass, after) = (&circuit.passes[k], &circuit.passes[next]);
+                // A pass goes over into the next at one pose.
+                let (end, begin) = (pass.to.stop, after.from.stop);
+                prop_assert!((end.cos - begin.cos).abs() < 1e-15 && (end.sin - begin.sin).abs() < 1e-15);
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn six_bars_keep_their_lengths(lengths in prop::array::uniform8(0.3f64..3.0)) {
+        if let Some(linkage) = six_bar(lengths) {
+            check(&linkage, 3.0)?;
+        }
+    }
+}
+
+#[test]
+fn limits_between_samples_are_found_to_the_last_bits() {
+    // A second four-bar on the same crank, put together so that its limits are in closed form too: the dyad hangs on a
+    // coupler point that coincides with the crank pin.
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [4.0, 0.0].into());
+    let a = assembly.crank("A", o, 1.0).unwrap();
+    let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left).unwrap();
+    let p = assembly.point("P", [a, b], 0.0, 0.0).unwrap();
+    let d = assembly.fixed("D", [2.0, 0.0].into());
+    let f = assembly.dyad("F", [p, d], [0.9, 1.0], Side::Left).unwrap();
+    let linkage = assembly.finish(vec![f], None, all()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    // 1 + 4 - 4 cos = 1.9^2
+    let limit = trig::degrees(trig::acos((5.0 - 1.9 * 1.9) / 4.0));
+    assert_eq!(motion.circuits.len(), 2, "one for each side of the first dyad");
+    for circuit in &motion.circuits {
+        let reached = circuit.input_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        assert!((reached - limit).abs() < 1e-12, "{reached} {limit}");
+        assert!(circuit.closed && circuit.passes.len() == 2);
+        // The second dyad changes its side at the limit, the first keeps it.
+        assert_eq!(circuit.passes[0].signs.get(0), circuit.passes[1].signs.get(0));
+        assert_ne!(circuit.passes[0].signs.get(1), circuit.passes[1].signs.get(1));
+    }
+}
+
+#[test]
+fn a_gap_narrower_than_the_sampling_is_found() {
+    // The dyad reaches to a hair less than the furthest its base goes, 3: a gap of half a tenth of a degree.
+    let half_gap = trig::radians(0.05);
+    let reach = (1.0 + 4.0 + 4.0 * trig::cos(half_gap)).sqrt();
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [4.0, 0.0].into());
+    let a = assembly.crank("A", o, 1.0).unwrap();
+    let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left).unwrap();
+    let p = assembly.point("P", [a, b], 0.0, 0.0).unwrap();
+    let d = assembly.fixed("D", [2.0, 0.0].into());
+    let f = assembly.dyad("F", [p, d], [reach - 1.5, 1.5], Side::Left).unwrap();
+    let linkage = assembly.finish(vec![f], None, all()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let reached = motion.circuits[0].input_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert!((reached - 179.95).abs() < 1e-6, "{reached}");
+}
+
+#[test]
+fn limits_do_not_depend_on_where_the_linkage_stands() {
+    // The same four-bar on its frame line and turned by 30 degrees about a pivot elsewhere.
+    let four_bar = |o: [f64; 2], c: [f64; 2]| {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", o.into());
+        let c = assembly.fixed("C", c.into());
+        let a = assembly.crank("A", o, 3.0).unwrap();
+        let b = assembly.dyad("B", [a, c], [1.0, 3.0], Side::Left).unwrap();
+        Motion::of(&assembly.finish(vec![b], None, all()).unwrap(), &Sampler::new(Sampling::Samples(40)))
+    };
+    let (plain, turned) =
+        (four_bar([0.0, 0.0], [4.0, 0.0]), four_bar([1.0, 2.0], [1.0 + 4.0 * trig::cos(trig::radians(30.0)), 4.0]));
+    assert_eq!(plain.circuits.len(), turned.circuits.len());
+    for (plain, turned) in plain.circuits.iter().zip(&turned.circuits) {
+        for (a, b) in plain.input_deg.iter().zip(&turned.input_deg) {
+            assert!((a + 30.0 - b).abs() < 1e-12, "{a} {b}");
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! What is wrong with a manifest is said at its place, with a remedy, all of it in one run.
+
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::problem::report;
+
+/// A good manifest, to be spoilt.
+const GOOD: &str = r#"[atlas]
+title = "T"
+[[family]]
+id = "evans"
+linkage = "evans"
+sampling = { step = "2 deg" }
+grid = { p = [2, 3] }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+
+fn plan(text: &str) -> Plan {
+    let loaded = manifest::load(text);
+    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
+}
+
+fn problems(text: &str) -> String {
+    let loaded = manifest::load(text);
+    assert!(loaded.plan.is_none(), "a plan came of it:\n{text}");
+    for problem in &loaded.problems {
+        assert!(!problem.help.is_empty(), "no help: {}", problem.message);
+    }
+    report(&loaded.problems, "atlas.toml", text, false)
+}
+
+/// Each replacement in the good manifest makes just that one complaint, at that line and column.
+#[test]
+fn each_mistake_has_its_message() {
+    let cases = [
+        ("[atlas]\ntitle = \"T\"\n", "", "the manifest has no [atlas]", "1:1"),
+        ("title = \"T\"\n", "", "[atlas] has no `title`", "1:1"),
+        ("title = \"T\"", "title = 3", "text is wanted here, and this is a number", "2:9"),
+        ("title = \"T\"", "title = \"T\"\nformats = [\"swg\"]", "`swg` is not one of the words allowed here", "3:12"),
+        ("id = \"evans\"", "id = \"../evans\"", "the id `../evans` is not a slug", "4:6"),
+        ("id = \"evans\"", "id = \"Evans\"", "the id `Evans` is not a slug", "4:6"),
+        ("linkage = \"evans\"", "linkage = \"evens\"", "there is no linkage `evens`", "5:11"),
+        ("linkage = \"evans\"", "linkge = \"evans\"", "a [[family]] has no key `linkge`", "5:1"),
+        ("\"2 deg\"", "\"0 deg\"", "a step of 0 never ends", "6:21"),
+        ("\"2 deg\"", "2", "the unit is missing", "6:21"),
+        ("\"2 deg\"", "\"2 mm\"", "`mm` is not a unit here", "6:24"),
+        ("{ step = \"2 deg\" }", "{}", "sampling needs a step or a number of samples", "6:12"),
+        ("{ step = \"2 deg\" }", "{ samples = 1e9 }", "1e9 will not do here", "6:24"),
+        ("p = [2, 3]", "p = []", "`p` ranges over nothing", "7:14"),
+        ("p = [2, 3]", "", "the grid is empty", "7:8"),
+        ("p = [2, 3]", "p = [2, inf]", "its value is inf", "7:18"),
+        ("p = [2, 3]", "p = [2, \"1/0\"]", "its value is inf", "7:18"),
+        ("p = [2, 3]", "p = [2, -3]", "in cell 2 (p = -3, r = 1, k = 2), `p` is -3, and must be more than 0", "7:10"),
+        ("p = [2, 3]", "p = { from = 1, to = 2, step = 0 }", "a step of 0 never ends", "7:41"),
+        ("p = [2, 3]", "p = { from = 0, to = 1e9, step = 1e-9 }", "the grid has 1000000000000000000 cells", "7:8"),
+        ("p = [2, 3]", "p = [2, 3], q = [1]", "`q` is no parameter of `evans`, and nothing uses it", "7:22"),
+        ("p = [2, 3]", "p = [2, 3], a = [1]", "`a` is given in the grid or a case, and derived", "8:9"),
+        ("(1 + p)", "(1 + q)", "there is no `q`", "8:19"),
+        ("(1 + p)", "(1 + a)", "`a` is derived from itself", "8:9"),
+        ("(1 + p)", "sine(p)", "there is no function `sine`", "8:14"),
+        ("let = { a = \"(1 + p)^1.5 / 2\" }\n", "", "`a` has no value", "7:8"),
+        ("[atlas]", "[pages]\n[atlas]", "a manifest has no key `pages`", "1:2"),
+        ("[atlas]", "[page]\npaper = \"a5\"\n[atlas]", "`a5` is not one of the words allowed here", "2:9"),
+        ("[atlas]", "[page]\ndpi = 1e6\n[atlas]", "1000000 pixels to the inch is out of range", "2:7"),
+        ("[atlas]", "[atlas", "this is not TOML", "1:7"),
+    ];
+    for (from, to, message, place) in cases {
+        let text = GOOD.replacen(from, to, 1);
+        assert_ne!(text, GOOD, "{from}");
+        let report = problems(&text);
+        assert!(report.contains(message), "{message}:\n{report}");
+        assert!(report.contains(&format!("atlas.toml:{place}\n")), "{message} at {place}:\n{report}");
+        assert!(report.contains("help: "), "{report}");
+    }
+}
+
+#[test]
+fn all_problems_come_in_one_run() {
+    let text = GOOD.replace("title", "titel").replace("\"2 deg\"", "\"0 deg\"").replace("(1 + p)", "(1 + q");
+    let report = problems(&text);
+    for message in ["[atlas] has no key `titel`", "[atlas] has no `title`", "a step of 0", "never closed"] {
+        assert!(report.contains(message), "{message}:\n{report}");
+    }
+    let two = format!("{GOOD}{}", GOOD.split_once("[[family]]").unwrap().1.replacen("", "[[family]]", 1));
+    assert!(problems(&two).contains("there are two families `evans`"));
+}
+
+#[test]
+fn an_empty_manifest_and_one_without_families_say_what_to_do() {
+    assert!(problems("").contains("the manifest is empty"));
+    assert!(problems("  \n\n").contains("coupler-atlas init"));
+    assert!(problems("[atlas]\ntitle = \"T\"\n").contains("the manifest has no family"));
+}
+
+#[test]
+fn cycles_are_spelled_out() {
+    let text = GOOD.replace("a = \"(1 + p)^1.5 / 2\"", "a = \"u + 1\", u = \"v\", v = \"a\"");
+    let report = problems(&text);
+    assert!(report.contains("the cycle is `a` -> `u` -> `v` -> `a`"), "{report}");
+}
+
+#[test]
+fn a_wrong_value_is_reported_once_and_counted() {
+    let text = GOOD.replace("p = [2, 3]", "p = { from = -2, to = 2, step = 1 }");
+    let report = problems(&text);
+    assert_eq!(report.matches("must be more than 0").count(), 1, "{report}");
+    assert!(report.contains("the same is wrong in 2 more cells"), "{report}");
+}
+
+#[test]
+fn grids_keep_the_written_order_with_the_last_fastest() {
+    let text = GOOD.replace("p = [2, 3]", "r = [1, 0.5], p = [3, 2]");
+    let family = &plan(&text).families[0].family;
+    let cells: Vec<(f64, f64)> =
+        (0..4).map(|k| family.cell(k)).map(|cell| (family.value("r", &cell), family.value("p", &cell))).collect();
+    assert_eq!(cells, [(1.0, 3.0), (1.0, 2.0), (0.5, 3.0), (0.5, 2.0)]);
+    // s follows a, which `let` derives.
+    let cell = family.cell(0);
+    assert_eq!((family.value("s", &cell), family.value("a", &cell)), (4.0, 4.0));
+}
+
+#[test]
+fn helpers_are_for_use() {
+    let text = GOOD.replace("p = [2, 3]", "q = [1, 2]").replace("a = \"(1 + p)^1.5 / 2\"", "p = \"q + 1\", a = 3");
+    assert_eq!(plan(&text).families[0].family.cells(), 2);
+    let in_where = GOOD.replace("p = [2, 3]", "p = [2, 3], q = [1, 2]") + "where = \"q > 1\"\n";
+    assert_eq!(plan(&in_where).families[0].family.cells(), 4);
+}
+
+#[test]
+fn where_is_a_condition_over_names_and_measures() {
+    for good in ["p > 2 and is_crank_rocker", "input_min_deg < 3 or not is_change_point"] {
+        plan(&format!("{GOOD}where = \"{good}\"\n"));
+    }
+    for (bad, message) in [
+        ("p", "a number where a truth is wanted"),
+        ("is_crankrocker", "there is no `is_crankrocker`"),
+        ("1 < p < 3", "a truth where a number"),
+    ] {
+        assert!(problems(&format!("{GOOD}where = \"{bad}\"\n")).contains(message), "{bad}");
+    }
+}
+
+/// A linkage to be spoilt, joint by joint.
+const OWN: &str = r#"[atlas]
+title = "T"
+[[linkage]]
+id = "mine"
+parameters = { p = { min = 0 } }
+trace = ["M"]
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = ["p", 0] }
+A = { crank = "O", length = 1 }
+B = { dyad = ["A", "C"], lengths = [3, 3.5], side = "left" }
+M = { point = ["A", "B"], along = 1, across = 2 }
+[[family]]
+id = "mine"
+linkage = "mine"
+sampling = { samples = 60 }
+grid = { p = [4] }
+"#;
+
+#[test]
+fn each_mistake_in_a_linkage_has_its_message() {
+    plan(OWN);
+    let cases = [
+        ("id = \"mine\"\nparam", "id = \"evans\"\nparam", "the catalogue has a linkage `evans` already"),
+        ("A = { crank = \"O\", length = 1 }", "A = { fixed = [1, 1] }", "the linkage has no input"),
+        ("M = {", "A2 = { crank = \"C\", length = 1 }\nM = {", "`A2` is a second input beside `A`"),
+        ("trace = [\"M\"]", "trace = [\"N\"]", "there is no joint `N`"),
+        ("trace = [\"M\"]", "trace = []", "no joint is traced"),
+        ("trace = [\"M\"]", "", "a [[linkage]] has no `trace`"),
+        ("trace = [\"M\"]", "trace = [\"B\"]", "the joint `M` is not used"),
+        ("dyad = [\"A\", \"C\"]", "dyad = [\"A\", \"A\"]", "`A` is named twice"),
+        ("dyad = [\"A\", \"C\"]", "dyad = [\"A\", \"M\"]", "the joint `B` is placed from itself"),
+        ("dyad = [\"A\", \"C\"]", "dyad = [\"A\"]", "two values are wanted here, and there are 1"),
+        ("side = \"left\"", "side = \"up\"", "`up` is not one of the words allowed here"),
+        (
+            "point = [\"A\", \"B\"]",
+            "point = [\"A\", \"C\"]",
+            "`M` is a point of the link through `A` and `C`, but no link has both",
+        ),
+        ("length = 1", "length = -1", "the length -1 of `A` is not positive"),
+        ("length = 1", "length = \"p - 4\"", "the length 0 of `A` is not positive"),
+        ("length = 1", "length = \"q\"", "there is no `q`"),
+        ("length = 1", "lenght = 1", "a joint with `crank` has no key `lenght`"),
+        ("{ fixed = [0, 0] }", "{ at = [0, 0] }", "the joint `O` does not say how it is placed"),
+        ("along = 1", "along = \"1 / (p - 4)\"", "`along` of `M` is inf"),
+        ("trace =", "caption = \"p = {p:.2\"\ntrace =", "this brace is never closed"),
+        ("trace =", "input = { from = \"10 deg\", to = \"5 deg\" }\ntrace =", "and must be more than `from`"),
+        ("{ min = 0 }", "{ default = \"p + 1\" }", "is derived from itself"),
+        ("min = 0", "mni = 0", "a parameter has no key `mni`"),
+    ];
+    for (from, to, message) in cases {
+        let mut text = OWN.replacen(from, to, 1);
+        if message.contains("derived from itself") {
+            text = text.replace("grid = { p = [4] }", "grid = { q = [4] }\nwhere = \"q > 0\"");
+        }
+        assert_ne!(text, OWN, "{from}");
+        let report = problems(&text);
+        assert!(report.contains(message), "{message}:\n{report}");
+    }
+}
+
+#[test]
+fn a_grid_of_points_traces_each_across_fastest() {
+    let text = OWN.replace(
+        "along = 1, across = 2",
+        "along = { from = 0, to = 2, count = 3 }, across = { from = 0, to = 1, count = 2 }",
+    );
+    let family = &plan(&text).families[0].family;
+    let linkage = family.linkage(&family.cell(0)).unwrap();
+    let places: Vec<(f64, f64)> = linkage
+        .traced
+        .iter()
+        .map(|&joint| linkage.links.iter().find_map(|link| link.place(joint)).unwrap())
+        .map(|place| (place.x, place.y))
+        .collect();
+    assert_eq!(places, [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 1.0)]);
+}
+
+#[test]
+fn joints_may_be_written_in_any_order() {
+    let lines: Vec<&str> = OWN.lines().collect();
+    let joint = |name: &str| lines.iter().position(|line| line.starts_with(name)).unwrap();
+    let mut shuffled = lines.clone();
+    shuffled.swap(joint("O ="), joint("M ="));
+    shuffled.swap(joint("A ="), joint("B ="));
+    let of =
+        |text: &str| plan(text).families[0].family.template.joints.iter().map(|j| j.name.clone()).collect::<Vec<_>>();
+    assert_eq!(of(OWN), ["O", "C", "A", "B", "M"]);
+    assert_eq!(of(&shuffled.join("\n")), ["C", "O", "A", "B", "M"]);
+}
+
+#[test]
+fn windows_line_ends_and_a_byte_order_mark_are_no_problem() {
+    plan(&GOOD.replace('\n', "\r\n"));
+    plan(&format!("\u{feff}{GOOD}"));
+}
+
+mod properties {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// No text makes the reader panic, and what it says can be drawn.
+        #[test]
+        fn nothing_panics(text in "\\PC{0,200}") {
+            let loaded = manifest::load(&text);
+            report(&loaded.problems, "m", &text, true);
+        }
+
+        /// A good manifest with a part cut out or put in twice.
+        #[test]
+        fn nor_does_a_spoilt_manifest(a in 0..OWN.len(), b in 0..OWN.len(), twice: bool) {
+            let (a, b) = (a.min(b), a.max(b));
+            let text = if twice { format!("{}{}", &OWN[..b], &OWN[a..]) } else { format!("{}{}", &OWN[..a], &OWN[b..]) };
+            let loaded = manifest::load(&text);
+            report(&loaded.problems, "m", &text, false);
+        }
+
+        #[test]
+        fn nor_does_an_odd_expression(inner in "[-+*/^()a-z0-9., <>=!]{0,40}") {
+            let text = GOOD.replace("(1 + p)^1.5 / 2", &inner);
+            let loaded = manifest::load(&text);
+            report(&loaded.problems, "m", &text, false);
+        }
+    }
+}

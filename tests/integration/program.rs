@@ -1,0 +1,268 @@
+//! The program as a user meets it: commands, exit codes, files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+const MANIFEST: &str = r#"[atlas]
+title = "T"
+output = "pages"
+formats = ["svg"]
+[[family]]
+id = "evans"
+linkage = "evans"
+title = "Evans <linkage> & \"co\""
+panels = [2, 1]
+sampling = { step = "10 deg" }
+grid = { p = [2, 3, 4] }
+let = { a = "(1 + p)^1.5 / 2" }
+[[family]]
+id = "far"
+linkage = "watt"
+sampling = { samples = 20 }
+cases = [{ p = 4, r = 2, a = 1 }, { p = 90, r = 2, a = 1 }]
+"#;
+
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let Output { status, stdout, stderr } = program().current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap_or(-1), text(stdout), text(stderr))
+}
+
+fn folder_with(manifest: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
+    folder
+}
+
+/// Every file below a folder with its bytes.
+fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(tree(&path));
+        } else {
+            found.push((path.clone(), fs::read(&path).unwrap()));
+        }
+    }
+    found.sort();
+    found
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    tree(folder)
+        .iter()
+        .map(|(path, _)| path.strip_prefix(folder).unwrap().to_string_lossy().replace('\\', "/"))
+        .collect()
+}
+
+#[test]
+fn render_writes_pages_points_cells_and_a_record() {
+    let folder = folder_with(MANIFEST);
+    let (code, out, err) = run(folder.path(), &["render"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("evans: 3 cells, 3 curves, 2 pages"), "{out}");
+    assert!(out.contains("far: 2 cells (1 not assembled), 1 curve, 1 page"), "{out}");
+    assert!(err.contains("warning: far, cell 2: B cannot be placed: A and C are 88 or more apart"), "{err}");
+    let pages = folder.path().join("pages");
+    assert_eq!(
+        names(&pages),
+        [
+            "evans/cells.csv",
+            "evans/evans-001.svg",
+            "evans/evans-002.svg",
+            "evans/points.csv",
+            "far/cells.csv",
+            "far/far-001.svg",
+            "far/points.csv",
+            "run.json"
+        ]
+    );
+    let points = fs::read_to_string(pages.join("evans/points.csv")).unwrap();
+    let mut lines = points.lines();
+    assert_eq!(lines.next(), Some("cell,trace,circuit,branch,sample,input_deg,x,y"));
+    assert!(lines.next().unwrap().starts_with("1,1,1,1,0,0,2,"));
+    assert_eq!(lines.count(), 3 * 36 - 1);
+    let cells = fs::read_to_string(pages.join("far/cells.csv")).unwrap();
+    assert!(cells.starts_with("cell,trace,circuit,p,r,s,a,status,reason,class,"), "{cells}");
+    assert!(cells.contains("\n1,1,1,4,2,2,1,ok,,triple-rocker,"), "{cells}");
+    assert!(cells.contains("\n2,,,90,2,2,1,none,\"B cannot be placed: A and C are 88 or more apart, links"), "{cells}");
+    let page = fs::read_to_string(pages.join("evans/evans-001.svg")).unwrap();
+    assert!(page.contains("Evans &lt;linkage&gt; &amp; &quot;co&quot;"));
+    assert!(
+        page.contains(
+            "<g id=\"evans-1-1-1\" class=\"curve\" data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\"><title>"
+        )
+    );
+    let far = fs::read_to_string(pages.join("far/far-001.svg")).unwrap();
+    assert!(far.contains("not assembled"));
+}
+
+#[test]
+fn the_same_bytes_with_any_number_of_jobs() {
+    let folder = folder_with(&MANIFEST.replace("\"svg\"", "\"svg\", \"png\""));
+    let trees: Vec<_> = ["1", "2", "8"]
+        .map(|jobs| {
+            let out = folder.path().join(jobs);
+            let (code, ..) = run(folder.path(), &["render", "-q", "--jobs", jobs, "-o", out.to_str().unwrap()]);
+            assert_eq!(code, 0);
+            tree(&out)
+                .into_iter()
+                .map(|(path, bytes)| (path.strip_prefix(&out).unwrap().to_owned(), bytes))
+                .collect::<Vec<_>>()
+        })
+        .into();
+    assert!(trees[0].len() > 8);
+    assert!(trees[0] == trees[1] && trees[1] == trees[2]);
+}
+
+#[test]
+fn png_records_its_resolution() {
+    let folder =
+        folder_with(&MANIFEST.replace("[[family]]\nid = \"evans\"", "[page]\ndpi = 60\n[[family]]\nid = \"evans\""));
+    let (code, _, err) = run(folder.path(), &["render", "-q", "--format", "png", "--only", "evans"]);
+    assert_eq!(code, 0, "{err}");
+    let bytes = fs::read(folder.path().join("pages/evans/evans-001.png")).unwrap();
+    assert_eq!(&bytes[37..41], b"pHYs");
+    assert_eq!(u32::from_be_bytes(bytes[41..45].try_into().unwrap()), 2362, "60 / 0.0254 pixels to the metre");
+    let image = image::load_from_memory(&bytes).unwrap();
+    assert_eq!((image.width(), image.height()), (1020, 660), "17 by 11 inches");
+}
+
+#[test]
+fn only_leaves_other_families_alone() {
+    let folder = folder_with(MANIFEST);
+    run(folder.path(), &["render", "-q"]);
+    let pages = folder.path().join("pages");
+    let before = tree(&pages);
+    fs::write(folder.path().join("atlas.toml"), MANIFEST.replace("[2, 3, 4]", "[2, 5]")).unwrap();
+    let (code, out, _) = run(folder.path(), &["render", "--only", "far"]);
+    assert_eq!(code, 0);
+    assert!(!out.contains("evans"));
+    assert_eq!(tree(&pages), before);
+    let (code, _, err) = run(folder.path(), &["render", "--only", "fra"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("there is no family `fra`: did you mean `far`?"), "{err}");
+}
+
+#[test]
+fn a_record_that_cannot_be_read_is_not_overwritten_by_only() {
+    let folder = folder_with(MANIFEST);
+    run(folder.path(), &["render", "-q"]);
+    let record = folder.path().join("pages/run.json");
+    for (text, message) in [("{", "no record of a run"), ("{\"format\": 99}", "it has format 99")] {
+        fs::write(&record, text).unwrap();
+        let (code, _, err) = run(folder.path(), &["render", "--only", "far"]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(message) && err.contains("render all of them"), "{err}");
+        assert_eq!(fs::read_to_string(&record).unwrap(), text);
+    }
+    assert_eq!(run(folder.path(), &["render", "-q"]).0, 0);
+}
+
+#[test]
+fn exit_codes_tell_who_is_to_act() {
+    let folder = folder_with(MANIFEST);
+    let code = |arguments: &[&str]| run(folder.path(), arguments).0;
+    assert_eq!(code(&["validate"]), 0);
+    assert_eq!(code(&["render", "-q", "--strict"]), 1, "a cell is not assembled");
+    assert_eq!(code(&["render", "missing.toml"]), 2);
+    assert_eq!(code(&["render", "."]), 2, "a folder is no manifest");
+    assert_eq!(code(&["rendr"]), 2);
+    assert_eq!(code(&["render", "--jobs", "0"]), 2);
+    assert_eq!(code(&["render", "--format", "gif"]), 2);
+    fs::write(folder.path().join("blocked"), "a file").unwrap();
+    assert_eq!(code(&["render", "-q", "-o", "blocked"]), 3, "a file is in the folder's place");
+    assert_eq!(fs::read_to_string(folder.path().join("blocked")).unwrap(), "a file");
+    fs::write(folder.path().join("binary.toml"), [0xff, 0xfe, 0x00]).unwrap();
+    assert_eq!(code(&["validate", "binary.toml"]), 2);
+}
+
+#[test]
+fn validate_writes_nothing_and_names_every_problem() {
+    let folder = folder_with(&MANIFEST.replace("\"10 deg\"", "\"0 deg\"").replace("\"watt\"", "\"wat\""));
+    let (code, out, err) = run(folder.path(), &["validate"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(err.contains("a step of 0 never ends") && err.contains("did you mean `watt`?"), "{err}");
+    assert!(err.contains("atlas.toml:10:21"), "{err}");
+    assert_eq!(names(folder.path()), ["atlas.toml"]);
+}
+
+#[test]
+fn a_where_that_keeps_nothing_is_a_warning() {
+    let folder = folder_with(&MANIFEST.replace("let =", "where = \"p > 9\"\nlet ="));
+    let (code, out, err) = run(folder.path(), &["render"]);
+    assert_eq!(code, 0);
+    assert!(err.contains("warning: `where` keeps none of the 3 cells"), "{err}");
+    assert!(out.contains("evans: 3 cells (3 left out by `where`), 0 curves, 0 pages"), "{out}");
+    let some = folder_with(&MANIFEST.replace("let =", "where = \"p > 2 and is_crank_rocker\"\nlet ="));
+    let (_, out, _) = run(some.path(), &["render"]);
+    assert!(out.contains("evans: 3 cells (1 left out by `where`), 2 curves, 1 page"), "{out}");
+    let cells = fs::read_to_string(some.path().join("pages/evans/cells.csv")).unwrap();
+    let numbers: Vec<&str> = cells.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
+    assert_eq!(numbers, ["2", "3"], "kept rows keep their numbers");
+}
+
+#[test]
+fn init_writes_a_manifest_that_renders_and_never_overwrites() {
+    let folder = TempDir::new().unwrap();
+    assert_eq!(run(folder.path(), &["init", "my.toml"]).0, 0);
+    let (code, out, err) = run(folder.path(), &["render", "my.toml", "--strict", "--format", "svg"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("mine: 6 cells, 6 curves, 1 page"), "{out}");
+    fs::write(folder.path().join("my.toml"), "mine").unwrap();
+    let (code, _, err) = run(folder.path(), &["init", "my.toml"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("exists already"), "{err}");
+    assert_eq!(fs::read_to_string(folder.path().join("my.toml")).unwrap(), "mine");
+}
+
+#[test]
+fn list_names_the_catalogue() {
+    let folder = TempDir::new().unwrap();
+    let (code, out, _) = run(folder.path(), &["list"]);
+    assert_eq!(code, 0);
+    for word in ["linkages", "four-bar", "chebyshev", "p, r, a, s, k", "measures", "input_min_deg", "layouts", "panels"]
+    {
+        assert!(out.contains(word), "{word}:\n{out}");
+    }
+    assert!(!run(folder.path(), &["list", "layouts"]).1.contains("evans"));
+}
+
+/// A file-size limit stands for a full disk: the write fails part of the way, as it does there.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_every_file_whole() {
+    let folder = folder_with(MANIFEST);
+    run(folder.path(), &["render", "-q"]);
+    let pages = folder.path().join("pages");
+    let before = tree(&pages);
+    fs::write(folder.path().join("atlas.toml"), MANIFEST.replace("10 deg", "1 deg")).unwrap();
+    let script = "trap '' XFSZ; ulimit -f 16; exec \"$0\" render -q";
+    let output = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", script, env!("CARGO_BIN_EXE_coupler-atlas")])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(err.contains("cannot write") && err.contains("File too large"), "{err}");
+    // Pages may be new or old, but nothing is half written, and nothing is left behind.
+    let after = tree(&pages);
+    let paths = |tree: &[(PathBuf, Vec<u8>)]| tree.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
+    assert_eq!(paths(&after), paths(&before));
+    for (path, bytes) in after.iter().filter(|(path, _)| path.extension().is_some_and(|e| e == "svg")) {
+        assert!(bytes.ends_with(b"</svg>\n"), "{}", path.display());
+    }
+    assert_eq!(
+        after.iter().find(|(p, _)| p.ends_with("run.json")),
+        before.iter().find(|(p, _)| p.ends_with("run.json"))
+    );
+}
