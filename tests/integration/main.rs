@@ -6,4 +6,5 @@ mod house;
 mod linkages;
 mod manifests;
 mod program;
+mod readme;
 mod thesis;
