@@ -168,6 +168,12 @@ fn dyads(family: &Family) -> usize {
     family.linkage(&family.cell(0)).map_or(0, |linkage| linkage.dyads())
 }
 
+/// Where the linkage comes from, and how a page is to be read.
+fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
+    let key = format!("one dash and its gap = {dash_deg}° of input · scale bars in units of length");
+    if planned.source.is_empty() { key } else { format!("{} · {key}", planned.source) }
+}
+
 type Pages = (Vec<(String, Vec<u8>)>, Vec<FileRecord>);
 
 /// Composes a page and renders it in each format.
@@ -190,10 +196,7 @@ fn draw_page(
         family: &family.id,
         title: &family.title,
         symbols: &family.names,
-        source: format!(
-            "{} · one dash and its gap = {}° of input · scale bars in units of length",
-            planned.source, plan.page.dash_deg
-        ),
+        source: source_line(planned, plan.page.dash_deg),
         page,
         of,
         layout: planned.layout,

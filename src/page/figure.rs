@@ -51,7 +51,7 @@ impl<'a> Figure<'a> {
         if arrangement == Arrangement::Together {
             let plot = key.of(self.extents.key);
             plot.bar(area, theme);
-            self.frame(area, &plot, theme);
+            self.bodies(area, &plot, theme);
             self.trail(area, &plot, theme.hair, theme);
             self.curves(area, &plot, sheet, dashes, theme);
             self.linkage(area, &plot, theme);
@@ -59,7 +59,7 @@ impl<'a> Figure<'a> {
         }
         let plot = key.of(self.extents.key);
         plot.bar(area, theme);
-        self.frame(area, &plot, theme);
+        self.bodies(area, &plot, theme);
         self.trail(area, &plot, theme.fine, theme);
         self.linkage(area, &plot, theme);
         let plot = curve.of(self.extents.curve);
@@ -153,12 +153,20 @@ impl<'a> Figure<'a> {
         items
     }
 
-    /// The frame, as a hairline under everything else.
-    fn frame(&self, area: &Area, plot: &Plot, theme: &Theme) {
-        let at = |joint: usize| plot.page_from_plane.apply(self.pose[joint]);
-        let points = ground(&self.solved.linkage).into_iter().map(at).collect();
-        let line = Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair)));
-        draw(area, &Drawing { class: "frame", title: String::new(), items: vec![line] });
+    /// What lies under the curves: the bodies of links that are plates, and the frame as a hairline.
+    fn bodies(&self, area: &Area, plot: &Plot, theme: &Theme) {
+        let at = |joint: &usize| plot.page_from_plane.apply(self.pose[*joint]);
+        let mut items = Vec::new();
+        for link in drawn_links(&self.solved.linkage) {
+            let points: Vec<Point> = link.iter().map(at).collect();
+            if is_plate(&points) {
+                let fill = Some(theme.faded(theme.faded(theme.hairline)));
+                items.push(Item::Path(Path { lines: vec![Line { points, closed: true }], stroke: None, fill }));
+            }
+        }
+        let points = ground(&self.solved.linkage).iter().map(at).collect();
+        items.push(Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair))));
+        draw(area, &Drawing { class: "bodies", title: String::new(), items });
     }
 
     /// The linkage in ink: links as lines and plates, fixed pivots as double circles.
@@ -170,10 +178,9 @@ impl<'a> Figure<'a> {
         let links = drawn_links(linkage);
         for link in &links {
             let points: Vec<Point> = link.iter().map(|&joint| at(joint)).collect();
-            let closed = points.len() > 2 && !is_flat(&points);
-            let fill = closed.then(|| theme.faded(theme.faded(theme.hairline)));
+            let closed = is_plate(&points);
             let stroke = Some(crate::scene::Stroke { round: true, ..theme.stroke(theme.ink, theme.link) });
-            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill }));
+            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
         }
         let mut joints: Vec<usize> = links.concat();
         joints.sort_unstable();
@@ -226,6 +233,11 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<usize> {
         order.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
     }
     order.into_iter().map(|k| joints[k].0).collect()
+}
+
+/// Whether a link is drawn as a plate and not as a bar.
+fn is_plate(points: &[Point]) -> bool {
+    points.len() > 2 && !is_flat(points)
 }
 
 /// Whether points lie on one line, to a thousandth of their extent.

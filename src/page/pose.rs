@@ -30,7 +30,7 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     pose(all.iter().find(|(_, clarity)| *clarity >= 0.99 * best).map_or(0, |(sample, _)| *sample))
 }
 
-/// The least distance of two joints, or of a joint and a link it is not on.
+/// The least distance of two joints on no common link, or of a joint and a link it is not on.
 fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
     let mut joints: Vec<usize> = links.iter().flatten().copied().collect();
     joints.sort_unstable();
@@ -38,7 +38,10 @@ fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
     let mut least = f64::INFINITY;
     for (k, &joint) in joints.iter().enumerate() {
         for &other in &joints[..k] {
-            least = least.min((at[joint] - at[other]).norm());
+            // Joints of one link keep their distance, and some are one point: that tells nothing of the pose.
+            if !links.iter().any(|link| link.contains(&joint) && link.contains(&other)) {
+                least = least.min((at[joint] - at[other]).norm());
+            }
         }
         for link in links.iter().filter(|link| !link.contains(&joint)) {
             for pair in link.windows(2) {
@@ -59,7 +62,10 @@ fn straightest(links: &[Vec<usize>], at: &[Point]) -> f64 {
                     |link: &[usize]| link.iter().filter(|j| *j != pin).map(|&j| at[j] - at[*pin]).collect::<Vec<_>>();
                 for a in arms(link) {
                     for b in arms(other) {
-                        least = least.min(cross(a, b).abs() / (a.norm() * b.norm()));
+                        let lengths = a.norm() * b.norm();
+                        if lengths > 0.0 {
+                            least = least.min(cross(a, b).abs() / lengths);
+                        }
                     }
                 }
             }
