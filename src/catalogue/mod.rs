@@ -7,12 +7,17 @@ use std::sync::{Arc, LazyLock};
 use crate::notation;
 use crate::template::Template;
 
-const FILES: [&str; 5] = [
+const FILES: [&str; 10] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
     include_str!("watt.toml"),
     include_str!("roberts.toml"),
+    include_str!("hoeken.toml"),
+    include_str!("hrones-nelson.toml"),
+    include_str!("slider-crank.toml"),
+    include_str!("inverted-slider-crank.toml"),
+    include_str!("jansen.toml"),
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {

@@ -159,6 +159,11 @@ pub struct Bound {
 }
 
 impl Bound {
+    /// The expression that is always `value`.
+    pub fn constant(value: f64) -> Bound {
+        Bound { expression: Expression::constant(value), slots: Vec::new() }
+    }
+
     /// The value, where `load(slot)` is the value of the name at a place of the scope.
     pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
         self.expression.evaluate(|name| load(self.slots[name]))

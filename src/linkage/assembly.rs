@@ -54,6 +54,19 @@ pub enum Error {
     },
 }
 
+/// A link that turns about a pivot and carries the line of a slot.
+#[derive(Clone, Copy, Debug)]
+struct Carrier {
+    /// The pivot, and the joint the line slides through.
+    base: [JointId; 2],
+    /// The foot of the line.
+    foot: JointId,
+    /// From the pivot to the foot; positive where the line's direction is the foot's turned to the left.
+    offset: f64,
+    /// Its place among the links.
+    link: usize,
+}
+
 /// A linkage being put together, joint by joint.
 ///
 /// ```
@@ -72,6 +85,7 @@ pub enum Error {
 pub struct Assembly {
     joints: Vec<Joint>,
     links: Vec<Link>,
+    carriers: Vec<Carrier>,
     signs: Signs,
     dyads: usize,
 }
@@ -112,23 +126,76 @@ impl Assembly {
         if self.common_link(base).is_some() {
             return self.distances(name, base, lengths, side);
         }
-        if self.dyads == MAX_DYADS {
-            return Err(Error::TooManyDyads { joint: name.to_owned() });
-        }
-        let index = self.dyads;
-        self.dyads += 1;
-        self.signs = self.signs.with(index, side);
+        let index = self.two_valued(name, side)?;
         let id = self.add(name, Step::Dyad { base, lengths, index });
         self.bar(base[0], id, lengths[0]);
         self.bar(base[1], id, lengths[1]);
         Ok(id)
     }
 
-    /// A point of the link through two joints: `along` from the first towards the second, `across` to the left.
+    /// The end of a link that hangs on a joint and slides on a line through two others, or `offset` to the left of it;
+    /// ahead of the joint the link hangs on, or behind it.
+    ///
+    /// # Errors
+    /// One joint given twice for the line, a length that is not positive, one dyad too many.
+    pub fn slide(
+        &mut self,
+        name: &str,
+        (from, length): (JointId, f64),
+        (line, offset): ([JointId; 2], f64),
+        ahead: Side,
+    ) -> Result<JointId, Error> {
+        self.two(name, line)?;
+        positive(name, length)?;
+        let index = self.two_valued(name, ahead)?;
+        let id = self.add(name, Step::Slide { from, length, line, offset, index });
+        self.bar(from, id, length);
+        Ok(id)
+    }
+
+    /// The foot, at a distance `offset` from the pivot `base[0]`, of the line that slides through `base[1]`; on a side
+    /// of `base[0] -> base[1]`. The pivot and the foot are on one link.
+    ///
+    /// With no offset the foot is the pivot, and not two-valued. Points of the link that carries the line are given
+    /// by [`Assembly::point`] on the same two joints: along the line, as it points at the start, and to the left.
+    ///
+    /// # Errors
+    /// One joint given twice, one dyad too many.
+    pub fn slot(&mut self, name: &str, base: [JointId; 2], offset: f64, side: Side) -> Result<JointId, Error> {
+        self.two(name, base)?;
+        if offset == 0.0 {
+            let id = self.add(name, Step::Rigid { base, along: 0.0, across: 0.0 });
+            self.carriers.push(Carrier { base, foot: id, offset, link: self.links.len() });
+            self.links.push(Link { joints: vec![(base[0], Vector::zeros()), (id, Vector::zeros())] });
+            return Ok(id);
+        }
+        let index = self.two_valued(name, side)?;
+        let id = self.add(name, Step::Slot { base, offset, index });
+        // With the foot to the right of pivot -> joint, the line points to the left of pivot -> foot.
+        let signed = if side == Side::Right { offset } else { -offset };
+        self.carriers.push(Carrier { base, foot: id, offset: signed, link: self.links.len() });
+        self.bar(base[0], id, offset.abs());
+        Ok(id)
+    }
+
+    /// A point of the link through two joints, or of the link that carries a [`Assembly::slot`]: `along` from the first towards the second, `across` to the left.
     ///
     /// # Errors
     /// One joint given twice, joints on no common link, joints that coincide.
     pub fn point(&mut self, name: &str, base: [JointId; 2], along: f64, across: f64) -> Result<JointId, Error> {
+        if let Some(carrier) = self.carriers.iter().find(|carrier| carrier.base == base) {
+            let Carrier { foot, offset, link, .. } = *carrier;
+            let (step, place) = if offset == 0.0 {
+                (Step::Directed { base, along, across }, Vector::new(along, across))
+            } else {
+                let (along, across) = (-across / offset, along / offset);
+                let step = Step::Rigid { base: [base[0], foot], along, across };
+                (step, Vector::new(along, across) * offset.abs())
+            };
+            let id = self.add(name, step);
+            self.links[link].joints.push((id, place));
+            return Ok(id);
+        }
         let (link, from, to) = self.directed_link(name, base)?;
         let span = (to - from).norm();
         let (along, across) = (along / span, across / span);
@@ -170,6 +237,17 @@ impl Assembly {
         }
         let travel = Travel { signs: self.signs, ..travel };
         Ok(Linkage { joints: self.joints, links: self.links, traced, seen_from, travel })
+    }
+
+    /// The place of another two-valued joint.
+    fn two_valued(&mut self, name: &str, side: Side) -> Result<usize, Error> {
+        if self.dyads == MAX_DYADS {
+            return Err(Error::TooManyDyads { joint: name.to_owned() });
+        }
+        let index = self.dyads;
+        self.dyads += 1;
+        self.signs = self.signs.with(index, side);
+        Ok(index)
     }
 
     fn add(&mut self, name: &str, step: Step) -> JointId {

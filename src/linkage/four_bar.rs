@@ -57,8 +57,8 @@ impl FourBar {
             match joint.step {
                 Step::Crank { pivot, length } if crank.is_none() => crank = Some((id, pivot, length)),
                 Step::Dyad { base, lengths, .. } if dyad.is_none() => dyad = Some((id, base, lengths)),
-                Step::Crank { .. } | Step::Dyad { .. } => return None,
                 Step::Fixed(_) | Step::Rigid { .. } => {}
+                _ => return None,
             }
         }
         let ((a, o, crank), (b, base, lengths)) = (crank?, dyad?);

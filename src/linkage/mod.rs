@@ -6,10 +6,12 @@
 
 mod assembly;
 mod four_bar;
+mod mccarthy;
 
 pub use assembly::{Assembly, Error};
 pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
+pub use mccarthy::InvertedSliderCrank;
 
 use crate::geometry::{Point, Vector};
 
@@ -61,8 +63,40 @@ pub enum Step {
         base: [JointId; 2],
         /// Their lengths, positive.
         lengths: [f64; 2],
-        /// Which dyad of the linkage this is, counted from 0: its bit in [`Signs`].
+        /// Its place among the two-valued joints, counted from 0: its bit in [`Signs`].
         index: usize,
+    },
+    /// At the end of a link whose other end slides on a line: on the line itself (the RRP dyad).
+    Slide {
+        /// The joint the link hangs on.
+        from: JointId,
+        /// The link's length, positive.
+        length: f64,
+        /// Two joints that the line goes through, or runs beside.
+        line: [JointId; 2],
+        /// How far the line runs to the left of the two.
+        offset: f64,
+        /// Its place among the two-valued joints: its bit in [`Signs`], 1 ahead of the link's hanging joint.
+        index: usize,
+    },
+    /// At the foot of the line that slides through a joint (the RPR dyad, McCarthy's inverted slider-crank): square
+    /// to the line from `base[1]`, at a distance `offset` from `base[0]`.
+    Slot {
+        /// The pivot of the link that carries the line, and the joint it slides through.
+        base: [JointId; 2],
+        /// The line's distance from the pivot, not zero; negative on the other side.
+        offset: f64,
+        /// Its place among the two-valued joints: its bit in [`Signs`].
+        index: usize,
+    },
+    /// On a link that carries a line through its pivot and a joint that slides on it: so far along and to the left.
+    Directed {
+        /// The pivot, and the joint the line goes through.
+        base: [JointId; 2],
+        /// Along the line, from the pivot towards the joint.
+        along: f64,
+        /// To the left of the line.
+        across: f64,
     },
     /// On a link: `base[0] + along (base[1] - base[0]) + across n`, with `n` that vector turned to the left.
     Rigid {
@@ -73,6 +107,16 @@ pub enum Step {
         /// To the left of that line, in parts of their distance.
         across: f64,
     },
+}
+
+impl Step {
+    /// The place of a two-valued joint among them; `None` for a joint with one place.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Step::Dyad { index, .. } | Step::Slide { index, .. } | Step::Slot { index, .. } => Some(index),
+            Step::Fixed(_) | Step::Crank { .. } | Step::Directed { .. } | Step::Rigid { .. } => None,
+        }
+    }
 }
 
 /// A rigid body: joints that keep their distances.
@@ -173,7 +217,7 @@ pub struct Arc {
 impl Linkage {
     /// How many two-valued joints there are.
     pub fn dyads(&self) -> usize {
-        self.joints.iter().filter(|joint| matches!(joint.step, Step::Dyad { .. })).count()
+        self.joints.iter().filter(|joint| joint.step.index().is_some()).count()
     }
 
     /// The link that is at rest for the observer: the one seen from, or the one the fixed joints are on.

@@ -1,6 +1,7 @@
 use std::ops::Range;
 
-use crate::geometry::{Point, Vector, cross, left_normal};
+use super::jet::Jets;
+use crate::geometry::{Point, cross, left_normal};
 use crate::linkage::{JointId, Linkage, MAX_DYADS, Signs, Step};
 
 /// Positions of all joints at all samples, joint by joint.
@@ -88,7 +89,13 @@ pub fn place(
             }
             Step::Crank { pivot, length } => crank(of(pivot), length, (cos, sin), x, y),
             Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
+            Step::Slide { from, length, line, offset, index } => {
+                let line = (of(line[0]), of(line[1]));
+                slide(of(from), length, line, offset, modes.0[index], x, y);
+            }
+            Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
             Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
+            Step::Directed { base, along, across } => directed(of(base[0]), of(base[1]), along, across, x, y),
         }
     }
 }
@@ -123,6 +130,56 @@ fn dyad((px, py): Column, (qx, qy): Column, [l0, l1]: [f64; 2], mode: f64, x: &m
         let across = mode * (discriminant.max(0.0).sqrt() * half);
         x[i] = px[i] + along * dx - across * dy;
         y[i] = py[i] + along * dy + across * dx;
+    }
+}
+
+/// The RRP dyad: the end of a link of length l is as far off the line as the line's distance h from the joint it
+/// hangs on, and `sqrt((l - h)(l + h))` along it.
+fn slide(
+    (ax, ay): Column,
+    length: f64,
+    ((px, py), (qx, qy)): (Column, Column),
+    offset: f64,
+    mode: f64,
+    x: &mut [f64],
+    y: &mut [f64],
+) {
+    let n = x.len();
+    let (ax, ay, px, py, qx, qy, y) = (&ax[..n], &ay[..n], &px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        let d = (dx * dx + dy * dy).sqrt();
+        let (ux, uy) = (dx / d, dy / d);
+        let h = offset - (ux * (ay[i] - py[i]) - uy * (ax[i] - px[i]));
+        let along = mode * ((length - h) * (length + h)).max(0.0).sqrt();
+        x[i] = ax[i] + along * ux - h * uy;
+        y[i] = ay[i] + along * uy + h * ux;
+    }
+}
+
+/// The RPR dyad: pivot, foot and joint are a right triangle with the base for hypotenuse (McCarthy 2.40-2.42).
+fn slot((px, py): Column, (qx, qy): Column, offset: f64, mode: f64, x: &mut [f64], y: &mut [f64]) {
+    let n = x.len();
+    let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        let d2 = dx * dx + dy * dy;
+        let d = d2.sqrt();
+        let along = offset * offset / d2;
+        let across = mode * (offset * ((d - offset) * (d + offset)).max(0.0).sqrt() / d2);
+        x[i] = px[i] + along * dx - across * dy;
+        y[i] = py[i] + along * dy + across * dx;
+    }
+}
+
+fn directed((px, py): Column, (qx, qy): Column, along: f64, across: f64, x: &mut [f64], y: &mut [f64]) {
+    let n = x.len();
+    let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        let d = (dx * dx + dy * dy).sqrt();
+        x[i] = px[i] + (along * dx - across * dy) / d;
+        y[i] = py[i] + (along * dy + across * dx) / d;
     }
 }
 
@@ -175,41 +232,27 @@ pub(super) fn place_end(
     for (id, joint) in linkage.joints.iter().enumerate() {
         match joint.step {
             Step::Dyad { base: [p, q], lengths: [l0, _], index } if out.point(p, sample) == out.point(q, sample) => {
-                let rate = |j| velocity(linkage, out, sample, j);
-                let base = rate(q).zip(rate(p)).map(|(vq, vp)| (vq - vp) * after).filter(|v| v.norm() > 0.0);
+                let jets = Jets::in_fixed_frame(linkage, direction, signs, flat);
+                let base = Some((jets.velocity(q) - jets.velocity(p)) * after).filter(|v| v.norm() > 0.0);
+                let base = base.filter(|v| v.norm().is_finite());
                 // On a base of no length the two links have one length and lie on one line, square to the base.
                 let mode = f64::from(signs.get(index));
                 let place = base.map(|v| out.point(p, sample) + left_normal(v.normalize()) * (mode * l0));
                 out.set(id, sample, place.unwrap_or(Point::new(f64::NAN, f64::NAN)));
+            }
+            Step::Dyad { base: [p, q], lengths: [l0, l1], index } if flat == Some(index) => {
+                // The first link's own length, and not what the rounding of a short base makes of it.
+                let (p, q) = (out.point(p, sample), out.point(q, sample));
+                let base = q - p;
+                let is_folded_back = l0 < l1 && base.norm() < l1;
+                let along = if is_folded_back { -l0 } else { l0 } / base.norm();
+                out.set(id, sample, p + base * along);
             }
             Step::Rigid { base: [p, q], along, across } => {
                 let (p, q) = (out.point(p, sample), out.point(q, sample));
                 out.set(id, sample, p + (q - p) * along + left_normal(q - p) * across);
             }
             _ => {}
-        }
-    }
-}
-
-/// How fast a joint moves, to a radian of input; `None` where a flat dyad makes it infinite.
-fn velocity(linkage: &Linkage, at: &Columns, sample: usize, joint: JointId) -> Option<Vector> {
-    let point = |j| at.point(j, sample);
-    match linkage.joints[joint].step {
-        Step::Fixed(_) => Some(Vector::zeros()),
-        Step::Crank { pivot, .. } => {
-            Some(velocity(linkage, at, sample, pivot)? + left_normal(point(joint) - point(pivot)))
-        }
-        Step::Rigid { base: [p, q], along, across } => {
-            let (vp, vq) = (velocity(linkage, at, sample, p)?, velocity(linkage, at, sample, q)?);
-            Some(vp + (vq - vp) * along + left_normal(vq - vp) * across)
-        }
-        Step::Dyad { base: [p, q], .. } => {
-            // Both links keep their lengths: u . v = u . vp and w . v = w . vq.
-            let (u, w) = (point(joint) - point(p), point(joint) - point(q));
-            let (vp, vq) = (velocity(linkage, at, sample, p)?, velocity(linkage, at, sample, q)?);
-            let (a, b, det) = (u.dot(&vp), w.dot(&vq), cross(u, w));
-            let v = Vector::new(a * w.y - b * u.y, b * u.x - a * w.x) / det;
-            (v.x.is_finite() && v.y.is_finite()).then_some(v)
         }
     }
 }

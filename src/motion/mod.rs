@@ -11,12 +11,14 @@
 
 mod circuit;
 mod interval;
+mod jet;
 mod kernel;
 mod path;
 mod reach;
 mod sampling;
 
 pub use circuit::{End, Pass, Stop};
+pub use jet::Jets;
 pub use kernel::{Columns, Modes, place};
 pub use path::{Dashes, Stroke, strokes};
 pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};

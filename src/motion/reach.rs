@@ -1,14 +1,14 @@
-//! Where one dyad can close: the inputs at which its base is neither too long nor too short.
+//! Where one two-valued joint can be placed: the inputs at which its dyad is neither too short nor too long.
 //!
-//! A dyad between a point of the crank's link and a fixed point has its limits in closed form (McCarthy 2.53,
+//! Where a dyad hangs on a point of the crank's link and on the frame, its limits are in closed form (McCarthy 2.53,
 //! Natesan 4.3-4.9). For any other, the distance that is left to stretch or fold is sampled along the input, its
 //! zeros are bracketed and refined to the last bit, and dips between samples are looked into.
 
 use super::circuit::Stop;
 use super::interval::{Cause, IntervalEnd, Span};
 use super::kernel::{Columns, Modes, place};
-use crate::geometry::{Vector, trig};
-use crate::linkage::{JointId, Linkage, Signs, Step, four_bar_tolerance};
+use crate::geometry::{Point, Vector, cross, left_normal, trig};
+use crate::linkage::{JointId, Link, Linkage, Signs, Step, four_bar_tolerance};
 
 /// Samples to a turn when zeros are bracketed.
 const SAMPLES: usize = 720;
@@ -26,68 +26,114 @@ pub(super) fn cut(
 ) -> Result<Vec<Span>, String> {
     let dyad = Dyad::of(linkage, dyad);
     let spans = match dyad.swing(linkage) {
-        Some(swing) => intersect(span, swing.spans(&dyad, next_id)),
+        Some(swing) => intersect(span, swing.spans(dyad.index, next_id)),
         None => Sampled { linkage, dyad: &dyad, span, signs }.spans(next_id),
     };
     if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) }
 }
 
+/// A two-valued joint and how it is placed.
 struct Dyad {
     joint: JointId,
     index: usize,
-    base: [JointId; 2],
-    lengths: [f64; 2],
+    step: Step,
 }
 
 impl Dyad {
     fn of(linkage: &Linkage, wanted: usize) -> Dyad {
-        let found = linkage.joints.iter().enumerate().find_map(|(joint, j)| match j.step {
-            Step::Dyad { base, lengths, index } if index == wanted => Some(Dyad { joint, index, base, lengths }),
-            _ => None,
-        });
-        found.expect("an assembly numbers its dyads without gaps")
+        let found = linkage.joints.iter().enumerate().find(|(_, joint)| joint.step.index() == Some(wanted));
+        let (joint, step) = found.map(|(id, joint)| (id, joint.step)).expect("dyads are numbered without gaps");
+        Dyad { joint, index: wanted, step }
     }
 
-    /// The longest and the shortest base.
-    fn reach(&self) -> (f64, f64) {
-        (self.lengths[0] + self.lengths[1], (self.lengths[0] - self.lengths[1]).abs())
+    /// What must lie within [`Dyad::bounds`] for the dyad to close: the length of its base, or, of a slide, how far
+    /// the line it slides on runs to the left of the joint its link hangs on.
+    fn extent(&self, at: impl Fn(JointId) -> Point) -> f64 {
+        match self.step {
+            Step::Dyad { base: [p, q], .. } | Step::Slot { base: [p, q], .. } => (at(q) - at(p)).norm(),
+            Step::Slide { from, line: [p, q], offset, .. } => {
+                offset - cross((at(q) - at(p)).normalize(), at(from) - at(p))
+            }
+            _ => 0.0,
+        }
     }
 
-    /// The base as an arm that swings about a fixed point, if it is one.
+    fn bounds(&self) -> [f64; 2] {
+        match self.step {
+            Step::Dyad { lengths: [l0, l1], .. } => [(l0 - l1).abs(), l0 + l1],
+            Step::Slot { offset, .. } => [offset.abs(), f64::INFINITY],
+            Step::Slide { length, .. } => [-length, length],
+            _ => [0.0, 0.0],
+        }
+    }
+
+    /// The extent as the projection or the length of an arm that turns with the crank, if it is one.
     fn swing(&self, linkage: &Linkage) -> Option<Swing> {
         let (pivot, crank) = linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.step {
             Step::Crank { pivot, .. } => Some((pivot, id)),
             _ => None,
         })?;
         let frame = &linkage.links[0];
-        let arm = linkage.links[1..].iter().find(|link| link.place(pivot).is_some() && link.place(crank).is_some())?;
-        let [p, q] = self.base;
-        let (on_arm, fixed) = match (arm.place(p), frame.place(q), arm.place(q), frame.place(p)) {
-            (Some(on_arm), Some(fixed), ..) | (.., Some(on_arm), Some(fixed)) => (on_arm, fixed),
-            _ => return None,
-        };
-        // The pivot is on both links, and so may be the joint: then the base is rigid, which `Swing` allows.
-        let to_fixed = fixed - frame.place(pivot)?;
-        Some(Swing::new(on_arm, to_fixed))
+        let pivot_place = frame.place(pivot)?;
+        let of_crank = |link: &&Link| link.place(pivot).is_some() && link.place(crank).is_some();
+        let arm = linkage.links[1..].iter().find(of_crank)?;
+        match self.step {
+            Step::Dyad { base: [p, q], .. } | Step::Slot { base: [p, q], .. } => {
+                let (on_arm, fixed) = match (arm.place(p), frame.place(q), arm.place(q), frame.place(p)) {
+                    (Some(on_arm), Some(fixed), ..) | (.., Some(on_arm), Some(fixed)) => (on_arm, fixed),
+                    _ => return None,
+                };
+                Some(Swing::of_length(on_arm, fixed - pivot_place, self.bounds()))
+            }
+            Step::Slide { from, line: [p, q], offset, .. } => {
+                let (on_arm, p, q) = (arm.place(from)?, frame.place(p)?, frame.place(q)?);
+                let along = (q - p).normalize();
+                let beside = offset - cross(along, pivot_place - p);
+                Some(Swing::of_projection(on_arm, left_normal(along), beside, self.bounds()))
+            }
+            _ => None,
+        }
     }
 
     /// Why it closes nowhere in `span`.
     fn shortfall(&self, linkage: &Linkage, span: Span, signs: Signs) -> String {
-        let [nearest, furthest] = match self.swing(linkage) {
-            Some(swing) if span == Span::Turn => [(swing.fixed - swing.arm).abs(), swing.fixed + swing.arm],
-            _ => Sampled { linkage, dyad: self, span, signs }.base_range(),
+        let [least, greatest] = match self.swing(linkage) {
+            Some(swing) if span == Span::Turn => swing.extent,
+            _ => Sampled { linkage, dyad: self, span, signs }.range(),
         };
         let name = |id: JointId| linkage.joints[id].name.as_str();
-        let (joint, from, to) = (name(self.joint), name(self.base[0]), name(self.base[1]));
-        let [l0, l1] = self.lengths.map(short);
-        let (sum, difference) = self.reach();
-        let bases = format!("{joint} cannot be placed: {from} and {to}");
-        if nearest >= sum {
-            format!("{bases} are {} or more apart, links of {l0} and {l1} reach {}", short(nearest), short(sum))
-        } else if furthest <= difference {
-            format!("{bases} are {} or less apart, links of {l0} and {l1} need {}", short(furthest), short(difference))
-        } else {
-            format!("{bases} are nowhere in the range at a distance that links of {l0} and {l1} span")
+        let joint = name(self.joint);
+        let [low, high] = self.bounds();
+        match self.step {
+            Step::Slide { from, length, .. } => {
+                let nearest = if least > 0.0 { least } else { -greatest };
+                format!(
+                    "{joint} cannot be placed: its line stays {} or more from {}, and the link of {} is too short",
+                    short(nearest),
+                    name(from),
+                    short(length)
+                )
+            }
+            Step::Slot { base: [p, q], .. } => format!(
+                "{joint} cannot be placed: {} and {} are {} or less apart, and the offset is {}",
+                name(p),
+                name(q),
+                short(greatest),
+                short(low)
+            ),
+            Step::Dyad { base: [p, q], lengths, .. } => {
+                let (from, to) = (name(p), name(q));
+                let [l0, l1] = lengths.map(short);
+                let bases = format!("{joint} cannot be placed: {from} and {to}");
+                if least >= high {
+                    format!("{bases} are {} or more apart, links of {l0} and {l1} reach {}", short(least), short(high))
+                } else if greatest <= low {
+                    format!("{bases} are {} or less apart, links of {l0} and {l1} need {}", short(greatest), short(low))
+                } else {
+                    format!("{bases} are nowhere in the range at a distance that links of {l0} and {l1} span")
+                }
+            }
+            _ => format!("{joint} cannot be placed"),
         }
     }
 }
@@ -98,21 +144,61 @@ fn short(x: f64) -> String {
     rounded.to_string()
 }
 
-/// A base whose one end is fixed at a distance `fixed` from the crank's pivot, the other on an arm of length `arm`.
+/// An extent that goes with the cosine of the input: with the angle measured from `towards`, it is at one end of its
+/// range at 0 degrees and at the other at 180.
 struct Swing {
-    fixed: f64,
-    arm: f64,
-    /// The input's direction when the arm points at the fixed end.
+    /// The input's direction at which the near bound may be met.
     towards: Vector,
+    /// The least and the greatest extent.
+    extent: [f64; 2],
+    /// What is left to the bounds at 0 and at 180 degrees; negative where they are passed.
+    room: [f64; 2],
+    /// 1 - cos where the bound near 0 degrees is met, and 1 + cos where that near 180 is.
+    versine: [f64; 2],
+    /// What is left to the other bound at 0 and at 180 degrees: where there is none, the dyad closes nowhere.
+    hope: [f64; 2],
+    /// Lengths closer than this are equal.
+    tolerance: f64,
+    /// Whether the base may vanish at 0 degrees.
+    may_vanish: bool,
 }
 
 impl Swing {
-    fn new(on_arm: Vector, to_fixed: Vector) -> Swing {
+    /// The length of a base with one end on an arm and the other fixed, `to_fixed` from the arm's pivot.
+    fn of_length(on_arm: Vector, to_fixed: Vector, [low, high]: [f64; 2]) -> Swing {
         let (fixed, arm) = (to_fixed.norm(), on_arm.norm());
-        // The quotient of two directions, as of complex numbers.
-        let towards = Vector::new(to_fixed.dot(&on_arm), on_arm.x * to_fixed.y - on_arm.y * to_fixed.x);
-        let towards = if fixed * arm > 0.0 { towards / (fixed * arm) } else { Vector::new(1.0, 0.0) };
-        Swing { fixed, arm, towards }
+        let (nearest, furthest) = ((fixed - arm).abs(), fixed + arm);
+        let product = 2.0 * fixed * arm;
+        let finite = if high.is_finite() { high } else { low };
+        let tolerance = four_bar_tolerance(furthest + finite);
+        Swing {
+            towards: quotient(to_fixed, on_arm),
+            extent: [nearest, furthest],
+            room: [nearest - low, high - furthest],
+            // Differences of squares are taken apart: exact factors, and accurate when small.
+            versine: [
+                (low - nearest) * (low + nearest) / product,
+                if high.is_finite() { (furthest - high) * (furthest + high) / product } else { 0.0 },
+            ],
+            hope: [high - nearest, furthest - low],
+            tolerance,
+            may_vanish: nearest <= tolerance,
+        }
+    }
+
+    /// `beside` less the projection of an arm on a fixed direction.
+    fn of_projection(on_arm: Vector, normal: Vector, beside: f64, [low, high]: [f64; 2]) -> Swing {
+        let arm = on_arm.norm();
+        let (least, greatest) = (beside - arm, beside + arm);
+        Swing {
+            towards: quotient(normal, on_arm),
+            extent: [least, greatest],
+            room: [least - low, high - greatest],
+            versine: [(low - least) / arm, (greatest - high) / arm],
+            hope: [high - least, greatest - low],
+            tolerance: four_bar_tolerance(beside.abs() + arm + high),
+            may_vanish: false,
+        }
     }
 
     /// The input whose angle from `towards` has this cosine and sine.
@@ -123,34 +209,26 @@ impl Swing {
         Stop { deg, cos: t.x * cos - t.y * sin, sin: t.y * cos + t.x * sin }
     }
 
-    /// The spans of the whole turn on which a dyad closes.
+    /// The spans of the whole turn on which the dyad closes.
     ///
-    /// With the angle measured from `towards`, the base is shortest at 0 and longest at 180 degrees. What is compared
-    /// there is a sum of lengths with a sum of lengths; equal within their rounding, they make a change point.
-    fn spans(&self, dyad: &Dyad, next_id: &mut usize) -> Vec<Span> {
-        let (sum, difference) = dyad.reach();
-        let (nearest, furthest) = ((self.fixed - self.arm).abs(), self.fixed + self.arm);
-        let tolerance = four_bar_tolerance(furthest + sum);
-        let fold = Gate::new(nearest - difference, tolerance);
-        let stretch = Gate::new(sum - furthest, tolerance);
-        if nearest - sum >= -tolerance || difference - furthest >= -tolerance {
+    /// What is compared at 0 and at 180 degrees is a sum of lengths with a sum of lengths; equal within their
+    /// rounding, they make a change point.
+    fn spans(&self, dyad: usize, next_id: &mut usize) -> Vec<Span> {
+        if self.hope.iter().any(|hope| *hope <= self.tolerance) {
             return Vec::new();
         }
-        let product = 2.0 * self.fixed * self.arm;
-        // 1 - cos at the inner limit and 1 + cos at the outer: exact factors, and accurate when small.
-        let versine = (difference - nearest) * (difference + nearest) / product;
-        let inner = (1.0 - versine, (versine * (2.0 - versine)).sqrt());
-        let versine = (furthest - sum) * (furthest + sum) / product;
-        let outer = (versine - 1.0, (versine * (2.0 - versine)).sqrt());
+        let [fold, stretch] = self.room.map(|room| Gate::new(room, self.tolerance));
+        let sine = |versine: f64| (versine * (2.0 - versine)).max(0.0).sqrt();
+        let inner = (1.0 - self.versine[0], sine(self.versine[0]));
+        let outer = (self.versine[1] - 1.0, sine(self.versine[1]));
 
-        let mut new_end = |stop: Stop, cause: Cause| {
+        let change = Cause::Change { dyad, bound: false };
+        let folding = Cause::Change { dyad, bound: self.may_vanish };
+        let limit = Cause::Limit(dyad);
+        let mut at = |(cos, sin): (f64, f64), cause| {
             *next_id += 1;
-            IntervalEnd { stop, cause, id: *next_id }
+            IntervalEnd { stop: self.stop(cos, sin), cause, id: *next_id }
         };
-        let change = Cause::Change { dyad: dyad.index, bound: false };
-        let folding = Cause::Change { dyad: dyad.index, bound: nearest <= tolerance };
-        let limit = Cause::Limit(dyad.index);
-        let mut at = |(cos, sin): (f64, f64), cause| new_end(self.stop(cos, sin), cause);
         let arc = |lower: IntervalEnd, upper: IntervalEnd| {
             // Both ends are within half a turn of `towards`; the upper one follows the lower.
             let turn = if upper.stop.deg > lower.stop.deg { 0.0 } else { 360.0 };
@@ -196,6 +274,12 @@ impl Swing {
             }
         }
     }
+}
+
+/// The direction that turns `b` into the direction of `a`: their quotient, as of complex numbers.
+fn quotient(a: Vector, b: Vector) -> Vector {
+    let product = a.norm() * b.norm();
+    if product > 0.0 { Vector::new(a.dot(&b), cross(b, a)) / product } else { Vector::new(1.0, 0.0) }
 }
 
 /// Whether a dyad can pass the shortest or the longest its base can be.
@@ -253,8 +337,8 @@ struct Sampled<'a> {
 }
 
 impl Sampled<'_> {
-    /// Length of the base at each input; the ends of the span with the dyad flat that ends it.
-    fn bases(&self, degs: &[f64]) -> Vec<f64> {
+    /// The extent at each input; the ends of the span with the dyad flat that ends it.
+    fn extents(&self, degs: &[f64]) -> Vec<f64> {
         let stops: Vec<Stop> = degs.iter().map(|&deg| Stop::at(deg)).collect();
         let (cos, sin): (Vec<f64>, Vec<f64>) = stops.iter().map(|s| (s.cos, s.sin)).unzip();
         let mut out = Columns::new(self.linkage.joints.len(), degs.len());
@@ -269,19 +353,18 @@ impl Sampled<'_> {
                 }
             }
         }
-        let [p, q] = self.dyad.base;
-        (0..degs.len()).map(|i| (out.point(q, i) - out.point(p, i)).norm()).collect()
+        (0..degs.len()).map(|i| self.dyad.extent(|joint| out.point(joint, i))).collect()
     }
 
     /// What is left to stretch or to fold at an input, whichever is less; negative where the dyad does not close.
     fn room(&self, deg: f64) -> f64 {
-        self.room_of(self.bases(&[deg])[0])
+        self.room_of(self.extents(&[deg])[0])
     }
 
-    fn room_of(&self, base: f64) -> f64 {
-        let (sum, difference) = self.dyad.reach();
-        let room = (sum - base).min(base - difference);
-        if room.is_nan() { -sum } else { room }
+    fn room_of(&self, extent: f64) -> f64 {
+        let [low, high] = self.dyad.bounds();
+        let room = (high - extent).min(extent - low);
+        if room.is_nan() { -1.0 } else { room }
     }
 
     fn grid(&self) -> Vec<f64> {
@@ -294,16 +377,16 @@ impl Sampled<'_> {
         (0..=n).map(at).collect()
     }
 
-    /// The least and the greatest base.
-    fn base_range(&self) -> [f64; 2] {
-        let bases = self.bases(&self.grid());
-        let fold = |pick: fn(f64, f64) -> f64, start| bases.iter().copied().fold(start, pick);
-        [fold(f64::min, f64::INFINITY), fold(f64::max, 0.0)]
+    /// The least and the greatest extent.
+    fn range(&self) -> [f64; 2] {
+        let extents = self.extents(&self.grid());
+        let fold = |pick: fn(f64, f64) -> f64, start| extents.iter().copied().fold(start, pick);
+        [fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY)]
     }
 
     fn spans(&self, next_id: &mut usize) -> Vec<Span> {
         let mut degs = self.grid();
-        let mut rooms: Vec<f64> = self.bases(&degs).into_iter().map(|b| self.room_of(b)).collect();
+        let mut rooms: Vec<f64> = self.extents(&degs).into_iter().map(|extent| self.room_of(extent)).collect();
         self.look_between(&mut degs, &mut rooms);
         let open: Vec<bool> = rooms.iter().map(|room| *room >= 0.0).collect();
         let mut end = |inside: f64, outside: f64| {

@@ -1,7 +1,7 @@
 //! The `[linkage.joints]` table: read joint by joint, then put in an order in which each can be placed.
 
 use super::reader::{Fields, Reader, Value};
-use crate::expression::Kind;
+use crate::expression::{Bound, Kind};
 use crate::problem::{Problem, Span, nearest_or_all};
 use crate::template::{Coordinate, JointTemplate, Placing, Side};
 
@@ -15,10 +15,12 @@ pub(super) struct Joints {
 }
 
 /// A way to place a joint: the key it is known by, and the keys that go with it.
-const KINDS: [(&str, &[&str]); 5] = [
+const KINDS: [(&str, &[&str]); 7] = [
     ("fixed", &["fixed"]),
     ("crank", &["crank", "length"]),
     ("dyad", &["dyad", "lengths", "side"]),
+    ("slide", &["slide", "length", "line", "offset", "side"]),
+    ("slot", &["slot", "offset", "side"]),
     ("distances", &["point", "distances", "side"]),
     ("point", &["point", "along", "across"]),
 ];
@@ -52,7 +54,7 @@ pub(super) fn read<'t>(
     let now = |joint: usize| order.iter().position(|&k| k == joint).unwrap_or(joint);
     let joints = order
         .iter()
-        .map(|&k| JointTemplate { name: names[k].to_owned(), placing: renumbered(placings[k].clone(), now) })
+        .map(|&k| JointTemplate { name: names[k].to_owned(), placing: placings[k].clone().renamed(now) })
         .collect();
     let places = entries.iter().map(|(name, span, _)| ((*name).to_owned(), span.clone())).collect();
     Some(Joints {
@@ -74,7 +76,7 @@ fn joint<'t>(
     let given = |key: &&(&str, &[&str])| open.get(key.0).is_some();
     let Some((kind, keys)) = KINDS.iter().find(given) else {
         let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
-        reader.note(problem.help("it is `fixed`, a `crank`, a `dyad` or a `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+        reader.note(problem.help("it is `fixed`, a `crank`, a `dyad`, a `slide`, a `slot` or a `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
     let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
@@ -94,13 +96,27 @@ fn joint<'t>(
         "dyad" => {
             let base = fields.get("dyad").and_then(|value| base(value, names, reader));
             let lengths = two("lengths", reader);
-            let side = side(&fields, reader);
+            let side = side(&fields, &SIDES, reader);
             Some(Placing::Dyad { base: base?, lengths: lengths?, side: side? })
+        }
+        "slide" => {
+            let from = fields.get("slide").and_then(|value| reference(value, names, reader));
+            let length = fields.required("length", "length = 1", reader).and_then(|value| reader.bound(value, scope));
+            let line = fields.required("line", "line = [\"P\", \"Q\"]", reader).and_then(|v| base(v, names, reader));
+            let offset = offset(&fields, scope, reader);
+            let side = side(&fields, &[("ahead", Side::Left), ("behind", Side::Right)], reader);
+            Some(Placing::Slide { from: from?, length: length?, line: line?, offset: offset?, side: side? })
+        }
+        "slot" => {
+            let base = fields.get("slot").and_then(|value| base(value, names, reader));
+            let offset = offset(&fields, scope, reader);
+            let side = if fields.get("offset").is_some() { side(&fields, &SIDES, reader) } else { Some(Side::Left) };
+            Some(Placing::Slot { base: base?, offset: offset?, side: side? })
         }
         "distances" => {
             let base = fields.required("point", "point = [\"A\", \"B\"]", reader).and_then(|v| base(v, names, reader));
             let distances = two("distances", reader);
-            let side = side(&fields, reader);
+            let side = side(&fields, &SIDES, reader);
             Some(Placing::Distances { base: base?, distances: distances?, side: side? })
         }
         _ => {
@@ -134,9 +150,20 @@ fn coordinate<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader
     Some(Coordinate::Range { from: from?, to: to?, count: count? })
 }
 
-fn side<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) -> Option<Side> {
-    let value = fields.required("side", "side = \"left\"", reader)?;
-    reader.word(value, &[("left", Side::Left), ("right", Side::Right)])
+/// The sides of a line.
+const SIDES: [(&str, Side); 2] = [("left", Side::Left), ("right", Side::Right)];
+
+fn side<'t>(fields: &Fields<'_, 't>, words: &[(&str, Side)], reader: &mut Reader<'t>) -> Option<Side> {
+    let value = fields.required("side", &format!("side = \"{}\"", words[0].0), reader)?;
+    reader.word(value, words)
+}
+
+/// The offset of a line, 0 where none is given.
+fn offset<'t>(fields: &Fields<'_, 't>, scope: &[(&str, Kind)], reader: &mut Reader<'t>) -> Option<Bound> {
+    match fields.get("offset") {
+        None => Some(Bound::constant(0.0)),
+        Some(value) => reader.bound(value, scope),
+    }
 }
 
 /// A joint by its name.
@@ -214,11 +241,22 @@ fn grids_are_only_traced(entries: &[(&str, Span, &Value)], placings: &[Placing],
     }
 }
 
+/// The joints a joint is placed from: those it names, and, for a point of a link that carries a slot's line, the
+/// slot's foot, without which there is no such link.
+fn needs(placings: &[Placing], k: usize) -> Vec<usize> {
+    let mut bases = placings[k].bases();
+    if let Placing::Point { base, .. } | Placing::Distances { base, .. } = &placings[k] {
+        let carries = |other: &Placing| matches!(other, Placing::Slot { base: slot, .. } if slot == base);
+        bases.extend(placings.iter().position(carries));
+    }
+    bases
+}
+
 /// An order in which every joint comes after those it refers to; as written, where that is one.
 fn order(entries: &[(&str, Span, &Value)], placings: &[Placing], reader: &mut Reader) -> Option<Vec<usize>> {
     let mut order: Vec<usize> = Vec::new();
     while order.len() < placings.len() {
-        let ready = |k: &usize| !order.contains(k) && placings[*k].bases().iter().all(|base| order.contains(base));
+        let ready = |k: &usize| !order.contains(k) && needs(placings, *k).iter().all(|base| order.contains(base));
         match (0..placings.len()).find(ready) {
             Some(next) => order.push(next),
             None => {
@@ -243,7 +281,7 @@ fn cycle(placings: &[Placing], placed: &[usize], start: usize) -> Vec<usize> {
     loop {
         let at = path[path.len() - 1];
         // A joint that cannot be placed has a base that cannot be placed.
-        let next = placings[at].bases().into_iter().find(|base| !placed.contains(base)).unwrap_or(start);
+        let next = needs(placings, at).into_iter().find(|base| !placed.contains(base)).unwrap_or(start);
         if let Some(first) = path.iter().position(|&k| k == next) {
             path.drain(..first);
             path.push(next);
@@ -262,22 +300,12 @@ fn unused(
     reader: &mut Reader,
 ) {
     for (k, (name, span, _)) in entries.iter().enumerate() {
-        let carries = placings.iter().any(|placing| placing.bases().contains(&k));
+        let carries = (0..placings.len()).any(|other| needs(placings, other).contains(&k));
         let is_seen = seen_from.is_some_and(|joints| joints.contains(&k));
         let is_driven = matches!(placings[k], Placing::Crank { .. });
         if !carries && !is_seen && !is_driven && !traced.contains(&k) {
             let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
             reader.note(problem.help(format!("trace it, hang another joint on it, or take `{name}` away")));
         }
-    }
-}
-
-fn renumbered(placing: Placing, now: impl Fn(usize) -> usize) -> Placing {
-    match placing {
-        Placing::Fixed(at) => Placing::Fixed(at),
-        Placing::Crank { pivot, length } => Placing::Crank { pivot: now(pivot), length },
-        Placing::Dyad { base, lengths, side } => Placing::Dyad { base: base.map(now), lengths, side },
-        Placing::Point { base, along, across } => Placing::Point { base: base.map(now), along, across },
-        Placing::Distances { base, distances, side } => Placing::Distances { base: base.map(now), distances, side },
     }
 }

@@ -3,7 +3,9 @@
 mod arrangement;
 mod element;
 mod figure;
+mod mechanism;
 mod panels;
+mod plot;
 mod pose;
 mod theme;
 

@@ -1,6 +1,6 @@
 //! The pose a linkage is drawn in: one in which it can be read.
 
-use super::figure::{drawn_links, ground};
+use super::mechanism::{drawn_links, ground, sliding_line};
 use crate::geometry::{Point, cross, distance_to_segment};
 use crate::linkage::Linkage;
 use crate::motion::Circuit;
@@ -17,6 +17,7 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     // The frame is a link like the others here: a crank that lies on it cannot be seen.
     let mut links = drawn_links(linkage);
     links.push(ground(linkage));
+    links.extend((0..linkage.joints.len()).filter_map(|joint| sliding_line(linkage, joint)));
     let pose = |sample: usize| -> Vec<Point> {
         (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
     };

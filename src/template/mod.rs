@@ -113,6 +113,28 @@ pub enum Placing {
         /// The side of the base at the start.
         side: Side,
     },
+    /// By a link that slides on a line.
+    Slide {
+        /// The joint the link hangs on.
+        from: usize,
+        /// The link's length.
+        length: Bound,
+        /// Two joints the line goes through, or beside.
+        line: [usize; 2],
+        /// How far the line runs to the left of them.
+        offset: Bound,
+        /// Left is ahead along the line, right is behind.
+        side: Side,
+    },
+    /// At the foot of a line that slides through a joint.
+    Slot {
+        /// The pivot, and the joint the line slides through.
+        base: [usize; 2],
+        /// The line's distance from the pivot.
+        offset: Bound,
+        /// The side of the base at the start.
+        side: Side,
+    },
     /// On a link, by coordinates; ranges make a grid of points, `across` fastest.
     Point {
         /// Two joints of the link.
@@ -139,8 +161,27 @@ impl Placing {
         match self {
             Placing::Fixed(_) => Vec::new(),
             Placing::Crank { pivot, .. } => vec![*pivot],
-            Placing::Dyad { base, .. } | Placing::Point { base, .. } | Placing::Distances { base, .. } => base.to_vec(),
+            Placing::Slide { from, line, .. } => vec![*from, line[0], line[1]],
+            Placing::Dyad { base, .. }
+            | Placing::Slot { base, .. }
+            | Placing::Point { base, .. }
+            | Placing::Distances { base, .. } => base.to_vec(),
         }
+    }
+
+    /// The same with its joints renamed.
+    #[must_use]
+    pub fn renamed(mut self, now: impl Fn(usize) -> usize) -> Placing {
+        match &mut self {
+            Placing::Fixed(_) => {}
+            Placing::Crank { pivot, .. } => *pivot = now(*pivot),
+            Placing::Slide { from, line, .. } => (*from, *line) = (now(*from), line.map(now)),
+            Placing::Dyad { base, .. }
+            | Placing::Slot { base, .. }
+            | Placing::Point { base, .. }
+            | Placing::Distances { base, .. } => *base = base.map(now),
+        }
+        self
     }
 }
 
@@ -254,6 +295,14 @@ impl Template {
                 Placing::Crank { pivot, length } => vec![assembly.crank(name, made[*pivot][0], number(k, length))?],
                 Placing::Dyad { base, lengths: [l0, l1], side } => {
                     vec![assembly.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
+                }
+                Placing::Slide { from, length, line, offset, side } => {
+                    let hung = (made[*from][0], number(k, length));
+                    let line = (two(line), finite("`offset`", number(k, offset))?);
+                    vec![assembly.slide(name, hung, line, *side)?]
+                }
+                Placing::Slot { base, offset, side } => {
+                    vec![assembly.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
                 }
                 Placing::Distances { base, distances: [d0, d1], side } => {
                     vec![assembly.distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]

@@ -147,6 +147,8 @@ fn lengths() -> impl Strategy<Value = [f64; 4]> {
 }
 
 proptest! {
+    #![proptest_config(crate::random())]
+
     #[test]
     fn every_circuit_keeps_lengths_and_never_jumps(lengths in lengths(), branch: bool) {
         let continuation = if branch { Continuation::Branch } else { Continuation::Smooth };

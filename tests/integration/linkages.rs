@@ -53,6 +53,8 @@ fn check(linkage: &Linkage, step: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
+    #![proptest_config(crate::random())]
+
     #[test]
     fn six_bars_keep_their_lengths(lengths in prop::array::uniform8(0.3f64..3.0)) {
         if let Some(linkage) = six_bar(lengths) {

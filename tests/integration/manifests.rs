@@ -243,6 +243,8 @@ mod properties {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random())]
+
         /// No text makes the reader panic, and what it says can be drawn.
         #[test]
         fn nothing_panics(text in "\\PC{0,200}") {

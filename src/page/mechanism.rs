@@ -1,0 +1,172 @@
+//! The linkage of a figure: links as lines and plates, pivots, sliders with their guides, slots.
+
+use super::plot::Plot;
+use super::theme::Theme;
+use crate::geometry::{Bounds, Point, Vector, cross, left_normal, trig};
+use crate::linkage::{JointId, Link, Linkage, Step};
+use crate::motion::Circuit;
+use crate::scene::{Circle, Color, Item, Line, Path, Stroke};
+
+/// A linkage in a pose.
+pub(super) struct Mechanism<'a> {
+    linkage: &'a Linkage,
+    /// The places of all joints.
+    pub pose: Vec<Point>,
+    /// The guides of sliders that slide on the frame, each from end to end of what is used of it.
+    guides: Vec<[Point; 2]>,
+}
+
+impl<'a> Mechanism<'a> {
+    /// A linkage in one pose of a circuit.
+    pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>) -> Mechanism<'a> {
+        let guides = (0..linkage.joints.len()).filter_map(|joint| guide(linkage, circuit, joint)).collect();
+        Mechanism { linkage, pose, guides }
+    }
+
+    /// The box round all that is drawn of it.
+    pub fn bounds(&self) -> Bounds {
+        let joints = drawn_links(self.linkage).concat().into_iter().map(|joint| self.pose[joint]);
+        Bounds::of(joints.chain(self.guides.iter().flatten().copied()))
+    }
+
+    /// What lies under the curves: the bodies of plates, the frame as a hairline, guides.
+    pub fn underlay(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
+        let at = |joint: &JointId| plot.page_from_plane.apply(self.pose[*joint]);
+        let mut items = Vec::new();
+        for link in drawn_links(self.linkage) {
+            let points: Vec<Point> = link.iter().map(at).collect();
+            if is_plate(&points) {
+                let fill = Some(theme.faded(theme.faded(theme.hairline)));
+                items.push(Item::Path(Path { lines: vec![Line { points, closed: true }], stroke: None, fill }));
+            }
+        }
+        let points: Vec<Point> = ground(self.linkage).iter().map(at).collect();
+        if points.len() > 1 {
+            items.push(Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair))));
+        }
+        for guide in &self.guides {
+            let [a, b] = guide.map(|p| plot.page_from_plane.apply(p));
+            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (3.0 * theme.joint);
+            items.push(Item::Path(Path::stroked(vec![a - over, b + over], theme.stroke(theme.ink, theme.fine))));
+        }
+        items
+    }
+
+    /// The linkage in ink; `ink` is the colour of a joint.
+    pub fn items(&self, plot: &Plot, theme: &Theme, ink: impl Fn(JointId) -> Color) -> Vec<Item> {
+        let at = |joint: JointId| plot.page_from_plane.apply(self.pose[joint]);
+        let ground = ground(self.linkage);
+        let mut items = Vec::new();
+        let links = drawn_links(self.linkage);
+        let heavy = Stroke { round: true, ..theme.stroke(theme.ink, theme.link) };
+        let mut blocks = Vec::new();
+        for (id, joint) in self.linkage.joints.iter().enumerate() {
+            match joint.step {
+                Step::Slide { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
+                Step::Slot { base: [_, through], .. } => {
+                    items.push(Item::Path(Path::stroked(vec![at(id), at(through)], heavy)));
+                    blocks.push((at(through), at(through) - at(id)));
+                }
+                Step::Directed { base: [pivot, through], .. } => blocks.push((at(through), at(through) - at(pivot))),
+                _ => {}
+            }
+        }
+        for link in &links {
+            let points: Vec<Point> = link.iter().map(|&joint| at(joint)).collect();
+            let closed = is_plate(&points);
+            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke: Some(heavy), fill: None }));
+        }
+        items.extend(blocks.into_iter().map(|(centre, along)| block(centre, along, theme)));
+        let mut joints: Vec<JointId> = links.concat();
+        joints.sort_unstable();
+        joints.dedup();
+        let circle = |centre, radius, color| {
+            let stroke = Some(theme.stroke(color, theme.fine));
+            Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
+        };
+        for joint in joints {
+            if ground.contains(&joint) {
+                items.push(circle(at(joint), 1.5 * theme.joint, ink(joint)));
+                items.push(circle(at(joint), 0.7 * theme.joint, ink(joint)));
+            } else {
+                items.push(circle(at(joint), theme.joint, ink(joint)));
+            }
+        }
+        items
+    }
+}
+
+/// The joints of a line that a slotted link carries through a joint, if `joint` makes it do so.
+pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<Vec<JointId>> {
+    match linkage.joints[joint].step {
+        Step::Slot { base: [_, through], .. } => Some(vec![joint, through]),
+        Step::Directed { base: [pivot, through], .. } => Some(vec![pivot, through]),
+        _ => None,
+    }
+}
+
+/// A sliding block, along a direction.
+fn block(centre: Point, along: Vector, theme: &Theme) -> Item {
+    let u = along.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
+    let (u, n) = (u * (2.4 * theme.joint), left_normal(u) * (1.5 * theme.joint));
+    let points = vec![centre - u - n, centre + u - n, centre + u + n, centre - u + n];
+    let stroke = Some(theme.stroke(theme.ink, theme.fine));
+    Item::Path(Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) })
+}
+
+/// What a slider uses of a line on the frame.
+fn guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
+    let Step::Slide { line: [p, q], .. } = linkage.joints[joint].step else { return None };
+    let ground = linkage.ground();
+    (ground.place(p).is_some() && ground.place(q).is_some()).then_some(())?;
+    let along = circuit.places.point(q, 0) - circuit.places.point(p, 0);
+    let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
+    Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
+}
+
+/// The joints of the link at rest that something moves about.
+pub(super) fn ground(linkage: &Linkage) -> Vec<JointId> {
+    let ground = linkage.ground();
+    let moving =
+        |joint: JointId| linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some());
+    ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| moving(joint)).collect()
+}
+
+/// The moving links as they are drawn, each by its joints in order: along a bar, or round a plate.
+pub(super) fn drawn_links(linkage: &Linkage) -> Vec<Vec<JointId>> {
+    let ground = linkage.ground();
+    linkage.links.iter().filter(|link| !std::ptr::eq(*link, ground)).map(|link| outline(linkage, link)).collect()
+}
+
+/// The joints of a link round its hull; the points of a grid are left out.
+fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
+    let name = |joint: usize| &linkage.joints[joint].name;
+    let is_grid = |joint: usize| {
+        let same = |&(other, _): &(usize, Vector)| other != joint && name(other) == name(joint);
+        matches!(linkage.joints[joint].step, Step::Rigid { .. }) && link.joints.iter().any(same)
+    };
+    let joints: Vec<(usize, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
+    let centre = joints.iter().map(|(_, place)| place).sum::<Vector>() / joints.len().max(1) as f64;
+    let points: Vec<Point> = joints.iter().map(|(_, place)| Point::from(*place)).collect();
+    let mut order: Vec<usize> = (0..joints.len()).collect();
+    if is_flat(&points) {
+        let along = points.last().zip(points.first()).map_or(Vector::zeros(), |(b, a)| b - a);
+        order.sort_by(|&a, &b| along.dot(&points[a].coords).total_cmp(&along.dot(&points[b].coords)));
+    } else {
+        let angle = |k: usize| trig::atan2(joints[k].1.y - centre.y, joints[k].1.x - centre.x);
+        order.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+    }
+    order.into_iter().map(|k| joints[k].0).collect()
+}
+
+/// Whether a link is drawn as a plate and not as a bar.
+fn is_plate(points: &[Point]) -> bool {
+    points.len() > 2 && !is_flat(points)
+}
+
+/// Whether points lie on one line, to a thousandth of their extent.
+fn is_flat(points: &[Point]) -> bool {
+    let size = Bounds::of(points.iter().copied()).size().norm();
+    let Some((first, rest)) = points.split_first() else { return true };
+    rest.iter().all(|a| rest.iter().all(|b| cross(a - first, b - first).abs() <= 1e-3 * size * size))
+}
