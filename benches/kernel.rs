@@ -6,7 +6,7 @@
 use std::hint::black_box;
 
 use coupler_atlas::linkage::{Assembly, Linkage, Side, Signs, Travel};
-use coupler_atlas::motion::{Columns, Modes, Motion, Sampler, Sampling, place};
+use coupler_atlas::motion::{Columns, Inputs, Modes, Motion, Sampler, Sampling, Stop, place};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const SAMPLES: usize = 360;
@@ -24,7 +24,9 @@ fn four_bar(points: usize) -> Linkage {
 
 fn kernel(criterion: &mut Criterion) {
     let sampler = Sampler::new(Sampling::Samples(SAMPLES));
-    let (cos, sin): (Vec<f64>, Vec<f64>) = sampler.turn().iter().map(|stop| (stop.cos, stop.sin)).unzip();
+    let column = |pick: fn(&Stop) -> f64| sampler.turn().iter().map(pick).collect::<Vec<f64>>();
+    let (at, cos, sin) = (column(|stop| stop.at), column(|stop| stop.cos), column(|stop| stop.sin));
+    let inputs = Inputs { at: &at, cos: &cos, sin: &sin };
     let mut group = criterion.benchmark_group("kernel");
     for points in [1, 10] {
         let linkage = four_bar(points);
@@ -34,7 +36,7 @@ fn kernel(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements((SAMPLES * points) as u64));
         group.bench_function(format!("{points} coupler points"), |bencher| {
             bencher.iter(|| {
-                place(black_box(&linkage), joints, (&cos, &sin), &modes, &mut out, 0..SAMPLES);
+                place(black_box(&linkage), joints, inputs, &modes, &mut out, 0..SAMPLES);
                 black_box(&mut out);
             });
         });

@@ -46,12 +46,25 @@ pub enum Error {
         /// The distance of the joints they are taken from.
         span: f64,
     },
+    /// A gear ratio is no ratio of whole numbers from 1 to [`Error::MAX_RATIO`].
+    #[error("`{joint}` is geared {} to {}, and both must be whole numbers from 1 to {} or their negatives", ratio[0], ratio[1], Error::MAX_RATIO)]
+    Ratio {
+        /// The joint to place.
+        joint: String,
+        /// The ratio.
+        ratio: [i64; 2],
+    },
     /// More dyads than [`MAX_DYADS`].
     #[error("`{joint}` is one dyad more than the {MAX_DYADS} a linkage may have")]
     TooManyDyads {
         /// The joint to place.
         joint: String,
     },
+}
+
+impl Error {
+    /// The greatest number in a gear ratio: a circuit takes as many turns.
+    pub const MAX_RATIO: u64 = 100;
 }
 
 /// A link that turns about a pivot and carries the line of a slot.
@@ -109,6 +122,52 @@ impl Assembly {
         positive(name, length)?;
         let id = self.add(name, Step::Crank { pivot, length });
         self.bar(pivot, id, length);
+        Ok(id)
+    }
+
+    /// The pin of a second crank about `pivot`, geared to the first: it turns `ratio[0]` times while that turns
+    /// `ratio[1]` times, and stands at `phase_deg` degrees where that stands at 0.
+    ///
+    /// # Errors
+    /// A length that is not positive, a ratio with a 0 in it or out of bounds.
+    pub fn gear(
+        &mut self,
+        name: &str,
+        (pivot, length): (JointId, f64),
+        ratio: [i64; 2],
+        phase_deg: f64,
+    ) -> Result<JointId, Error> {
+        positive(name, length)?;
+        let [n, d] = ratio;
+        let bad = |x: i64| x == 0 || x.unsigned_abs() > Error::MAX_RATIO;
+        if bad(n) || bad(d) {
+            return Err(Error::Ratio { joint: name.to_owned(), ratio });
+        }
+        let common = super::gcd(n.unsigned_abs() as u32, d.unsigned_abs() as u32);
+        let lowest = i64::from(common) * d.signum();
+        let id = self.add(name, Step::Gear { pivot, length, ratio: [n / lowest, d / lowest], phase_deg });
+        self.bar(pivot, id, length);
+        Ok(id)
+    }
+
+    /// The pin of a crank about `base[1]`, driven by a linear actuator that turns about `base[0]`, or about a point
+    /// `offset` beside its line; on a side of `base[0] -> base[1]`.
+    ///
+    /// # Errors
+    /// One joint given twice, a length that is not positive, one dyad too many.
+    pub fn piston(
+        &mut self,
+        name: &str,
+        base: [JointId; 2],
+        (length, offset): (f64, f64),
+        side: Side,
+    ) -> Result<JointId, Error> {
+        self.two(name, base)?;
+        positive(name, length)?;
+        self.directed_link(name, base)?;
+        let index = self.two_valued(name, side)?;
+        let id = self.add(name, Step::Piston { base, length, offset, index });
+        self.bar(base[1], id, length);
         Ok(id)
     }
 

@@ -57,6 +57,28 @@ pub enum Step {
         /// Its length, positive.
         length: f64,
     },
+    /// On a second crank, geared to the first: it turns `ratio[0]` times while that turns `ratio[1]` times.
+    Gear {
+        /// The crank's pivot.
+        pivot: JointId,
+        /// Its length, positive.
+        length: f64,
+        /// Turns of this crank to turns of the first, in lowest terms, the second positive.
+        ratio: [i64; 2],
+        /// Its angle, in degrees, where the first crank's is 0.
+        phase_deg: f64,
+    },
+    /// On a crank that a linear actuator drives; the actuator's length s is the linkage's input (McCarthy 2.43).
+    Piston {
+        /// The actuator's pivot, and the crank's.
+        base: [JointId; 2],
+        /// The crank's length, positive.
+        length: f64,
+        /// The actuator's line is this far from its pivot.
+        offset: f64,
+        /// Its place among the two-valued joints: its bit in [`Signs`].
+        index: usize,
+    },
     /// At the third corner of a triangle of two links on two joints (the RRR dyad).
     Dyad {
         /// The joints the links hang on.
@@ -113,8 +135,13 @@ impl Step {
     /// The place of a two-valued joint among them; `None` for a joint with one place.
     pub fn index(&self) -> Option<usize> {
         match *self {
-            Step::Dyad { index, .. } | Step::Slide { index, .. } | Step::Slot { index, .. } => Some(index),
-            Step::Fixed(_) | Step::Crank { .. } | Step::Directed { .. } | Step::Rigid { .. } => None,
+            Step::Dyad { index, .. }
+            | Step::Slide { index, .. }
+            | Step::Slot { index, .. }
+            | Step::Piston { index, .. } => Some(index),
+            Step::Fixed(_) | Step::Crank { .. } | Step::Gear { .. } | Step::Directed { .. } | Step::Rigid { .. } => {
+                None
+            }
         }
     }
 }
@@ -173,10 +200,10 @@ impl Signs {
 pub struct Travel {
     /// The sides of the dyads at the start.
     pub signs: Signs,
-    /// The input at the start, in degrees; by default the middle of the first assemblable range from 0 upward.
-    pub start_deg: Option<f64>,
-    /// The input to stay within, from and to, in degrees; by default the whole turn.
-    pub range_deg: Option<[f64; 2]>,
+    /// The input at the start, in degrees or as a length; by default the middle of the first assemblable range from 0 upward.
+    pub start: Option<f64>,
+    /// The input to stay within, from and to, in degrees or as lengths; by default all there is.
+    pub range: Option<[f64; 2]>,
     /// Which circuits are wanted.
     pub circuits: Circuits,
     /// What happens at a change point.
@@ -214,7 +241,47 @@ pub struct Arc {
     pub branch: i8,
 }
 
+/// What drives a linkage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// The angle of a crank, in degrees; after so many turns every joint is where it was.
+    Angle {
+        /// Turns to a period.
+        turns: u32,
+    },
+    /// The length of a linear actuator.
+    Length,
+}
+
+impl Input {
+    /// How far the input goes until every joint is where it was, in degrees. A length never comes round: its period is
+    /// beyond all lengths.
+    pub fn period(self) -> f64 {
+        match self {
+            Input::Angle { turns } => 360.0 * f64::from(turns),
+            Input::Length => f64::MAX / 8.0,
+        }
+    }
+}
+
 impl Linkage {
+    /// What drives it.
+    pub fn input(&self) -> Input {
+        let mut turns = 1;
+        for joint in &self.joints {
+            match joint.step {
+                Step::Piston { .. } => return Input::Length,
+                Step::Gear { ratio: [_, of], .. } => {
+                    // Several gears come round together after the least common multiple.
+                    let of = of.unsigned_abs() as u32;
+                    turns = turns / gcd(turns, of) * of;
+                }
+                _ => {}
+            }
+        }
+        Input::Angle { turns }
+    }
+
     /// How many two-valued joints there are.
     pub fn dyads(&self) -> usize {
         self.joints.iter().filter(|joint| joint.step.index().is_some()).count()
@@ -225,4 +292,9 @@ impl Linkage {
         let seen = |link: &&Link| self.seen_from.is_some_and(|joints| joints.iter().all(|&j| link.place(j).is_some()));
         self.links.iter().find(seen).unwrap_or(&self.links[0])
     }
+}
+
+/// The greatest common divisor of two numbers that are not zero.
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
 }

@@ -22,6 +22,6 @@ fn extreme(subject: &Subject, start: f64, pick: fn(f64, f64) -> f64) -> Value {
     if subject.circuit.closed && !turns_round {
         return Value::Missing;
     }
-    let ends = passes.iter().flat_map(|pass| [pass.from.stop.deg, pass.to.stop.deg]);
+    let ends = passes.iter().flat_map(|pass| [pass.from.stop.at, pass.to.stop.at]);
     Value::Number(ends.fold(start, pick))
 }

@@ -6,7 +6,7 @@
 
 use super::circuit::{End, Pass, Stop};
 use super::reach;
-use crate::linkage::{Linkage, Side, Signs};
+use crate::linkage::{Input, Linkage, Side, Signs};
 
 /// Why an interval ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,7 @@ impl IntervalEnd {
 
     /// The same end with an angle that many degrees greater, a whole number of turns.
     pub fn turned(self, deg: f64) -> IntervalEnd {
-        IntervalEnd { stop: Stop { deg: self.stop.deg + deg, ..self.stop }, ..self }
+        IntervalEnd { stop: Stop { at: self.stop.at + deg, ..self.stop }, ..self }
     }
 }
 
@@ -53,14 +53,14 @@ pub(super) enum Span {
 }
 
 impl Span {
-    /// The angle that differs from `deg` by whole turns and lies in the span.
-    pub fn turns_to(&self, deg: f64) -> Option<f64> {
-        let Span::Arc { lower, upper } = self else { return Some(deg.rem_euclid(360.0)) };
-        let over = (deg - lower.stop.deg).rem_euclid(360.0);
-        let length = upper.stop.deg - lower.stop.deg;
+    /// The input that differs from `deg` by whole periods and lies in the span.
+    pub fn turns_to(&self, deg: f64, period: f64) -> Option<f64> {
+        let Span::Arc { lower, upper } = self else { return Some(deg.rem_euclid(period)) };
+        let over = (deg - lower.stop.at).rem_euclid(period);
+        let length = upper.stop.at - lower.stop.at;
         // At a change point the start pose is that of the interval above.
         let inside = over < length || (over == length && !matches!(upper.cause, Cause::Change { .. }));
-        inside.then_some(lower.stop.deg + over)
+        inside.then_some(lower.stop.at + over)
     }
 }
 
@@ -80,11 +80,11 @@ impl Interval {
         }
     }
 
-    /// The interval traversed with a rising or falling input; a full turn from 0 to 360 degrees.
-    pub fn pass(&self, rising: bool) -> Pass {
+    /// The interval traversed with a rising or falling input; a full turn from 0 to its period.
+    pub fn pass(&self, rising: bool, period: f64) -> Pass {
         let end = |end: IntervalEnd| End { stop: end.stop, flat: end.flat() };
         let (from, to) = match self.span {
-            Span::Turn => (End { stop: Stop::at(0.0), flat: None }, End { stop: Stop::at(360.0), flat: None }),
+            Span::Turn => (End { stop: Stop::angle(0.0), flat: None }, End { stop: Stop::angle(period), flat: None }),
             Span::Arc { lower, upper } => (end(lower), end(upper)),
         };
         if rising { Pass { from, to, signs: self.signs } } else { Pass { from: to, to: from, signs: self.signs } }
@@ -100,9 +100,11 @@ pub(super) struct Reach {
 
 /// All intervals of all assembly modes, within the range asked for.
 pub(super) fn intervals(linkage: &Linkage) -> Reach {
-    let asked = |deg: f64, id| IntervalEnd { stop: Stop::at(deg), cause: Cause::Asked, id };
-    let span = match linkage.travel.range_deg {
-        Some([from, to]) if to - from < 360.0 => Span::Arc { lower: asked(from, 0), upper: asked(to, 1) },
+    let input = linkage.input();
+    let asked = |at: f64, id| IntervalEnd { stop: Stop::of(input, at), cause: Cause::Asked, id };
+    let span = match linkage.travel.range {
+        Some([from, to]) if to - from < input.period() => Span::Arc { lower: asked(from, 0), upper: asked(to, 1) },
+        _ if input == Input::Length => Span::Arc { lower: asked(0.0, 0), upper: asked(f64::MAX / 16.0, 1) },
         _ => Span::Turn,
     };
     let mut explorer = Explorer { linkage, dyads: linkage.dyads(), next_id: 2, out: Vec::new(), shortfall: None };

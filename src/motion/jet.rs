@@ -5,7 +5,9 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::geometry::{Point, Vector};
+use super::circuit::Stop;
+use super::kernel::geared;
+use crate::geometry::{Point, Vector, trig};
 use crate::linkage::{JointId, Linkage, Signs, Step};
 
 /// The coefficients of 1, t, t^2 and t^3.
@@ -102,43 +104,51 @@ impl JetVector {
     }
 }
 
-/// Places and rates of all joints at one input, to a radian of it, in the frame the linkage is seen from.
+/// Places and rates of all joints at one input, to a radian of it or to a unit of its length, in the frame the linkage is seen from.
 ///
 /// At a limit the rates of the joints that turn round there are infinite.
 #[derive(Clone, Debug)]
 pub struct Jets(Vec<JetVector>);
 
 impl Jets {
-    /// The rates at an input, by its cosine and sine, in an assembly; `flat` is the dyad that lies flat there, if any.
+    /// The rates at an input in an assembly; `flat` is the dyad that lies flat there, if any.
     ///
     /// # Source
     /// The constraints of each dyad, differentiated as series.
-    pub fn of(linkage: &Linkage, direction: (f64, f64), signs: Signs, flat: Option<usize>) -> Jets {
-        let Jets(at) = Jets::in_fixed_frame(linkage, direction, signs, flat);
+    pub fn of(linkage: &Linkage, stop: Stop, signs: Signs, flat: Option<usize>) -> Jets {
+        let Jets(at) = Jets::in_fixed_frame(linkage, stop, signs, flat);
         Jets(seen(linkage, at))
     }
 
     /// The same in the frame of the fixed joints.
-    pub(super) fn in_fixed_frame(linkage: &Linkage, direction: (f64, f64), signs: Signs, flat: Option<usize>) -> Jets {
-        let (cos, sin) = direction;
-        let turning =
-            JetVector { x: Jet([cos, -sin, -cos / 2.0, sin / 6.0]), y: Jet([sin, cos, -sin / 2.0, -cos / 6.0]) };
+    pub(super) fn in_fixed_frame(linkage: &Linkage, stop: Stop, signs: Signs, flat: Option<usize>) -> Jets {
+        // A crank's direction as it turns `by` radians to a radian of input.
+        let turning = |(cos, sin): (f64, f64), by: f64| JetVector {
+            x: Jet([cos, -sin * by, -cos * by * by / 2.0, sin * by * by * by / 6.0]),
+            y: Jet([sin, cos * by, -sin * by * by / 2.0, -cos * by * by * by / 6.0]),
+        };
+        let none = Jet::constant(0.0);
         let mut at: Vec<JetVector> = Vec::with_capacity(linkage.joints.len());
         for joint in &linkage.joints {
             let unbounded = joint.step.index().is_some_and(|index| flat == Some(index));
             let mode = |index: usize| if unbounded { 0.0 } else { f64::from(signs.get(index)) };
             let place = match joint.step {
                 Step::Fixed(place) => JetVector::constant(place.coords),
-                Step::Crank { pivot, length } => at[pivot].moved(turning, Jet::constant(length), Jet::constant(0.0)),
-                Step::Dyad { base: [p, q], lengths: [l0, l1], index } => {
-                    let base = at[q].minus(at[p]);
-                    let d2 = base.dot(base);
-                    let d = d2.sqrt();
-                    let (sum, difference) = (Jet::constant(l0 + l1), Jet::constant(l0 - l1));
-                    let discriminant = (sum - d) * (sum + d) * (d - difference) * (d + difference);
-                    let along = (d2 + sum * difference).over(d2).scaled(0.5);
-                    let across = discriminant.sqrt().over(d2).scaled(0.5 * mode(index));
-                    at[p].moved(base, along, across)
+                Step::Crank { pivot, length } => {
+                    at[pivot].moved(turning((stop.cos, stop.sin), 1.0), Jet::constant(length), none)
+                }
+                Step::Gear { pivot, length, ratio, phase_deg } => {
+                    let direction = trig::cos_sin_deg(geared(stop.at, ratio, phase_deg));
+                    let by = ratio[0] as f64 / ratio[1] as f64;
+                    at[pivot].moved(turning(direction, by), Jet::constant(length), none)
+                }
+                Step::Piston { base, length, offset, index } => {
+                    let s = Jet([stop.at, 1.0, 0.0, 0.0]);
+                    let b = (s * s + Jet::constant(offset * offset)).sqrt();
+                    dyad(base.map(|j| at[j]), [b, Jet::constant(length)], mode(index))
+                }
+                Step::Dyad { base, lengths, index } => {
+                    dyad(base.map(|j| at[j]), lengths.map(Jet::constant), mode(index))
                 }
                 Step::Slide { from, length, line: [p, q], offset, index } => {
                     let line = at[q].minus(at[p]);
@@ -175,7 +185,7 @@ impl Jets {
         Point::from(self.0[joint].order(0))
     }
 
-    /// A joint's velocity: the change of its place to a radian of input.
+    /// A joint's velocity: the change of its place to a radian, or a unit, of input.
     pub fn velocity(&self, joint: JointId) -> Vector {
         self.rate(joint, 1)
     }
@@ -194,6 +204,18 @@ impl Jets {
     fn rate(&self, joint: JointId, order: usize) -> Vector {
         self.0[joint].order(order).map(|rate| if rate.is_nan() { f64::INFINITY } else { rate })
     }
+}
+
+/// The third corner of a triangle of two links on a base, as the kernel places it.
+fn dyad([p, q]: [JetVector; 2], [l0, l1]: [Jet; 2], mode: f64) -> JetVector {
+    let base = q.minus(p);
+    let d2 = base.dot(base);
+    let d = d2.sqrt();
+    let (sum, difference) = (l0 + l1, l0 - l1);
+    let discriminant = (sum - d) * (sum + d) * (d - difference) * (d + difference);
+    let along = (d2 + sum * difference).over(d2).scaled(0.5);
+    let across = discriminant.sqrt().over(d2).scaled(0.5 * mode);
+    p.moved(base, along, across)
 }
 
 /// The same place with rates that have no bound.

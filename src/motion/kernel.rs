@@ -1,7 +1,8 @@
 use std::ops::Range;
 
+use super::circuit::Stop;
 use super::jet::Jets;
-use crate::geometry::{Point, cross, left_normal};
+use crate::geometry::{Point, cross, left_normal, trig};
 use crate::linkage::{JointId, Linkage, MAX_DYADS, Signs, Step};
 
 /// Positions of all joints at all samples, joint by joint.
@@ -64,18 +65,48 @@ impl Modes {
     }
 }
 
+/// Values of the input, in columns.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a> {
+    /// The angles in degrees, or the lengths.
+    pub at: &'a [f64],
+    /// Their cosines; of lengths, nothing.
+    pub cos: &'a [f64],
+    /// Their sines; of lengths, nothing.
+    pub sin: &'a [f64],
+}
+
+/// Values of the input, by columns that are their own.
+#[derive(Clone, Debug, Default)]
+pub(super) struct OwnInputs {
+    at: Vec<f64>,
+    cos: Vec<f64>,
+    sin: Vec<f64>,
+}
+
+impl OwnInputs {
+    pub fn new(stops: &[Stop]) -> OwnInputs {
+        OwnInputs {
+            at: stops.iter().map(|stop| stop.at).collect(),
+            cos: stops.iter().map(|stop| stop.cos).collect(),
+            sin: stops.iter().map(|stop| stop.sin).collect(),
+        }
+    }
+
+    pub fn of(&self, range: Range<usize>) -> Inputs<'_> {
+        Inputs { at: &self.at[range.clone()], cos: &self.cos[range.clone()], sin: &self.sin[range] }
+    }
+
+    pub fn all(&self) -> Inputs<'_> {
+        self.of(0..self.at.len())
+    }
+}
+
 /// Places the first `joints` joints at the samples of `range`, in the frame of the fixed joints.
 ///
-/// `cos` and `sin` are the input's direction at those samples, from the start of `range`. A dyad whose base is longer
+/// `inputs` are those of the samples of `range` alone. A dyad whose base is longer
 /// or shorter than it can reach is laid flat; one whose base has no length is not a number.
-pub fn place(
-    linkage: &Linkage,
-    joints: usize,
-    (cos, sin): (&[f64], &[f64]),
-    modes: &Modes,
-    out: &mut Columns,
-    range: Range<usize>,
-) {
+pub fn place(linkage: &Linkage, joints: usize, inputs: Inputs, modes: &Modes, out: &mut Columns, range: Range<usize>) {
     let len = out.len;
     for (id, joint) in linkage.joints[..joints].iter().enumerate() {
         let (x_before, x_after) = out.x.split_at_mut(id * len);
@@ -87,7 +118,15 @@ pub fn place(
                 x.fill(at.x);
                 y.fill(at.y);
             }
-            Step::Crank { pivot, length } => crank(of(pivot), length, (cos, sin), x, y),
+            Step::Crank { pivot, length } => crank(of(pivot), length, (inputs.cos, inputs.sin), x, y),
+            Step::Gear { pivot, length, ratio, phase_deg } => {
+                let angle = |at: &f64| trig::cos_sin_deg(geared(*at, ratio, phase_deg));
+                let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.at.iter().map(angle).unzip();
+                crank(of(pivot), length, (&cos, &sin), x, y);
+            }
+            Step::Piston { base, length, offset, index } => {
+                piston((of(base[0]), of(base[1])), (inputs.at, length, offset), modes.0[index], x, y);
+            }
             Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
             Step::Slide { from, length, line, offset, index } => {
                 let line = (of(line[0]), of(line[1]));
@@ -157,6 +196,28 @@ fn slide(
     }
 }
 
+/// The angle in degrees of a crank geared to the input.
+pub(super) fn geared(input_deg: f64, [turns, of]: [i64; 2], phase_deg: f64) -> f64 {
+    // Whole periods are taken off first: the ratio of what is left is the more exact.
+    input_deg % (360.0 * of as f64) * turns as f64 / of as f64 + phase_deg
+}
+
+/// A crank driven by a linear actuator: an RRR dyad whose first link is `b = sqrt(s^2 + e^2)` long (McCarthy 2.40).
+fn piston(
+    ((px, py), (qx, qy)): (Column, Column),
+    (s, length, offset): (&[f64], f64, f64),
+    mode: f64,
+    x: &mut [f64],
+    y: &mut [f64],
+) {
+    for (i, s) in s.iter().enumerate() {
+        let b = (s * s + offset * offset).sqrt();
+        let one = i..i + 1;
+        let base = ((&px[one.clone()], &py[one.clone()]), (&qx[one.clone()], &qy[one.clone()]));
+        dyad(base.0, base.1, [b, length], mode, &mut x[one.clone()], &mut y[one]);
+    }
+}
+
 /// The RPR dyad: pivot, foot and joint are a right triangle with the base for hypotenuse (McCarthy 2.40-2.42).
 fn slot((px, py): Column, (qx, qy): Column, offset: f64, mode: f64, x: &mut [f64], y: &mut [f64]) {
     let n = x.len();
@@ -220,7 +281,7 @@ pub(super) fn see(linkage: &Linkage, out: &mut Columns) {
 /// infinite, the joint stays undefined.
 pub(super) fn place_end(
     linkage: &Linkage,
-    direction: (f64, f64),
+    stop: Stop,
     (signs, flat): (Signs, Option<usize>),
     after: f64,
     out: &mut Columns,
@@ -228,11 +289,12 @@ pub(super) fn place_end(
 ) {
     let modes = Modes::new(signs, flat);
     let all = linkage.joints.len();
-    place(linkage, all, (&[direction.0], &[direction.1]), &modes, out, sample..sample + 1);
+    let inputs = OwnInputs::new(&[stop]);
+    place(linkage, all, inputs.all(), &modes, out, sample..sample + 1);
     for (id, joint) in linkage.joints.iter().enumerate() {
         match joint.step {
             Step::Dyad { base: [p, q], lengths: [l0, _], index } if out.point(p, sample) == out.point(q, sample) => {
-                let jets = Jets::in_fixed_frame(linkage, direction, signs, flat);
+                let jets = Jets::in_fixed_frame(linkage, stop, signs, flat);
                 let base = Some((jets.velocity(q) - jets.velocity(p)) * after).filter(|v| v.norm() > 0.0);
                 let base = base.filter(|v| v.norm().is_finite());
                 // On a base of no length the two links have one length and lie on one line, square to the base.

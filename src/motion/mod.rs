@@ -19,7 +19,7 @@ mod sampling;
 
 pub use circuit::{End, Pass, Stop};
 pub use jet::Jets;
-pub use kernel::{Columns, Modes, place};
+pub use kernel::{Columns, Inputs, Modes, place};
 pub use path::{Dashes, Stroke, strokes};
 pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
 
@@ -51,7 +51,7 @@ impl Motion {
 }
 
 /// Where every joint is at one input of a pass, as seen from the linkage's own view.
-pub fn pose(linkage: &Linkage, pass: &Pass, input_deg: f64) -> Vec<Point> {
-    let columns = path::at(linkage, pass, &[input_deg]);
+pub fn pose(linkage: &Linkage, pass: &Pass, input: f64) -> Vec<Point> {
+    let columns = path::at(linkage, pass, &[input]);
     (0..linkage.joints.len()).map(|joint: JointId| columns.point(joint, 0)).collect()
 }

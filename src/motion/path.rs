@@ -1,7 +1,7 @@
 //! The path a joint draws, refined to a chord error, and cut into dashes of equal input.
 
 use super::circuit::{Pass, Stop};
-use super::kernel::{Columns, Modes, place, place_end, see};
+use super::kernel::{Columns, Modes, OwnInputs, place, place_end, see};
 use super::sampling::Circuit;
 use crate::geometry::{Point, distance_to_segment};
 use crate::linkage::{Arc, JointId, Linkage};
@@ -65,7 +65,7 @@ struct Piece {
 }
 
 fn pieces(pass: &Pass, dashes: Dashes, arc: Option<Arc>) -> Vec<Piece> {
-    let (from, to) = (pass.from.stop.deg, pass.to.stop.deg);
+    let (from, to) = (pass.from.stop.at, pass.to.stop.at);
     let [low, high] = [from.min(to), from.max(to)];
     let mut cuts = vec![low, high];
     let mut k = (low / dashes.period).floor();
@@ -152,15 +152,15 @@ fn refine(linkage: &Linkage, pass: &Pass, piece: &Piece, joints: &[JointId], tol
 
 /// All joints at some inputs of a pass; at its ends exactly as the circuit has them.
 pub(super) fn at(linkage: &Linkage, pass: &Pass, degs: &[f64]) -> Columns {
-    let stops: Vec<Stop> = degs.iter().map(|&deg| Stop::at(deg)).collect();
-    let (cos, sin): (Vec<f64>, Vec<f64>) = stops.iter().map(|s| (s.cos, s.sin)).unzip();
+    let input = linkage.input();
+    let inputs = OwnInputs::new(&degs.iter().map(|&at| Stop::of(input, at)).collect::<Vec<_>>());
     let mut out = Columns::new(linkage.joints.len(), degs.len());
     let modes = Modes::new(pass.signs, None);
-    place(linkage, linkage.joints.len(), (&cos, &sin), &modes, &mut out, 0..degs.len());
+    place(linkage, linkage.joints.len(), inputs.all(), &modes, &mut out, 0..degs.len());
     for (i, &deg) in degs.iter().enumerate() {
         for (end, after) in [(pass.from, pass.heading()), (pass.to, -pass.heading())] {
-            if deg == end.stop.deg && end.flat.is_some() {
-                place_end(linkage, (end.stop.cos, end.stop.sin), (pass.signs, end.flat), after, &mut out, i);
+            if deg == end.stop.at && end.flat.is_some() {
+                place_end(linkage, end.stop, (pass.signs, end.flat), after, &mut out, i);
             }
         }
     }

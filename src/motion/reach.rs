@@ -6,9 +6,9 @@
 
 use super::circuit::Stop;
 use super::interval::{Cause, IntervalEnd, Span};
-use super::kernel::{Columns, Modes, place};
+use super::kernel::{Columns, Modes, OwnInputs, place};
 use crate::geometry::{Point, Vector, cross, left_normal, trig};
-use crate::linkage::{JointId, Link, Linkage, Signs, Step, four_bar_tolerance};
+use crate::linkage::{Input, JointId, Link, Linkage, Signs, Step, four_bar_tolerance};
 
 /// Samples to a turn when zeros are bracketed.
 const SAMPLES: usize = 720;
@@ -25,6 +25,10 @@ pub(super) fn cut(
     next_id: &mut usize,
 ) -> Result<Vec<Span>, String> {
     let dyad = Dyad::of(linkage, dyad);
+    if let Step::Piston { .. } = dyad.step {
+        let spans = intersect(span, dyad.stroke(linkage, next_id).into_iter().collect());
+        return if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) };
+    }
     let spans = match dyad.swing(linkage) {
         Some(swing) => intersect(span, swing.spans(dyad.index, next_id)),
         None => Sampled { linkage, dyad: &dyad, span, signs }.spans(next_id),
@@ -58,6 +62,23 @@ impl Dyad {
         }
     }
 
+    /// What a piston's length can be: from where crank and frame are folded, or from nothing, to where they are
+    /// stretched.
+    fn stroke(&self, linkage: &Linkage, next_id: &mut usize) -> Option<Span> {
+        let Step::Piston { base: [c, o], length, offset, .. } = self.step else { return None };
+        let frame = (linkage.links[0].place(c)? - linkage.links[0].place(o)?).norm();
+        let leg = |b: f64| ((b - offset) * (b + offset)).max(0.0).sqrt();
+        let (folded, stretched) = (leg((frame - length).abs()), leg(frame + length));
+        let mut end = |at: f64, cause| {
+            *next_id += 1;
+            IntervalEnd { stop: Stop::of(Input::Length, at), cause, id: *next_id }
+        };
+        let limit = Cause::Limit(self.index);
+        let lower = end(folded, if folded > 0.0 { limit } else { Cause::Asked });
+        let upper = end(stretched, limit);
+        (folded < stretched).then_some(Span::Arc { lower, upper })
+    }
+
     fn bounds(&self) -> [f64; 2] {
         match self.step {
             Step::Dyad { lengths: [l0, l1], .. } => [(l0 - l1).abs(), l0 + l1],
@@ -69,6 +90,9 @@ impl Dyad {
 
     /// The extent as the projection or the length of an arm that turns with the crank, if it is one.
     fn swing(&self, linkage: &Linkage) -> Option<Swing> {
+        if linkage.input() != (Input::Angle { turns: 1 }) {
+            return None;
+        }
         let (pivot, crank) = linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.step {
             Step::Crank { pivot, .. } => Some((pivot, id)),
             _ => None,
@@ -98,6 +122,7 @@ impl Dyad {
     /// Why it closes nowhere in `span`.
     fn shortfall(&self, linkage: &Linkage, span: Span, signs: Signs) -> String {
         let [least, greatest] = match self.swing(linkage) {
+            _ if matches!(self.step, Step::Piston { .. }) => [0.0; 2],
             Some(swing) if span == Span::Turn => swing.extent,
             _ => Sampled { linkage, dyad: self, span, signs }.range(),
         };
@@ -133,7 +158,7 @@ impl Dyad {
                     format!("{bases} are nowhere in the range at a distance that links of {l0} and {l1} span")
                 }
             }
-            _ => format!("{joint} cannot be placed"),
+            _ => format!("{joint} cannot be placed by an actuator of any length asked for"),
         }
     }
 }
@@ -206,7 +231,7 @@ impl Swing {
         let t = self.towards;
         // Both angles are exact where the arm starts on the frame line.
         let deg = trig::degrees(trig::atan2(t.y, t.x)) + trig::degrees(trig::atan2(sin, cos));
-        Stop { deg, cos: t.x * cos - t.y * sin, sin: t.y * cos + t.x * sin }
+        Stop { at: deg, cos: t.x * cos - t.y * sin, sin: t.y * cos + t.x * sin }
     }
 
     /// The spans of the whole turn on which the dyad closes.
@@ -231,7 +256,7 @@ impl Swing {
         };
         let arc = |lower: IntervalEnd, upper: IntervalEnd| {
             // Both ends are within half a turn of `towards`; the upper one follows the lower.
-            let turn = if upper.stop.deg > lower.stop.deg { 0.0 } else { 360.0 };
+            let turn = if upper.stop.at > lower.stop.at { 0.0 } else { 360.0 };
             Span::Arc { lower, upper: upper.turned(turn) }
         };
         let mirrored = |(cos, sin): (f64, f64)| (cos, -sin);
@@ -314,15 +339,15 @@ fn intersect(span: Span, allowed: Vec<Span>) -> Vec<Span> {
         };
         for turn in -3..=3 {
             let (from, to) = (from.turned(360.0 * f64::from(turn)), to.turned(360.0 * f64::from(turn)));
-            let low = if from.stop.deg > lower.stop.deg { from } else { lower };
-            let high = if to.stop.deg < upper.stop.deg { to } else { upper };
-            if low.stop.deg < high.stop.deg {
+            let low = if from.stop.at > lower.stop.at { from } else { lower };
+            let high = if to.stop.at < upper.stop.at { to } else { upper };
+            if low.stop.at < high.stop.at {
                 out.push(Span::Arc { lower: low, upper: high });
             }
         }
     }
     out.sort_by(|a, b| match (a, b) {
-        (Span::Arc { lower: a, .. }, Span::Arc { lower: b, .. }) => a.stop.deg.total_cmp(&b.stop.deg),
+        (Span::Arc { lower: a, .. }, Span::Arc { lower: b, .. }) => a.stop.at.total_cmp(&b.stop.at),
         _ => std::cmp::Ordering::Equal,
     });
     out
@@ -339,17 +364,19 @@ struct Sampled<'a> {
 impl Sampled<'_> {
     /// The extent at each input; the ends of the span with the dyad flat that ends it.
     fn extents(&self, degs: &[f64]) -> Vec<f64> {
-        let stops: Vec<Stop> = degs.iter().map(|&deg| Stop::at(deg)).collect();
-        let (cos, sin): (Vec<f64>, Vec<f64>) = stops.iter().map(|s| (s.cos, s.sin)).unzip();
+        let input = self.linkage.input();
+        let stops: Vec<Stop> = degs.iter().map(|&at| Stop::of(input, at)).collect();
         let mut out = Columns::new(self.linkage.joints.len(), degs.len());
         let joints = self.dyad.joint;
         let modes = Modes::new(self.signs, None);
-        place(self.linkage, joints, (&cos, &sin), &modes, &mut out, 0..degs.len());
+        let inputs = OwnInputs::new(&stops);
+        place(self.linkage, joints, inputs.all(), &modes, &mut out, 0..degs.len());
         if let Span::Arc { lower, upper } = self.span {
             for (i, deg) in degs.iter().enumerate() {
-                for end in [lower, upper].into_iter().filter(|end| end.stop.deg == *deg) {
+                for end in [lower, upper].into_iter().filter(|end| end.stop.at == *deg) {
                     let modes = Modes::new(self.signs, end.flat());
-                    place(self.linkage, joints, (&[end.stop.cos], &[end.stop.sin]), &modes, &mut out, i..i + 1);
+                    let inputs = OwnInputs::new(&[end.stop]);
+                    place(self.linkage, joints, inputs.all(), &modes, &mut out, i..i + 1);
                 }
             }
         }
@@ -369,10 +396,11 @@ impl Sampled<'_> {
 
     fn grid(&self) -> Vec<f64> {
         let (from, to) = match self.span {
-            Span::Turn => (0.0, 360.0),
-            Span::Arc { lower, upper } => (lower.stop.deg, upper.stop.deg),
+            Span::Turn => (0.0, self.linkage.input().period()),
+            Span::Arc { lower, upper } => (lower.stop.at, upper.stop.at),
         };
-        let n = ((to - from) / 360.0 * SAMPLES as f64).ceil() as usize + 4;
+        let turns = if self.linkage.input() == Input::Length { 1.0 } else { (to - from) / 360.0 };
+        let n = (turns * SAMPLES as f64).ceil() as usize + 4;
         let at = |i: usize| if i == n { to } else { from + (to - from) * i as f64 / n as f64 };
         (0..=n).map(at).collect()
     }
@@ -391,7 +419,7 @@ impl Sampled<'_> {
         let open: Vec<bool> = rooms.iter().map(|room| *room >= 0.0).collect();
         let mut end = |inside: f64, outside: f64| {
             *next_id += 1;
-            let stop = Stop::at(self.refine(inside, outside));
+            let stop = Stop::of(self.linkage.input(), self.refine(inside, outside));
             IntervalEnd { stop, cause: Cause::Limit(self.dyad.index), id: *next_id }
         };
         let mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)> = Vec::new();
@@ -415,7 +443,7 @@ impl Sampled<'_> {
                 if over_zero {
                     let (_, upper) = arcs.remove(0);
                     let last = arcs.len() - 1;
-                    arcs[last].1 = upper.map(|end| end.turned(360.0));
+                    arcs[last].1 = upper.map(|end| end.turned(self.linkage.input().period()));
                 }
                 let span = |arc| match arc {
                     (Some(lower), Some(upper)) => Span::Arc { lower, upper },
@@ -426,7 +454,7 @@ impl Sampled<'_> {
             Span::Arc { lower, upper } => arcs
                 .into_iter()
                 .map(|(from, to)| Span::Arc { lower: from.unwrap_or(lower), upper: to.unwrap_or(upper) })
-                .filter(|span| matches!(span, Span::Arc { lower, upper } if lower.stop.deg < upper.stop.deg))
+                .filter(|span| matches!(span, Span::Arc { lower, upper } if lower.stop.at < upper.stop.at))
                 .collect(),
         }
     }

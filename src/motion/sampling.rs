@@ -1,14 +1,14 @@
 use std::ops::Range;
 
 use super::circuit::{Pass, Route, Stop};
-use super::kernel::{Columns, Modes, place, place_end, see};
+use super::kernel::{Columns, Modes, OwnInputs, place, place_end, see};
 use crate::geometry::Point;
-use crate::linkage::{JointId, Linkage, Signs};
+use crate::linkage::{Input, JointId, Linkage, Signs};
 
 /// How densely a circuit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sampling {
-    /// Every whole multiple of a step in degrees, and the ends of the passes.
+    /// Every whole multiple of a step, in degrees or in units of length, and the ends of the passes.
     Step(f64),
     /// That many samples in the whole circuit, evenly over each pass.
     Samples(usize),
@@ -32,8 +32,8 @@ pub struct Circuit {
     pub closed: bool,
     /// Its passes, in order.
     pub passes: Vec<Pass>,
-    /// The input of each sample, in degrees, continuous and never wrapped.
-    pub input_deg: Vec<f64>,
+    /// The input of each sample: degrees, continuous and never wrapped, or lengths.
+    pub input: Vec<f64>,
     /// Where each joint is at each sample, in the frame the linkage is seen from.
     pub places: Columns,
     signs: Vec<Signs>,
@@ -42,12 +42,12 @@ pub struct Circuit {
 impl Circuit {
     /// The number of samples.
     pub fn len(&self) -> usize {
-        self.input_deg.len()
+        self.input.len()
     }
 
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
-        self.input_deg.is_empty()
+        self.input.is_empty()
     }
 
     /// The sides of the dyads at a sample; at the end of a pass, those of the pass it ends.
@@ -70,11 +70,11 @@ impl Sampler {
         let turn = match sampling {
             Sampling::Step(step) => {
                 assert!(step > 0.0 && 360.0 / step <= MAX_SAMPLES as f64, "a step of {step}");
-                multiples(step, 0.0, 360.0).map(Stop::at).collect()
+                multiples(step, 0.0, 360.0).map(Stop::angle).collect()
             }
             Sampling::Samples(n) => {
                 assert!(n <= MAX_SAMPLES, "{n} samples");
-                (0..n).map(|i| Stop::at(360.0 * i as f64 / n as f64)).collect()
+                (0..n).map(|i| Stop::angle(360.0 * i as f64 / n as f64)).collect()
             }
         };
         Sampler { sampling, turn }
@@ -86,36 +86,35 @@ impl Sampler {
     }
 
     pub(super) fn sample(&self, linkage: &Linkage, route: Route) -> Circuit {
-        let mut plan = self.plan(&route);
+        let mut plan = self.plan(&route, linkage.input());
         let mut places = Columns::new(linkage.joints.len(), plan.stops.len());
-        let (cos, sin): (Vec<f64>, Vec<f64>) = plan.stops.iter().map(|s| (s.cos, s.sin)).unzip();
+        let inputs = OwnInputs::new(&plan.stops);
         let all = linkage.joints.len();
         for (run, pass) in plan.runs.iter().zip(&route.passes) {
             let modes = Modes::new(pass.signs, None);
-            place(linkage, all, (&cos[run.clone()], &sin[run.clone()]), &modes, &mut places, run.clone());
+            place(linkage, all, inputs.of(run.clone()), &modes, &mut places, run.clone());
         }
         for &(sample, pass, is_first) in &plan.ends {
             let pass = &route.passes[pass];
             let (end, after) = if is_first { (pass.from, pass.heading()) } else { (pass.to, -pass.heading()) };
-            let direction = (end.stop.cos, end.stop.sin);
-            place_end(linkage, direction, (pass.signs, end.flat), after, &mut places, sample);
+            place_end(linkage, end.stop, (pass.signs, end.flat), after, &mut places, sample);
             plan.signs[sample] = pass.signs;
         }
         see(linkage, &mut places);
-        let input_deg = plan.stops.iter().map(|stop| stop.deg).collect();
-        Circuit { closed: route.closed, passes: route.passes, input_deg, places, signs: plan.signs }
+        let input = plan.stops.iter().map(|stop| stop.at).collect();
+        Circuit { closed: route.closed, passes: route.passes, input, places, signs: plan.signs }
     }
 
     /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which
     /// of a closed circuit is the end of its last pass.
-    fn plan(&self, route: &Route) -> Plan {
+    fn plan(&self, route: &Route, input: Input) -> Plan {
         let mut plan = Plan::default();
         if let [pass] = route.passes[..]
             && route.closed
             && pass.from.flat.is_none()
         {
-            // A full turn on one branch: the table as it is.
-            plan.stops = self.turn.clone();
+            // A full turn on one branch: the table as it is, and again for every further turn.
+            plan.stops = self.turns(input);
             plan.signs = vec![pass.signs; plan.stops.len()];
             plan.runs.push(0..plan.stops.len());
             return plan;
@@ -126,7 +125,7 @@ impl Sampler {
         plan.signs.push(route.passes[0].signs);
         for (k, (pass, intervals)) in route.passes.iter().zip(self.intervals(route)).enumerate() {
             let begin = plan.stops.len();
-            self.inside(pass, intervals, &mut plan.stops);
+            self.inside(pass, (intervals, input), &mut plan.stops);
             if k < last || !route.closed {
                 plan.ends.push((plan.stops.len(), k, false));
                 plan.stops.push(pass.to.stop);
@@ -138,18 +137,20 @@ impl Sampler {
     }
 
     /// The samples strictly inside a pass.
-    fn inside(&self, pass: &Pass, intervals: usize, out: &mut Vec<Stop>) {
-        let (from, to) = (pass.from.stop.deg, pass.to.stop.deg);
+    fn inside(&self, pass: &Pass, (intervals, input): (usize, Input), out: &mut Vec<Stop>) {
+        let (from, to) = (pass.from.stop.at, pass.to.stop.at);
         match self.sampling {
             Sampling::Samples(_) => out.extend((1..intervals).map(|i| {
                 let t = i as f64 / intervals as f64;
                 // From both ends, so that equal passes there and back have equal samples.
-                Stop::at(if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
+                Stop::of(input, if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
             })),
             Sampling::Step(step) => {
                 let begin = out.len();
                 let apart = |deg: &f64| (deg - from).abs() > 1e-9 && (deg - to).abs() > 1e-9;
-                out.extend(multiples(step, from.min(to), from.max(to)).filter(apart).map(|deg| self.stop(deg, step)));
+                out.extend(
+                    multiples(step, from.min(to), from.max(to)).filter(apart).map(|at| self.stop(input, at, step)),
+                );
                 if from > to {
                     out[begin..].reverse();
                 }
@@ -158,13 +159,23 @@ impl Sampler {
     }
 
     /// The input at a multiple of the step, from the table where the step divides the turn.
-    fn stop(&self, deg: f64, step: f64) -> Stop {
+    fn stop(&self, input: Input, at: f64, step: f64) -> Stop {
         let n = self.turn.len();
-        if n as f64 * step == 360.0 {
-            let index = ((deg / step).round() as i64).rem_euclid(n as i64) as usize;
-            return Stop { deg, ..self.turn[index] };
+        if n as f64 * step == 360.0 && input != Input::Length {
+            let index = ((at / step).round() as i64).rem_euclid(n as i64) as usize;
+            return Stop { at, ..self.turn[index] };
         }
-        Stop::at(deg)
+        Stop::of(input, at)
+    }
+
+    /// The samples of a whole period from input 0.
+    fn turns(&self, input: Input) -> Vec<Stop> {
+        let period = input.period();
+        match self.sampling {
+            _ if period == 360.0 => self.turn.clone(),
+            Sampling::Step(step) => multiples(step, 0.0, period).map(|at| self.stop(input, at, step)).collect(),
+            Sampling::Samples(n) => (0..n).map(|i| Stop::angle(period * i as f64 / n as f64)).collect(),
+        }
     }
 
     /// How many intervals each pass gets: in proportion to its length, at least one, by largest remainder.

@@ -129,7 +129,7 @@ impl<'a> Figure<'a> {
         let ends = (0..n).filter(|&k| n > 1 && turns(k) && circuit.passes[k].to.flat.is_some());
         let place = |k: usize| {
             let pass = &circuit.passes[k];
-            motion::pose(&self.solved.linkage, pass, pass.to.stop.deg)[curve.joint]
+            motion::pose(&self.solved.linkage, pass, pass.to.stop.at)[curve.joint]
         };
         let dot = |k: usize| Circle {
             centre: plot.page_from_plane.apply(place(k)),

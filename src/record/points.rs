@@ -33,7 +33,7 @@ impl Points {
                 }
                 out.push_str(&sample.to_string());
                 let at = circuit.places.point(curve.joint, sample);
-                for value in [circuit.input_deg[sample], at.x, at.y] {
+                for value in [circuit.input[sample], at.x, at.y] {
                     out.push(',');
                     shortest(value, out);
                 }

@@ -331,7 +331,7 @@ impl Template {
             value if value.is_finite() => Ok(value),
             value => Err(Error::Angle { what, value, why: "which is not a finite number" }),
         };
-        let range_deg = match &self.input {
+        let range = match &self.input {
             None => None,
             Some([from, to]) => {
                 let (from, to) = (degrees("the input's `from`", from)?, degrees("the input's `to`", to)?);
@@ -343,13 +343,13 @@ impl Template {
                 }
             }
         };
-        let start_deg = self.start.as_ref().map(|start| degrees("`start`", start)).transpose()?;
+        let start = self.start.as_ref().map(|start| degrees("`start`", start)).transpose()?;
         // An arc whose ends do not exist for these lengths is no part of the curve: nothing is set apart then.
         let arc = self.arc.as_ref().and_then(|([from, to], branch)| {
             let input_deg = [from.degrees(values), to.degrees(values)];
             input_deg.iter().all(|deg| deg.is_finite()).then_some(Arc { input_deg, branch: *branch })
         });
         let (circuits, continuation) = (self.circuits, self.continuation);
-        Ok(Travel { start_deg, range_deg, circuits, continuation, arc, ..Travel::default() })
+        Ok(Travel { start, range, circuits, continuation, arc, ..Travel::default() })
     }
 }

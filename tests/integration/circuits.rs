@@ -28,7 +28,7 @@ fn motion(lengths: [f64; 4], travel: Travel, sampling: Sampling) -> Motion {
 fn passes(lengths: [f64; 4], travel: Travel) -> Vec<Vec<(i64, i64, i8)>> {
     let milli = |deg: f64| (deg * 1000.0).round() as i64;
     let motion = motion(lengths, travel, Sampling::Samples(12));
-    let pass = |p: &coupler_atlas::motion::Pass| (milli(p.from.stop.deg), milli(p.to.stop.deg), p.signs.get(0));
+    let pass = |p: &coupler_atlas::motion::Pass| (milli(p.from.stop.at), milli(p.to.stop.at), p.signs.get(0));
     motion.circuits.iter().map(|c| c.passes.iter().map(pass).collect()).collect()
 }
 
@@ -101,10 +101,10 @@ fn a_linkage_that_cannot_close_says_why() {
 
 #[test]
 fn a_range_that_is_not_reached_is_reported() {
-    let travel = |range| Travel { range_deg: Some(range), ..Travel::default() };
+    let travel = |range| Travel { range: Some(range), ..Travel::default() };
     let whole = motion([4.0, 1.0, 3.0, 3.5], travel([30.0, 120.0]), Sampling::Step(10.0));
     assert_eq!(whole.shortfall, None);
-    assert_eq!(whole.circuits[0].input_deg, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
+    assert_eq!(whole.circuits[0].input, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
     assert!(!whole.circuits[0].closed);
     let part = motion([4.0, 2.0, 2.0, 2.0], travel([0.0, 120.0]), Sampling::Step(10.0));
     assert!(part.shortfall.unwrap().starts_with("the input goes from 0 to 75.5225 deg only"));
@@ -113,7 +113,7 @@ fn a_range_that_is_not_reached_is_reported() {
     assert!(!none.is_assembled() && none.shortfall.is_some());
     // From the upper end down to a limit and back.
     let down = motion([2.0, 3.0, 1.0, 4.5], travel([0.0, 180.0]), Sampling::Step(10.0));
-    assert_eq!((down.circuits[0].input_deg[0], down.circuits[0].passes.len()), (180.0, 2));
+    assert_eq!((down.circuits[0].input[0], down.circuits[0].passes.len()), (180.0, 2));
 }
 
 /// Neighbouring samples are no further apart than the fastest joint can go: sqrt-like at a limit.
@@ -124,12 +124,7 @@ fn no_jumps(motion: &Motion, size: f64, step_deg: f64) {
         for i in 0..(if circuit.closed { n } else { n - 1 }) {
             for joint in 0..5 {
                 let moved = circuit.places.point(joint, (i + 1) % n) - circuit.places.point(joint, i);
-                assert!(
-                    moved.norm() <= allowed,
-                    "{} to {}: {moved}",
-                    circuit.input_deg[i],
-                    circuit.input_deg[(i + 1) % n]
-                );
+                assert!(moved.norm() <= allowed, "{} to {}: {moved}", circuit.input[i], circuit.input[(i + 1) % n]);
             }
         }
     }

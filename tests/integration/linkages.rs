@@ -25,11 +25,11 @@ fn six_bar([frame, crank, coupler, rocker, arm, link, output, pivot]: [f64; 8]) 
 fn check(linkage: &Linkage, step: f64) -> Result<(), TestCaseError> {
     let motion = Motion::of(linkage, &Sampler::new(Sampling::Step(step)));
     for circuit in &motion.circuits {
-        let ends: Vec<f64> = circuit.passes.iter().flat_map(|pass| [pass.from.stop.deg, pass.to.stop.deg]).collect();
+        let ends: Vec<f64> = circuit.passes.iter().flat_map(|pass| [pass.from.stop.at, pass.to.stop.at]).collect();
         for i in 0..circuit.len() {
             // Where two dyads have their limits close together, the base of the second moves so fast that no input
             // a float can name lays it flat to better than this.
-            let tolerance = if ends.contains(&circuit.input_deg[i]) { 1e-10 } else { 1e-12 };
+            let tolerance = if ends.contains(&circuit.input[i]) { 1e-10 } else { 1e-12 };
             for link in &linkage.links {
                 for pair in link.joints.windows(2) {
                     let length = (pair[0].1 - pair[1].1).norm();
@@ -81,7 +81,7 @@ fn limits_between_samples_are_found_to_the_last_bits() {
     let limit = trig::degrees(trig::acos((5.0 - 1.9 * 1.9) / 4.0));
     assert_eq!(motion.circuits.len(), 2, "one for each side of the first dyad");
     for circuit in &motion.circuits {
-        let reached = circuit.input_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let reached = circuit.input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         assert!((reached - limit).abs() < 1e-12, "{reached} {limit}");
         assert!(circuit.closed && circuit.passes.len() == 2);
         // The second dyad changes its side at the limit, the first keeps it.
@@ -105,7 +105,7 @@ fn a_gap_narrower_than_the_sampling_is_found() {
     let f = assembly.dyad("F", [p, d], [reach - 1.5, 1.5], Side::Left).unwrap();
     let linkage = assembly.finish(vec![f], None, all()).unwrap();
     let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
-    let reached = motion.circuits[0].input_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let reached = motion.circuits[0].input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     assert!((reached - 179.95).abs() < 1e-6, "{reached}");
 }
 
@@ -124,7 +124,7 @@ fn limits_do_not_depend_on_where_the_linkage_stands() {
         (four_bar([0.0, 0.0], [4.0, 0.0]), four_bar([1.0, 2.0], [1.0 + 4.0 * trig::cos(trig::radians(30.0)), 4.0]));
     assert_eq!(plain.circuits.len(), turned.circuits.len());
     for (plain, turned) in plain.circuits.iter().zip(&turned.circuits) {
-        for (a, b) in plain.input_deg.iter().zip(&turned.input_deg) {
+        for (a, b) in plain.input.iter().zip(&turned.input) {
             assert!((a + 30.0 - b).abs() < 1e-12, "{a} {b}");
         }
     }

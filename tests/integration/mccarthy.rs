@@ -2,7 +2,7 @@
 
 use coupler_atlas::geometry::{Point, Vector, trig};
 use coupler_atlas::linkage::{Assembly, Circuits, FourBar, InvertedSliderCrank, JointId, Linkage, Side, Travel};
-use coupler_atlas::motion::{Circuit, Jets, Motion, Sampler, Sampling};
+use coupler_atlas::motion::{Circuit, Jets, Motion, Sampler, Sampling, Stop};
 use proptest::prelude::*;
 
 fn all() -> Travel {
@@ -72,7 +72,7 @@ proptest! {
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
                 let at = |j: JointId| circuit.places.point(j, i);
-                let theta = trig::radians(circuit.input_deg[i]);
+                let theta = trig::radians(circuit.input[i]);
                 let cb = at(b) - at(c);
                 prop_assert!((cb.norm() - e).abs() < 1e-12);
                 prop_assert!(cb.dot(&(at(a) - at(b))).abs() < 1e-12 * (g + r) * (g + r));
@@ -93,7 +93,7 @@ proptest! {
             }
             if let (Some([least, _]), Some(lower)) = (formulas.crank_range(), circuit.passes[0].from.flat) {
                 prop_assert_eq!(lower, 0);
-                let reached = trig::radians(circuit.passes[0].from.stop.deg);
+                let reached = trig::radians(circuit.passes[0].from.stop.at);
                 prop_assert!((reached.abs() - least).abs() < 1e-7 || (g - r).abs() - e < 1e-12);
             }
         }
@@ -121,7 +121,7 @@ proptest! {
             for k in 0..circuit.passes.len() {
                 if let (Some(_), true) = (circuit.passes[k].to.flat, circuit.closed) {
                     // A limit: the link stands square to the line.
-                    let theta = trig::radians(circuit.passes[k].to.stop.deg);
+                    let theta = trig::radians(circuit.passes[k].to.stop.at);
                     let distance = offset - crank * trig::sin(theta - turn);
                     prop_assert!((distance.abs() - coupler).abs() < 1e-7);
                 }
@@ -159,8 +159,7 @@ proptest! {
         let inside = |i: usize| (0..=8).all(|k| i + k < circuit.len() && circuit.signs(i + k) == circuit.signs(i));
         prop_assume!(circuit.passes[0].from.flat.is_none() && inside(at % circuit.len()));
         let i = at % circuit.len() + 4;
-        let (cos, sin) = trig::cos_sin_deg(circuit.input_deg[i]);
-        let jets = Jets::of(&linkage, (cos, sin), circuit.signs(i), None);
+        let jets = Jets::of(&linkage, Stop::angle(circuit.input[i]), circuit.signs(i), None);
         let h = trig::radians(0.5);
         for &joint in &linkage.traced {
             prop_assert!((jets.place(joint) - circuit.places.point(joint, i)).norm() < 1e-12);
@@ -194,7 +193,7 @@ fn rates_at_a_limit_are_unbounded() {
     let linkage = four_bar(FourBar { frame: 4.0, crank: 2.0, coupler: 2.0, rocker: 2.0 });
     let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
     let end = motion.circuits[0].passes[0].to;
-    let jets = Jets::of(&linkage, (end.stop.cos, end.stop.sin), motion.circuits[0].passes[0].signs, end.flat);
+    let jets = Jets::of(&linkage, end.stop, motion.circuits[0].passes[0].signs, end.flat);
     assert!(jets.velocity(2).norm().is_finite(), "the crank turns on");
     assert_eq!(jets.velocity(3), Vector::new(f64::INFINITY, f64::INFINITY));
 }

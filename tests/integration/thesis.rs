@@ -144,7 +144,7 @@ fn every_sample_is_the_programs() {
         let size = size(circuit, joint);
         let [p, r, a, s] = figure.lengths;
         for sample in 0..circuit.len() {
-            let w = trig::radians(circuit.input_deg[sample]);
+            let w = trig::radians(circuit.input[sample]);
             let rd = (p * p + r * r - 2.0 * p * r * trig::cos(w)).sqrt();
             let foot = (s * s - a * a + rd * rd) / (2.0 * rd);
             let height = (s * s - foot * foot).max(0.0).sqrt();
@@ -166,7 +166,7 @@ fn watt_and_roberts_reach_their_limits() {
         let [p, r, a, s] = figure.lengths;
         // Natesan (4.6), (4.9).
         let limit = trig::degrees(trig::acos((p * p + r * r - (s + a) * (s + a)) / (2.0 * p * r)));
-        let upper = circuit.input_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let upper = circuit.input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         assert!((upper - limit).abs() < 1e-12 * limit, "figure {number}: {upper} {limit}");
     }
 }
