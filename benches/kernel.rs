@@ -5,7 +5,7 @@
 
 use std::hint::black_box;
 
-use coupler_atlas::linkage::{Assembly, Linkage, Side, Signs, Travel};
+use coupler_atlas::linkage::{Assembly, Flat, Linkage, Side, Signs, Travel};
 use coupler_atlas::motion::{Columns, Inputs, Modes, Motion, Sampler, Sampling, Stop, place};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -32,7 +32,7 @@ fn kernel(criterion: &mut Criterion) {
         let linkage = four_bar(points);
         let joints = linkage.joints.len();
         let mut out = Columns::new(joints, SAMPLES);
-        let modes = Modes::new(Signs::default(), None);
+        let modes = Modes::new(Signs::default(), Flat::NONE);
         group.throughput(Throughput::Elements((SAMPLES * points) as u64));
         group.bench_function(format!("{points} coupler points"), |bencher| {
             bencher.iter(|| {

@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::notation;
 use crate::template::Template;
 
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -18,6 +18,7 @@ const FILES: [&str; 10] = [
     include_str!("slider-crank.toml"),
     include_str!("inverted-slider-crank.toml"),
     include_str!("jansen.toml"),
+    include_str!("peaucellier-lipkin.toml"),
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {

@@ -188,10 +188,40 @@ impl Signs {
         }
     }
 
-    /// The same with one dyad on its other side.
+    /// The same with some dyads on their other sides.
     #[must_use]
-    pub fn flipped(self, dyad: usize) -> Signs {
-        Signs(self.0 ^ 1 << dyad)
+    pub fn flipped(self, dyads: Flat) -> Signs {
+        Signs(self.0 ^ dyads.0)
+    }
+}
+
+/// Some of the dyads, by their places: those that lie flat somewhere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Flat(u32);
+
+impl Flat {
+    /// None of them.
+    pub const NONE: Flat = Flat(0);
+
+    /// One of them.
+    pub fn one(dyad: usize) -> Flat {
+        Flat(1 << dyad)
+    }
+
+    /// Whether a dyad is among them.
+    pub fn has(self, dyad: usize) -> bool {
+        self.0 >> dyad & 1 == 1
+    }
+
+    /// Whether there are none.
+    pub fn is_none(self) -> bool {
+        self.0 == 0
+    }
+
+    /// These and those.
+    #[must_use]
+    pub fn and(self, other: Flat) -> Flat {
+        Flat(self.0 | other.0)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::geometry::trig;
 
 use super::interval::{Cause, Interval, Span, intervals};
-use crate::linkage::{Circuits, Continuation, Input, Linkage, Signs};
+use crate::linkage::{Circuits, Continuation, Flat, Input, Linkage, Signs};
 
 /// A value of the input: an angle with its direction, which is the more exact of the two at a limit, or a length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +37,8 @@ impl Stop {
 pub struct End {
     /// The input there.
     pub stop: Stop,
-    /// The dyad that lies flat there, at a limit or a change point.
-    pub flat: Option<usize>,
+    /// The dyads that lie flat there, at a limit or a change point; none at the end of a range or a period.
+    pub flat: Flat,
 }
 
 /// A part of a circuit on which the input goes one way and every dyad keeps its side.
@@ -227,10 +227,10 @@ fn after(linkage: &Linkage, all: &[Interval], (interval, rising): (usize, bool))
     let end = from.end(rising)?;
     let (signs, rises) = match end.cause {
         Cause::Asked => return None,
-        Cause::Limit(dyad) => (from.signs.flipped(dyad), !rising),
-        Cause::Change { dyad, bound } => {
-            let smooth = linkage.travel.continuation == Continuation::Smooth || bound;
-            (if smooth { from.signs.flipped(dyad) } else { from.signs }, rising)
+        Cause::Limit => (from.signs.flipped(end.flips), !rising),
+        Cause::Change => {
+            let smooth = linkage.travel.continuation == Continuation::Smooth;
+            (from.signs.flipped(if smooth { end.flips } else { end.bound }), rising)
         }
     };
     // It begins where this one ends: falling from the same upper end, or rising from the same lower one.
@@ -246,10 +246,11 @@ fn normal(passes: Vec<Pass>, closed: bool, asked: bool, period: f64) -> Vec<Pass
     for direction in [passes, backward] {
         let direction = if closed && !turns { cut_at_zero(direction, period) } else { direction };
         let starts = if closed { direction.len() } else { 1 };
+        // All of a motion that never turns round is one pass for each side, but for where it starts.
         for start in 0..starts {
             let n = direction.len();
             let rotated: Vec<Pass> = (0..n).map(|k| direction[(start + k) % n]).collect();
-            let candidate = continuous(rotated, turns, asked, period);
+            let candidate = continuous(joined(rotated), turns, asked, period);
             if closed && candidate[0].heading() < 0.0 && candidate.iter().any(|pass| pass.heading() > 0.0) {
                 continue;
             }
@@ -275,7 +276,7 @@ fn cut_at_zero(passes: Vec<Pass>, period: f64) -> Vec<Pass> {
         let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
         let zero = (high / period).ceil() * period - period;
         if zero > low {
-            let at = End { stop: Stop::angle(zero), flat: None };
+            let at = End { stop: Stop::angle(zero), flat: Flat::NONE };
             cut.push(Pass { to: at, ..pass });
             cut.push(Pass { from: at, ..pass });
         } else {
@@ -283,6 +284,20 @@ fn cut_at_zero(passes: Vec<Pass>, period: f64) -> Vec<Pass> {
         }
     }
     cut
+}
+
+/// The passes with those made one that [`cut_at_zero`] parted and a circuit does not start at.
+fn joined(passes: Vec<Pass>) -> Vec<Pass> {
+    let mut out: Vec<Pass> = Vec::new();
+    for pass in passes {
+        match out.last_mut() {
+            Some(last) if last.to == pass.from && last.to.flat.is_none() && last.signs == pass.signs => {
+                last.to = pass.to
+            }
+            _ => out.push(pass),
+        }
+    }
+    out
 }
 
 /// Shifts passes by whole turns so that each begins where the one before ends, and the whole lies where it should:

@@ -6,15 +6,15 @@
 
 use super::circuit::{End, Pass, Stop};
 use super::reach;
-use crate::linkage::{Input, Linkage, Side, Signs};
+use crate::linkage::{Flat, Input, Linkage, Side, Signs};
 
 /// Why an interval ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cause {
     /// A dyad is fully stretched or folded and cannot go on.
-    Limit(usize),
-    /// A dyad is stretched or folded and can go on. It is `bound` to change its side where its base vanishes.
-    Change { dyad: usize, bound: bool },
+    Limit,
+    /// A dyad is stretched or folded and can go on.
+    Change,
     /// The range asked for ends.
     Asked,
 }
@@ -24,17 +24,48 @@ pub(super) enum Cause {
 pub(super) struct IntervalEnd {
     pub stop: Stop,
     pub cause: Cause,
+    /// The dyads that lie flat there.
+    pub flat: Flat,
+    /// Those of them that change their sides when the motion goes on smoothly.
+    pub flips: Flat,
+    /// Those of them that can do nothing else, for their bases vanish.
+    pub bound: Flat,
     /// Intervals that meet have ends of one number.
     pub id: usize,
 }
 
 impl IntervalEnd {
-    /// The dyad that lies flat there.
-    pub fn flat(&self) -> Option<usize> {
-        match self.cause {
-            Cause::Limit(dyad) | Cause::Change { dyad, .. } => Some(dyad),
-            Cause::Asked => None,
-        }
+    /// An end of the range asked for.
+    pub fn asked(stop: Stop, id: usize) -> IntervalEnd {
+        IntervalEnd { stop, cause: Cause::Asked, flat: Flat::NONE, flips: Flat::NONE, bound: Flat::NONE, id }
+    }
+
+    /// An end where one dyad lies flat.
+    pub fn flat(stop: Stop, cause: Cause, dyad: usize, id: usize) -> IntervalEnd {
+        let dyad = Flat::one(dyad);
+        IntervalEnd { stop, cause, flat: dyad, flips: dyad, bound: Flat::NONE, id }
+    }
+
+    /// The same end where another dyad lies flat too; it changes its side together with the others.
+    #[must_use]
+    pub fn with(self, dyad: usize, vanishes: bool) -> IntervalEnd {
+        let dyad = Flat::one(dyad);
+        let bound = if vanishes { self.bound.and(dyad) } else { self.bound };
+        IntervalEnd { flat: self.flat.and(dyad), flips: self.flips.and(dyad), bound, ..self }
+    }
+
+    /// This end and one at the same input. Where one of them is a limit the motion turns round, and the dyads that
+    /// would have gone on keep their sides.
+    #[must_use]
+    pub fn merged(self, other: IntervalEnd) -> IntervalEnd {
+        let (cause, flips) = match (self.cause, other.cause) {
+            (Cause::Asked, _) => (other.cause, other.flips),
+            (_, Cause::Asked) => (self.cause, self.flips),
+            (a, b) if a == b => (a, self.flips.and(other.flips)),
+            (Cause::Limit, _) => (Cause::Limit, self.flips),
+            _ => (Cause::Limit, other.flips),
+        };
+        IntervalEnd { cause, flips, flat: self.flat.and(other.flat), bound: self.bound.and(other.bound), ..self }
     }
 
     /// The same end with an angle that many degrees greater, a whole number of turns.
@@ -59,7 +90,7 @@ impl Span {
         let over = (deg - lower.stop.at).rem_euclid(period);
         let length = upper.stop.at - lower.stop.at;
         // At a change point the start pose is that of the interval above.
-        let inside = over < length || (over == length && !matches!(upper.cause, Cause::Change { .. }));
+        let inside = over < length || (over == length && upper.cause != Cause::Change);
         inside.then_some(lower.stop.at + over)
     }
 }
@@ -82,9 +113,12 @@ impl Interval {
 
     /// The interval traversed with a rising or falling input; a full turn from 0 to its period.
     pub fn pass(&self, rising: bool, period: f64) -> Pass {
-        let end = |end: IntervalEnd| End { stop: end.stop, flat: end.flat() };
+        let end = |end: IntervalEnd| End { stop: end.stop, flat: end.flat };
         let (from, to) = match self.span {
-            Span::Turn => (End { stop: Stop::angle(0.0), flat: None }, End { stop: Stop::angle(period), flat: None }),
+            Span::Turn => {
+                let seam = |at| End { stop: Stop::angle(at), flat: Flat::NONE };
+                (seam(0.0), seam(period))
+            }
             Span::Arc { lower, upper } => (end(lower), end(upper)),
         };
         if rising { Pass { from, to, signs: self.signs } } else { Pass { from: to, to: from, signs: self.signs } }
@@ -101,7 +135,7 @@ pub(super) struct Reach {
 /// All intervals of all assembly modes, within the range asked for.
 pub(super) fn intervals(linkage: &Linkage) -> Reach {
     let input = linkage.input();
-    let asked = |at: f64, id| IntervalEnd { stop: Stop::of(input, at), cause: Cause::Asked, id };
+    let asked = |at: f64, id| IntervalEnd::asked(Stop::of(input, at), id);
     let span = match linkage.travel.range {
         Some([from, to]) if to - from < input.period() => Span::Arc { lower: asked(from, 0), upper: asked(to, 1) },
         _ if input == Input::Length => Span::Arc { lower: asked(0.0, 0), upper: asked(f64::MAX / 16.0, 1) },

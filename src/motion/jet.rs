@@ -8,7 +8,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::circuit::Stop;
 use super::kernel::geared;
 use crate::geometry::{Point, Vector, trig};
-use crate::linkage::{JointId, Linkage, Signs, Step};
+use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
 
 /// The coefficients of 1, t, t^2 and t^3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,17 +111,17 @@ impl JetVector {
 pub struct Jets(Vec<JetVector>);
 
 impl Jets {
-    /// The rates at an input in an assembly; `flat` is the dyad that lies flat there, if any.
+    /// The rates at an input in an assembly; `flat` are the dyads that lie flat there.
     ///
     /// # Source
     /// The constraints of each dyad, differentiated as series.
-    pub fn of(linkage: &Linkage, stop: Stop, signs: Signs, flat: Option<usize>) -> Jets {
+    pub fn of(linkage: &Linkage, stop: Stop, signs: Signs, flat: Flat) -> Jets {
         let Jets(at) = Jets::in_fixed_frame(linkage, stop, signs, flat);
         Jets(seen(linkage, at))
     }
 
     /// The same in the frame of the fixed joints.
-    pub(super) fn in_fixed_frame(linkage: &Linkage, stop: Stop, signs: Signs, flat: Option<usize>) -> Jets {
+    pub(super) fn in_fixed_frame(linkage: &Linkage, stop: Stop, signs: Signs, flat: Flat) -> Jets {
         // A crank's direction as it turns `by` radians to a radian of input.
         let turning = |(cos, sin): (f64, f64), by: f64| JetVector {
             x: Jet([cos, -sin * by, -cos * by * by / 2.0, sin * by * by * by / 6.0]),
@@ -130,7 +130,7 @@ impl Jets {
         let none = Jet::constant(0.0);
         let mut at: Vec<JetVector> = Vec::with_capacity(linkage.joints.len());
         for joint in &linkage.joints {
-            let unbounded = joint.step.index().is_some_and(|index| flat == Some(index));
+            let unbounded = joint.step.index().is_some_and(|index| flat.has(index));
             let mode = |index: usize| if unbounded { 0.0 } else { f64::from(signs.get(index)) };
             let place = match joint.step {
                 Step::Fixed(place) => JetVector::constant(place.coords),

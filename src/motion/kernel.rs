@@ -1,9 +1,8 @@
 use std::ops::Range;
 
 use super::circuit::Stop;
-use super::jet::Jets;
-use crate::geometry::{Point, cross, left_normal, trig};
-use crate::linkage::{JointId, Linkage, MAX_DYADS, Signs, Step};
+use crate::geometry::{Point, cross, trig};
+use crate::linkage::{Flat, JointId, Linkage, MAX_DYADS, Signs, Step};
 
 /// Positions of all joints at all samples, joint by joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,7 +43,7 @@ impl Columns {
         Point::new(self.x(joint)[sample], self.y(joint)[sample])
     }
 
-    fn set(&mut self, joint: JointId, sample: usize, at: Point) {
+    pub(super) fn set(&mut self, joint: JointId, sample: usize, at: Point) {
         self.x[joint * self.len + sample] = at.x;
         self.y[joint * self.len + sample] = at.y;
     }
@@ -55,11 +54,11 @@ impl Columns {
 pub struct Modes([f64; MAX_DYADS]);
 
 impl Modes {
-    /// The modes of an assembly, with one dyad flat if wanted.
-    pub fn new(signs: Signs, flat: Option<usize>) -> Modes {
+    /// The modes of an assembly, with some of its dyads flat.
+    pub fn new(signs: Signs, flat: Flat) -> Modes {
         let mut modes = [0.0; MAX_DYADS];
         for (dyad, mode) in modes.iter_mut().enumerate() {
-            *mode = if flat == Some(dyad) { 0.0 } else { f64::from(signs.get(dyad)) };
+            *mode = if flat.has(dyad) { 0.0 } else { f64::from(signs.get(dyad)) };
         }
         Modes(modes)
     }
@@ -269,52 +268,6 @@ pub(super) fn see(linkage: &Linkage, out: &mut Columns) {
         for joint in 0..linkage.joints.len() {
             let v = out.point(joint, i) - o;
             out.set(joint, i, Point::new(axis.dot(&v), cross(axis, v)));
-        }
-    }
-}
-
-/// Places every joint at one sample where a pass ends, before [`see`].
-///
-/// `flat` is the dyad that lies flat there. Where the base of a dyad vanishes its joint is placed by continuity:
-/// just after this input the base points along its rate of change, just before it the other way, and `after` tells
-/// which of the two (1 or -1) the joint belongs to. Where that rate vanishes too, or an earlier flat dyad makes it
-/// infinite, the joint stays undefined.
-pub(super) fn place_end(
-    linkage: &Linkage,
-    stop: Stop,
-    (signs, flat): (Signs, Option<usize>),
-    after: f64,
-    out: &mut Columns,
-    sample: usize,
-) {
-    let modes = Modes::new(signs, flat);
-    let all = linkage.joints.len();
-    let inputs = OwnInputs::new(&[stop]);
-    place(linkage, all, inputs.all(), &modes, out, sample..sample + 1);
-    for (id, joint) in linkage.joints.iter().enumerate() {
-        match joint.step {
-            Step::Dyad { base: [p, q], lengths: [l0, _], index } if out.point(p, sample) == out.point(q, sample) => {
-                let jets = Jets::in_fixed_frame(linkage, stop, signs, flat);
-                let base = Some((jets.velocity(q) - jets.velocity(p)) * after).filter(|v| v.norm() > 0.0);
-                let base = base.filter(|v| v.norm().is_finite());
-                // On a base of no length the two links have one length and lie on one line, square to the base.
-                let mode = f64::from(signs.get(index));
-                let place = base.map(|v| out.point(p, sample) + left_normal(v.normalize()) * (mode * l0));
-                out.set(id, sample, place.unwrap_or(Point::new(f64::NAN, f64::NAN)));
-            }
-            Step::Dyad { base: [p, q], lengths: [l0, l1], index } if flat == Some(index) => {
-                // The first link's own length, and not what the rounding of a short base makes of it.
-                let (p, q) = (out.point(p, sample), out.point(q, sample));
-                let base = q - p;
-                let is_folded_back = l0 < l1 && base.norm() < l1;
-                let along = if is_folded_back { -l0 } else { l0 } / base.norm();
-                out.set(id, sample, p + base * along);
-            }
-            Step::Rigid { base: [p, q], along, across } => {
-                let (p, q) = (out.point(p, sample), out.point(q, sample));
-                out.set(id, sample, p + (q - p) * along + left_normal(q - p) * across);
-            }
-            _ => {}
         }
     }
 }

@@ -10,6 +10,7 @@
 //! multiplied by exactly 0, and a limit of a dyad on crank and frame is carried as its cosine, not its angle.
 
 mod circuit;
+mod ends;
 mod interval;
 mod jet;
 mod kernel;
@@ -26,6 +27,9 @@ pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
 use crate::geometry::Point;
 use crate::linkage::{JointId, Linkage};
 
+/// Why a linkage is not assembled whose places, or their squares, are beyond all numbers.
+const TOO_EXTREME: &str = "its lengths are too large or too small for double precision";
+
 /// All that a linkage does as its input travels.
 #[derive(Clone, Debug)]
 pub struct Motion {
@@ -40,7 +44,13 @@ impl Motion {
     /// Finds and samples the circuits of a linkage.
     pub fn of(linkage: &Linkage, sampler: &Sampler) -> Motion {
         let found = circuit::find(linkage);
-        let circuits = found.circuits.into_iter().map(|route| sampler.sample(linkage, route)).collect();
+        let circuits: Vec<Circuit> = found.circuits.into_iter().map(|route| sampler.sample(linkage, route)).collect();
+        let is_lost = |circuit: &Circuit| {
+            linkage.traced.iter().any(|&joint| circuit.points(joint).all(|p| !p.x.is_finite() || !p.y.is_finite()))
+        };
+        if circuits.iter().any(is_lost) {
+            return Motion { circuits: Vec::new(), shortfall: Some(TOO_EXTREME.to_owned()) };
+        }
         Motion { circuits, shortfall: found.shortfall }
     }
 

@@ -1,10 +1,11 @@
 //! The path a joint draws, refined to a chord error, and cut into dashes of equal input.
 
 use super::circuit::{Pass, Stop};
-use super::kernel::{Columns, Modes, OwnInputs, place, place_end, see};
+use super::ends::place_end;
+use super::kernel::{Columns, Modes, OwnInputs, place, see};
 use super::sampling::Circuit;
 use crate::geometry::{Point, distance_to_segment};
-use crate::linkage::{Arc, JointId, Linkage};
+use crate::linkage::{Arc, Flat, JointId, Linkage};
 
 /// How a curve is cut into dashes: dash k starts at input k * period and spans `drawn`, both in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,12 +156,12 @@ pub(super) fn at(linkage: &Linkage, pass: &Pass, degs: &[f64]) -> Columns {
     let input = linkage.input();
     let inputs = OwnInputs::new(&degs.iter().map(|&at| Stop::of(input, at)).collect::<Vec<_>>());
     let mut out = Columns::new(linkage.joints.len(), degs.len());
-    let modes = Modes::new(pass.signs, None);
+    let modes = Modes::new(pass.signs, Flat::NONE);
     place(linkage, linkage.joints.len(), inputs.all(), &modes, &mut out, 0..degs.len());
     for (i, &deg) in degs.iter().enumerate() {
-        for (end, after) in [(pass.from, pass.heading()), (pass.to, -pass.heading())] {
-            if deg == end.stop.at && end.flat.is_some() {
-                place_end(linkage, end.stop, (pass.signs, end.flat), after, &mut out, i);
+        for (end, begins) in [(pass.from, true), (pass.to, false)] {
+            if deg == end.stop.at && !end.flat.is_none() {
+                place_end(linkage, pass, begins, &mut out, i);
             }
         }
     }

@@ -6,9 +6,10 @@
 
 use super::circuit::Stop;
 use super::interval::{Cause, IntervalEnd, Span};
+use super::jet::Jets;
 use super::kernel::{Columns, Modes, OwnInputs, place};
 use crate::geometry::{Point, Vector, cross, left_normal, trig};
-use crate::linkage::{Input, JointId, Link, Linkage, Signs, Step, four_bar_tolerance};
+use crate::linkage::{Flat, Input, JointId, Link, Linkage, Signs, Step, four_bar_tolerance};
 
 /// Samples to a turn when zeros are bracketed.
 const SAMPLES: usize = 720;
@@ -26,11 +27,11 @@ pub(super) fn cut(
 ) -> Result<Vec<Span>, String> {
     let dyad = Dyad::of(linkage, dyad);
     if let Step::Piston { .. } = dyad.step {
-        let spans = intersect(span, dyad.stroke(linkage, next_id).into_iter().collect());
+        let spans = intersect(span, dyad.stroke(linkage, next_id).into_iter().collect(), 0);
         return if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) };
     }
     let spans = match dyad.swing(linkage) {
-        Some(swing) => intersect(span, swing.spans(dyad.index, next_id)),
+        Some(swing) => intersect(span, swing.spans(dyad.index, next_id), 3),
         None => Sampled { linkage, dyad: &dyad, span, signs }.spans(next_id),
     };
     if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) }
@@ -69,13 +70,16 @@ impl Dyad {
         let frame = (linkage.links[0].place(c)? - linkage.links[0].place(o)?).norm();
         let leg = |b: f64| ((b - offset) * (b + offset)).max(0.0).sqrt();
         let (folded, stretched) = (leg((frame - length).abs()), leg(frame + length));
-        let mut end = |at: f64, cause| {
+        let mut end = |at: f64| {
             *next_id += 1;
-            IntervalEnd { stop: Stop::of(Input::Length, at), cause, id: *next_id }
+            let stop = Stop::of(Input::Length, at);
+            if at > 0.0 {
+                IntervalEnd::flat(stop, Cause::Limit, self.index, *next_id)
+            } else {
+                IntervalEnd::asked(stop, *next_id)
+            }
         };
-        let limit = Cause::Limit(self.index);
-        let lower = end(folded, if folded > 0.0 { limit } else { Cause::Asked });
-        let upper = end(stretched, limit);
+        let (lower, upper) = (end(folded), end(stretched));
         (folded < stretched).then_some(Span::Arc { lower, upper })
     }
 
@@ -129,6 +133,10 @@ impl Dyad {
         let name = |id: JointId| linkage.joints[id].name.as_str();
         let joint = name(self.joint);
         let [low, high] = self.bounds();
+        let size = if high.is_finite() { greatest.abs().max(high) } else { greatest.abs() };
+        if !matches!(self.step, Step::Piston { .. }) && !(size * size).is_normal() {
+            return super::TOO_EXTREME.to_owned();
+        }
         match self.step {
             Step::Slide { from, length, .. } => {
                 let nearest = if least > 0.0 { least } else { -greatest };
@@ -178,8 +186,8 @@ struct Swing {
     extent: [f64; 2],
     /// What is left to the bounds at 0 and at 180 degrees; negative where they are passed.
     room: [f64; 2],
-    /// 1 - cos where the bound near 0 degrees is met, and 1 + cos where that near 180 is.
-    versine: [f64; 2],
+    /// 1 - cos and 1 + cos of the input where the bound near 0 degrees is met, and where that near 180 is.
+    versines: [[f64; 2]; 2],
     /// What is left to the other bound at 0 and at 180 degrees: where there is none, the dyad closes nowhere.
     hope: [f64; 2],
     /// Lengths closer than this are equal.
@@ -201,10 +209,9 @@ impl Swing {
             extent: [nearest, furthest],
             room: [nearest - low, high - furthest],
             // Differences of squares are taken apart: exact factors, and accurate when small.
-            versine: [
-                (low - nearest) * (low + nearest) / product,
-                if high.is_finite() { (furthest - high) * (furthest + high) / product } else { 0.0 },
-            ],
+            versines: [low, if high.is_finite() { high } else { furthest }].map(|bound| {
+                [(bound - nearest) * (bound + nearest) / product, (furthest - bound) * (furthest + bound) / product]
+            }),
             hope: [high - nearest, furthest - low],
             tolerance,
             may_vanish: nearest <= tolerance,
@@ -219,7 +226,7 @@ impl Swing {
             towards: quotient(normal, on_arm),
             extent: [least, greatest],
             room: [least - low, high - greatest],
-            versine: [(low - least) / arm, (greatest - high) / arm],
+            versines: [low, high].map(|bound| [(bound - least) / arm, (greatest - bound) / arm]),
             hope: [high - least, greatest - low],
             tolerance: four_bar_tolerance(beside.abs() + arm + high),
             may_vanish: false,
@@ -243,16 +250,17 @@ impl Swing {
             return Vec::new();
         }
         let [fold, stretch] = self.room.map(|room| Gate::new(room, self.tolerance));
-        let sine = |versine: f64| (versine * (2.0 - versine)).max(0.0).sqrt();
-        let inner = (1.0 - self.versine[0], sine(self.versine[0]));
-        let outer = (self.versine[1] - 1.0, sine(self.versine[1]));
+        // The smaller of 1 - cos and 1 + cos is the exact one, and both make the sine.
+        let direction = |[minus, plus]: [f64; 2]| {
+            (if minus < plus { 1.0 - minus } else { plus - 1.0 }, (minus * plus).max(0.0).sqrt())
+        };
+        let [inner, outer] = self.versines.map(direction);
 
-        let change = Cause::Change { dyad, bound: false };
-        let folding = Cause::Change { dyad, bound: self.may_vanish };
-        let limit = Cause::Limit(dyad);
+        let (change, limit) = (Cause::Change, Cause::Limit);
         let mut at = |(cos, sin): (f64, f64), cause| {
             *next_id += 1;
-            IntervalEnd { stop: self.stop(cos, sin), cause, id: *next_id }
+            let end = IntervalEnd::flat(self.stop(cos, sin), cause, dyad, *next_id);
+            if cause == change && cos > 0.0 { end.with(dyad, self.may_vanish) } else { end }
         };
         let arc = |lower: IntervalEnd, upper: IntervalEnd| {
             // Both ends are within half a turn of `towards`; the upper one follows the lower.
@@ -263,7 +271,7 @@ impl Swing {
         match (fold, stretch) {
             (Gate::Open, Gate::Open) => vec![Span::Turn],
             (Gate::Touched, Gate::Open) => {
-                let near = at((1.0, 0.0), folding);
+                let near = at((1.0, 0.0), change);
                 vec![arc(near, near)]
             }
             (Gate::Open, Gate::Touched) => {
@@ -271,7 +279,7 @@ impl Swing {
                 vec![arc(far, far)]
             }
             (Gate::Touched, Gate::Touched) => {
-                let (near, far) = (at((1.0, 0.0), folding), at((-1.0, 0.0), change));
+                let (near, far) = (at((1.0, 0.0), change), at((-1.0, 0.0), change));
                 vec![arc(near, far), arc(far, near)]
             }
             (Gate::Shut, Gate::Open) => {
@@ -283,7 +291,7 @@ impl Swing {
                 vec![arc(lower, upper)]
             }
             (Gate::Touched, Gate::Shut) => {
-                let near = at((1.0, 0.0), folding);
+                let near = at((1.0, 0.0), change);
                 let (lower, upper) = (at(mirrored(outer), limit), at(outer, limit));
                 vec![arc(lower, near), arc(near, upper)]
             }
@@ -328,8 +336,24 @@ impl Gate {
     }
 }
 
-/// The parts of `span` that are in one of `allowed`. Of two ends at one input, that of the earlier dyad is kept.
-fn intersect(span: Span, allowed: Vec<Span>) -> Vec<Span> {
+/// Ends closer than this, in degrees or in parts of a length, are at one input: the rounding of an angle near 360.
+const COINCIDENT: f64 = 1e-12;
+
+/// The end that comes later as the input rises (`way` 1) or falls (-1); both in one where they are at one input, with
+/// the number of the earlier dyad's.
+fn later(earlier_dyads: IntervalEnd, own: IntervalEnd, way: f64) -> IntervalEnd {
+    let over = (own.stop.at - earlier_dyads.stop.at) * way;
+    if over.abs() <= COINCIDENT * earlier_dyads.stop.at.abs().max(1.0) {
+        earlier_dyads.merged(own)
+    } else if over > 0.0 {
+        own
+    } else {
+        earlier_dyads
+    }
+}
+
+/// The parts of `span` that are in one of `allowed`, which may be up to so many turns off.
+fn intersect(span: Span, allowed: Vec<Span>, turns: i32) -> Vec<Span> {
     let Span::Arc { lower, upper } = span else { return allowed };
     let mut out = Vec::new();
     for piece in allowed {
@@ -337,10 +361,10 @@ fn intersect(span: Span, allowed: Vec<Span>) -> Vec<Span> {
             out.push(span);
             continue;
         };
-        for turn in -3..=3 {
+        for turn in -turns..=turns {
             let (from, to) = (from.turned(360.0 * f64::from(turn)), to.turned(360.0 * f64::from(turn)));
-            let low = if from.stop.at > lower.stop.at { from } else { lower };
-            let high = if to.stop.at < upper.stop.at { to } else { upper };
+            let low = later(lower, from, 1.0);
+            let high = later(upper, to, -1.0);
             if low.stop.at < high.stop.at {
                 out.push(Span::Arc { lower: low, upper: high });
             }
@@ -368,13 +392,13 @@ impl Sampled<'_> {
         let stops: Vec<Stop> = degs.iter().map(|&at| Stop::of(input, at)).collect();
         let mut out = Columns::new(self.linkage.joints.len(), degs.len());
         let joints = self.dyad.joint;
-        let modes = Modes::new(self.signs, None);
+        let modes = Modes::new(self.signs, Flat::NONE);
         let inputs = OwnInputs::new(&stops);
         place(self.linkage, joints, inputs.all(), &modes, &mut out, 0..degs.len());
         if let Span::Arc { lower, upper } = self.span {
             for (i, deg) in degs.iter().enumerate() {
                 for end in [lower, upper].into_iter().filter(|end| end.stop.at == *deg) {
-                    let modes = Modes::new(self.signs, end.flat());
+                    let modes = Modes::new(self.signs, end.flat);
                     let inputs = OwnInputs::new(&[end.stop]);
                     place(self.linkage, joints, inputs.all(), &modes, &mut out, i..i + 1);
                 }
@@ -414,13 +438,15 @@ impl Sampled<'_> {
 
     fn spans(&self, next_id: &mut usize) -> Vec<Span> {
         let mut degs = self.grid();
-        let mut rooms: Vec<f64> = self.extents(&degs).into_iter().map(|extent| self.room_of(extent)).collect();
-        self.look_between(&mut degs, &mut rooms);
-        let open: Vec<bool> = rooms.iter().map(|room| *room >= 0.0).collect();
+        let extents = self.extents(&degs);
+        let tolerance = self.tolerance(&extents);
+        let mut rooms: Vec<f64> = extents.iter().map(|&extent| self.room_of(extent)).collect();
+        let touched = self.look_between(&mut degs, &mut rooms, tolerance);
+        let open: Vec<bool> = rooms.iter().map(|room| *room >= -tolerance).collect();
         let mut end = |inside: f64, outside: f64| {
             *next_id += 1;
             let stop = Stop::of(self.linkage.input(), self.refine(inside, outside));
-            IntervalEnd { stop, cause: Cause::Limit(self.dyad.index), id: *next_id }
+            IntervalEnd::flat(stop, Cause::Limit, self.dyad.index, *next_id)
         };
         let mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)> = Vec::new();
         let mut lower = open[0].then_some(None);
@@ -432,11 +458,33 @@ impl Sampled<'_> {
             }
         }
         arcs.extend(lower.map(|from| (from, None)));
-        self.joined(arcs)
+        let spans = self.joined(arcs, tolerance);
+        touched.into_iter().fold(spans, |spans, at| {
+            *next_id += 1;
+            let stop = Stop::of(self.linkage.input(), at);
+            parted(spans, IntervalEnd::flat(stop, Cause::Change, self.dyad.index, *next_id), self.linkage.input())
+        })
+    }
+
+    /// Extents that differ by no more than their rounding: what is within this of a bound touches it.
+    fn tolerance(&self, extents: &[f64]) -> f64 {
+        let [low, high] = self.dyad.bounds();
+        let finite = if high.is_finite() { high.abs() } else { 0.0 };
+        let greatest = extents.iter().copied().filter(|e| e.is_finite()).fold(0.0, |a: f64, b| a.max(b.abs()));
+        64.0 * f64::EPSILON * (low.abs() + finite + greatest)
+    }
+
+    /// The end of the span, where this dyad lies flat too if there is no room left.
+    fn at_end(&self, end: IntervalEnd, tolerance: f64) -> IntervalEnd {
+        let extent = self.extents(&[end.stop.at])[0];
+        if end.cause == Cause::Asked || self.room_of(extent).abs() > tolerance {
+            return end;
+        }
+        end.with(self.dyad.index, matches!(self.dyad.step, Step::Dyad { .. }) && extent <= tolerance)
     }
 
     /// Gives the arcs that reach the ends of the span those ends; on a whole turn, joins them over input 0.
-    fn joined(&self, mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)>) -> Vec<Span> {
+    fn joined(&self, mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)>, tolerance: f64) -> Vec<Span> {
         match self.span {
             Span::Turn => {
                 let over_zero = arcs.len() > 1 && arcs[0].0.is_none() && arcs[arcs.len() - 1].1.is_none();
@@ -453,26 +501,37 @@ impl Sampled<'_> {
             }
             Span::Arc { lower, upper } => arcs
                 .into_iter()
-                .map(|(from, to)| Span::Arc { lower: from.unwrap_or(lower), upper: to.unwrap_or(upper) })
+                .map(|(from, to)| Span::Arc {
+                    lower: from.unwrap_or_else(|| self.at_end(lower, tolerance)),
+                    upper: to.unwrap_or_else(|| self.at_end(upper, tolerance)),
+                })
                 .filter(|span| matches!(span, Span::Arc { lower, upper } if lower.stop.at < upper.stop.at))
                 .collect(),
         }
     }
 
-    /// Inserts the bottom of a dip, or the top of a rise, that crosses zero between samples.
-    fn look_between(&self, degs: &mut Vec<f64>, rooms: &mut Vec<f64>) {
+    /// Inserts the bottom of a dip, or the top of a rise, that passes a bound between samples. The inputs at which a
+    /// bound is touched and not passed are returned.
+    fn look_between(&self, degs: &mut Vec<f64>, rooms: &mut Vec<f64>, tolerance: f64) -> Vec<f64> {
         let mut found = Vec::new();
+        let mut touched = Vec::new();
         for i in 1..degs.len() - 1 {
             let (before, here, after) = (rooms[i - 1], rooms[i], rooms[i + 1]);
-            let sign = if here >= 0.0 { 1.0 } else { -1.0 };
+            let is_open = here >= -tolerance;
+            let sign = if is_open { 1.0 } else { -1.0 };
             let is_turning = sign * before >= sign * here && sign * here <= sign * after;
             // Between samples the room changes by no more than a few times what it changed to the next one.
             let is_near = here.abs() <= 4.0 * (before - here).abs().max((after - here).abs());
             if is_turning && is_near {
                 let deg = golden(degs[i - 1], degs[i + 1], |deg| sign * self.room(deg));
                 let room = self.room(deg);
-                if sign * room < 0.0 {
+                // Near where a bound is touched the room is as flat as its rounding: the slope tells the place.
+                let at = self.level(degs[i - 1], degs[i + 1]).unwrap_or(deg);
+                let clear = before.min(after) > 1e3 * tolerance;
+                if is_open && room < -tolerance || !is_open && room >= -tolerance {
                     found.push((deg, room));
+                } else if is_open && clear && self.room(at) <= tolerance {
+                    touched.push(at);
                 }
             }
         }
@@ -481,18 +540,58 @@ impl Sampled<'_> {
             degs.insert(at, deg);
             rooms.insert(at, room);
         }
+        touched
+    }
+
+    /// Where the length of the base is least or greatest between two inputs, by bisection of its rate.
+    fn level(&self, a: f64, b: f64) -> Option<f64> {
+        let (Step::Dyad { base: [p, q], .. } | Step::Slot { base: [p, q], .. }) = self.dyad.step else { return None };
+        let rate = |at: f64| {
+            let stop = Stop::of(self.linkage.input(), at);
+            let jets = Jets::in_fixed_frame(self.linkage, stop, self.signs, Flat::NONE);
+            (jets.place(q) - jets.place(p)).dot(&(jets.velocity(q) - jets.velocity(p)))
+        };
+        let (mut a, mut b) = (a, b);
+        let rises = rate(b) > 0.0;
+        if (rate(a) > 0.0) == rises {
+            return None;
+        }
+        loop {
+            let middle = a + (b - a) / 2.0;
+            if middle == a || middle == b {
+                return Some(middle);
+            }
+            if (rate(middle) > 0.0) == rises { b = middle } else { a = middle }
+        }
     }
 
     /// The last input, going from `inside` towards `outside`, at which the dyad still closes.
     fn refine(&self, mut inside: f64, mut outside: f64) -> f64 {
+        let floor = self.room(inside).min(0.0);
         loop {
             let middle = inside + (outside - inside) / 2.0;
             if middle == inside || middle == outside {
                 return inside;
             }
-            if self.room(middle) >= 0.0 { inside = middle } else { outside = middle }
+            if self.room(middle) >= floor { inside = middle } else { outside = middle }
         }
     }
+}
+
+/// The spans with the one that an end lies inside of parted there.
+fn parted(spans: Vec<Span>, end: IntervalEnd, input: Input) -> Vec<Span> {
+    let mut out = Vec::new();
+    for span in spans {
+        match (span, span.turns_to(end.stop.at, input.period())) {
+            (Span::Turn, _) => out.push(Span::Arc { lower: end, upper: end.turned(input.period()) }),
+            (Span::Arc { lower, upper }, Some(at)) if lower.stop.at < at && at < upper.stop.at => {
+                let end = end.turned(at - end.stop.at);
+                out.extend([Span::Arc { lower, upper: end }, Span::Arc { lower: end, upper }]);
+            }
+            _ => out.push(span),
+        }
+    }
+    out
 }
 
 /// Where `f` is least between `a` and `b`, by golden section.

@@ -1,9 +1,10 @@
 use std::ops::Range;
 
 use super::circuit::{Pass, Route, Stop};
-use super::kernel::{Columns, Modes, OwnInputs, place, place_end, see};
+use super::ends::place_end;
+use super::kernel::{Columns, Modes, OwnInputs, place, see};
 use crate::geometry::Point;
-use crate::linkage::{Input, JointId, Linkage, Signs};
+use crate::linkage::{Flat, Input, JointId, Linkage, Signs};
 
 /// How densely a circuit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,13 +92,12 @@ impl Sampler {
         let inputs = OwnInputs::new(&plan.stops);
         let all = linkage.joints.len();
         for (run, pass) in plan.runs.iter().zip(&route.passes) {
-            let modes = Modes::new(pass.signs, None);
+            let modes = Modes::new(pass.signs, Flat::NONE);
             place(linkage, all, inputs.of(run.clone()), &modes, &mut places, run.clone());
         }
         for &(sample, pass, is_first) in &plan.ends {
             let pass = &route.passes[pass];
-            let (end, after) = if is_first { (pass.from, pass.heading()) } else { (pass.to, -pass.heading()) };
-            place_end(linkage, end.stop, (pass.signs, end.flat), after, &mut places, sample);
+            place_end(linkage, pass, is_first, &mut places, sample);
             plan.signs[sample] = pass.signs;
         }
         see(linkage, &mut places);

@@ -126,7 +126,7 @@ impl<'a> Figure<'a> {
         let circuit = self.solved.circuit(curve);
         let n = circuit.passes.len();
         let turns = |k: usize| circuit.passes[k].heading() != circuit.passes[(k + 1) % n].heading();
-        let ends = (0..n).filter(|&k| n > 1 && turns(k) && circuit.passes[k].to.flat.is_some());
+        let ends = (0..n).filter(|&k| n > 1 && turns(k) && !circuit.passes[k].to.flat.is_none());
         let place = |k: usize| {
             let pass = &circuit.passes[k];
             motion::pose(&self.solved.linkage, pass, pass.to.stop.at)[curve.joint]

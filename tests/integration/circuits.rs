@@ -69,7 +69,7 @@ fn change_points_continue_smoothly_or_on_their_branch() {
     let kept = [(-limit, 0, 1), (0, limit, 1), (limit, 0, -1), (0, -limit, -1)];
     assert_eq!(passes([3.0, 2.0, 1.0, 2.0], branch.clone()), [kept.to_vec()]);
     // Stretched at 180: smoothly two turns, else a turn on each branch.
-    let smooth = [(0, 180_000, 1), (180_000, 360_000, -1), (360_000, 540_000, -1), (540_000, 720_000, 1)];
+    let smooth = [(0, 180_000, 1), (180_000, 540_000, -1), (540_000, 720_000, 1)];
     assert_eq!(passes([3.0, 1.0, 2.0, 2.0], all()), [smooth.to_vec()]);
     assert_eq!(passes([3.0, 1.0, 2.0, 2.0], branch).len(), 2);
     // A parallelogram: itself, and the antiparallelogram.
@@ -87,6 +87,56 @@ fn a_kite_keeps_its_rocker_where_its_base_vanishes() {
         let motion = motion([2.0, 2.0, 3.0, 3.0], travel, Sampling::Step(1.0));
         assert_eq!(motion.circuits.len(), 1);
         no_jumps(&motion, 3.0, 1.0);
+    }
+}
+
+#[test]
+fn two_turns_are_sampled_as_asked() {
+    let step = motion([3.0, 1.0, 2.0, 2.0], all(), Sampling::Step(50.0));
+    // Multiples of 50 and the change points at 180 and 540; 360 is neither.
+    let expected = [0, 50, 100, 150, 180, 200, 250, 300, 350, 400, 450, 500, 540, 550, 600, 650, 700].map(f64::from);
+    assert_eq!(step.circuits[0].input, expected);
+    assert_eq!(motion([3.0, 1.0, 2.0, 2.0], all(), Sampling::Samples(8)).circuits[0].len(), 8);
+}
+
+#[test]
+fn bases_that_vanish_but_for_rounding_are_kites_too() {
+    let decimals: [f64; 4] = [0.3, 0.1 + 0.2, 0.5, 0.5];
+    for lengths in [decimals, [2.0, 2.0 + 4.0 * f64::EPSILON, 2.0, 2.0], [3.0, 3.000_000_000_000_000_4, 2.0, 2.0]] {
+        let motion = motion(lengths, all(), Sampling::Step(1.0));
+        for circuit in &motion.circuits {
+            for i in 0..circuit.len() {
+                let length = (circuit.places.point(3, i) - circuit.places.point(2, i)).norm();
+                assert!((length - lengths[2]).abs() < 1e-12, "{lengths:?} at {}: {length}", circuit.input[i]);
+            }
+        }
+        no_jumps(&motion, lengths.iter().sum(), 1.0);
+    }
+}
+
+#[test]
+fn limits_keep_short_links_beside_long_ones() {
+    for scale in [1e3, 1e6] {
+        let motion = motion([scale, scale, 1.0, 1.5], all(), Sampling::Samples(40));
+        for circuit in &motion.circuits {
+            for i in 0..circuit.len() {
+                let coupler = (circuit.places.point(3, i) - circuit.places.point(2, i)).norm();
+                let rocker = (circuit.places.point(3, i) - circuit.places.point(1, i)).norm();
+                // Places of the size of the scale are rounded to this.
+                let rounding = 4.0 * f64::EPSILON * scale;
+                assert!((coupler - 1.0).abs() <= rounding && (rocker - 1.5).abs() <= rounding, "{coupler} {rocker}");
+            }
+        }
+    }
+}
+
+#[test]
+fn places_beyond_all_numbers_are_reported() {
+    for scale in [1e160, 1e-170] {
+        let motion = motion([4.0, 1.0, 3.0, 3.5].map(|l| l * scale), all(), Sampling::Step(10.0));
+        let shortfall = motion.shortfall.unwrap_or_default();
+        assert!(shortfall.contains("double precision"), "{scale}: {shortfall}");
+        assert!(motion.circuits.is_empty());
     }
 }
 

@@ -129,3 +129,99 @@ fn limits_do_not_depend_on_where_the_linkage_stands() {
         }
     }
 }
+
+/// Wheels on one parallel rod: the dyads of all of them lie flat at one input, and go on together.
+#[test]
+fn dyads_that_lie_flat_together_go_on_together() {
+    for (g, r) in [(4.0, 1.0), (0.3, 0.1), (1.0, 0.7)] {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", [0.0, 0.0].into());
+        let c = assembly.fixed("C", [g, 0.0].into());
+        let d = assembly.fixed("D", [2.0 * g, 0.0].into());
+        let a = assembly.crank("A", o, r).unwrap();
+        let b = assembly.dyad("B", [a, c], [g, r], Side::Left).unwrap();
+        let e = assembly.dyad("E", [b, d], [g, r], Side::Left).unwrap();
+        let linkage = assembly.finish(vec![e], None, all()).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+        assert_eq!(motion.circuits.len(), 4, "{g} {r}: parallel or crossed, twice");
+        // In the one that starts with both to the left, both rods stay parallel all the way round.
+        let circuit = &motion.circuits[0];
+        assert!(circuit.closed && circuit.len() == 36);
+        for i in 0..circuit.len() {
+            let crank = circuit.places.point(a, i) - circuit.places.point(o, i);
+            let wheel = circuit.places.point(e, i) - circuit.places.point(d, i);
+            assert!((crank - wheel).norm() < 1e-12, "{g} {r} at {}: {crank} {wheel}", circuit.input[i]);
+        }
+    }
+}
+
+/// Peaucellier's inversor draws a straight line to rounding, its ends included, where all its dyads lie flat at once.
+#[test]
+fn peaucelliers_line_is_straight_to_its_ends() {
+    let template = coupler_atlas::catalogue::find("peaucellier-lipkin").unwrap();
+    for values in [[2.0, 5.0, 2.0], [1.0, 5.0, 3.5], [1.5, 5.0, 3.0]] {
+        let linkage = template.linkage(&values).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(90)));
+        let [r, arm, side] = values;
+        let line = (arm * arm - side * side) / (2.0 * r);
+        let circuit = &motion.circuits[0];
+        assert!(circuit.closed);
+        for (i, q) in circuit.points(linkage.traced[0]).enumerate() {
+            assert!((q.x - line).abs() < 1e-11 * line, "{values:?} at {}: {q} {line}", circuit.input[i]);
+        }
+    }
+}
+
+#[test]
+fn a_geared_circuit_takes_the_turns_it_needs() {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let p = assembly.fixed("P", [3.0, 0.0].into());
+    let a = assembly.crank("A", o, 1.0).unwrap();
+    let g = assembly.gear("G", (p, 0.8), [-4, 6], 30.0).unwrap();
+    let b = assembly.dyad("B", [a, g], [3.0, 3.0], Side::Left).unwrap();
+    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let circuit = &motion.circuits[0];
+    // Two thirds of a turn to each: back after three.
+    assert!(circuit.closed);
+    assert_eq!((circuit.len(), circuit.passes[0].to.stop.at), (108, 1080.0));
+    for i in 0..circuit.len() {
+        let angle = 30.0 - circuit.input[i] * 2.0 / 3.0;
+        let (cos, sin) = trig::cos_sin_deg(angle);
+        let gear = circuit.places.point(g, i);
+        assert!((gear.x - 3.0 - 0.8 * cos).abs() < 1e-13 && (gear.y - 0.8 * sin).abs() < 1e-13);
+        let next = (i + 1) % circuit.len();
+        assert!((circuit.places.point(b, next) - circuit.places.point(b, i)).norm() < 1.0, "no jump where it closes");
+    }
+}
+
+#[test]
+fn an_actuator_drives_its_crank_from_limit_to_limit_and_back() {
+    use coupler_atlas::linkage::InvertedSliderCrank;
+    let (g, r) = (2.0, 1.0);
+    for e in [0.0, 0.5, 1.5] {
+        let mut assembly = Assembly::default();
+        let c = assembly.fixed("C", [g, 0.0].into());
+        let o = assembly.fixed("O", [0.0, 0.0].into());
+        let a = assembly.piston("A", [c, o], (r, e), Side::Left).unwrap();
+        let linkage = assembly.finish(vec![a], None, all()).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
+        let formulas = InvertedSliderCrank { g, r, e };
+        let [least, greatest] = formulas.slide_range().unwrap();
+        for circuit in &motion.circuits {
+            let low = circuit.input.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = circuit.input.iter().copied().fold(0.0, f64::max);
+            assert!((low - least).abs() < 1e-12 && (high - greatest).abs() < 1e-12, "{e}: {low} {high}");
+            // Beyond the nearest the actuator can still shorten to nothing, where it ends.
+            assert_eq!(circuit.closed, e < g - r);
+            for i in 0..circuit.len() {
+                let theta = formulas.theta(circuit.input[i]).unwrap();
+                let place = circuit.places.point(a, i);
+                assert!((place.x - r * trig::cos(theta)).abs() < 1e-12, "{e} {i}: {place} {theta}");
+                assert!((place.coords.norm() - r).abs() < 1e-12, "{e} {i}: {place}");
+            }
+        }
+        assert!(motion.is_assembled());
+    }
+}

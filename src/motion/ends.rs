@@ -1,0 +1,106 @@
+//! The pose at the end of a pass, where dyads lie flat and bases may vanish.
+
+use super::circuit::{End, Pass, Stop};
+use super::jet::Jets;
+use super::kernel::{Columns, Modes, OwnInputs, place};
+use crate::geometry::{Point, Vector, cross, left_normal};
+use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
+
+/// Places every joint at one sample where a pass begins or ends, in the frame of the fixed joints.
+///
+/// A flat dyad is laid out by its first link's own length. Where a base vanishes its joint is placed by continuity,
+/// as the pass comes to it or leaves it: the base then points along its rate of change, or, where that is infinite at
+/// a limit, along the rate of its parts with the root of the input. Where there is no such direction the joint stays
+/// undefined.
+pub(super) fn place_end(linkage: &Linkage, pass: &Pass, begins: bool, out: &mut Columns, sample: usize) {
+    let (end, inwards) = if begins { (pass.from, pass.heading()) } else { (pass.to, -pass.heading()) };
+    let End { stop, flat } = end;
+    let modes = Modes::new(pass.signs, flat);
+    let inputs = OwnInputs::new(&[stop]);
+    place(linkage, linkage.joints.len(), inputs.all(), &modes, out, sample..sample + 1);
+    if flat.is_none() {
+        return;
+    }
+    for (id, joint) in linkage.joints.iter().enumerate() {
+        let at = |j: JointId| out.point(j, sample);
+        let placed = match joint.step {
+            Step::Dyad { base: [p, q], lengths, index } if flat.has(index) => {
+                let base = at(q) - at(p);
+                if base.norm() <= VANISHING * lengths[0] {
+                    let pose = Pose { linkage, at: out, sample, stop, signs: pass.signs, flat, inwards };
+                    // On a base of no length the two links have one length and lie on one line, square to the base.
+                    let mode = f64::from(pass.signs.get(index));
+                    let across = pose.direction([p, q]).map(|d| left_normal(d) * (mode * lengths[0]));
+                    across.map_or(Point::new(f64::NAN, f64::NAN), |across| at(p) + across)
+                } else {
+                    at(p) + base * (flat_foot(lengths, base.norm()) / base.norm())
+                }
+            }
+            // What hangs on a joint that was placed here is placed anew.
+            Step::Rigid { base: [p, q], along, across } => {
+                at(p) + (at(q) - at(p)) * along + left_normal(at(q) - at(p)) * across
+            }
+            _ => continue,
+        };
+        out.set(id, sample, placed);
+    }
+}
+
+/// A base shorter than this part of its dyad's links has no direction left but its rounding.
+const VANISHING: f64 = 1e-12;
+
+/// Where the joint of a flat dyad lies on its base, from the base's first joint.
+fn flat_foot([l0, l1]: [f64; 2], base: f64) -> f64 {
+    if l0 < l1 && base < l1 { -l0 } else { l0 }
+}
+
+/// A pose at an end of a pass.
+struct Pose<'a> {
+    linkage: &'a Linkage,
+    at: &'a Columns,
+    sample: usize,
+    stop: Stop,
+    signs: Signs,
+    flat: Flat,
+    /// 1 where the pass lies at greater inputs, -1 where it lies at smaller ones.
+    inwards: f64,
+}
+
+impl Pose<'_> {
+    /// The direction that a vanished base has in the pass, just beside its end.
+    fn direction(&self, [p, q]: [JointId; 2]) -> Option<Vector> {
+        let jets = Jets::in_fixed_frame(self.linkage, self.stop, self.signs, self.flat);
+        let rate = (jets.velocity(q) - jets.velocity(p)) * self.inwards;
+        let rate = if rate.norm().is_finite() { rate } else { self.surge(q, &jets)? - self.surge(p, &jets)? };
+        (rate.norm() > 0.0 && rate.norm().is_finite()).then(|| rate.normalize())
+    }
+
+    /// How a joint leaves a limit: its place goes with the root of the input, and this is the factor.
+    fn surge(&self, joint: JointId, jets: &Jets) -> Option<Vector> {
+        let point = |j| self.at.point(j, self.sample);
+        match self.linkage.joints[joint].step {
+            Step::Fixed(_) | Step::Crank { .. } | Step::Gear { .. } => Some(Vector::zeros()),
+            Step::Rigid { base: [p, q], along, across } => {
+                let (p, q) = (self.surge(p, jets)?, self.surge(q, jets)?);
+                Some(p + (q - p) * along + left_normal(q - p) * across)
+            }
+            Step::Dyad { base: [p, q], lengths: [l0, l1], index } if self.flat.has(index) => {
+                // The square of the height is l0^2 - foot^2, with foot = (d^2 + l0^2 - l1^2) / 2d: its rate is finite.
+                let base = point(q) - point(p);
+                let d = base.norm();
+                let d_rate = base.dot(&(jets.velocity(q) - jets.velocity(p))) / d;
+                let foot_rate = (0.5 - (l0 - l1) * (l0 + l1) / (2.0 * d * d)) * d_rate;
+                let factor = (2.0 * flat_foot([l0, l1], d) * foot_rate).abs().sqrt();
+                let mode = f64::from(self.signs.get(index));
+                factor.is_finite().then(|| left_normal(base) * (mode * factor / d))
+            }
+            Step::Dyad { base: [p, q], .. } => {
+                // Both links keep their lengths: u . v = u . vp and w . v = w . vq.
+                let (u, w) = (point(joint) - point(p), point(joint) - point(q));
+                let (a, b) = (u.dot(&self.surge(p, jets)?), w.dot(&self.surge(q, jets)?));
+                Some(Vector::new(a * w.y - b * u.y, b * u.x - a * w.x) / cross(u, w))
+            }
+            _ => None,
+        }
+    }
+}
