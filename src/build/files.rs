@@ -49,7 +49,9 @@ pub enum Error {
 /// # Errors
 /// A file that cannot be read, or is not text.
 pub fn read_manifest(path: &Path) -> Result<String, Error> {
-    fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_owned(), source })
+    let text = fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
+    // A byte order mark is no part of a text: columns are counted without it.
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
 /// Writes a file that must not exist yet.

@@ -95,6 +95,7 @@ struct Made {
     points: String,
     cells: String,
     curves: usize,
+    left_out: usize,
     shortfalls: Vec<(usize, String)>,
 }
 
@@ -124,6 +125,7 @@ fn build_family(
         cells: family.cells(),
         kept: kept.len(),
         not_assembled: 0,
+        curves_left_out: 0,
         curves: 0,
         pages,
         files: Vec::new(),
@@ -136,10 +138,11 @@ fn build_family(
         }
         let shortfall =
             |s: &Solved| Some((s.cell.number, s.motion.shortfall.clone()?)).filter(|_| s.status() != Status::Ok);
-        let (curves, shortfalls) =
-            (solved.iter().map(|s| s.curves.len()).sum(), solved.iter().filter_map(shortfall).collect());
+        let curves = solved.iter().map(|s| s.curves.len()).sum();
+        let left_out = solved.iter().map(|s| s.left_out).sum();
+        let shortfalls = solved.iter().filter_map(shortfall).collect();
         let (pages, records) = draw_page(plan, planned, formats, (page + 1, pages), &solved)?;
-        Ok(Made { pages, records, points, cells, curves, shortfalls })
+        Ok(Made { pages, records, points, cells, curves, left_out, shortfalls })
     };
     sweep::run(family, (&kept, group), make, |made| -> Result<(), Error> {
         let made = made?;
@@ -150,6 +153,7 @@ fn build_family(
         cells.append(&made.cells)?;
         record.files.extend(made.records);
         record.curves += made.curves;
+        record.curves_left_out += made.left_out;
         record.not_assembled += made.shortfalls.len();
         for (cell, reason) in &made.shortfalls {
             tell(Event::Shortfall { family: &family.id, cell: *cell, reason });
@@ -209,11 +213,11 @@ fn draw_page(
         let name = format!("{}-{page:03}.{}", family.id, format.name());
         match format {
             Format::Svg => {
-                records.push(FileRecord::new(&name, &[&svg]));
+                records.push(FileRecord::of_bytes(&name, &svg));
                 pages.push((name, svg.clone()));
             }
             Format::Png => {
-                records.push(FileRecord::new(&name, &[&svg, plan.dpi.to_string().as_bytes()]));
+                records.push(FileRecord::of_drawing(&name, &svg, plan.dpi));
                 let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name: name.clone(), error })?;
                 pages.push((name, png));
             }

@@ -67,7 +67,8 @@ fn failure(error: &anyhow::Error) -> ExitCode {
     if error.downcast_ref::<io::Error>().is_some_and(is_pipe) {
         return ExitCode::SUCCESS;
     }
-    let message = format!("{error:#}");
+    // Each message names its cause itself.
+    let message = error.to_string();
     if !message.is_empty() {
         let _ = writeln!(io::stderr(), "error: {message}");
     }

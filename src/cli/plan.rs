@@ -18,7 +18,15 @@ pub struct Source {
 
 /// Reads a manifest; every problem in it goes to standard error.
 pub fn read(path: &Path) -> anyhow::Result<Source> {
-    let text = build::read_manifest(path)?;
+    let text = build::read_manifest(path).map_err(|error| match error {
+        build::Error::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+            let path = path.display();
+            anyhow::Error::from(WrongInput(format!(
+                "there is no {path}: `coupler-atlas init {path}` writes one to start from"
+            )))
+        }
+        error => error.into(),
+    })?;
     let loaded = manifest::load(&text);
     report(path, &text, &loaded.problems);
     match loaded.plan {

@@ -116,5 +116,9 @@ fn summary(record: &FamilyRecord) -> String {
     if record.not_assembled > 0 {
         line.push_str(&format!(" ({} not assembled)", record.not_assembled));
     }
-    format!("{line}, {}, {}\n", count(record.curves, "curve"), count(record.pages, "page"))
+    line.push_str(&format!(", {}", count(record.curves, "curve")));
+    if record.curves_left_out > 0 {
+        line.push_str(&format!(" ({} more left out by `where`)", record.curves_left_out));
+    }
+    format!("{line}, {}\n", count(record.pages, "page"))
 }

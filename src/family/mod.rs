@@ -88,30 +88,34 @@ impl Family {
     /// The linkage of a cell.
     ///
     /// # Errors
-    /// Values that make no linkage; none in a family that passed [`Family::objection`] for every cell.
+    /// Values that make no linkage; none in a family that [`Family::objections`] has none to for any cell.
     pub fn linkage(&self, cell: &Cell) -> Result<Linkage, template::Error> {
         self.template.linkage(self.parameters(cell))
     }
 
-    /// What is wrong with a cell, if anything.
-    pub fn objection(&self, cell: &Cell) -> Option<CellError> {
-        for (slot, (name, &value)) in self.names.iter().zip(&cell.values).enumerate() {
+    /// What is wrong with a cell: names without a value, or else values out of their bounds, or else the linkage.
+    pub fn objections(&self, cell: &Cell) -> Vec<CellError> {
+        let has_source = |slot: usize| {
+            self.space.gives(cell.number - 1, slot) || self.derived.iter().any(|(derived, _)| *derived == slot)
+        };
+        let missing = |(slot, name): (usize, &String)| (!has_source(slot)).then(|| CellError::Missing(name.clone()));
+        let found: Vec<CellError> = self.names.iter().enumerate().filter_map(missing).collect();
+        if !found.is_empty() {
+            return found;
+        }
+        let objection = |(slot, (name, &value)): (usize, (&String, &f64))| {
             let objection = match self.template.parameters.get(slot) {
                 Some(parameter) => parameter.objection(value),
                 None if value.is_finite() => None,
                 None => Some(format!("`{name}` is {value}, which is not a finite number")),
             };
-            if let Some(objection) = objection {
-                let is_given = self.space.gives(cell.number - 1, slot);
-                let has_source = is_given || self.derived.iter().any(|(derived, _)| *derived == slot);
-                return Some(if has_source {
-                    CellError::Value { slot, objection }
-                } else {
-                    CellError::Missing(name.clone())
-                });
-            }
+            objection.map(|objection| CellError::Value { slot, objection })
+        };
+        let found: Vec<CellError> = self.names.iter().zip(&cell.values).enumerate().filter_map(objection).collect();
+        if !found.is_empty() {
+            return found;
         }
-        self.linkage(cell).err().map(CellError::Template)
+        self.linkage(cell).err().map(CellError::Template).into_iter().collect()
     }
 
     /// A line of text with a cell's values in it.
@@ -127,23 +131,31 @@ impl Family {
     /// The names a family's `where` may use and what they are: the cells', the measures and the classes.
     pub fn scope(names: &[String]) -> Vec<(&str, Kind)> {
         let own = names.iter().map(|name| (name.as_str(), Kind::Number));
-        let measures = measure::ALL.iter().map(|measure| (measure.name, Kind::Number));
+        let is_number = |measure: &&measure::Measure| !measure.is_word;
+        let measures = measure::ALL.iter().filter(is_number).map(|measure| (measure.name, Kind::Number));
         let truths = measure::TRUTHS.iter().map(|(name, _)| (*name, Kind::Truth));
         own.chain(measures).chain(truths).collect()
+    }
+
+    /// Whether a name is that of a column of `points.csv` or `cells.csv`, or of a measure.
+    pub fn is_column(name: &str) -> bool {
+        const COLUMNS: [&str; 8] = ["cell", "trace", "circuit", "branch", "sample", "input_deg", "status", "reason"];
+        let is_measure = measure::ALL.iter().any(|measure| measure.name == name);
+        COLUMNS.contains(&name) || is_measure || measure::TRUTHS.iter().any(|(truth, _)| *truth == name)
     }
 
     /// Whether a curve of a cell with these measures is kept.
     pub fn keeps(&self, cell: &Cell, measures: &[measure::Value]) -> bool {
         let Some(filter) = &self.filter else { return true };
-        let load = |slot: usize| {
-            let Some(slot) = slot.checked_sub(cell.values.len()) else { return cell.values[slot] };
-            match slot.checked_sub(measure::ALL.len()) {
-                Some(truth) => measure::truth(measure::TRUTHS[truth].1, measures),
-                None => match measures.get(slot) {
-                    Some(measure::Value::Number(value)) => *value,
-                    _ => f64::NAN,
-                },
-            }
+        let numbers = || measure::ALL.iter().zip(measures).filter(|(measure, _)| !measure.is_word);
+        let count = measure::ALL.iter().filter(|measure| !measure.is_word).count();
+        let load = |slot: usize| match slot.checked_sub(cell.values.len()) {
+            None => cell.values[slot],
+            Some(slot) if slot < count => match numbers().nth(slot) {
+                Some((_, measure::Value::Number(value))) => *value,
+                _ => f64::NAN,
+            },
+            Some(slot) => measure::truth(measure::TRUTHS[slot - count].1, measures),
         };
         filter.evaluate(load) == 1.0
     }

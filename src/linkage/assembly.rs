@@ -13,7 +13,7 @@ pub enum Error {
         base: String,
     },
     /// A rigid point hangs on joints of different links.
-    #[error("`{joint}` is a point of the link through `{}` and `{}`, but no link has both", base[0], base[1])]
+    #[error("`{joint}` needs a link with both `{}` and `{}`, and no link has both", base[0], base[1])]
     NoCommonLink {
         /// The joint to place.
         joint: String,
@@ -65,6 +65,34 @@ pub enum Error {
 impl Error {
     /// The greatest number in a gear ratio: a circuit takes as many turns.
     pub const MAX_RATIO: u64 = 100;
+
+    /// The joint that cannot be placed; `seen_from` where that names no link.
+    pub fn joint(&self) -> &str {
+        match self {
+            Error::OneJointTwice { joint, .. }
+            | Error::NoCommonLink { joint, .. }
+            | Error::Length { joint, .. }
+            | Error::NoDirection { joint, .. }
+            | Error::NoTriangle { joint, .. }
+            | Error::Ratio { joint, .. }
+            | Error::TooManyDyads { joint } => joint,
+        }
+    }
+
+    /// The remedy.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Error::OneJointTwice { .. } => "name two different joints",
+            Error::NoCommonLink { .. } => {
+                "name two joints of one link: two fixed ones, a crank's, or a dyad's and its base"
+            }
+            Error::Length { .. } => "give a length of more than 0",
+            Error::NoDirection { .. } => "name two joints that are apart",
+            Error::NoTriangle { .. } => "give distances that reach each other",
+            Error::Ratio { .. } => "write it like ratio = [2, 3]",
+            Error::TooManyDyads { .. } => "take joints away, or place some as points of links",
+        }
+    }
 }
 
 /// A link that turns about a pivot and carries the line of a slot.

@@ -6,7 +6,7 @@ use super::{PlannedFamily, Templates, grid, settings};
 use crate::expression::{Bound, Dimension, Expression, Kind};
 use crate::family::{Axis, Case, CellError, Family, MAX_CELLS, MAX_SAMPLES, Sampling, Space};
 use crate::notation::{self, Fields, Reader, Value};
-use crate::page::Layout;
+use crate::page::{Layout, Paper};
 use crate::problem::{Problem, Span, nearest};
 use crate::render::Format;
 use crate::template::Template;
@@ -38,10 +38,9 @@ pub(super) fn id(value: &Value) -> Option<(String, Span)> {
 pub(super) fn read<'t>(
     value: &Value<'t>,
     templates: &Templates,
-    formats: &[Format],
+    (formats, paper): (&[Format], Option<Paper>),
     reader: &mut Reader<'t>,
 ) -> Option<PlannedFamily> {
-    let before = reader.noted();
     let fields = Fields::of(value, "a [[family]]", &KEYS, reader)?;
     let id = fields.required("id", "id = \"evans\"", reader).and_then(|value| notation::slug(value, reader));
     let template =
@@ -56,8 +55,14 @@ pub(super) fn read<'t>(
     let sampling = fields
         .required("sampling", "sampling = { step = \"2 deg\" }", reader)
         .and_then(|value| sampling(value, reader));
-    let layout = layout(&fields, reader);
-    let names = template.as_ref().and_then(|template| names(template, &fields, reader));
+    let layout = layout(&fields, paper, reader);
+    let names = match &template {
+        Some(template) => names(template, &fields, reader),
+        None => {
+            read_without_linkage(&fields, reader);
+            None
+        }
+    };
     let (id, template, names, sampling) = (id?, template?, names?, sampling?);
     let family = Family {
         title: title.unwrap_or_else(|| id.clone()),
@@ -69,14 +74,26 @@ pub(super) fn read<'t>(
         sampling,
         filter: names.filter,
     };
-    if reader.noted() == before {
-        check_cells(&family, &fields, &names.spans, reader);
-    }
+    check_cells(&family, &fields, &names.spans, reader);
     let legend = [&family.template.source, &family.template.legend].map(String::as_str);
     let source =
         source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
     let filter_span = fields.get("where").map(Value::span);
     Some(PlannedFamily { family, layout: layout?, formats: formats?, source, filter_span })
+}
+
+/// What can be said of a family whose linkage is not known: whether its values and expressions can be read.
+fn read_without_linkage<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) {
+    given(fields, reader);
+    if let Some(lets) = fields.get("let").and_then(|value| Fields::open(value, "`let`", reader)) {
+        for (name, span, value) in lets.entries() {
+            notation::check_name(name, span, reader);
+            reader.expression(value);
+        }
+    }
+    if let Some(value) = fields.get("where") {
+        reader.expression(value);
+    }
 }
 
 /// The template with what the family says otherwise.
@@ -121,14 +138,18 @@ fn sampling<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Sampling> 
     }
 }
 
-fn layout<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) -> Option<Layout> {
+fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, reader: &mut Reader<'t>) -> Option<Layout> {
     if let Some(value) = fields.get("layout") {
         let words = Layout::ALL.map(|(name, _)| (name, ()));
         reader.word(value, &words)?;
     }
-    let Some(value) = fields.get("panels") else { return Some(Layout::Panels { columns: 5, rows: 3 }) };
+    let [most_columns, most_rows] = paper.map_or([1, 1], Layout::most_panels);
+    let Some(value) = fields.get("panels") else {
+        return Some(Layout::Panels { columns: most_columns.min(5), rows: most_rows.min(3) });
+    };
     let [columns, rows] = reader.pair(value)?;
-    let (columns, rows) = (reader.count(columns, 1, 40), reader.count(rows, 1, 40));
+    let most = paper.map_or([100, 100], Layout::most_panels);
+    let (columns, rows) = (reader.count(columns, 1, most[0]), reader.count(rows, 1, most[1]));
     Some(Layout::Panels { columns: columns?, rows: rows? })
 }
 
@@ -161,8 +182,26 @@ fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &mut Reader<'
             all.len() - 1
         }
     };
-    let space = given?.space(&mut slot_of);
+    let Some(given) = given else {
+        for (_, _, value) in &lets {
+            reader.expression(value);
+        }
+        if let Some(value) = fields.get("where") {
+            reader.expression(value);
+        }
+        return None;
+    };
+    let space = given.space(&mut slot_of);
     let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| slot_of(name, span)).collect();
+    for (slot, name) in all.iter().enumerate() {
+        if Family::is_column(name) {
+            let problem = Problem::error(
+                spans[slot].clone().unwrap_or(fields.span.clone()),
+                format!("`{name}` is a column of its own"),
+            );
+            reader.note(problem.help("`coupler-atlas list measures` names those that are taken: use another name"));
+        }
+    }
     let scope: Vec<(&str, Kind)> = all.iter().map(|name| (name.as_str(), Kind::Number)).collect();
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
     let mut read_all = true;
@@ -183,7 +222,8 @@ fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &mut Reader<'
     let always_given = |slot: usize| (0..space.count().min(MAX_CELLS)).all(|k| space.gives(k, slot));
     for (slot, parameter) in template.parameters.iter().enumerate() {
         if let (Some(default), false) = (&parameter.default, always_given(slot) || let_slots.contains(&slot)) {
-            sources.push((slot, default.clone(), fields.span.clone()));
+            let span = fields.get("linkage").map_or(fields.span.clone(), Value::span);
+            sources.push((slot, default.clone(), span));
         }
     }
     let filter = fields.get("where").and_then(|value| filter(value, &all, reader));
@@ -304,16 +344,22 @@ fn read_cases<'t>(value: &Value<'t>, limit: usize, reader: &mut Reader<'t>) -> O
         return None;
     }
     let mut cases = Vec::new();
+    let mut all_read = true;
     for item in list {
-        let table = Fields::open(item, "a case", reader)?;
+        let Some(table) = Fields::open(item, "a case", reader) else {
+            all_read = false;
+            continue;
+        };
         let mut case = Vec::new();
         for (name, span, value) in table.entries() {
             notation::check_name(name, span.clone(), reader);
-            case.extend(reader.constant(value).map(|value| (name.to_owned(), span, value)));
+            let value = reader.constant(value);
+            all_read &= value.is_some();
+            case.extend(value.map(|value| (name.to_owned(), span, value)));
         }
         cases.push(case);
     }
-    Some(Given::Cases(cases))
+    all_read.then_some(Given::Cases(cases))
 }
 
 /// The expressions in an order in which each comes after those it uses.
@@ -377,29 +423,30 @@ fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], reader:
     let mut findings: Vec<Finding> = Vec::new();
     for k in 0..family.cells() {
         let cell = family.cell(k);
-        let Some(error) = family.objection(&cell) else { continue };
-        let (key, slot, help) = match &error {
-            CellError::Missing(name) => (name.clone(), None, "give it in the grid, the cases or `let`"),
-            CellError::Value { slot, .. } => (slot.to_string(), Some(*slot), "change the values it comes from"),
-            CellError::Template(_) => {
-                ("linkage".to_owned(), None, "change the values it comes from, or leave the cell out")
+        for error in family.objections(&cell) {
+            let (key, slot, help) = match &error {
+                CellError::Missing(name) => (name.clone(), None, "give it in the grid, the cases or `let`"),
+                CellError::Value { slot, .. } => (slot.to_string(), Some(*slot), "change the values it comes from"),
+                CellError::Template(_) => {
+                    ("linkage".to_owned(), None, "change the values it comes from, or leave the cell out")
+                }
+            };
+            if let Some(found) = findings.iter_mut().find(|finding| finding.key == key) {
+                found.cells += 1;
+                continue;
             }
-        };
-        if let Some(found) = findings.iter_mut().find(|finding| finding.key == key) {
-            found.cells += 1;
-            continue;
+            let span = case_span(fields, k).or_else(|| spans.get(slot?).cloned().flatten());
+            let span = span.or_else(|| fields.get("grid").map(Value::span)).unwrap_or_else(|| fields.span.clone());
+            let given: Vec<String> = family
+                .names
+                .iter()
+                .zip(&cell.values)
+                .filter(|(_, v)| v.is_finite())
+                .map(|(n, v)| format!("{n} = {v}"))
+                .collect();
+            let message = format!("in cell {} ({}), {error}", cell.number, given.join(", "));
+            findings.push(Finding { key, span, message, help: help.to_owned(), cells: 1 });
         }
-        let span = case_span(fields, k).or_else(|| spans.get(slot?).cloned().flatten());
-        let span = span.or_else(|| fields.get("grid").map(Value::span)).unwrap_or_else(|| fields.span.clone());
-        let given: Vec<String> = family
-            .names
-            .iter()
-            .zip(&cell.values)
-            .filter(|(_, v)| v.is_finite())
-            .map(|(n, v)| format!("{n} = {v}"))
-            .collect();
-        let message = format!("in cell {} ({}), {error}", cell.number, given.join(", "));
-        findings.push(Finding { key, span, message, help: help.to_owned(), cells: 1 });
     }
     for finding in findings {
         let help = match finding.cells {

@@ -91,7 +91,8 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
     let mut families: Vec<PlannedFamily> = Vec::new();
     let mut ids: Vec<String> = Vec::new();
     for value in tables {
-        let read = family::read(value, &templates, &formats, reader);
+        let paper = page.as_ref().map(|page| page.options.paper);
+        let read = family::read(value, &templates, (&formats, paper), reader);
         if let Some((id, span)) = family::id(value) {
             if ids.contains(&id) {
                 let problem = Problem::error(span, format!("there are two families `{id}`"));
@@ -136,10 +137,11 @@ impl Templates {
                 } else {
                     None
                 };
+                templates.ids.push(id);
                 if let Some(message) = taken {
                     reader.note(Problem::error(span, message).help("give it an id of its own"));
+                    continue;
                 }
-                templates.ids.push(id);
             }
             templates.own.extend(read.map(Arc::new));
         }
@@ -150,7 +152,8 @@ impl Templates {
     fn find<'t>(&self, value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Arc<Template>> {
         let id = reader.text(value)?;
         let own = self.own.iter().find(|template| template.id == id).cloned();
-        let found = own.or_else(|| catalogue::find(&id));
+        // A linkage of the manifest's that could not be read is not replaced by one of the catalogue of its name.
+        let found = own.or_else(|| catalogue::find(&id).filter(|_| !self.ids.contains(&id)));
         if found.is_none() && !self.ids.contains(&id) {
             let built_in = catalogue::all().iter().map(|template| template.id.as_str());
             let known: Vec<&str> = self.ids.iter().map(String::as_str).chain(built_in).collect();

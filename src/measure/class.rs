@@ -5,6 +5,7 @@ use crate::linkage::FourBar;
 pub const CLASS: Measure = Measure {
     name: "class",
     unit: "",
+    is_word: true,
     definition: "Grashof's class of a four-bar, as seen from its frame (Natesan, table 3.1)",
     take: |subject: &Subject| match FourBar::of(subject.linkage) {
         Some(four_bar) => Value::Word(four_bar.class().name()),

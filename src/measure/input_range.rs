@@ -4,6 +4,7 @@ use super::{Measure, Subject, Value};
 pub const INPUT_MIN: Measure = Measure {
     name: "input_min_deg",
     unit: "deg",
+    is_word: false,
     definition: "least input of the circuit; empty on a full turn",
     take: |subject: &Subject| extreme(subject, f64::INFINITY, f64::min),
 };
@@ -12,6 +13,7 @@ pub const INPUT_MIN: Measure = Measure {
 pub const INPUT_MAX: Measure = Measure {
     name: "input_max_deg",
     unit: "deg",
+    is_word: false,
     definition: "greatest input of the circuit; empty on a full turn",
     take: |subject: &Subject| extreme(subject, f64::NEG_INFINITY, f64::max),
 };

@@ -37,6 +37,8 @@ pub struct Measure {
     pub name: &'static str,
     /// Its unit; empty for a word or a pure number.
     pub unit: &'static str,
+    /// Whether it is a word and not a number: a word cannot be compared in `where`.
+    pub is_word: bool,
     /// What it is.
     pub definition: &'static str,
     /// How it is taken.

@@ -113,42 +113,41 @@ fn pieces(pass: &Pass, dashes: Dashes, arc: Option<Arc>) -> Vec<Piece> {
 fn refine(linkage: &Linkage, pass: &Pass, piece: &Piece, joints: &[JointId], tolerance: f64) -> Vec<Vec<Point>> {
     /// Each round halves the input between neighbours; 2^-30 of a dash is far below any paper's resolution.
     const ROUNDS: usize = 30;
-    let places = |degs: &[f64]| -> Vec<Vec<Point>> {
-        let columns = at(linkage, pass, degs);
-        (0..degs.len()).map(|i| joints.iter().map(|&j| columns.point(j, i)).collect()).collect()
+    /// A dash of more points than this is not drawn finer, whatever the tolerance.
+    const MOST: usize = 10_000;
+    let places = |degs: Vec<f64>| -> Vec<Node> {
+        let columns = at(linkage, pass, &degs);
+        let points = |i: usize| joints.iter().map(|&joint| columns.point(joint, i)).collect();
+        degs.iter().enumerate().map(|(i, &at)| Node { at, points: points(i), open: true }).collect()
     };
-    let middle = (piece.from + piece.to) / 2.0;
-    let degs = [piece.from, middle, piece.to];
-    let mut nodes: Vec<(f64, Vec<Point>)> = degs.into_iter().zip(places(&degs)).collect();
-    let mut open = vec![true; nodes.len() - 1];
+    let is_bent = |middle: &Node, a: &Node, b: &Node| {
+        (0..joints.len()).any(|j| distance_to_segment(middle.points[j], a.points[j], b.points[j]) > tolerance)
+    };
+    let mut nodes = places(vec![piece.from, (piece.from + piece.to) / 2.0, piece.to]);
     for _ in 0..ROUNDS {
-        let asked: Vec<usize> = (0..open.len()).filter(|&i| open[i]).collect();
-        if asked.is_empty() {
+        let pairs = nodes.windows(2).filter(|pair| pair[0].open);
+        let middles = places(pairs.map(|pair| (pair[0].at + pair[1].at) / 2.0).collect());
+        if middles.is_empty() || nodes.len() > MOST {
             break;
         }
-        let degs: Vec<f64> = asked.iter().map(|&i| (nodes[i].0 + nodes[i + 1].0) / 2.0).collect();
-        let mut found = asked.iter().zip(degs.iter().copied().zip(places(&degs))).peekable();
-        let (mut next, mut next_open) = (Vec::new(), Vec::new());
-        for i in 0..nodes.len() {
-            next.push(nodes[i].clone());
-            if i == open.len() {
-                break;
-            }
-            let middle = found.next_if(|(at, _)| **at == i).map(|(_, node)| node);
-            let is_bent = |points: &Vec<Point>| {
-                (0..joints.len()).any(|j| distance_to_segment(points[j], nodes[i].1[j], nodes[i + 1].1[j]) > tolerance)
-            };
-            match middle.filter(|(_, points)| is_bent(points)) {
-                Some(node) => {
-                    next.push(node);
-                    next_open.extend([true, true]);
-                }
-                None => next_open.push(false),
-            }
+        let mut middles = middles.into_iter();
+        let mut old = std::mem::take(&mut nodes).into_iter().peekable();
+        while let Some(mut node) = old.next() {
+            let middle = old.peek().filter(|_| node.open).and_then(|next| Some((middles.next()?, next)));
+            let inserted = middle.filter(|(middle, next)| is_bent(middle, &node, next)).map(|(middle, _)| middle);
+            node.open = inserted.is_some();
+            nodes.push(node);
+            nodes.extend(inserted);
         }
-        (nodes, open) = (next, next_open);
     }
-    (0..joints.len()).map(|j| nodes.iter().map(|(_, points)| points[j]).collect()).collect()
+    (0..joints.len()).map(|j| nodes.iter().map(|node| node.points[j]).collect()).collect()
+}
+
+/// A place of a path: its input, where the joints are, and whether the path to the next may still be bent.
+struct Node {
+    at: f64,
+    points: Vec<Point>,
+    open: bool,
 }
 
 /// All joints at some inputs of a pass; at its ends exactly as the circuit has them.

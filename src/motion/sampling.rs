@@ -16,7 +16,7 @@ pub enum Sampling {
 }
 
 /// The most samples a circuit may have.
-pub const MAX_SAMPLES: usize = 1_000_000;
+pub const MAX_SAMPLES: usize = 100_000;
 
 /// Samples circuits; holds the sines and cosines of a full turn, made once for all cells.
 #[derive(Clone, Debug)]

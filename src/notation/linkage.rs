@@ -67,11 +67,9 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
         parameters,
     };
     if let Some(error) = template.structural_error() {
-        let named = error.to_string();
-        let place = joints.places.iter().find(|(name, _)| named.contains(&format!("`{name}`")));
-        let span = place.map_or(fields.span.clone(), |(_, span)| span.clone());
-        let help = "a point hangs on two joints of one link, a dyad on joints of different links";
-        reader.note(Problem::error(span, named).help(help));
+        let place = joints.places.iter().find(|(name, _)| name == error.joint()).map(|(_, span)| span.clone());
+        let span = place.or_else(|| fields.get("seen_from").map(Value::span)).unwrap_or_else(|| fields.span.clone());
+        reader.note(Problem::error(span, error.to_string()).help(error.help()));
     }
     (reader.noted() == before).then_some(template)
 }
@@ -112,6 +110,13 @@ fn parameters<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Vec<Parameter> 
         });
         let limit = |key, reader: &mut Reader<'t>| fields.get(key).and_then(|value| reader.constant(value));
         let (min, max) = (limit("min", reader), limit("max", reader));
+        if let (Some(min), Some(max)) = (min, max)
+            && min > max
+        {
+            let problem =
+                Problem::error(fields.span.clone(), format!("the least value {min} is above the greatest {max}"));
+            reader.note(problem.help("exchange `min` and `max`"));
+        }
         out.push(Parameter { name: name.to_owned(), default, min, max });
     }
     out

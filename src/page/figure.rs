@@ -7,8 +7,9 @@ use super::plot::Plot;
 use super::pose;
 use super::theme::Theme;
 use super::{Options, Panel, Sheet};
-use crate::geometry::Bounds;
-use crate::motion::{self, Dashes};
+use crate::geometry::{Bounds, Point};
+use crate::linkage::JointId;
+use crate::motion::{self, Circuit, Dashes};
 use crate::scene::{Circle, Color, Item, Line, Path};
 use crate::sweep::{Curve, Solved};
 
@@ -71,10 +72,16 @@ impl<'a> Figure<'a> {
 
     /// The curves in dashes, each with its coupler point.
     fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, dashes: Dashes, theme: &Theme) {
-        for curve in &self.solved.curves {
+        let limits = self.limit_poses();
+        for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, dashes)) {
             let ink = self.ink(curve, theme);
-            let strokes = self.strokes(curve, plot, dashes);
-            let Curve { trace, circuit, .. } = curve;
+            let Curve { trace, circuit, joint, .. } = curve;
+            let dot = |pose: &Vec<Point>| Circle {
+                centre: plot.page_from_plane.apply(pose[*joint]),
+                radius: 0.5 * theme.joint,
+                stroke: None,
+                fill: Some(ink),
+            };
             let cell = self.solved.cell.number;
             let element = CouplerCurve {
                 id: format!("{}-{cell}-{trace}-{circuit}", sheet.family),
@@ -83,7 +90,8 @@ impl<'a> Figure<'a> {
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 strokes,
                 weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],
-                marks: self.limits(curve, plot, ink, theme),
+                // A dot at each limit of the input.
+                marks: limits[circuit - 1].iter().map(dot).collect(),
             };
             draw(area, &element);
         }
@@ -94,25 +102,34 @@ impl<'a> Figure<'a> {
     /// The curves as light unbroken lines: beside the linkage, and under the dashes to lead the eye over their gaps.
     fn trail(&self, area: &Area, plot: &Plot, weight: f64, theme: &Theme) {
         let mut items = Vec::new();
-        for curve in &self.solved.curves {
-            let whole = Dashes { period: 360.0, drawn: 360.0 };
+        let whole = Dashes { period: 360.0, drawn: 360.0 };
+        for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, whole)) {
             let line = |points| Line { points, closed: false };
-            let lines = self.strokes(curve, plot, whole).into_iter().map(|stroke| line(stroke.points)).collect();
+            let lines = strokes.into_iter().map(|stroke| line(stroke.points)).collect();
             let ink = theme.faded(self.ink(curve, theme));
             items.push(Item::Path(Path { lines, stroke: Some(theme.stroke(ink, weight)), fill: None }));
         }
         draw(area, &Drawing { class: "trail", title: String::new(), items });
     }
 
-    fn strokes(&self, curve: &Curve, plot: &Plot, dashes: Dashes) -> Vec<motion::Stroke> {
-        let circuit = self.solved.circuit(curve);
+    /// The strokes of every curve, in the order of the curves; those of one circuit are found together.
+    fn strokes(&self, plot: &Plot, dashes: Dashes) -> Vec<Vec<motion::Stroke>> {
+        let curves = &self.solved.curves;
         let tolerance = CHORD_ERROR / plot.page_from_plane.scale;
-        let strokes = motion::strokes(&self.solved.linkage, circuit, &[curve.joint], dashes, tolerance);
         let on_page = |stroke: motion::Stroke| motion::Stroke {
             points: stroke.points.into_iter().map(|p| plot.page_from_plane.apply(p)).collect(),
             ..stroke
         };
-        strokes.into_iter().flatten().map(on_page).collect()
+        let mut out = vec![Vec::new(); curves.len()];
+        for (number, circuit) in (1..).zip(&self.solved.motion.circuits) {
+            let ours: Vec<usize> = (0..curves.len()).filter(|&k| curves[k].circuit == number).collect();
+            let joints: Vec<JointId> = ours.iter().map(|&k| curves[k].joint).collect();
+            let strokes = motion::strokes(&self.solved.linkage, circuit, &joints, dashes, tolerance);
+            for (k, strokes) in ours.into_iter().zip(strokes) {
+                out[k] = strokes.into_iter().map(on_page).collect();
+            }
+        }
+        out
     }
 
     /// Curves of one traced joint are told apart by circuit, those of several by trace.
@@ -121,23 +138,18 @@ impl<'a> Figure<'a> {
         theme.curve_ink(if one_trace { curve.circuit - 1 } else { curve.trace - 1 })
     }
 
-    /// A dot at each limit of the input.
-    fn limits(&self, curve: &Curve, plot: &Plot, ink: Color, theme: &Theme) -> Vec<Circle> {
-        let circuit = self.solved.circuit(curve);
-        let n = circuit.passes.len();
-        let turns = |k: usize| circuit.passes[k].heading() != circuit.passes[(k + 1) % n].heading();
-        let ends = (0..n).filter(|&k| n > 1 && turns(k) && !circuit.passes[k].to.flat.is_none());
-        let place = |k: usize| {
-            let pass = &circuit.passes[k];
-            motion::pose(&self.solved.linkage, pass, pass.to.stop.at)[curve.joint]
+    /// The poses at the limits of the input, circuit by circuit.
+    fn limit_poses(&self) -> Vec<Vec<Vec<Point>>> {
+        let poses = |circuit: &Circuit| {
+            let passes = &circuit.passes;
+            let n = passes.len();
+            let is_limit = |k: usize| {
+                n > 1 && passes[k].heading() != passes[(k + 1) % n].heading() && !passes[k].to.flat.is_none()
+            };
+            let pose = |k: usize| motion::pose(&self.solved.linkage, &passes[k], passes[k].to.stop.at);
+            (0..n).filter(|&k| is_limit(k)).map(pose).collect()
         };
-        let dot = |k: usize| Circle {
-            centre: plot.page_from_plane.apply(place(k)),
-            radius: 0.5 * theme.joint,
-            stroke: None,
-            fill: Some(ink),
-        };
-        ends.map(dot).collect()
+        self.solved.motion.circuits.iter().map(poses).collect()
     }
 
     fn traced_points(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {

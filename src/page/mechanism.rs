@@ -140,10 +140,11 @@ pub(super) fn drawn_links(linkage: &Linkage) -> Vec<Vec<JointId>> {
 
 /// The joints of a link round its hull; the points of a grid are left out.
 fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
-    let name = |joint: usize| &linkage.joints[joint].name;
-    let is_grid = |joint: usize| {
-        let same = |&(other, _): &(usize, Vector)| other != joint && name(other) == name(joint);
-        matches!(linkage.joints[joint].step, Step::Rigid { .. }) && link.joints.iter().any(same)
+    // The points of a grid stand side by side, under one name.
+    let name = |joint: JointId| linkage.joints.get(joint).map(|joint| &joint.name);
+    let is_grid = |joint: JointId| {
+        matches!(linkage.joints[joint].step, Step::Rigid { .. })
+            && (name(joint + 1) == name(joint) || joint.checked_sub(1).and_then(name) == name(joint))
     };
     let joints: Vec<(usize, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
     let centre = joints.iter().map(|(_, place)| place).sum::<Vector>() / joints.len().max(1) as f64;

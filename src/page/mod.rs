@@ -53,6 +53,11 @@ impl Layout {
     pub const ALL: [(&'static str, &'static str); 1] =
         [("panels", "a grid of panels, each with a cell's linkage, its curves and its caption")];
 
+    /// The most columns and rows of panels that a paper has room for.
+    pub fn most_panels(paper: Paper) -> [usize; 2] {
+        panels::most(paper, &Theme::for_paper(paper))
+    }
+
     /// How many cells a page holds.
     pub fn cells(self) -> usize {
         match self {

@@ -8,7 +8,7 @@ use super::arrangement::{Arrangement, Extents, Frame};
 use super::element::{Area, Drawing, Words, draw, size};
 use super::figure::Figure;
 use super::theme::Theme;
-use super::{Options, Panel, Sheet};
+use super::{Options, Panel, Paper, Sheet};
 use crate::geometry::{Point, Vector};
 use crate::scene::{Anchor, Canvas, Color, Item, Scene};
 
@@ -41,10 +41,7 @@ fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
 }
 
 fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
-    let edge = theme.border + theme.margin;
-    let top = theme.border + 2.3 * theme.title + 3.2 * theme.source;
-    let bottom = theme.border + theme.margin + theme.source;
-    let [top, bottom, side] = [top, bottom, edge - 0.5 * theme.margin].map(Canvas::pixels);
+    let [top, bottom, side] = margins(theme).map(Canvas::pixels);
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
     let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
     let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
@@ -65,6 +62,20 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
         }
         caption(area, foot, panel, sheet.symbols, theme);
     }
+}
+
+/// What is left free above, below and beside the panels.
+fn margins(theme: &Theme) -> [f64; 3] {
+    let top = theme.border + 2.3 * theme.title + 3.2 * theme.source;
+    let bottom = theme.border + theme.margin + theme.source;
+    [top, bottom, theme.border + 0.5 * theme.margin]
+}
+
+/// The most columns and rows: a panel is no smaller than four lines under a figure of five.
+pub(super) fn most(paper: Paper, theme: &Theme) -> [usize; 2] {
+    let [top, bottom, side] = margins(theme);
+    let fit = |room: f64, least: f64| ((room / least).floor() as usize).max(1);
+    [fit(paper.width - 2.0 * side, 5.0 * theme.caption), fit(paper.height - top - bottom, 10.5 * theme.caption)]
 }
 
 /// The cell's number at its upper left, and its lines below.

@@ -15,7 +15,8 @@ impl Plot {
     /// A plot in a frame, with room for the scale bar at its foot.
     pub fn new(frame: Frame, theme: &Theme) -> Plot {
         let foot = 1.6 * theme.note;
-        let inner = Frame { size: Vector::new(frame.size.x, frame.size.y - foot), ..frame };
+        // A frame that is all foot still has a positive size.
+        let inner = Frame { size: Vector::new(frame.size.x, (frame.size.y - foot).max(0.2 * frame.size.y)), ..frame };
         Plot {
             frame: inner.inset(2.0 * theme.joint),
             page_from_plane: Similarity::page_from_plane(Bounds::EMPTY, frame.centre(), 1.0),

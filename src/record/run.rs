@@ -36,6 +36,8 @@ pub struct FamilyRecord {
     pub kept: usize,
     /// How many of those could not be assembled, or not over the whole range asked for.
     pub not_assembled: usize,
+    /// How many curves of the cells kept `where` left out.
+    pub curves_left_out: usize,
     /// How many curves were traced.
     pub curves: usize,
     /// How many pages there are.
@@ -49,9 +51,12 @@ pub struct FamilyRecord {
 pub struct FileRecord {
     /// Its name.
     pub name: String,
-    /// SHA-256 of its bytes. Of an image, whose bytes may differ from machine to machine, that of what it was drawn
-    /// from: the page's SVG, and the resolution.
-    pub sha256: String,
+    /// SHA-256 of its bytes; none for an image, whose bytes may differ from machine to machine.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sha256: Option<String>,
+    /// SHA-256 of what an image is drawn from: the page's SVG, and the resolution.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawn_from_sha256: Option<String>,
 }
 
 /// Why a `run.json` cannot be used.
@@ -103,10 +108,18 @@ impl Run {
 
 impl FileRecord {
     /// The record of a file with these bytes.
-    pub fn new(name: impl Into<String>, parts: &[&[u8]]) -> FileRecord {
+    pub fn of_bytes(name: impl Into<String>, bytes: &[u8]) -> FileRecord {
         let mut digest = RunningDigest::default();
-        parts.iter().for_each(|part| digest.add(part));
+        digest.add(bytes);
         digest.record(name)
+    }
+
+    /// The record of an image by what it is drawn from.
+    pub fn of_drawing(name: impl Into<String>, svg: &[u8], dpi: f64) -> FileRecord {
+        let mut digest = RunningDigest::default();
+        digest.add(svg);
+        digest.add(dpi.to_string().as_bytes());
+        FileRecord { name: name.into(), sha256: None, drawn_from_sha256: Some(digest.finish()) }
     }
 }
 
@@ -122,6 +135,10 @@ impl RunningDigest {
 
     /// The record of the file.
     pub fn record(self, name: impl Into<String>) -> FileRecord {
-        FileRecord { name: name.into(), sha256: format!("{:x}", self.0.finalize()) }
+        FileRecord { name: name.into(), sha256: Some(self.finish()), drawn_from_sha256: None }
+    }
+
+    fn finish(self) -> String {
+        format!("{:x}", self.0.finalize())
     }
 }

@@ -116,6 +116,9 @@ pub fn select(family: &Family) -> Vec<usize> {
     all.into_par_iter().filter(is_kept).collect()
 }
 
+/// About how many places of curves are held at once: 2^21 of them, and their rows, are some 200 MB.
+const MOST_PLACES: usize = 1 << 21;
+
 /// Takes groups of cells through `work` on all threads and hands the results to `take` in order.
 ///
 /// `work` is given the number of the group, from 0, and its solved cells. No more than a few groups to a thread are
@@ -131,7 +134,9 @@ pub fn run<T: Send, E: Send>(
 ) -> Result<(), E> {
     let sampler = Sampler::new(family.sampling);
     let groups: Vec<&[usize]> = cells.chunks(group.max(1)).collect();
-    let at_once = rayon::current_num_threads() * 4;
+    // No more is held at once than keeps the threads busy, and no more than a few million places of curves.
+    let places = sampler.turn().len() * family.template.curves() * group;
+    let at_once = (MOST_PLACES / places.max(1)).clamp(1, rayon::current_num_threads() * 4);
     for (batch, groups) in groups.chunks(at_once).enumerate() {
         let solve_group = |(k, cells): (usize, &&[usize])| {
             let solved = cells.iter().filter_map(|&cell| solve(family, &sampler, cell)).collect();

@@ -251,6 +251,15 @@ pub enum Error {
 }
 
 impl Template {
+    /// How many curves its traced joints draw on one circuit.
+    pub fn curves(&self) -> usize {
+        let points = |placing: &Placing| match placing {
+            Placing::Point { along, across, .. } => along.count() * across.count(),
+            _ => 1,
+        };
+        self.traced.iter().map(|&joint| points(&self.joints[joint].placing)).sum()
+    }
+
     /// The linkage of a parameter set, `values` in the order of [`Template::parameters`].
     ///
     /// # Errors

@@ -85,6 +85,42 @@ fn all_problems_come_in_one_run() {
 }
 
 #[test]
+fn one_mistake_does_not_hide_another() {
+    // A linkage that is not known, a grid, a let and a where that cannot be read.
+    let text = GOOD.replace("linkage = \"evans\"", "linkage = \"evanz\"").replace("[2, 3]", "[\"1/0\"]");
+    let report = problems(&(text.replace("(1 + p)", "sine(p)") + "where = \"p >\"\n"));
+    for message in ["there is no linkage `evanz`", "its value is inf", "no function `sine`", "ends too soon"] {
+        assert!(report.contains(message), "{message}:\n{report}");
+    }
+    let cases = GOOD.replace("grid = { p = [2, 3] }", "cases = [1, 2, { p = \"x\" }]").replace("(1 + p)", "(1 +");
+    assert_eq!(problems(&cases).matches("error: ").count(), 4);
+    // Values are asked of all parameters, and beside a key that is not known.
+    let values = GOOD.replace("p = [2, 3]", "p = -1, r = -2").replacen("id =", "foo = 1\nid =", 1);
+    let report = problems(&values);
+    for message in ["no key `foo`", "`p` is -1", "`r` is -2"] {
+        assert!(report.contains(message), "{message}:\n{report}");
+    }
+    let helper = GOOD.replace("grid = { p = [2, 3] }", "cases = [{ p = 2, t = 2 }, { p = 3 }]").replace("(1 + p)", "t");
+    assert!(problems(&helper).contains("in cell 2 (p = 3, r = 1, k = 2), `t` has no value"));
+}
+
+#[test]
+fn names_of_columns_are_taken() {
+    for name in ["cell", "status", "class", "input_min_deg", "is_crank_rocker"] {
+        let own = OWN.replace("p = { min = 0 }", &format!("p = {{ min = 0 }}, {name} = {{ default = 1 }}"));
+        assert!(problems(&own).contains(&format!("`{name}` is a column of its own")), "{name}");
+    }
+}
+
+#[test]
+fn panels_have_to_fit_the_paper() {
+    let with = |panels: &str| GOOD.replace("sampling", &format!("panels = {panels}\nsampling"));
+    plan(&with("[10, 4]"));
+    let report = problems(&with("[5, 40]"));
+    assert!(report.contains("40 will not do here") && report.contains("give a whole number from 1 to"), "{report}");
+}
+
+#[test]
 fn an_empty_manifest_and_one_without_families_say_what_to_do() {
     assert!(problems("").contains("the manifest is empty"));
     assert!(problems("  \n\n").contains("coupler-atlas init"));
@@ -178,7 +214,7 @@ fn each_mistake_in_a_linkage_has_its_message() {
         (
             "point = [\"A\", \"B\"]",
             "point = [\"A\", \"C\"]",
-            "`M` is a point of the link through `A` and `C`, but no link has both",
+            "`M` needs a link with both `A` and `C`, and no link has both",
         ),
         ("length = 1", "length = -1", "the length -1 of `A` is not positive"),
         ("length = 1", "length = \"p - 4\"", "the length 0 of `A` is not positive"),
@@ -190,6 +226,8 @@ fn each_mistake_in_a_linkage_has_its_message() {
         ("trace =", "input = { from = \"10 deg\", to = \"5 deg\" }\ntrace =", "and must be more than `from`"),
         ("{ min = 0 }", "{ default = \"p + 1\" }", "is derived from itself"),
         ("min = 0", "mni = 0", "a parameter has no key `mni`"),
+        ("min = 0", "min = 2, max = 1", "the least value 2 is above the greatest 1"),
+        ("trace =", "seen_from = [\"A\", \"C\"]\ntrace =", "`seen_from` needs a link with both `A` and `C`"),
     ];
     for (from, to, message) in cases {
         let mut text = OWN.replacen(from, to, 1);
