@@ -110,13 +110,13 @@ pub(super) fn find(linkage: &Linkage) -> Found {
     let reach = intervals(linkage);
     let all = &reach.intervals;
     let mut left: Vec<usize> = (0..all.len()).collect();
-    let mut shortfall = reach.shortfall;
+    let mut shortfall = reach.shortfall.clone().filter(|_| all.is_empty());
     if linkage.travel.circuits == Circuits::Start {
         match start(linkage, all) {
             Ok(interval) => left = vec![interval],
             Err(reason) => {
                 left.clear();
-                shortfall = Some(shortfall.filter(|_| all.is_empty()).unwrap_or(reason));
+                shortfall = Some(reach.shortfall.clone().unwrap_or(reason));
             }
         }
     }

@@ -128,7 +128,7 @@ impl Interval {
 /// What [`intervals`] finds.
 pub(super) struct Reach {
     pub intervals: Vec<Interval>,
-    /// Why there are none.
+    /// Why there are none of the mode asked for, where a dyad of it closes nowhere.
     pub shortfall: Option<String>,
 }
 
@@ -143,8 +143,7 @@ pub(super) fn intervals(linkage: &Linkage) -> Reach {
     };
     let mut explorer = Explorer { linkage, dyads: linkage.dyads(), next_id: 2, out: Vec::new(), shortfall: None };
     explorer.explore(0, span, Signs::default());
-    let shortfall = if explorer.out.is_empty() { explorer.shortfall } else { None };
-    Reach { intervals: explorer.out, shortfall }
+    Reach { intervals: explorer.out, shortfall: explorer.shortfall }
 }
 
 struct Explorer<'a> {
@@ -164,7 +163,10 @@ impl Explorer<'_> {
         let spans = match reach::cut(self.linkage, dyad, span, signs, &mut self.next_id) {
             Ok(spans) => spans,
             Err(reason) => {
-                self.shortfall.get_or_insert(reason);
+                let asked = self.linkage.travel.signs;
+                if (0..dyad).all(|k| signs.get(k) == asked.get(k)) {
+                    self.shortfall.get_or_insert(reason);
+                }
                 return;
             }
         };

@@ -158,7 +158,9 @@ impl Dyad {
                 let (from, to) = (name(p), name(q));
                 let [l0, l1] = lengths.map(short);
                 let bases = format!("{joint} cannot be placed: {from} and {to}");
-                if least >= high {
+                if greatest <= low && greatest <= four_bar_tolerance(high) {
+                    format!("{joint} has no place: {from} and {to} are one point throughout")
+                } else if least >= high {
                     format!("{bases} are {} or more apart, links of {l0} and {l1} reach {}", short(least), short(high))
                 } else if greatest <= low {
                     format!("{bases} are {} or less apart, links of {l0} and {l1} need {}", short(greatest), short(low))
@@ -440,6 +442,10 @@ impl Sampled<'_> {
         let mut degs = self.grid();
         let extents = self.extents(&degs);
         let tolerance = self.tolerance(&extents);
+        if matches!(self.dyad.step, Step::Dyad { .. }) && extents.iter().all(|extent| *extent <= tolerance) {
+            // Two joints that are one point throughout leave their dyad free to turn: it has no place.
+            return Vec::new();
+        }
         let mut rooms: Vec<f64> = extents.iter().map(|&extent| self.room_of(extent)).collect();
         let touched = self.look_between(&mut degs, &mut rooms, tolerance);
         let open: Vec<bool> = rooms.iter().map(|room| *room >= -tolerance).collect();

@@ -166,6 +166,9 @@ fn peaucelliers_line_is_straight_to_its_ends() {
         let line = (arm * arm - side * side) / (2.0 * r);
         let circuit = &motion.circuits[0];
         assert!(circuit.closed);
+        // Of the other modes one has Q on P, and in two the rhombus has no opening.
+        let all = Linkage { travel: Travel { circuits: Circuits::All, ..linkage.travel.clone() }, ..linkage.clone() };
+        assert_eq!(Motion::of(&all, &Sampler::new(Sampling::Samples(90))).circuits.len(), 2);
         for (i, q) in circuit.points(linkage.traced[0]).enumerate() {
             assert!((q.x - line).abs() < 1e-11 * line, "{values:?} at {}: {q} {line}", circuit.input[i]);
         }
