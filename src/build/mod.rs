@@ -114,7 +114,7 @@ fn build_family(
     let pages = kept.len().div_ceil(group);
     tell(Event::Begin { family: &family.id, pages });
 
-    let points_table = Points::new(dyads(family));
+    let points_table = Points::new(dyads(family), family.template.is_driven_by_length());
     let cells_table = Cells::new(family);
     let mut points = Growing::create(folder.join("points.csv"), &points_table.header())?;
     let mut cells = Growing::create(folder.join("cells.csv"), &cells_table.header())?;
@@ -174,7 +174,11 @@ fn dyads(family: &Family) -> usize {
 
 /// Where the linkage comes from, and how a page is to be read.
 fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
-    let key = format!("one dash and its gap = {dash_deg}° of input · scale bars in units of length");
+    let dashes = match planned.family.template.is_driven_by_length() {
+        true => "a dash and its gap span equal lengths of the actuator".to_owned(),
+        false => format!("one dash and its gap = {dash_deg}° of input"),
+    };
+    let key = format!("{dashes} · scale bars in units of length");
     if planned.source.is_empty() { key } else { format!("{} · {key}", planned.source) }
 }
 

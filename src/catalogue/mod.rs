@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::notation;
 use crate::template::Template;
 
-const FILES: [&str; 11] = [
+const FILES: [&str; 16] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -19,6 +19,11 @@ const FILES: [&str; 11] = [
     include_str!("inverted-slider-crank.toml"),
     include_str!("jansen.toml"),
     include_str!("peaucellier-lipkin.toml"),
+    include_str!("hart-inversor.toml"),
+    include_str!("linear-actuator.toml"),
+    include_str!("geared-five-bar.toml"),
+    include_str!("watt-six-bar.toml"),
+    include_str!("stephenson-six-bar.toml"),
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {

@@ -54,7 +54,7 @@ pub(super) fn read<'t>(
     };
     let sampling = fields
         .required("sampling", "sampling = { step = \"2 deg\" }", reader)
-        .and_then(|value| sampling(value, reader));
+        .and_then(|value| sampling(value, template.as_deref(), reader));
     let layout = layout(&fields, paper, reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
@@ -109,9 +109,18 @@ fn overridden<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader: &mut
     Arc::new(own)
 }
 
-fn sampling<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Sampling> {
+fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Reader<'t>) -> Option<Sampling> {
     let fields = Fields::of(value, "`sampling`", &["step", "samples"], reader)?;
     match (fields.get("step"), fields.get("samples")) {
+        (Some(value), None) if template.is_some_and(Template::is_driven_by_length) => {
+            let step = reader.constant(value)?;
+            if step > 0.0 {
+                return Some(Sampling::Step(step));
+            }
+            let problem = Problem::error(value.span(), format!("a step of {step} never ends"));
+            reader.note(problem.help("give a length of more than 0, as in step = 0.05"));
+            None
+        }
         (Some(value), None) => {
             let step = reader.measure(value, Dimension::Angle)?;
             let least = 360.0 / MAX_SAMPLES as f64;

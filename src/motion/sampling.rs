@@ -66,12 +66,13 @@ impl Sampler {
     /// A sampler.
     ///
     /// # Panics
-    /// If a step is not positive or there would be more than [`MAX_SAMPLES`] to a turn.
+    /// If a step is not positive or there are to be more than [`MAX_SAMPLES`] samples.
     pub fn new(sampling: Sampling) -> Sampler {
         let turn = match sampling {
             Sampling::Step(step) => {
-                assert!(step > 0.0 && 360.0 / step <= MAX_SAMPLES as f64, "a step of {step}");
-                multiples(step, 0.0, 360.0).map(Stop::angle).collect()
+                assert!(step > 0.0, "a step of {step}");
+                // A step of a length may be short; there is no turn then.
+                multiples(step, 0.0, 360.0).take(MAX_SAMPLES).map(Stop::angle).collect()
             }
             Sampling::Samples(n) => {
                 assert!(n <= MAX_SAMPLES, "{n} samples");
@@ -148,9 +149,8 @@ impl Sampler {
             Sampling::Step(step) => {
                 let begin = out.len();
                 let apart = |deg: &f64| (deg - from).abs() > 1e-9 && (deg - to).abs() > 1e-9;
-                out.extend(
-                    multiples(step, from.min(to), from.max(to)).filter(apart).map(|at| self.stop(input, at, step)),
-                );
+                let inside = multiples(step, from.min(to), from.max(to)).filter(apart).take(MAX_SAMPLES);
+                out.extend(inside.map(|at| self.stop(input, at, step)));
                 if from > to {
                     out[begin..].reverse();
                 }

@@ -3,7 +3,7 @@
 use super::reader::{Fields, Reader, Value};
 use crate::expression::{Bound, Kind};
 use crate::problem::{Problem, Span, nearest_or_all};
-use crate::template::{Coordinate, JointTemplate, Placing, Side};
+use crate::template::{Coordinate, InputValue, JointTemplate, Placing, Side};
 
 /// The joints of a linkage in the order they are placed.
 pub(super) struct Joints {
@@ -15,9 +15,11 @@ pub(super) struct Joints {
 }
 
 /// A way to place a joint: the key it is known by, and the keys that go with it.
-const KINDS: [(&str, &[&str]); 7] = [
+const KINDS: [(&str, &[&str]); 9] = [
     ("fixed", &["fixed"]),
     ("crank", &["crank", "length"]),
+    ("gear", &["gear", "about", "length", "ratio", "phase"]),
+    ("piston", &["piston", "length", "offset", "side"]),
     ("dyad", &["dyad", "lengths", "side"]),
     ("slide", &["slide", "length", "line", "offset", "side"]),
     ("slot", &["slot", "offset", "side"]),
@@ -76,7 +78,7 @@ fn joint<'t>(
     let given = |key: &&(&str, &[&str])| open.get(key.0).is_some();
     let Some((kind, keys)) = KINDS.iter().find(given) else {
         let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
-        reader.note(problem.help("it is `fixed`, a `crank`, a `dyad`, a `slide`, a `slot` or a `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+        reader.note(problem.help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `slot` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
     let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
@@ -92,6 +94,24 @@ fn joint<'t>(
             let pivot = fields.get("crank").and_then(|value| reference(value, names, reader));
             let length = fields.required("length", "length = 1", reader).and_then(|value| reader.bound(value, scope));
             Some(Placing::Crank { pivot: pivot?, length: length? })
+        }
+        "gear" => {
+            let crank = fields.get("gear").and_then(|value| reference(value, names, reader));
+            let pivot =
+                fields.required("about", "about = \"P\"", reader).and_then(|value| reference(value, names, reader));
+            let length = fields.required("length", "length = 1", reader).and_then(|value| reader.bound(value, scope));
+            let ratio = fields.required("ratio", "ratio = [2, 3]", reader).and_then(|value| ratio(value, reader));
+            let phase = match fields.get("phase") {
+                None => Some(InputValue { value: Bound::constant(0.0), unit: None }),
+                Some(value) => reader.angle(value, scope),
+            };
+            Some(Placing::Gear { crank: crank?, pivot: pivot?, length: length?, ratio: ratio?, phase: phase? })
+        }
+        "piston" => {
+            let base = fields.get("piston").and_then(|value| base(value, names, reader));
+            let length = fields.required("length", "length = 1", reader).and_then(|value| reader.bound(value, scope));
+            let (offset, side) = (offset(&fields, scope, reader), side(&fields, &SIDES, reader));
+            Some(Placing::Piston { base: base?, length: length?, offset: offset?, side: side? })
         }
         "dyad" => {
             let base = fields.get("dyad").and_then(|value| base(value, names, reader));
@@ -148,6 +168,29 @@ fn coordinate<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader
     let (from, to) = (end("from"), end("to"));
     let count = fields.required("count", "count = 5", reader).and_then(|v| reader.count(v, 1, MAX_POINTS));
     Some(Coordinate::Range { from: from?, to: to?, count: count? })
+}
+
+/// Two whole numbers that are not 0.
+fn ratio<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<[i64; 2]> {
+    let [a, b] = reader.pair(value)?;
+    let mut whole = |value: &Value<'t>| {
+        let number = reader.constant(value)?;
+        if number.fract() == 0.0 && number != 0.0 && number.abs() <= 100.0 {
+            return Some(number as i64);
+        }
+        let problem = Problem::error(value.span(), format!("{number} makes no gear ratio"));
+        reader.note(problem.help("give whole numbers from 1 to 100; a negative one turns the other way"));
+        None
+    };
+    let (a, b) = (whole(a), whole(b));
+    Some([a?, b?])
+}
+
+/// Whether a linkage's joints have a piston among them, which makes its input a length.
+pub(super) fn has_piston(linkage: &Fields) -> bool {
+    let joints = linkage.get("joints").and_then(|value| value.get_ref().as_table());
+    let is_piston = |joint: &Value| joint.get_ref().as_table().is_some_and(|joint| joint.contains_key("piston"));
+    joints.is_some_and(|joints| joints.values().any(is_piston))
 }
 
 /// The sides of a line.
@@ -208,18 +251,28 @@ fn traced<'t>(linkage: &Fields<'_, 't>, names: &[&str], reader: &mut Reader<'t>)
     Some(found)
 }
 
-/// A linkage has one input.
+/// A linkage has one input, and its gears are geared to it.
 fn inputs(entries: &[(&str, Span, &Value)], read: &[Option<Placing>], table: &Fields, reader: &mut Reader) {
-    let cranks: Vec<usize> = (0..read.len()).filter(|&k| matches!(read[k], Some(Placing::Crank { .. }))).collect();
-    // A joint that could not be read may be the crank.
-    if cranks.is_empty() && read.iter().all(Option::is_some) {
+    let is_input = |k: &usize| matches!(read[*k], Some(Placing::Crank { .. } | Placing::Piston { .. }));
+    let inputs: Vec<usize> = (0..read.len()).filter(is_input).collect();
+    // A joint that could not be read may be the input.
+    if inputs.is_empty() && read.iter().all(Option::is_some) {
         let problem = Problem::error(table.span.clone(), "the linkage has no input");
         reader.note(problem.help("one joint is driven: { crank = \"O\", length = 1 }"));
     }
-    for &k in cranks.iter().skip(1) {
-        let (first, second) = (entries[cranks[0]].0, entries[k].0);
+    for &k in inputs.iter().skip(1) {
+        let (first, second) = (entries[inputs[0]].0, entries[k].0);
         let problem = Problem::error(entries[k].2.span(), format!("`{second}` is a second input beside `{first}`"));
-        reader.note(problem.help("a linkage of one degree of freedom has one crank; place the other joints by dyads"));
+        let help = "a linkage of one degree of freedom has one input: place the other joints by dyads or gears";
+        reader.note(problem.help(help));
+    }
+    for (k, placing) in read.iter().enumerate() {
+        let Some(Placing::Gear { crank, .. }) = placing else { continue };
+        if !matches!(read[*crank], Some(Placing::Crank { .. }) | None) {
+            let message = format!("`{}` is geared to `{}`, which is no crank", entries[k].0, entries[*crank].0);
+            let problem = Problem::error(entries[k].2.span(), message);
+            reader.note(problem.help("name the pin of the crank that drives the linkage"));
+        }
     }
 }
 
@@ -302,7 +355,7 @@ fn unused(
     for (k, (name, span, _)) in entries.iter().enumerate() {
         let carries = (0..placings.len()).any(|other| needs(placings, other).contains(&k));
         let is_seen = seen_from.is_some_and(|joints| joints.contains(&k));
-        let is_driven = matches!(placings[k], Placing::Crank { .. });
+        let is_driven = matches!(placings[k], Placing::Crank { .. } | Placing::Piston { .. });
         if !carries && !is_seen && !is_driven && !traced.contains(&k) {
             let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
             reader.note(problem.help(format!("trace it, hang another joint on it, or take `{name}` away")));

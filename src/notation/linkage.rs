@@ -2,7 +2,7 @@ use super::joints;
 use super::reader::{Fields, Reader, Value};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
-use crate::template::{Angle, Circuits, Continuation, Parameter, Template};
+use crate::template::{Circuits, Continuation, InputValue, Parameter, Template};
 
 const KEYS: [&str; 14] = [
     "id",
@@ -43,9 +43,11 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
     let circuits = fields.get("circuits").and_then(|value| reader.word(value, &CIRCUITS)).unwrap_or_default();
     let continuation =
         fields.get("continuation").and_then(|value| reader.word(value, &CONTINUATIONS)).unwrap_or_default();
-    let start = fields.get("start").and_then(|value| reader.angle(value, &scope));
-    let input = fields.get("input").and_then(|value| range(value, "an input", &["from", "to"], &scope, reader));
-    let arc = fields.get("arc").and_then(|value| arc(value, &scope, reader));
+    let is_length = joints::has_piston(&fields);
+    let start = fields.get("start").and_then(|value| reader.input(value, is_length, &scope));
+    let keys = ["from", "to"];
+    let input = fields.get("input").and_then(|value| range(value, "an input", &keys, (is_length, &scope), reader));
+    let arc = fields.get("arc").and_then(|value| arc(value, (is_length, &scope), reader));
     let joints = fields
         .required("joints", "a table [linkage.joints]", reader)
         .and_then(|value| joints::read(value, &fields, &scope, reader));
@@ -138,19 +140,23 @@ fn range<'t>(
     value: &Value<'t>,
     what: &str,
     keys: &[&str],
-    scope: &[(&str, Kind)],
+    (is_length, scope): (bool, &[(&str, Kind)]),
     reader: &mut Reader<'t>,
-) -> Option<[Angle; 2]> {
+) -> Option<[InputValue; 2]> {
     let fields = Fields::of(value, what, keys, reader)?;
     let mut angle = |key| {
         let value = fields.required(key, &format!("{key} = \"90 deg\""), reader)?;
-        reader.angle(value, scope)
+        reader.input(value, is_length, scope)
     };
     let (from, to) = (angle("from"), angle("to"));
     Some([from?, to?])
 }
 
-fn arc<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader<'t>) -> Option<([Angle; 2], i8)> {
+fn arc<'t>(
+    value: &Value<'t>,
+    scope: (bool, &[(&str, Kind)]),
+    reader: &mut Reader<'t>,
+) -> Option<([InputValue; 2], i8)> {
     let angles = range(value, "an arc", &["from", "to", "branch"], scope, reader)?;
     let fields = Fields::open(value, "an arc", reader)?;
     let branch = match fields.get("branch") {

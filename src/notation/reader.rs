@@ -3,7 +3,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::expression::{self, Bound, Caption, Dimension, Expression, Kind, Quantity};
 use crate::problem::{Problem, Span, nearest_or_all};
-use crate::template::Angle;
+use crate::template::InputValue;
 
 /// A TOML value and its place in the text.
 pub type Value<'t> = Spanned<DeValue<'t>>;
@@ -159,11 +159,19 @@ impl<'t> Reader<'t> {
         self.finite(value, bound.evaluate(|_| f64::NAN))
     }
 
+    /// A value of the input over the names of `scope`: an angle with its unit, or a length without.
+    pub fn input(&mut self, value: &Value<'t>, is_length: bool, scope: &[(&str, Kind)]) -> Option<InputValue> {
+        if is_length {
+            return Some(InputValue { value: self.bound(value, scope)?, unit: None });
+        }
+        self.angle(value, scope)
+    }
+
     /// An angle over the names of `scope`.
-    pub fn angle(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<Angle> {
+    pub fn angle(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<InputValue> {
         let quantity = self.quantity(value, Dimension::Angle)?;
         let bound = quantity.expression.bind(scope, Kind::Number);
-        Some(Angle { value: self.placed(value, bound)?, unit: quantity.unit })
+        Some(InputValue { value: self.placed(value, bound)?, unit: Some(quantity.unit) })
     }
 
     /// An angle in degrees, or a length on paper in millimetres, without names.

@@ -3,12 +3,12 @@
 use super::arrangement::{Arrangement, Extents, Frame};
 use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::mechanism::Mechanism;
-use super::plot::Plot;
+use super::plot::{Plot, round_number};
 use super::pose;
 use super::theme::Theme;
 use super::{Options, Panel, Sheet};
 use crate::geometry::{Bounds, Point};
-use crate::linkage::JointId;
+use crate::linkage::{Input, JointId};
 use crate::motion::{self, Circuit, Dashes};
 use crate::scene::{Circle, Color, Item, Line, Path};
 use crate::sweep::{Curve, Solved};
@@ -47,7 +47,7 @@ impl<'a> Figure<'a> {
         (options, theme): (&Options, &Theme),
     ) {
         let [curve, key] = arrangement.frames(whole).map(|frame| Plot::new(frame, theme));
-        let period = options.dash_deg;
+        let period = self.dash(options);
         // A dash spans three fifths of its period: the first 3 of 5 degrees.
         let dashes = Dashes { period, drawn: 0.6 * period };
         if arrangement == Arrangement::Together {
@@ -68,6 +68,15 @@ impl<'a> Figure<'a> {
         plot.bar(area, theme);
         self.trail(area, &plot, theme.hair, theme);
         self.curves(area, &plot, sheet, dashes, theme);
+    }
+
+    /// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
+    fn dash(&self, options: &Options) -> f64 {
+        if self.solved.linkage.input() != Input::Length {
+            return options.dash_deg;
+        }
+        let passes = self.solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
+        round_number(passes.map(|pass| pass.length()).fold(0.0, f64::max) / 20.0)
     }
 
     /// The curves in dashes, each with its coupler point.

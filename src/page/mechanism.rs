@@ -23,10 +23,37 @@ impl<'a> Mechanism<'a> {
         Mechanism { linkage, pose, guides }
     }
 
+    /// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
+    /// which is not drawn: they are kept apart.
+    fn pitch_circles(&self) -> Vec<(Point, f64)> {
+        let joints = &self.linkage.joints;
+        let crank = joints.iter().find_map(|joint| match joint.step {
+            Step::Crank { pivot, .. } => Some(pivot),
+            _ => None,
+        });
+        let mut circles = Vec::new();
+        for joint in joints {
+            if let (Step::Gear { pivot, ratio: [turns, of], .. }, Some(first)) = (joint.step, crank) {
+                let distance = (self.pose[pivot] - self.pose[first]).norm();
+                let apart = if turns < 0 { 1.0 } else { 0.8 };
+                // The slower wheel is the larger.
+                let [own, other] = [of.abs() as f64, turns.abs() as f64]
+                    .map(|n| apart * distance * n / (turns.abs() + of.abs()) as f64);
+                circles.extend([(self.pose[pivot], own), (self.pose[first], other)]);
+            }
+        }
+        circles
+    }
+
     /// The box round all that is drawn of it.
     pub fn bounds(&self) -> Bounds {
-        let joints = drawn_links(self.linkage).concat().into_iter().map(|joint| self.pose[joint]);
-        Bounds::of(joints.chain(self.guides.iter().flatten().copied()))
+        let wheels = self
+            .pitch_circles()
+            .into_iter()
+            .flat_map(|(centre, radius)| [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]);
+        let joints = drawn_links(self.linkage).concat().into_iter().chain(ground(self.linkage));
+        let joints = joints.map(|joint| self.pose[joint]);
+        Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels))
     }
 
     /// What lies under the curves: the bodies of plates, the frame as a hairline, guides.
@@ -43,6 +70,11 @@ impl<'a> Mechanism<'a> {
         let points: Vec<Point> = ground(self.linkage).iter().map(at).collect();
         if points.len() > 1 {
             items.push(Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair))));
+        }
+        for (centre, radius) in self.pitch_circles() {
+            let (centre, radius) = (plot.page_from_plane.apply(centre), radius * plot.page_from_plane.scale);
+            let stroke = Some(theme.stroke(theme.grey, theme.hair));
+            items.push(Item::Circle(Circle { centre, radius, stroke, fill: None }));
         }
         for guide in &self.guides {
             let [a, b] = guide.map(|p| plot.page_from_plane.apply(p));
@@ -67,6 +99,7 @@ impl<'a> Mechanism<'a> {
                     items.push(Item::Path(Path::stroked(vec![at(id), at(through)], heavy)));
                     blocks.push((at(through), at(through) - at(id)));
                 }
+                Step::Piston { base: [pivot, _], .. } => items.extend(actuator(at(pivot), at(id), theme)),
                 Step::Directed { base: [pivot, through], .. } => blocks.push((at(through), at(through) - at(pivot))),
                 _ => {}
             }
@@ -78,6 +111,7 @@ impl<'a> Mechanism<'a> {
         }
         items.extend(blocks.into_iter().map(|(centre, along)| block(centre, along, theme)));
         let mut joints: Vec<JointId> = links.concat();
+        joints.extend(&ground);
         joints.sort_unstable();
         joints.dedup();
         let circle = |centre, radius, color| {
@@ -96,13 +130,26 @@ impl<'a> Mechanism<'a> {
     }
 }
 
-/// The joints of a line that a slotted link carries through a joint, if `joint` makes it do so.
+/// The joints of the line of a slot or an actuator, if `joint` is placed by one.
 pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<Vec<JointId>> {
     match linkage.joints[joint].step {
         Step::Slot { base: [_, through], .. } => Some(vec![joint, through]),
         Step::Directed { base: [pivot, through], .. } => Some(vec![pivot, through]),
+        Step::Piston { base: [pivot, _], .. } => Some(vec![pivot, joint]),
         _ => None,
     }
+}
+
+/// A linear actuator: its rod, and its cylinder on the nearer half.
+fn actuator(from: Point, to: Point, theme: &Theme) -> [Item; 2] {
+    let along = to - from;
+    let across = left_normal(along).try_normalize(0.0).unwrap_or(Vector::zeros()) * (1.2 * theme.joint);
+    let (near, far) = (from + along * 0.1, from + along * 0.6);
+    let points = vec![near - across, far - across, far + across, near + across];
+    let stroke = Some(theme.stroke(theme.ink, theme.fine));
+    let rod = Path::stroked(vec![from, to], theme.stroke(theme.ink, theme.link));
+    let cylinder = Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) };
+    [Item::Path(rod), Item::Path(cylinder)]
 }
 
 /// A sliding block, along a direction.
@@ -127,9 +174,12 @@ fn guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point;
 /// The joints of the link at rest that something moves about.
 pub(super) fn ground(linkage: &Linkage) -> Vec<JointId> {
     let ground = linkage.ground();
-    let moving =
-        |joint: JointId| linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some());
-    ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| moving(joint)).collect()
+    let is_pivot = |joint: JointId| {
+        let drives = |step: &Step| matches!(step, Step::Piston { base: [pivot, _], .. } if *pivot == joint);
+        linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some())
+            || linkage.joints.iter().any(|joint| drives(&joint.step))
+    };
+    ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| is_pivot(joint)).collect()
 }
 
 /// The moving links as they are drawn, each by its joints in order: along a bar, or round a plate.

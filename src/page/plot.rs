@@ -59,7 +59,7 @@ impl Plot {
 }
 
 /// The nearest of 1, 2 and 5 with a power of ten, not above `x`; 1 where `x` is none to go by.
-fn round_number(x: f64) -> f64 {
+pub(super) fn round_number(x: f64) -> f64 {
     if !(1e-12..=1e12).contains(&x) {
         return 1.0;
     }

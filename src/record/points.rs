@@ -6,18 +6,20 @@ use crate::sweep::Solved;
 pub struct Points {
     /// How many two-valued joints the linkage has: a column of branches for each, and at least one.
     dyads: usize,
+    /// The column of the input.
+    input: &'static str,
 }
 
 impl Points {
-    /// The table of a linkage with that many two-valued joints.
-    pub fn new(dyads: usize) -> Points {
-        Points { dyads }
+    /// The table of a linkage with that many two-valued joints, driven by an angle or by a length.
+    pub fn new(dyads: usize, is_driven_by_length: bool) -> Points {
+        Points { dyads, input: if is_driven_by_length { "input_length" } else { "input_deg" } }
     }
 
     /// The names of the columns.
     pub fn header(self) -> String {
         let further: String = (2..=self.dyads).map(|k| format!(",branch_{k}")).collect();
-        format!("cell,trace,circuit,branch{further},sample,input_deg,x,y\n")
+        format!("cell,trace,circuit,branch{further},sample,{},x,y\n", self.input)
     }
 
     /// The rows of a cell.

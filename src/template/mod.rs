@@ -31,11 +31,11 @@ pub struct Template {
     /// What happens at a change point.
     pub continuation: Continuation,
     /// The input at which the sides hold.
-    pub start: Option<Angle>,
+    pub start: Option<InputValue>,
     /// The range of the input.
-    pub input: Option<[Angle; 2]>,
+    pub input: Option<[InputValue; 2]>,
     /// The part of the curve that the source's figure shows: input from, to, and branch.
-    pub arc: Option<([Angle; 2], i8)>,
+    pub arc: Option<([InputValue; 2], i8)>,
 }
 
 /// A parameter of a template.
@@ -68,18 +68,19 @@ impl Parameter {
     }
 }
 
-/// An angle with expressions in it, evaluated in degrees.
+/// A value of the input, with expressions in it: an angle, evaluated in degrees, or a length.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Angle {
+pub struct InputValue {
     /// The number of units.
     pub value: Bound,
-    /// Degrees or radians.
-    pub unit: Unit,
+    /// Degrees or radians; none for a length.
+    pub unit: Option<Unit>,
 }
 
-impl Angle {
-    fn degrees(&self, values: &[f64]) -> f64 {
-        self.unit.convert(self.value.evaluate(|slot| values[slot]))
+impl InputValue {
+    fn evaluate(&self, values: &[f64]) -> f64 {
+        let value = self.value.evaluate(|slot| values[slot]);
+        self.unit.map_or(value, |unit| unit.convert(value))
     }
 }
 
@@ -103,6 +104,30 @@ pub enum Placing {
         pivot: usize,
         /// The length.
         length: Bound,
+    },
+    /// On a second crank, geared to the first.
+    Gear {
+        /// The pin of the first crank.
+        crank: usize,
+        /// The pivot.
+        pivot: usize,
+        /// The length.
+        length: Bound,
+        /// Its turns to those of the first.
+        ratio: [i64; 2],
+        /// Its angle where the first crank's is 0.
+        phase: InputValue,
+    },
+    /// On a crank driven by a linear actuator, which is the input.
+    Piston {
+        /// The actuator's pivot, and the crank's.
+        base: [usize; 2],
+        /// The crank's length.
+        length: Bound,
+        /// The distance of the actuator's line from its pivot.
+        offset: Bound,
+        /// The side of the base at the start.
+        side: Side,
     },
     /// By two links.
     Dyad {
@@ -161,8 +186,10 @@ impl Placing {
         match self {
             Placing::Fixed(_) => Vec::new(),
             Placing::Crank { pivot, .. } => vec![*pivot],
+            Placing::Gear { crank, pivot, .. } => vec![*crank, *pivot],
             Placing::Slide { from, line, .. } => vec![*from, line[0], line[1]],
             Placing::Dyad { base, .. }
+            | Placing::Piston { base, .. }
             | Placing::Slot { base, .. }
             | Placing::Point { base, .. }
             | Placing::Distances { base, .. } => base.to_vec(),
@@ -175,8 +202,10 @@ impl Placing {
         match &mut self {
             Placing::Fixed(_) => {}
             Placing::Crank { pivot, .. } => *pivot = now(*pivot),
+            Placing::Gear { crank, pivot, .. } => (*crank, *pivot) = (now(*crank), now(*pivot)),
             Placing::Slide { from, line, .. } => (*from, *line) = (now(*from), line.map(now)),
             Placing::Dyad { base, .. }
+            | Placing::Piston { base, .. }
             | Placing::Slot { base, .. }
             | Placing::Point { base, .. }
             | Placing::Distances { base, .. } => *base = base.map(now),
@@ -235,12 +264,12 @@ pub enum Error {
         /// The value.
         value: f64,
     },
-    /// An angle has no finite value, or a range none to go over.
-    #[error("{what} is {value} deg, {why}")]
-    Angle {
-        /// Which angle.
+    /// A value of the input is not finite, or a range has none to go over.
+    #[error("{what} is {value}, {why}")]
+    Input {
+        /// Which value.
         what: &'static str,
-        /// The value in degrees.
+        /// The value, in degrees or a length.
         value: f64,
         /// What is wrong with it.
         why: &'static str,
@@ -251,6 +280,11 @@ pub enum Error {
 }
 
 impl Template {
+    /// Whether its input is the length of an actuator, and not an angle.
+    pub fn is_driven_by_length(&self) -> bool {
+        self.joints.iter().any(|joint| matches!(joint.placing, Placing::Piston { .. }))
+    }
+
     /// How many curves its traced joints draw on one circuit.
     pub fn curves(&self) -> usize {
         let points = |placing: &Placing| match placing {
@@ -302,6 +336,14 @@ impl Template {
                     vec![assembly.fixed(name, at.into())]
                 }
                 Placing::Crank { pivot, length } => vec![assembly.crank(name, made[*pivot][0], number(k, length))?],
+                Placing::Gear { pivot, length, ratio, phase, .. } => {
+                    let phase = finite("`phase`", phase.evaluate(values))?;
+                    vec![assembly.gear(name, (made[*pivot][0], number(k, length)), *ratio, phase)?]
+                }
+                Placing::Piston { base, length, offset, side } => {
+                    let crank = (number(k, length), finite("`offset`", number(k, offset))?);
+                    vec![assembly.piston(name, two(base), crank, *side)?]
+                }
                 Placing::Dyad { base, lengths: [l0, l1], side } => {
                     vec![assembly.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
                 }
@@ -332,22 +374,28 @@ impl Template {
         }
         let traced = self.traced.iter().flat_map(|&k| made[k].clone()).collect();
         let seen_from = self.seen_from.map(|joints| joints.map(|k| made[k][0]));
-        Ok(assembly.finish(traced, seen_from, self.travel(values)?)?)
+        let linkage = assembly.finish(traced, seen_from, self.travel(values)?)?;
+        match linkage.travel.range {
+            Some([from, to]) if to - from > linkage.input().period() => {
+                let why = "more from `from` than it takes to come round";
+                Err(Error::Input { what: "the input's `to`", value: to, why })
+            }
+            _ => Ok(linkage),
+        }
     }
 
     fn travel(&self, values: &[f64]) -> Result<Travel, Error> {
-        let degrees = |what, angle: &Angle| match angle.degrees(values) {
+        let degrees = |what, angle: &InputValue| match angle.evaluate(values) {
             value if value.is_finite() => Ok(value),
-            value => Err(Error::Angle { what, value, why: "which is not a finite number" }),
+            value => Err(Error::Input { what, value, why: "which is not a finite number" }),
         };
         let range = match &self.input {
             None => None,
             Some([from, to]) => {
                 let (from, to) = (degrees("the input's `from`", from)?, degrees("the input's `to`", to)?);
-                let too_far = |why| Err(Error::Angle { what: "the input's `to`", value: to, why });
+                let too_far = |why| Err(Error::Input { what: "the input's `to`", value: to, why });
                 match to - from {
                     length if length <= 0.0 => return too_far("and must be more than `from`"),
-                    length if length > 360.0 => return too_far("more than a turn from `from`"),
                     _ => Some([from, to]),
                 }
             }
@@ -355,7 +403,7 @@ impl Template {
         let start = self.start.as_ref().map(|start| degrees("`start`", start)).transpose()?;
         // An arc whose ends do not exist for these lengths is no part of the curve: nothing is set apart then.
         let arc = self.arc.as_ref().and_then(|([from, to], branch)| {
-            let input_deg = [from.degrees(values), to.degrees(values)];
+            let input_deg = [from.evaluate(values), to.evaluate(values)];
             input_deg.iter().all(|deg| deg.is_finite()).then_some(Arc { input_deg, branch: *branch })
         });
         let (circuits, continuation) = (self.circuits, self.continuation);
