@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use crate::expression::{Bound, Kind};
 use crate::measure;
-use crate::template::{self, Linkage, Template};
+use crate::problem::nearest_or_all;
+use crate::template::{self, Linkage, Template, dependency_order};
 
 pub use crate::motion::{MAX_SAMPLES, Sampling};
 
@@ -61,7 +62,57 @@ pub enum CellError {
     Template(#[from] template::Error),
 }
 
+/// Expressions in an order in which each comes after those it uses; each goes with the place of the name it gives.
+///
+/// # Errors
+/// The places of a cycle of names, the first once more at the end.
+pub fn derivation(sources: Vec<(usize, Bound)>) -> Result<Vec<(usize, Bound)>, Vec<usize>> {
+    let needs = |k: usize| -> Vec<usize> {
+        (0..sources.len()).filter(|&other| sources[k].1.slots().contains(&sources[other].0)).collect()
+    };
+    match dependency_order(sources.len(), needs) {
+        Ok(order) => Ok(order.into_iter().map(|k| sources[k].clone()).collect()),
+        Err(cycle) => Err(cycle.into_iter().map(|k| sources[k].0).collect()),
+    }
+}
+
 impl Family {
+    /// A family of the one cell that gives a template these values, its defaults for the rest.
+    ///
+    /// # Errors
+    /// A name that is no parameter, defaults that need each other, or what is wrong with the values.
+    pub fn single(template: Arc<Template>, given: &[(String, f64)], sampling: Sampling) -> Result<Family, Vec<String>> {
+        let names: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        let known: Vec<&str> = names.iter().map(String::as_str).collect();
+        let scope: Vec<(&str, Kind)> = known.iter().map(|name| (*name, Kind::Number)).collect();
+        let mut case = Vec::new();
+        let mut wrong = Vec::new();
+        for (name, value) in given {
+            match known.iter().position(|known| known == name) {
+                Some(slot) if case.iter().all(|(other, _)| *other != slot) => case.push((slot, *value)),
+                Some(_) => wrong.push(format!("`{name}` is given twice")),
+                None => wrong.push(format!("there is no parameter `{name}`: {}", nearest_or_all(name, &known))),
+            }
+        }
+        let is_given = |slot: usize| case.iter().any(|(given, _)| *given == slot);
+        let default = |(slot, parameter): (usize, &template::Parameter)| {
+            let expression = parameter.default.as_ref().filter(|_| !is_given(slot))?;
+            Some((slot, expression.bind(&scope, Kind::Number).ok()?))
+        };
+        let sources = template.parameters.iter().enumerate().filter_map(default).collect();
+        let derived = derivation(sources).map_err(|cycle| {
+            let words: Vec<&str> = cycle.iter().map(|&slot| known[slot]).collect();
+            vec![format!("the defaults need each other, {}: give one of them", words.join(" -> "))]
+        })?;
+        let (id, title) = (template.id.clone(), template.id.clone());
+        let space = Space::Cases(vec![case]);
+        let family = Family { id, title, template, names, space, derived, sampling, filter: None };
+        if wrong.is_empty() {
+            wrong.extend(family.objections(&family.cell(0)).iter().map(ToString::to_string));
+        }
+        if wrong.is_empty() { Ok(family) } else { Err(wrong) }
+    }
+
     /// How many cells there are.
     pub fn cells(&self) -> usize {
         self.space.count()

@@ -2,6 +2,7 @@
 
 mod family;
 mod grid;
+mod names;
 mod settings;
 
 use std::sync::Arc;

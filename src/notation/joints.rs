@@ -3,7 +3,7 @@
 use super::reader::{Fields, Reader, Value};
 use crate::expression::{Bound, Kind};
 use crate::problem::{Problem, Span, nearest_or_all};
-use crate::template::{Coordinate, InputValue, JointTemplate, Placing, Side};
+use crate::template::{Coordinate, InputValue, JointTemplate, Placing, Side, dependency_order};
 
 /// The joints of a linkage in the order they are placed.
 pub(super) struct Joints {
@@ -305,42 +305,18 @@ fn needs(placings: &[Placing], k: usize) -> Vec<usize> {
     bases
 }
 
-/// An order in which every joint comes after those it refers to; as written, where that is one.
+/// An order in which every joint comes after those it is placed from; as written, where that is one.
 fn order(entries: &[(&str, Span, &Value)], placings: &[Placing], reader: &mut Reader) -> Option<Vec<usize>> {
-    let mut order: Vec<usize> = Vec::new();
-    while order.len() < placings.len() {
-        let ready = |k: &usize| !order.contains(k) && needs(placings, *k).iter().all(|base| order.contains(base));
-        match (0..placings.len()).find(ready) {
-            Some(next) => order.push(next),
-            None => {
-                let stuck = (0..placings.len()).find(|k| !order.contains(k))?;
-                let cycle = cycle(placings, &order, stuck);
-                let names: Vec<String> = cycle.iter().map(|&k| format!("`{}`", entries[k].0)).collect();
-                let first = cycle[0];
-                let message = format!("the joint `{}` is placed from itself", entries[first].0);
-                let problem = Problem::error(entries[first].2.span(), message);
-                let help = format!("the cycle is {}: place one of them from joints already placed", names.join(" -> "));
-                reader.note(problem.help(help));
-                return None;
-            }
+    match dependency_order(placings.len(), |k| needs(placings, k)) {
+        Ok(order) => Some(order),
+        Err(cycle) => {
+            let names: Vec<String> = cycle.iter().map(|&k| format!("`{}`", entries[k].0)).collect();
+            let problem =
+                Problem::error(entries[cycle[0]].2.span(), format!("the joint {} is placed from itself", names[0]));
+            let help = format!("the cycle is {}: place one of them from joints already placed", names.join(" -> "));
+            reader.note(problem.help(help));
+            None
         }
-    }
-    Some(order)
-}
-
-/// The joints of a cycle, the first once more at the end.
-fn cycle(placings: &[Placing], placed: &[usize], start: usize) -> Vec<usize> {
-    let mut path = vec![start];
-    loop {
-        let at = path[path.len() - 1];
-        // A joint that cannot be placed has a base that cannot be placed.
-        let next = needs(placings, at).into_iter().find(|base| !placed.contains(base)).unwrap_or(start);
-        if let Some(first) = path.iter().position(|&k| k == next) {
-            path.drain(..first);
-            path.push(next);
-            return path;
-        }
-        path.push(next);
     }
 }
 

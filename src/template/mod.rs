@@ -1,5 +1,9 @@
 //! A linkage with expressions for numbers; a parameter set makes it a [`Linkage`].
 
+mod order;
+
+pub use order::dependency_order;
+
 use crate::expression::{Bound, Caption, Expression, Unit};
 use crate::linkage::{self, Arc, Assembly, JointId, Travel};
 
