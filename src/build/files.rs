@@ -78,7 +78,10 @@ pub(super) fn create_folder(path: &Path) -> Result<(), Error> {
 }
 
 /// Writes a file whole or not at all.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+///
+/// # Errors
+/// A file that cannot be written; one that was there is then as it was.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut file = Growing::open(path.to_owned())?;
     file.put(bytes)?;
     file.keep()

@@ -2,7 +2,7 @@
 
 mod files;
 
-pub use files::{Error, read_manifest, write_new};
+pub use files::{Error, read_manifest, write as write_file, write_new};
 
 use std::path::Path;
 

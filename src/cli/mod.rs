@@ -1,6 +1,7 @@
 //! Arguments, one file a subcommand, progress and exit codes. Every print is here.
 
 mod init;
+mod inspect;
 mod list;
 mod plan;
 mod render;
@@ -24,6 +25,7 @@ struct Arguments {
 enum Command {
     Render(render::Arguments),
     Validate(validate::Arguments),
+    Inspect(inspect::Arguments),
     List(list::Arguments),
     Init(init::Arguments),
 }
@@ -50,6 +52,7 @@ pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
     };

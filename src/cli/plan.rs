@@ -53,7 +53,8 @@ impl Source {
     }
 }
 
-fn report(path: &Path, text: &str, problems: &[Problem]) {
+/// Says what is wrong with a text.
+pub fn report(path: &Path, text: &str, problems: &[Problem]) {
     let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     say(&problem::report(problems, &path.display().to_string(), text, styled));
 }

@@ -65,6 +65,17 @@ pub fn load(text: &str) -> Loaded {
     Loaded { plan, problems }
 }
 
+/// The linkages of a manifest's own, whatever else it has.
+pub fn linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
+    let mut reader = Reader::new(text);
+    let document = reader.document();
+    let templates = match Fields::open(&document, "a manifest", &mut reader) {
+        Some(root) => Templates::read(&root, &mut reader).own,
+        None => Vec::new(),
+    };
+    (templates, reader.into_problems())
+}
+
 fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
     let document = reader.document();
     if text.trim_start_matches('\u{feff}').trim().is_empty() {

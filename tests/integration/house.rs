@@ -30,7 +30,10 @@ const HOUSE: [(&str, &str); 18] = [
         "geometry problem expression linkage motion measure template notation catalogue family sweep scene page render \
          manifest record",
     ),
-    ("cli", "build catalogue expression family manifest measure page problem record render template"),
+    (
+        "cli",
+        "build catalogue expression family linkage manifest measure motion page problem record render sweep template",
+    ),
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

@@ -266,3 +266,46 @@ fn a_full_disk_leaves_every_file_whole() {
         before.iter().find(|(p, _)| p.ends_with("run.json"))
     );
 }
+
+#[test]
+fn inspect_tells_class_circuits_and_poses() {
+    let folder = TempDir::new().unwrap();
+    let (code, out, err) = run(folder.path(), &["inspect", "roberts", "p=2", "r=2", "a=1", "b=2", "--at", "60"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("class: double-rocker"), "{out}");
+    assert!(
+        out.contains("circuit 1: from 28.95502437° on branch 1 to 97.18075578°, on branch -1 to 28.95502437°"),
+        "{out}"
+    );
+    assert_eq!(out.matches("at 60°, circuit 1, branch").count(), 2, "{out}");
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let (code, out, err) = run(folder.path(), &[&["inspect", "--json"], arguments].concat());
+        assert_eq!(code, 0, "{err}");
+        serde_json::from_str(&out).unwrap()
+    };
+    let value = json(&["slider-crank", "crank=1", "coupler=2", "--at", "90", "--branch", "1"]);
+    assert_eq!(value["format"], 1);
+    // The crank upright: the slider is at sqrt(3), and moves as fast as the crank pin.
+    let slider = &value["poses"][0]["joints"][3];
+    assert!((slider["place"][0].as_f64().unwrap() - 3f64.sqrt()).abs() < 1e-12);
+    assert!((slider["velocity"][0].as_f64().unwrap() + 1.0).abs() < 1e-12);
+    let (code, _, err) = run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "q=1"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("there is no parameter `q`"), "{err}");
+    assert!(run(folder.path(), &["inspect", "evens"]).2.contains("did you mean `evans`?"));
+    assert!(run(folder.path(), &["inspect", "evans", "p"]).2.contains("there is no `=`"));
+    assert!(run(folder.path(), &["inspect", "evans", "p=2"]).2.contains("`a` has no value"));
+    assert!(run(folder.path(), &["inspect", "evans", "p=9", "a=1"]).1.contains("not assembled: B cannot be placed"));
+}
+
+#[test]
+fn inspect_draws_a_plate_and_knows_a_manifests_own_linkages() {
+    let folder = TempDir::new().unwrap();
+    run(folder.path(), &["init", "my.toml"]);
+    let arguments = ["inspect", "my-four-bar", "frame=3", "--manifest", "my.toml", "--svg", "plate.svg"];
+    let (code, out, err) = run(folder.path(), &arguments);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.starts_with("my-four-bar: frame = 3, crank = 1, height = 1\n"), "{out}");
+    let plate = fs::read_to_string(folder.path().join("plate.svg")).unwrap();
+    assert!(plate.contains("class=\"curve\"") && plate.ends_with("</svg>\n"));
+}
