@@ -114,7 +114,7 @@ fn build_family(
     let pages = kept.len().div_ceil(group);
     tell(Event::Begin { family: &family.id, pages });
 
-    let points_table = Points::new(dyads(family), family.template.is_driven_by_length());
+    let points_table = Points::new(family, dyads(family));
     let cells_table = Cells::new(family);
     let mut points = Growing::create(folder.join("points.csv"), &points_table.header())?;
     let mut cells = Growing::create(folder.join("cells.csv"), &cells_table.header())?;

@@ -5,7 +5,7 @@ use coupler_atlas::{catalogue, measure};
 
 use super::{Outcome, print};
 
-/// List the built-in linkages, the measures and the layouts.
+/// List the built-in linkages, the measures, the further columns and the layouts.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to list [default: everything].
@@ -18,6 +18,8 @@ enum What {
     Linkages,
     /// The columns of `cells.csv` and names of `where`.
     Measures,
+    /// The further columns a family may ask of `points.csv`.
+    Columns,
     /// The ways a page can be laid out.
     Layouts,
 }
@@ -40,6 +42,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     });
     let truths = measure::TRUTHS.iter().map(|(name, word)| format!("{name:<16} -    the class is {word}\n"));
     section(What::Measures, "measures", measures.chain(truths).collect());
+    let columns = measure::COLUMNS.iter().map(|column| format!("{:<16} {}\n", column.name, column.definition));
+    section(What::Columns, "columns", columns.collect());
     let layouts = Layout::ALL.iter().map(|(name, shows)| format!("{name:<16} {shows}\n"));
     section(What::Layouts, "layouts", layouts.collect());
     print(&out)?;

@@ -11,6 +11,7 @@ use crate::measure;
 use crate::problem::nearest_or_all;
 use crate::template::{self, Linkage, Template, dependency_order};
 
+pub use crate::measure::{COLUMNS, Column, column};
 pub use crate::motion::{MAX_SAMPLES, Sampling};
 
 /// A linkage over a grid or a list of cases.
@@ -30,6 +31,8 @@ pub struct Family {
     pub derived: Vec<(usize, Bound)>,
     /// How circuits are sampled.
     pub sampling: Sampling,
+    /// The further columns of `points.csv`.
+    pub columns: Vec<Column>,
     /// Which curves are kept, over [`Family::scope`].
     pub filter: Option<Bound>,
 }
@@ -106,7 +109,8 @@ impl Family {
         })?;
         let (id, title) = (template.id.clone(), template.id.clone());
         let space = Space::Cases(vec![case]);
-        let family = Family { id, title, template, names, space, derived, sampling, filter: None };
+        let columns = Vec::new();
+        let family = Family { id, title, template, names, space, derived, sampling, columns, filter: None };
         if wrong.is_empty() {
             wrong.extend(family.objections(&family.cell(0)).iter().map(ToString::to_string));
         }

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use super::names::{given, names};
 use super::{PlannedFamily, Templates, settings};
 use crate::expression::Dimension;
-use crate::family::{CellError, Family, MAX_SAMPLES, Sampling};
+use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, column};
 use crate::notation::{self, Fields, Reader, Value};
 use crate::page::{Layout, Paper};
-use crate::problem::{Problem, Span};
+use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::Template;
 
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 16] = [
     "id",
     "linkage",
     "title",
@@ -28,6 +28,7 @@ const KEYS: [&str; 15] = [
     "limit",
     "circuits",
     "continuation",
+    "columns",
 ];
 
 /// The id of a table and its place, if it has one.
@@ -56,6 +57,7 @@ pub(super) fn read<'t>(
     let sampling = fields
         .required("sampling", "sampling = { step = \"2 deg\" }", reader)
         .and_then(|value| sampling(value, template.as_deref(), reader));
+    let columns = fields.get("columns").map_or(Some(Vec::new()), |value| columns(value, reader));
     let layout = layout(&fields, paper, reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
@@ -64,7 +66,7 @@ pub(super) fn read<'t>(
             None
         }
     };
-    let (id, template, names, sampling) = (id?, template?, names?, sampling?);
+    let (id, template, names, sampling, columns) = (id?, template?, names?, sampling?, columns?);
     let family = Family {
         title: title.unwrap_or_else(|| id.clone()),
         id,
@@ -73,6 +75,7 @@ pub(super) fn read<'t>(
         space: names.space,
         derived: names.derived,
         sampling,
+        columns,
         filter: names.filter,
     };
     check_cells(&family, &fields, &names.spans, reader);
@@ -146,6 +149,31 @@ fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
             None
         }
     }
+}
+
+/// The further columns of `points.csv`.
+fn columns<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Column>> {
+    let known = COLUMNS.map(|column| column.name);
+    let mut out: Vec<Column> = Vec::new();
+    let mut all_read = true;
+    for item in reader.list(value)? {
+        let Some(name) = reader.text(item) else {
+            all_read = false;
+            continue;
+        };
+        let problem = match column(&name) {
+            Some(found) if out.iter().all(|other| other.name != found.name) => {
+                out.push(found);
+                continue;
+            }
+            Some(_) => Problem::error(item.span(), format!("the column `{name}` is named twice")).help("name it once"),
+            None => Problem::error(item.span(), format!("there is no column `{}`", name.escape_debug()))
+                .help(nearest_or_all(&name, &known)),
+        };
+        reader.note(problem);
+        all_read = false;
+    }
+    all_read.then_some(out)
 }
 
 fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, reader: &mut Reader<'t>) -> Option<Layout> {

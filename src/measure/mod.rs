@@ -1,7 +1,10 @@
 //! Numbers read off a motion, one measure a file; each is a column of `cells.csv` and a name in `where`.
 
 mod class;
+mod column;
 mod input_range;
+
+pub use column::{COLUMNS, Column, column, take_columns};
 
 use crate::linkage::{Class, JointId, Linkage};
 use crate::motion::{Circuit, Motion};

@@ -2,6 +2,7 @@ use std::ops::Range;
 
 use super::circuit::{Pass, Route, Stop};
 use super::ends::place_end;
+use super::jet::Jets;
 use super::kernel::{Columns, Modes, OwnInputs, place, see};
 use crate::geometry::Point;
 use crate::linkage::{Flat, Input, JointId, Linkage, Signs};
@@ -54,6 +55,17 @@ impl Circuit {
     /// The sides of the dyads at a sample; at the end of a pass, those of the pass it ends.
     pub fn signs(&self, sample: usize) -> Signs {
         self.signs[sample]
+    }
+
+    /// Places and rates of all joints at a sample.
+    pub fn jets(&self, linkage: &Linkage, sample: usize) -> Jets {
+        let (at, signs) = (self.input[sample], self.signs[sample]);
+        // At the end of a pass the input's direction is known more exactly than its angle, and dyads lie flat.
+        let ends = self.passes.iter().filter(|pass| pass.signs == signs).flat_map(|pass| [pass.to, pass.from]);
+        match ends.into_iter().find(|end| end.stop.at == at) {
+            Some(end) => Jets::of(linkage, end.stop, signs, end.flat),
+            None => Jets::of(linkage, Stop::of(linkage.input(), at), signs, Flat::NONE),
+        }
     }
 
     /// A joint's places, sample by sample.

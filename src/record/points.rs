@@ -1,25 +1,31 @@
 use super::shortest;
+use crate::family::{Column, Family};
+use crate::measure::take_columns;
 use crate::sweep::Solved;
 
 /// `points.csv`: every sample of every curve.
 #[derive(Clone, Copy, Debug)]
-pub struct Points {
+pub struct Points<'a> {
     /// How many two-valued joints the linkage has: a column of branches for each, and at least one.
     dyads: usize,
     /// The column of the input.
     input: &'static str,
+    /// The columns that follow.
+    columns: &'a [Column],
 }
 
-impl Points {
-    /// The table of a linkage with that many two-valued joints, driven by an angle or by a length.
-    pub fn new(dyads: usize, is_driven_by_length: bool) -> Points {
-        Points { dyads, input: if is_driven_by_length { "input_length" } else { "input_deg" } }
+impl<'a> Points<'a> {
+    /// The table of a family whose linkages have that many two-valued joints.
+    pub fn new(family: &'a Family, dyads: usize) -> Points<'a> {
+        let input = if family.template.is_driven_by_length() { "input_length" } else { "input_deg" };
+        Points { dyads, input, columns: &family.columns }
     }
 
     /// The names of the columns.
     pub fn header(self) -> String {
         let further: String = (2..=self.dyads).map(|k| format!(",branch_{k}")).collect();
-        format!("cell,trace,circuit,branch{further},sample,{},x,y\n", self.input)
+        let columns: String = self.columns.iter().map(|column| format!(",{}", column.name)).collect();
+        format!("cell,trace,circuit,branch{further},sample,{},x,y{columns}\n", self.input)
     }
 
     /// The rows of a cell.
@@ -35,7 +41,8 @@ impl Points {
                 }
                 out.push_str(&sample.to_string());
                 let at = circuit.places.point(curve.joint, sample);
-                for value in [circuit.input[sample], at.x, at.y] {
+                let columns = take_columns(self.columns, &solved.linkage, (circuit, curve.joint), sample);
+                for value in [circuit.input[sample], at.x, at.y].into_iter().chain(columns) {
                     out.push(',');
                     shortest(value, out);
                 }

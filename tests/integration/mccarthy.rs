@@ -217,3 +217,26 @@ fn jansens_foot_is_flat_where_it_walks() {
     let high = foot.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
     assert!((15.0..30.0).contains(&(high - low)), "a step of {}", high - low);
 }
+
+#[test]
+fn columns_are_mccarthys_angles() {
+    use coupler_atlas::measure::{column, take_columns};
+    let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
+    let linkage = four_bar(bar);
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(5.0)));
+    let names = ["psi_deg", "phi_deg", "mu_deg", "solvability", "speed", "psi_ratio", "s"];
+    let columns = names.map(|name| column(name).unwrap());
+    for (k, circuit) in motion.circuits.iter().enumerate() {
+        for i in 0..circuit.len() {
+            let theta = trig::radians(circuit.input[i]);
+            let values = take_columns(&columns, &linkage, (circuit, 3), i);
+            let psi = bar.output_angles(theta).unwrap()[k];
+            assert!(apart(trig::radians(values[0]), psi) < 1e-12);
+            assert!(apart(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);
+            assert!(apart(trig::radians(values[2]), bar.transmission_angle(theta).unwrap()) < 1e-12);
+            assert!((values[3] - bar.solvability(theta)).abs() < 1e-9);
+            assert!((values[4] - values[5].abs() * bar.rocker).abs() < 1e-12, "B goes round C");
+            assert!(values[6].is_nan(), "there is no slide");
+        }
+    }
+}

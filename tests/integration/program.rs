@@ -268,6 +268,18 @@ fn a_full_disk_leaves_every_file_whole() {
 }
 
 #[test]
+fn further_columns_follow_and_unbounded_is_inf() {
+    let folder =
+        folder_with(&MANIFEST.replace("linkage = \"watt\"", "linkage = \"watt\"\ncolumns = [\"psi_deg\", \"vx\"]"));
+    let (code, _, err) = run(folder.path(), &["render", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    let points = fs::read_to_string(folder.path().join("pages/far/points.csv")).unwrap();
+    assert!(points.starts_with("cell,trace,circuit,branch,sample,input_deg,x,y,psi_deg,vx\n"));
+    let unbounded = points.lines().filter(|line| line.ends_with(",inf")).count();
+    assert_eq!(unbounded, 2, "at the two limits");
+}
+
+#[test]
 fn inspect_tells_class_circuits_and_poses() {
     let folder = TempDir::new().unwrap();
     let (code, out, err) = run(folder.path(), &["inspect", "roberts", "p=2", "r=2", "a=1", "b=2", "--at", "60"]);

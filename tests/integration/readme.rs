@@ -13,9 +13,27 @@ fn the_readmes_manifest_is_one() {
 }
 
 #[test]
+fn the_readmes_further_joints_can_be_read() {
+    let readme = include_str!("../../README.md");
+    let joints: Vec<&str> =
+        readme.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
+    assert_eq!(joints.len(), 4);
+    for joint in joints {
+        let is_input = joint.contains("piston");
+        let a = if is_input { "A = { fixed = [1, 2] }" } else { "A = { crank = \"O\", length = 1 }" };
+        let all = "O = { fixed = [0, 0] }\nC = { fixed = [4, 0] }\nP = { fixed = [5, 1] }\nQ = { fixed = [6, 2] }";
+        let text = format!(
+            "[atlas]\ntitle = \"T\"\n[[linkage]]\nid = \"mine\"\ntrace = [\"X\", \"A\", \"C\", \"P\", \"Q\", \"O\"]\n[linkage.joints]\n{all}\n{a}\nX = {joint}\n"
+        );
+        let (own, problems) = manifest::linkages(&text);
+        assert!(own.len() == 1 && problems.is_empty(), "{}", report(&problems, "README.md", &text, false));
+    }
+}
+
+#[test]
 fn the_readme_names_every_command_and_linkages_are_listed_by_the_program() {
     let readme = include_str!("../../README.md");
-    for command in ["`render ", "`validate ", "`list ", "`init "] {
+    for command in ["`render ", "`validate ", "`inspect ", "`list ", "`init "] {
         assert!(readme.contains(command), "{command}");
     }
 }

@@ -1,0 +1,179 @@
+//! Quantities of a single sample: the further columns a family may ask of `points.csv`.
+
+use crate::geometry::{Vector, cross, trig};
+use crate::linkage::{FourBar, JointId, Linkage, Step};
+use crate::motion::{Circuit, Jets};
+
+/// A quantity of a traced joint, or of its linkage, at a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is, with its unit and its source.
+    pub definition: &'static str,
+    take: fn(&Sample) -> f64,
+}
+
+/// A sample, and the joints of the linkage that have a part in McCarthy's formulas.
+struct Sample<'a> {
+    linkage: &'a Linkage,
+    joint: JointId,
+    jets: Jets,
+}
+
+/// Every column there is. Rates are to a radian of input, or to a unit of its length; unbounded ones are infinite.
+pub const COLUMNS: [Column; 17] = [
+    Column { name: "vx", definition: "velocity along x", take: |s| s.velocity().x },
+    Column { name: "vy", definition: "velocity along y", take: |s| s.velocity().y },
+    Column { name: "ax", definition: "acceleration along x", take: |s| s.acceleration().x },
+    Column { name: "ay", definition: "acceleration along y", take: |s| s.acceleration().y },
+    Column { name: "jx", definition: "jerk along x", take: |s| s.jets.jerk(s.joint).x },
+    Column { name: "jy", definition: "jerk along y", take: |s| s.jets.jerk(s.joint).y },
+    Column { name: "speed", definition: "magnitude of the velocity", take: |s| s.velocity().norm() },
+    Column { name: "curvature", definition: "curvature of the path, positive to the left", take: |s| s.curvature() },
+    Column { name: "psi_deg", definition: "output angle, deg: McCarthy (2.52), of a slot (2.45)", take: |s| s.psi() },
+    Column { name: "phi_deg", definition: "coupler angle from the crank, deg: McCarthy (2.57)", take: |s| s.phi() },
+    Column { name: "mu_deg", definition: "transmission angle, deg: McCarthy 2.3.3", take: |s| s.mu() },
+    Column {
+        name: "psi_ratio",
+        definition: "angular velocity of the output to that of the input",
+        take: |s| s.psi_ratio(),
+    },
+    Column {
+        name: "phi_ratio",
+        definition: "angular velocity of the coupler to that of the input",
+        take: |s| s.phi_ratio(),
+    },
+    Column { name: "solvability", definition: "A^2 + B^2 - C^2: McCarthy (2.53)", take: |s| s.solvability() },
+    Column { name: "s", definition: "slide of an inverted slider-crank: McCarthy (2.42)", take: |s| s.slide() },
+    Column { name: "b", definition: "distance |CA| of an inverted slider-crank: McCarthy (2.40)", take: |s| s.b() },
+    Column { name: "beta_deg", definition: "angle from CB to CA, deg: McCarthy (2.40)", take: |s| s.beta() },
+];
+
+/// The column of that name.
+pub fn column(name: &str) -> Option<Column> {
+    COLUMNS.into_iter().find(|column| column.name == name)
+}
+
+/// The columns' values at a sample of a joint's curve; not a number where one does not apply.
+pub fn take_columns(
+    columns: &[Column],
+    linkage: &Linkage,
+    (circuit, joint): (&Circuit, JointId),
+    sample: usize,
+) -> Vec<f64> {
+    if columns.is_empty() {
+        return Vec::new();
+    }
+    let sample = Sample { linkage, joint, jets: circuit.jets(linkage, sample) };
+    columns.iter().map(|column| (column.take)(&sample)).collect()
+}
+
+/// The joints of a four-bar: crank pivot, crank pin, rocker pin, rocker pivot.
+struct Loop {
+    o: JointId,
+    a: JointId,
+    b: JointId,
+    c: JointId,
+}
+
+impl Sample<'_> {
+    fn velocity(&self) -> Vector {
+        self.jets.velocity(self.joint)
+    }
+
+    fn acceleration(&self) -> Vector {
+        self.jets.acceleration(self.joint)
+    }
+
+    fn curvature(&self) -> f64 {
+        let v = self.velocity();
+        let speed = v.norm();
+        cross(v, self.acceleration()) / (speed * speed * speed)
+    }
+
+    fn between(&self, from: JointId, to: JointId) -> Vector {
+        self.jets.place(to) - self.jets.place(from)
+    }
+
+    /// How fast the line between two joints turns, to a radian of input.
+    fn turning(&self, from: JointId, to: JointId) -> f64 {
+        let line = self.between(from, to);
+        cross(line, self.jets.velocity(to) - self.jets.velocity(from)) / line.norm_squared()
+    }
+
+    /// The crank's pivot and pin.
+    fn crank(&self) -> Option<(JointId, JointId)> {
+        self.linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.step {
+            Step::Crank { pivot, .. } => Some((pivot, id)),
+            _ => None,
+        })
+    }
+
+    /// The four-bar as it stands on its frame; none seen from another link, where other angles have these names.
+    fn four_bar(&self) -> Option<Loop> {
+        FourBar::of(self.linkage).filter(|_| self.linkage.seen_from.is_none())?;
+        let (o, a) = self.crank()?;
+        self.linkage.joints.iter().enumerate().find_map(|(b, joint)| match joint.step {
+            Step::Dyad { base: [p, q], .. } => Some(Loop { o, a, b, c: if p == a { q } else { p } }),
+            _ => None,
+        })
+    }
+
+    /// The slot on the crank's pin: pivot C, pin A, foot B, and the crank's pivot.
+    fn slot(&self) -> Option<Loop> {
+        let (o, a) = self.crank().filter(|_| self.linkage.seen_from.is_none())?;
+        self.linkage.joints.iter().enumerate().find_map(|(b, joint)| match joint.step {
+            Step::Slot { base: [c, through], .. } if through == a => Some(Loop { o, a, b, c }),
+            _ => None,
+        })
+    }
+
+    fn psi(&self) -> f64 {
+        let of = |l: Loop| signed_angle(self.between(l.o, l.c), self.between(l.c, l.b));
+        self.four_bar().or_else(|| self.slot()).map_or(f64::NAN, of)
+    }
+
+    fn phi(&self) -> f64 {
+        self.four_bar().map_or(f64::NAN, |l| signed_angle(self.between(l.o, l.a), self.between(l.a, l.b)))
+    }
+
+    fn mu(&self) -> f64 {
+        self.four_bar().map_or(f64::NAN, |l| signed_angle(self.between(l.b, l.a), self.between(l.b, l.c)).abs())
+    }
+
+    fn psi_ratio(&self) -> f64 {
+        self.four_bar().or_else(|| self.slot()).map_or(f64::NAN, |l| self.turning(l.c, l.b))
+    }
+
+    fn phi_ratio(&self) -> f64 {
+        self.four_bar().map_or(f64::NAN, |l| self.turning(l.a, l.b))
+    }
+
+    fn solvability(&self) -> f64 {
+        let (Some(l), Some(four_bar)) = (self.four_bar(), FourBar::of(self.linkage)) else { return f64::NAN };
+        let (frame, crank) = (self.between(l.o, l.c), self.between(l.o, l.a));
+        four_bar.solvability(trig::atan2(cross(frame, crank), frame.dot(&crank)))
+    }
+
+    /// Positive where the foot is right of C -> A, as McCarthy draws it.
+    fn slide(&self) -> f64 {
+        self.slot().map_or(f64::NAN, |l| {
+            let (foot, line) = (self.between(l.c, l.b), self.between(l.b, l.a));
+            line.norm() * cross(foot, line).signum()
+        })
+    }
+
+    fn b(&self) -> f64 {
+        self.slot().map_or(f64::NAN, |l| self.between(l.c, l.a).norm())
+    }
+
+    fn beta(&self) -> f64 {
+        self.slot().map_or(f64::NAN, |l| signed_angle(self.between(l.c, l.b), self.between(l.c, l.a)))
+    }
+}
+
+/// The angle from one direction to another, in degrees, from -180 to 180.
+fn signed_angle(from: Vector, to: Vector) -> f64 {
+    trig::degrees(trig::atan2(cross(from, to), from.dot(&to)))
+}
