@@ -2,8 +2,8 @@ use super::{Error, Expression};
 
 /// A line of text with values in it: `p = {p:.2}, area {p * r}`.
 ///
-/// `{expression}` is a value in the shortest form that reads back, `{expression:.2}` one with two decimals, `{{` and
-/// `}}` are braces.
+/// `{expression}` is a value in up to six significant digits, `{expression:.2}` one with two decimals, `{{` and `}}` are
+/// braces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Caption {
     pieces: Vec<Piece>,
@@ -72,13 +72,18 @@ impl Caption {
                     let value = expression.evaluate(|i| load(&expression.names()[i])) + 0.0;
                     match decimals {
                         Some(n) => out.push_str(&format!("{value:.n$}")),
-                        None => out.push_str(&value.to_string()),
+                        None => out.push_str(&six_digits(value).to_string()),
                     }
                 }
             }
         }
         out
     }
+}
+
+/// The value rounded to six significant digits.
+fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 fn value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
@@ -107,6 +112,7 @@ mod tests {
         let caption = Caption::parse("p = {p:.2}, {{2p}} = {2 * p}").unwrap();
         assert_eq!(caption.format(|_| 2.5), "p = 2.50, {2p} = 5");
         assert_eq!(caption.expressions().count(), 2);
+        assert_eq!(Caption::parse("{p} {p:.1}").unwrap().format(|_| 2.0 / 3.0), "0.666667 0.7");
     }
 
     #[test]

@@ -43,6 +43,7 @@ fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
 fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
     let [top, bottom, side] = margins(theme).map(Canvas::pixels);
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
+    let theme = &theme.for_panels(size(&areas[0]));
     let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
     let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
     let foot = theme.caption * 1.5 + if has_notes { theme.note * 1.5 } else { 0.0 } + 2.2 * theme.caption;
@@ -71,9 +72,10 @@ fn margins(theme: &Theme) -> [f64; 3] {
     [top, bottom, theme.border + 0.5 * theme.margin]
 }
 
-/// The most columns and rows: a panel is no smaller than four lines under a figure of five.
+/// The most columns and rows: set as small as it may be, a panel has four lines under a figure of five.
 pub(super) fn most(paper: Paper, theme: &Theme) -> [usize; 2] {
     let [top, bottom, side] = margins(theme);
+    let theme = theme.for_panels(Vector::zeros());
     let fit = |room: f64, least: f64| ((room / least).floor() as usize).max(1);
     [fit(paper.width - 2.0 * side, 5.0 * theme.caption), fit(paper.height - top - bottom, 10.5 * theme.caption)]
 }

@@ -1,4 +1,5 @@
 use super::Paper;
+use crate::geometry::Vector;
 use crate::scene::{Color, Stroke};
 
 /// The inks, weights and sizes of a page, in millimetres.
@@ -66,6 +67,21 @@ impl Theme {
             fine: 0.3 * weight,
             hair: 0.15 * weight,
             joint: 0.9 * weight,
+        }
+    }
+
+    /// The theme for panels of a size: lettering, joints and links are smaller where panels are small, to a third.
+    pub fn for_panels(&self, panel: Vector) -> Theme {
+        let scale = (panel.x / (12.0 * self.caption)).min(panel.y / (14.0 * self.caption)).clamp(1.0 / 3.0, 1.0);
+        let weight = scale.sqrt();
+        Theme {
+            caption: self.caption * scale,
+            note: self.note * scale,
+            joint: self.joint * weight,
+            link: self.link * weight,
+            curve: self.curve * weight,
+            fine: self.fine * weight,
+            ..self.clone()
         }
     }
 
