@@ -113,8 +113,25 @@ fn overridden<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader: &mut
     Arc::new(own)
 }
 
+/// How a number of samples is spread.
+#[derive(Clone, Copy)]
+enum Spacing {
+    Even,
+    Smooth,
+    Arc,
+}
+
 fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Reader<'t>) -> Option<Sampling> {
-    let fields = Fields::of(value, "`sampling`", &["step", "samples"], reader)?;
+    let fields = Fields::of(value, "`sampling`", &["step", "samples", "spacing"], reader)?;
+    let spacings = [("even", Spacing::Even), ("smooth", Spacing::Smooth), ("arc", Spacing::Arc)];
+    let spacing = match fields.get("spacing") {
+        None => Spacing::Even,
+        Some(value) => reader.word(value, &spacings)?,
+    };
+    if let (Some(_), Some(value)) = (fields.get("step"), fields.get("spacing")) {
+        let problem = Problem::error(value.span(), "samples by step are even in the input");
+        reader.note(problem.help("write { samples = 180, spacing = \"smooth\" }"));
+    }
     match (fields.get("step"), fields.get("samples")) {
         (Some(value), None) if template.is_some_and(Template::is_driven_by_length) => {
             let step = reader.constant(value)?;
@@ -138,7 +155,11 @@ fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
             reader.note(problem.help(format!("give {least} to 360 deg, as in step = \"2 deg\"")));
             None
         }
-        (None, Some(value)) => reader.count(value, 2, MAX_SAMPLES).map(Sampling::Samples),
+        (None, Some(value)) => reader.count(value, 2, MAX_SAMPLES).map(|n| match spacing {
+            Spacing::Even => Sampling::Samples(n),
+            Spacing::Smooth => Sampling::Smooth(n),
+            Spacing::Arc => Sampling::Arc(n),
+        }),
         (step, _) => {
             let message = if step.is_some() {
                 "sampling is by step or by samples, not both"

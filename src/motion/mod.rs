@@ -17,6 +17,7 @@ mod kernel;
 mod path;
 mod reach;
 mod sampling;
+mod spacing;
 
 pub use circuit::{End, Pass, Stop};
 pub use jet::Jets;

@@ -4,6 +4,7 @@ use super::circuit::{Pass, Route, Stop};
 use super::ends::place_end;
 use super::jet::Jets;
 use super::kernel::{Columns, Modes, OwnInputs, place, see};
+use super::spacing::{self, Mileage};
 use crate::geometry::Point;
 use crate::linkage::{Flat, Input, JointId, Linkage, Signs};
 
@@ -14,6 +15,10 @@ pub enum Sampling {
     Step(f64),
     /// That many samples in the whole circuit, evenly over each pass.
     Samples(usize),
+    /// That many, dense towards the limits.
+    Smooth(usize),
+    /// That many, evenly along the path of the first traced joint, to a part in ten thousand.
+    Arc(usize),
 }
 
 /// The most samples a circuit may have.
@@ -86,7 +91,7 @@ impl Sampler {
                 // A step of a length may be short; there is no turn then.
                 multiples(step, 0.0, 360.0).take(MAX_SAMPLES).map(Stop::angle).collect()
             }
-            Sampling::Samples(n) => {
+            Sampling::Samples(n) | Sampling::Smooth(n) | Sampling::Arc(n) => {
                 assert!(n <= MAX_SAMPLES, "{n} samples");
                 (0..n).map(|i| Stop::angle(360.0 * i as f64 / n as f64)).collect()
             }
@@ -100,7 +105,7 @@ impl Sampler {
     }
 
     pub(super) fn sample(&self, linkage: &Linkage, route: Route) -> Circuit {
-        let mut plan = self.plan(&route, linkage.input());
+        let mut plan = self.plan(&route, linkage);
         let mut places = Columns::new(linkage.joints.len(), plan.stops.len());
         let inputs = OwnInputs::new(&plan.stops);
         let all = linkage.joints.len();
@@ -120,11 +125,13 @@ impl Sampler {
 
     /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which
     /// of a closed circuit is the end of its last pass.
-    fn plan(&self, route: &Route, input: Input) -> Plan {
+    fn plan(&self, route: &Route, linkage: &Linkage) -> Plan {
+        let input = linkage.input();
         let mut plan = Plan::default();
         if let [pass] = route.passes[..]
             && route.closed
             && pass.from.flat.is_none()
+            && !matches!(self.sampling, Sampling::Arc(_))
         {
             // A full turn on one branch: the table as it is, and again for every further turn.
             plan.stops = self.turns(input);
@@ -136,9 +143,11 @@ impl Sampler {
         plan.ends.push(if route.closed { (0, last, false) } else { (0, 0, true) });
         plan.stops.push(route.passes[0].from.stop);
         plan.signs.push(route.passes[0].signs);
-        for (k, (pass, intervals)) in route.passes.iter().zip(self.intervals(route)).enumerate() {
+        let mileages = self.mileages(route, linkage);
+        let intervals = self.intervals(route, &mileages);
+        for (k, pass) in route.passes.iter().enumerate() {
             let begin = plan.stops.len();
-            self.inside(pass, (intervals, input), &mut plan.stops);
+            self.inside(pass, (intervals[k], input), mileages.get(k), &mut plan.stops);
             if k < last || !route.closed {
                 plan.ends.push((plan.stops.len(), k, false));
                 plan.stops.push(pass.to.stop);
@@ -150,11 +159,14 @@ impl Sampler {
     }
 
     /// The samples strictly inside a pass.
-    fn inside(&self, pass: &Pass, (intervals, input): (usize, Input), out: &mut Vec<Stop>) {
+    fn inside(&self, pass: &Pass, (intervals, input): (usize, Input), mileage: Option<&Mileage>, out: &mut Vec<Stop>) {
         let (from, to) = (pass.from.stop.at, pass.to.stop.at);
+        let shares = (1..intervals).map(|i| i as f64 / intervals as f64);
         match self.sampling {
-            Sampling::Samples(_) => out.extend((1..intervals).map(|i| {
-                let t = i as f64 / intervals as f64;
+            Sampling::Smooth(_) | Sampling::Arc(_) => out.extend(shares.map(|share| {
+                Stop::of(input, spacing::smooth(pass, mileage.map_or(share, |mileage| mileage.part(share))))
+            })),
+            Sampling::Samples(_) => out.extend(shares.map(|t| {
                 // From both ends, so that equal passes there and back have equal samples.
                 Stop::of(input, if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
             })),
@@ -186,16 +198,35 @@ impl Sampler {
         match self.sampling {
             _ if period == 360.0 => self.turn.clone(),
             Sampling::Step(step) => multiples(step, 0.0, period).map(|at| self.stop(input, at, step)).collect(),
-            Sampling::Samples(n) => (0..n).map(|i| Stop::angle(period * i as f64 / n as f64)).collect(),
+            Sampling::Samples(n) | Sampling::Smooth(n) | Sampling::Arc(n) => {
+                (0..n).map(|i| Stop::angle(period * i as f64 / n as f64)).collect()
+            }
+        }
+    }
+
+    /// The paths of the first traced joint, pass by pass, where samples are to be even along them.
+    fn mileages(&self, route: &Route, linkage: &Linkage) -> Vec<Mileage> {
+        match (self.sampling, linkage.traced.first()) {
+            (Sampling::Arc(_), Some(&joint)) => {
+                let mileages: Vec<Mileage> =
+                    route.passes.iter().map(|pass| Mileage::of(linkage, pass, joint)).collect();
+                // A joint that does not move tells nothing: the input is as good then.
+                if mileages.iter().all(|mileage| mileage.whole() > 0.0) { mileages } else { Vec::new() }
+            }
+            _ => Vec::new(),
         }
     }
 
     /// How many intervals each pass gets: in proportion to its length, at least one, by largest remainder.
-    fn intervals(&self, route: &Route) -> Vec<usize> {
-        let Sampling::Samples(samples) = self.sampling else { return vec![0; route.passes.len()] };
+    fn intervals(&self, route: &Route, mileages: &[Mileage]) -> Vec<usize> {
+        let samples = match self.sampling {
+            Sampling::Step(_) => return vec![0; route.passes.len()],
+            Sampling::Samples(n) | Sampling::Smooth(n) | Sampling::Arc(n) => n,
+        };
         let wanted = if route.closed { samples } else { samples.saturating_sub(1) };
-        let total: f64 = route.passes.iter().map(Pass::length).sum();
-        let exact: Vec<f64> = route.passes.iter().map(|p| wanted as f64 * p.length() / total).collect();
+        let length = |k: usize| mileages.get(k).map_or(route.passes[k].length(), Mileage::whole);
+        let total: f64 = (0..route.passes.len()).map(length).sum();
+        let exact: Vec<f64> = (0..route.passes.len()).map(|k| wanted as f64 * length(k) / total).collect();
         // A share a rounding error below a whole number is that number.
         let mut shares: Vec<usize> = exact.iter().map(|e| ((e + 1e-9).floor() as usize).max(1)).collect();
         let mut order: Vec<usize> = (0..shares.len()).collect();

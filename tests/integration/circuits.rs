@@ -100,6 +100,31 @@ fn two_turns_are_sampled_as_asked() {
 }
 
 #[test]
+fn samples_can_be_dense_at_limits_or_even_along_the_path() {
+    // A triple-rocker: it turns round at both limits.
+    let lengths = [4.0, 2.0, 2.0, 2.0];
+    let steps = |sampling| -> Vec<f64> {
+        let circuit = motion(lengths, all(), sampling).circuits.remove(0);
+        let n = circuit.len();
+        (0..n).map(|i| (circuit.places.point(4, (i + 1) % n) - circuit.places.point(4, i)).norm()).collect()
+    };
+    let ratio = |steps: Vec<f64>| {
+        steps.iter().copied().fold(0.0, f64::max) / steps.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    // Beside a limit the path goes with the root of the input: of two even steps the first is 1 / (sqrt 2 - 1) = 2.41
+    // times as long, on the mean of both branches, for what goes with the input itself is opposite on them.
+    let beside = |steps: Vec<f64>| (steps[0] / steps[1] * steps[119] / steps[118]).sqrt();
+    let (even, smooth) = (beside(steps(Sampling::Samples(120))), beside(steps(Sampling::Smooth(120))));
+    assert!(even > 2.0 && (smooth - 1.0).abs() < 0.05, "{even} {smooth}");
+    // So many that a chord is as good as its arc. Each pass has a whole number of them, about a thousand: they may
+    // differ by one in as many between passes.
+    let arc = ratio(steps(Sampling::Arc(2000)));
+    assert!(arc < 1.003, "{arc}");
+    let whole = motion([4.0, 1.0, 3.0, 3.5], Travel::default(), Sampling::Arc(90));
+    assert_eq!((whole.circuits[0].len(), whole.circuits[0].input[0]), (90, 0.0));
+}
+
+#[test]
 fn bases_that_vanish_but_for_rounding_are_kites_too() {
     let decimals: [f64; 4] = [0.3, 0.1 + 0.2, 0.5, 0.5];
     for lengths in [decimals, [2.0, 2.0 + 4.0 * f64::EPSILON, 2.0, 2.0], [3.0, 3.000_000_000_000_000_4, 2.0, 2.0]] {
