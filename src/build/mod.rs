@@ -6,6 +6,7 @@ pub use files::{Error, read_manifest, write as write_file, write_new};
 
 use std::path::Path;
 
+use crate::expression::Caption;
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::page::{self, Panel, Sheet};
@@ -194,11 +195,8 @@ fn draw_page(
 ) -> Result<Pages, Error> {
     let family = &planned.family;
     let template = &family.template;
-    let describe = |caption: &Option<crate::expression::Caption>, solved: &Solved| {
-        caption.as_ref().map(|caption| family.describe(caption, &solved.cell)).unwrap_or_default()
-    };
-    let panel =
-        |solved| Panel { caption: describe(&template.caption, solved), note: describe(&template.note, solved), solved };
+    let line = |caption: &Option<Caption>, solved: &Solved| family.describe(caption.as_ref(), &solved.cell);
+    let panel = |solved| Panel { caption: line(&template.caption, solved), note: line(&template.note, solved), solved };
     let sheet = Sheet {
         atlas: &plan.title,
         family: &family.id,

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use coupler_atlas::expression::Expression;
+use coupler_atlas::expression::{Caption, Expression};
 use coupler_atlas::family::{Family, Sampling};
 use coupler_atlas::linkage::{Flat, FourBar, Input};
 use coupler_atlas::measure;
@@ -257,9 +257,7 @@ fn as_json(family: &Family, solved: &Solved, poses: &[Pose]) -> String {
 /// One plate of the linkage, as SVG.
 fn plate(family: &Family, solved: &Solved) -> Vec<u8> {
     let template = &family.template;
-    let line = |caption: &Option<coupler_atlas::expression::Caption>| {
-        caption.as_ref().map(|caption| family.describe(caption, &solved.cell)).unwrap_or_default()
-    };
+    let line = |caption: &Option<Caption>| family.describe(caption.as_ref(), &solved.cell);
     let panel = Panel { caption: line(&template.caption), note: line(&template.note), solved };
     let sheet = Sheet {
         atlas: "coupler-atlas",

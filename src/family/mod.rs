@@ -6,7 +6,7 @@ pub use space::{Axis, Case, MAX_CELLS, Space};
 
 use std::sync::Arc;
 
-use crate::expression::{Bound, Kind};
+use crate::expression::{Bound, Caption, Kind};
 use crate::measure;
 use crate::problem::nearest_or_all;
 use crate::template::{self, Linkage, Template, dependency_order};
@@ -173,9 +173,9 @@ impl Family {
         self.linkage(cell).err().map(CellError::Template).into_iter().collect()
     }
 
-    /// A line of text with a cell's values in it.
-    pub fn describe(&self, caption: &crate::expression::Caption, cell: &Cell) -> String {
-        caption.format(|name| self.value(name, cell))
+    /// A line of text with a cell's values in it; empty where there is none.
+    pub fn describe(&self, caption: Option<&Caption>, cell: &Cell) -> String {
+        caption.map(|caption| caption.format(|name| self.value(name, cell))).unwrap_or_default()
     }
 
     /// The value of a name in a cell; not a number where there is none.

@@ -5,10 +5,12 @@
 //! circuits) is its [`Travel`].
 
 mod assembly;
+mod error;
 mod four_bar;
 mod mccarthy;
 
-pub use assembly::{Assembly, Error};
+pub use assembly::Assembly;
+pub use error::Error;
 pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
 pub use mccarthy::InvertedSliderCrank;

@@ -1,8 +1,10 @@
 //! A linkage with expressions for numbers; a parameter set makes it a [`Linkage`].
 
 mod order;
+mod placing;
 
 pub use order::dependency_order;
+pub use placing::{Coordinate, Placing};
 
 use crate::expression::{Bound, Caption, Expression, Unit};
 use crate::linkage::{self, Arc, Assembly, JointId, Travel};
@@ -95,164 +97,6 @@ pub struct JointTemplate {
     pub name: String,
     /// How it is placed.
     pub placing: Placing,
-}
-
-/// How a joint is placed; joints are named by their place in [`Template::joints`].
-#[derive(Clone, Debug)]
-pub enum Placing {
-    /// At fixed coordinates.
-    Fixed([Bound; 2]),
-    /// On a crank.
-    Crank {
-        /// The pivot.
-        pivot: usize,
-        /// The length.
-        length: Bound,
-    },
-    /// On a second crank, geared to the first.
-    Gear {
-        /// The pin of the first crank.
-        crank: usize,
-        /// The pivot.
-        pivot: usize,
-        /// The length.
-        length: Bound,
-        /// Its turns to those of the first.
-        ratio: [i64; 2],
-        /// Its angle where the first crank's is 0.
-        phase: InputValue,
-    },
-    /// On a crank driven by a linear actuator, which is the input.
-    Piston {
-        /// The actuator's pivot, and the crank's.
-        base: [usize; 2],
-        /// The crank's length.
-        length: Bound,
-        /// The distance of the actuator's line from its pivot.
-        offset: Bound,
-        /// The side of the base at the start.
-        side: Side,
-    },
-    /// By two links.
-    Dyad {
-        /// The joints they hang on.
-        base: [usize; 2],
-        /// Their lengths.
-        lengths: [Bound; 2],
-        /// The side of the base at the start.
-        side: Side,
-    },
-    /// By a link that slides on a line.
-    Slide {
-        /// The joint the link hangs on.
-        from: usize,
-        /// The link's length.
-        length: Bound,
-        /// Two joints the line goes through, or beside.
-        line: [usize; 2],
-        /// How far the line runs to the left of them.
-        offset: Bound,
-        /// Left is ahead along the line, right is behind.
-        side: Side,
-    },
-    /// At the foot of a line that slides through a joint.
-    Slot {
-        /// The pivot, and the joint the line slides through.
-        base: [usize; 2],
-        /// The line's distance from the pivot.
-        offset: Bound,
-        /// The side of the base at the start.
-        side: Side,
-    },
-    /// On a link, by coordinates; ranges make a grid of points, `across` fastest.
-    Point {
-        /// Two joints of the link.
-        base: [usize; 2],
-        /// From the first joint towards the second.
-        along: Coordinate,
-        /// To the left.
-        across: Coordinate,
-    },
-    /// On a link, by distances.
-    Distances {
-        /// Two joints of the link.
-        base: [usize; 2],
-        /// The distances from them.
-        distances: [Bound; 2],
-        /// The side of the first to the second.
-        side: Side,
-    },
-}
-
-impl Placing {
-    /// The joints it refers to.
-    pub fn bases(&self) -> Vec<usize> {
-        match self {
-            Placing::Fixed(_) => Vec::new(),
-            Placing::Crank { pivot, .. } => vec![*pivot],
-            Placing::Gear { crank, pivot, .. } => vec![*crank, *pivot],
-            Placing::Slide { from, line, .. } => vec![*from, line[0], line[1]],
-            Placing::Dyad { base, .. }
-            | Placing::Piston { base, .. }
-            | Placing::Slot { base, .. }
-            | Placing::Point { base, .. }
-            | Placing::Distances { base, .. } => base.to_vec(),
-        }
-    }
-
-    /// The same with its joints renamed.
-    #[must_use]
-    pub fn renamed(mut self, now: impl Fn(usize) -> usize) -> Placing {
-        match &mut self {
-            Placing::Fixed(_) => {}
-            Placing::Crank { pivot, .. } => *pivot = now(*pivot),
-            Placing::Gear { crank, pivot, .. } => (*crank, *pivot) = (now(*crank), now(*pivot)),
-            Placing::Slide { from, line, .. } => (*from, *line) = (now(*from), line.map(now)),
-            Placing::Dyad { base, .. }
-            | Placing::Piston { base, .. }
-            | Placing::Slot { base, .. }
-            | Placing::Point { base, .. }
-            | Placing::Distances { base, .. } => *base = base.map(now),
-        }
-        self
-    }
-}
-
-/// A coordinate on a link.
-#[derive(Clone, Debug)]
-pub enum Coordinate {
-    /// A single value.
-    One(Bound),
-    /// Evenly spaced values, both ends among them.
-    Range {
-        /// The first.
-        from: Bound,
-        /// The last.
-        to: Bound,
-        /// How many, at least one.
-        count: usize,
-    },
-}
-
-impl Coordinate {
-    /// How many values it has.
-    pub fn count(&self) -> usize {
-        match self {
-            Coordinate::One(_) => 1,
-            Coordinate::Range { count, .. } => *count,
-        }
-    }
-
-    fn values(&self, number: impl Fn(&Bound) -> f64) -> Vec<f64> {
-        match self {
-            Coordinate::One(value) => vec![number(value)],
-            Coordinate::Range { from, to, count } => {
-                let (from, to) = (number(from), number(to));
-                let step = |i: usize| if *count == 1 { 0.0 } else { i as f64 / (*count - 1) as f64 };
-                (0..*count).map(|i| from + (to - from) * step(i)).collect()
-            }
-        }
-    }
 }
 
 /// Why a parameter set makes no linkage.

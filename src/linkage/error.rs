@@ -1,0 +1,95 @@
+use super::MAX_DYADS;
+
+/// Why a joint cannot be placed the way it is described, whatever the input.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// Two joints are wanted and one was given twice.
+    #[error("`{joint}` is placed from `{base}` and `{base}`, which are one joint")]
+    OneJointTwice {
+        /// The joint to place.
+        joint: String,
+        /// The joint given twice.
+        base: String,
+    },
+    /// A rigid point hangs on joints of different links.
+    #[error("`{joint}` needs a link with both `{}` and `{}`, and no link has both", base[0], base[1])]
+    NoCommonLink {
+        /// The joint to place.
+        joint: String,
+        /// The joints it hangs on.
+        base: [String; 2],
+    },
+    /// A length is negative, zero or not finite.
+    #[error("the length {length} of `{joint}` is not positive")]
+    Length {
+        /// The joint to place.
+        joint: String,
+        /// The length.
+        length: f64,
+    },
+    /// The joints that fix a direction coincide.
+    #[error("`{joint}` has no direction to go by: `{}` and `{}` are one point", base[0], base[1])]
+    NoDirection {
+        /// The joint to place.
+        joint: String,
+        /// The joints that coincide.
+        base: [String; 2],
+    },
+    /// Two distances and the link between them are no triangle.
+    #[error("`{joint}` cannot be {} from one joint and {} from another {span} away", distances[0], distances[1])]
+    NoTriangle {
+        /// The joint to place.
+        joint: String,
+        /// Its distances.
+        distances: [f64; 2],
+        /// The distance of the joints they are taken from.
+        span: f64,
+    },
+    /// A gear ratio is no ratio of whole numbers from 1 to [`Error::MAX_RATIO`].
+    #[error("`{joint}` is geared {} to {}, and both must be whole numbers from 1 to {} or their negatives", ratio[0], ratio[1], Error::MAX_RATIO)]
+    Ratio {
+        /// The joint to place.
+        joint: String,
+        /// The ratio.
+        ratio: [i64; 2],
+    },
+    /// More dyads than [`MAX_DYADS`].
+    #[error("`{joint}` is one dyad more than the {MAX_DYADS} a linkage may have")]
+    TooManyDyads {
+        /// The joint to place.
+        joint: String,
+    },
+}
+
+impl Error {
+    /// The greatest number in a gear ratio: a circuit takes as many turns.
+    pub const MAX_RATIO: u64 = 100;
+
+    /// The joint that cannot be placed; `seen_from` where that names no link.
+    pub fn joint(&self) -> &str {
+        match self {
+            Error::OneJointTwice { joint, .. }
+            | Error::NoCommonLink { joint, .. }
+            | Error::Length { joint, .. }
+            | Error::NoDirection { joint, .. }
+            | Error::NoTriangle { joint, .. }
+            | Error::Ratio { joint, .. }
+            | Error::TooManyDyads { joint } => joint,
+        }
+    }
+
+    /// The remedy.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Error::OneJointTwice { .. } => "name two different joints",
+            Error::NoCommonLink { .. } => {
+                "name two joints of one link: two fixed ones, a crank's, or a dyad's and its base"
+            }
+            Error::Length { .. } => "give a length of more than 0",
+            Error::NoDirection { .. } => "name two joints that are apart",
+            Error::NoTriangle { .. } => "give distances that reach each other",
+            Error::Ratio { .. } => "write it like ratio = [2, 3]",
+            Error::TooManyDyads { .. } => "take joints away, or place some as points of links",
+        }
+    }
+}
