@@ -76,17 +76,19 @@ pub fn run(plan: &Plan, output: &Path, options: &Options, tell: &mut dyn FnMut(E
     Ok(record)
 }
 
-/// A warning for each family whose `where` keeps nothing.
-pub fn empty_families(plan: &Plan) -> Vec<Problem> {
-    let mut problems = Vec::new();
-    for planned in &plan.families {
-        let Some(span) = &planned.filter_span else { continue };
-        if sweep::select(&planned.family).is_empty() {
-            let message = format!("`where` keeps none of the {} cells", planned.family.cells());
-            problems.push(Problem::warning(span.clone(), message).help("loosen the condition, or leave it out"));
-        }
-    }
-    problems
+/// A warning for each family whose `where` keeps nothing: found by a sweep, or, of what was built, in its record.
+pub fn empty_families(plan: &Plan, built: Option<&Run>) -> Vec<Problem> {
+    let kept = |planned: &PlannedFamily| match built {
+        None => Some(sweep::select(&planned.family).len()),
+        Some(run) => run.families.iter().find(|record| record.id == planned.family.id).map(|record| record.kept),
+    };
+    let warning = |planned: &PlannedFamily| {
+        let span = planned.filter_span.clone()?;
+        let message = format!("`where` keeps none of the {} cells", planned.family.cells());
+        let problem = Problem::warning(span, message).help("loosen the condition, or leave it out");
+        (kept(planned) == Some(0)).then_some(problem)
+    };
+    plan.families.iter().filter_map(warning).collect()
 }
 
 /// A page and the rows that go with it, ready to be written.

@@ -57,12 +57,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    source.report(&build::empty_families(&source.plan));
     let output = source.output(arguments.output.as_deref());
     let options = build::Options { formats: arguments.format.clone(), only: arguments.only.clone() };
     let mut teller = Teller { quiet: arguments.quiet, bar: ProgressBar::hidden(), named: 0, not_assembled: 0 };
     let mut lines = String::new();
-    build::run(&source.plan, &output, &options, &mut |event| teller.tell(event, &mut lines))?;
+    let run = build::run(&source.plan, &output, &options, &mut |event| teller.tell(event, &mut lines))?;
+    source.report(&build::empty_families(&source.plan, Some(&run)));
     if !arguments.quiet {
         lines.push_str(&format!("written to {}\n", output.display()));
         print(&lines)?;

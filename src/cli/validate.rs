@@ -15,7 +15,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let source = plan::read(&arguments.manifest)?;
-    source.report(&build::empty_families(&source.plan));
+    source.report(&build::empty_families(&source.plan, None));
     let cells: usize = source.plan.families.iter().map(|planned| planned.family.cells()).sum();
     let families = match source.plan.families.len() {
         1 => "1 family".to_owned(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::names::{given, names};
+use super::names::{given, names, read_expressions};
 use super::{PlannedFamily, Templates, settings};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, column};
@@ -62,7 +62,8 @@ pub(super) fn read<'t>(
     let names = match &template {
         Some(template) => names(template, &fields, reader),
         None => {
-            read_without_linkage(&fields, reader);
+            given(&fields, reader);
+            read_expressions(&fields, reader);
             None
         }
     };
@@ -84,20 +85,6 @@ pub(super) fn read<'t>(
         source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
     let filter_span = fields.get("where").map(Value::span);
     Some(PlannedFamily { family, layout: layout?, formats: formats?, source, filter_span })
-}
-
-/// What can be said of a family whose linkage is not known: whether its values and expressions can be read.
-fn read_without_linkage<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) {
-    given(fields, reader);
-    if let Some(lets) = fields.get("let").and_then(|value| Fields::open(value, "`let`", reader)) {
-        for (name, span, value) in lets.entries() {
-            notation::check_name(name, span, reader);
-            reader.expression(value);
-        }
-    }
-    if let Some(value) = fields.get("where") {
-        reader.expression(value);
-    }
 }
 
 /// The template with what the family says otherwise.
@@ -202,13 +189,13 @@ fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, reader: &mut Reader
         let words = Layout::ALL.map(|(name, _)| (name, ()));
         reader.word(value, &words)?;
     }
-    let [most_columns, most_rows] = paper.map_or([1, 1], Layout::most_panels);
+    // Of a paper that could not be read nothing is asked.
+    let [most_columns, most_rows] = paper.map_or([100, 100], Layout::most_panels);
     let Some(value) = fields.get("panels") else {
         return Some(Layout::Panels { columns: most_columns.min(5), rows: most_rows.min(3) });
     };
     let [columns, rows] = reader.pair(value)?;
-    let most = paper.map_or([100, 100], Layout::most_panels);
-    let (columns, rows) = (reader.count(columns, 1, most[0]), reader.count(rows, 1, most[1]));
+    let (columns, rows) = (reader.count(columns, 1, most_columns), reader.count(rows, 1, most_rows));
     Some(Layout::Panels { columns: columns?, rows: rows? })
 }
 

@@ -37,12 +37,7 @@ pub(super) fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &m
         }
     };
     let Some(given) = given else {
-        for (_, _, value) in &lets {
-            reader.expression(value);
-        }
-        if let Some(value) = fields.get("where") {
-            reader.expression(value);
-        }
+        read_expressions(fields, reader);
         return None;
     };
     let space = given.space(&mut slot_of);
@@ -92,6 +87,19 @@ pub(super) fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &m
     }
     read_all.then_some(())?;
     Some(Names { all, space, derived, filter, spans })
+}
+
+/// What can be said of `let` and `where` when the names they may use are not known: whether they can be read.
+pub(super) fn read_expressions<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) {
+    if let Some(lets) = fields.get("let").and_then(|value| Fields::open(value, "`let`", reader)) {
+        for (name, span, value) in lets.entries() {
+            notation::check_name(name, span, reader);
+            reader.expression(value);
+        }
+    }
+    if let Some(value) = fields.get("where") {
+        reader.expression(value);
+    }
 }
 
 fn unused(name: &str, span: Span, template: &Template, reader: &mut Reader) {

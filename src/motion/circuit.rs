@@ -246,7 +246,6 @@ fn normal(passes: Vec<Pass>, closed: bool, asked: bool, period: f64) -> Vec<Pass
     for direction in [passes, backward] {
         let direction = if closed && !turns { cut_at_zero(direction, period) } else { direction };
         let starts = if closed { direction.len() } else { 1 };
-        // All of a motion that never turns round is one pass for each side, but for where it starts.
         for start in 0..starts {
             let n = direction.len();
             let rotated: Vec<Pass> = (0..n).map(|k| direction[(start + k) % n]).collect();

@@ -50,24 +50,23 @@ impl<'a> Figure<'a> {
         let period = self.dash(options);
         // A dash spans three fifths of its period: the first 3 of 5 degrees.
         let dashes = Dashes { period, drawn: 0.6 * period };
+        let in_dashes = |plot: &Plot| {
+            self.trail(area, plot, theme.hair, theme);
+            self.curves(area, plot, sheet, dashes, theme);
+        };
+        let key = key.of(self.extents.key);
+        key.bar(area, theme);
+        self.underlay(area, &key, theme);
         if arrangement == Arrangement::Together {
-            let plot = key.of(self.extents.key);
-            plot.bar(area, theme);
-            self.underlay(area, &plot, theme);
-            self.trail(area, &plot, theme.hair, theme);
-            self.curves(area, &plot, sheet, dashes, theme);
-            self.linkage(area, &plot, theme);
-            return;
+            in_dashes(&key);
+            self.linkage(area, &key, theme);
+        } else {
+            self.trail(area, &key, theme.fine, theme);
+            self.linkage(area, &key, theme);
+            let curve = curve.of(self.extents.curve);
+            curve.bar(area, theme);
+            in_dashes(&curve);
         }
-        let plot = key.of(self.extents.key);
-        plot.bar(area, theme);
-        self.underlay(area, &plot, theme);
-        self.trail(area, &plot, theme.fine, theme);
-        self.linkage(area, &plot, theme);
-        let plot = curve.of(self.extents.curve);
-        plot.bar(area, theme);
-        self.trail(area, &plot, theme.hair, theme);
-        self.curves(area, &plot, sheet, dashes, theme);
     }
 
     /// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.

@@ -67,10 +67,9 @@ proptest! {
     }
 }
 
-#[test]
-fn limits_between_samples_are_found_to_the_last_bits() {
-    // A second four-bar on the same crank, put together so that its limits are in closed form too: the dyad hangs on a
-    // coupler point that coincides with the crank pin.
+/// A crank-rocker, and a second dyad of these lengths to a pivot at (2, 0): it hangs on a coupler point that coincides
+/// with the crank pin, so that its limits are sampled and yet known in closed form.
+fn second_dyad_on_the_crank_pin(lengths: [f64; 2]) -> Linkage {
     let mut assembly = Assembly::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [4.0, 0.0].into());
@@ -78,8 +77,13 @@ fn limits_between_samples_are_found_to_the_last_bits() {
     let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left).unwrap();
     let p = assembly.point("P", [a, b], 0.0, 0.0).unwrap();
     let d = assembly.fixed("D", [2.0, 0.0].into());
-    let f = assembly.dyad("F", [p, d], [0.9, 1.0], Side::Left).unwrap();
-    let linkage = assembly.finish(vec![f], None, all()).unwrap();
+    let f = assembly.dyad("F", [p, d], lengths, Side::Left).unwrap();
+    assembly.finish(vec![f], None, all()).unwrap()
+}
+
+#[test]
+fn limits_between_samples_are_found_to_the_last_bits() {
+    let linkage = second_dyad_on_the_crank_pin([0.9, 1.0]);
     let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
     // 1 + 4 - 4 cos = 1.9^2
     let limit = trig::degrees(trig::acos((5.0 - 1.9 * 1.9) / 4.0));
@@ -99,15 +103,7 @@ fn a_gap_narrower_than_the_sampling_is_found() {
     // The dyad reaches to a hair less than the furthest its base goes, 3: a gap of half a tenth of a degree.
     let half_gap = trig::radians(0.05);
     let reach = (1.0 + 4.0 + 4.0 * trig::cos(half_gap)).sqrt();
-    let mut assembly = Assembly::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let c = assembly.fixed("C", [4.0, 0.0].into());
-    let a = assembly.crank("A", o, 1.0).unwrap();
-    let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left).unwrap();
-    let p = assembly.point("P", [a, b], 0.0, 0.0).unwrap();
-    let d = assembly.fixed("D", [2.0, 0.0].into());
-    let f = assembly.dyad("F", [p, d], [reach - 1.5, 1.5], Side::Left).unwrap();
-    let linkage = assembly.finish(vec![f], None, all()).unwrap();
+    let linkage = second_dyad_on_the_crank_pin([reach - 1.5, 1.5]);
     let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
     let reached = motion.circuits[0].input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     assert!((reached - 179.95).abs() < 1e-6, "{reached}");
