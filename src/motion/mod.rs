@@ -9,7 +9,9 @@
 //! Positions come from kernels over columns (one joint, all samples). At the end of a pass the flat dyad's height is
 //! multiplied by exactly 0, and a limit of a dyad on crank and frame is carried as its cosine, not its angle.
 
+mod chain;
 mod circuit;
+mod enclosure;
 mod ends;
 mod interval;
 mod jet;
@@ -17,6 +19,7 @@ mod kernel;
 mod path;
 mod reach;
 mod sampling;
+mod series;
 mod spacing;
 
 pub use circuit::{End, Pass, Stop};

@@ -1,8 +1,8 @@
 //! Linkages of several dyads: their limits are found between samples, and their circuits keep every length.
 
-use coupler_atlas::geometry::trig;
-use coupler_atlas::linkage::{Assembly, Circuits, Linkage, Side, Travel};
-use coupler_atlas::motion::{Motion, Sampler, Sampling};
+use coupler_atlas::geometry::{Point, Vector, trig};
+use coupler_atlas::linkage::{Assembly, Circuits, Linkage, Side, Step, Travel};
+use coupler_atlas::motion::{Motion, Pass, Sampler, Sampling};
 use proptest::prelude::*;
 
 fn all() -> Travel {
@@ -56,8 +56,45 @@ fn check_motion(linkage: &Linkage, motion: &Motion) -> Result<(), TestCaseError>
     Ok(())
 }
 
+/// Where a dyad's joint is, by the law of cosines; and how far its base is within its reach.
+fn third_corner(p: Point, q: Point, [l0, l1]: [f64; 2], side: f64) -> (Point, f64) {
+    let base = q - p;
+    let d = base.norm();
+    let foot = (d * d + l0 * l0 - l1 * l1) / (2.0 * d);
+    let height = side * (l0 * l0 - foot * foot).max(0.0).sqrt();
+    let across = Vector::new(-base.y, base.x);
+    (p + base * (foot / d) + across * (height / d), (l0 + l1 - d).min(d - (l0 - l1).abs()))
+}
+
 proptest! {
     #![proptest_config(crate::random())]
+
+    #[test]
+    fn six_bars_move_wherever_they_close(lengths in prop::array::uniform8(0.3f64..3.0)) {
+        let Some(linkage) = six_bar(lengths) else { return Ok(()) };
+        let [frame, crank, coupler, rocker, arm, link, output, pivot] = lengths;
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(8)));
+        let (c, d) = (Point::new(frame, 0.0), Point::new(frame + pivot, 0.5));
+        for (k, signs) in (0..1440).flat_map(|k| [(1, 1), (1, -1), (-1, 1), (-1, -1)].map(|signs| (k, signs))) {
+            let deg = 0.25 * f64::from(k) + 0.1;
+            let (cos, sin) = trig::cos_sin_deg(deg);
+            let (b, first) = third_corner(Point::new(crank * cos, crank * sin), c, [coupler, rocker], f64::from(signs.0));
+            let along = (b - c) / rocker;
+            let e = c + along * arm + Vector::new(-along.y, along.x) * 0.4;
+            let (_, second) = third_corner(e, d, [link, output], f64::from(signs.1));
+            let room = if first < 0.0 { first } else { first.min(second) };
+            // So near a limit that rounding decides.
+            if room.abs() < 1e-12 {
+                continue;
+            }
+            let is_here = |pass: &Pass| {
+                let low = pass.from.stop.at.min(pass.to.stop.at);
+                (pass.signs.get(0), pass.signs.get(1)) == signs && (deg - low).rem_euclid(360.0) <= pass.length()
+            };
+            let found = motion.circuits.iter().flat_map(|circuit| &circuit.passes).filter(|pass| is_here(pass)).count();
+            prop_assert_eq!(found, usize::from(room > 0.0), "at {} with {:?}: {}", deg, signs, room);
+        }
+    }
 
     #[test]
     fn six_bars_keep_their_lengths(lengths in prop::array::uniform8(0.3f64..3.0)) {
@@ -98,15 +135,58 @@ fn limits_between_samples_are_found_to_the_last_bits() {
     }
 }
 
+/// The same with the second pivot in a direction that no cutting of the turn meets.
+fn second_dyad_towards(direction_deg: f64, lengths: [f64; 2]) -> Linkage {
+    let (cos, sin) = trig::cos_sin_deg(direction_deg);
+    let mut linkage = second_dyad_on_the_crank_pin(lengths);
+    linkage.joints[5].step = Step::Fixed([2.0 * cos, 2.0 * sin].into());
+    linkage
+}
+
+/// Two units from the pivot of a crank of length 1, the furthest the pin comes is 3, half a turn round. A dyad that
+/// reaches a hair less leaves a gap there, one that must be at least a hair less long a window, each of known width.
 #[test]
-fn a_gap_narrower_than_the_sampling_is_found() {
-    // The dyad reaches to a hair less than the furthest its base goes, 3: a gap of half a tenth of a degree.
-    let half_gap = trig::radians(0.05);
-    let reach = (1.0 + 4.0 + 4.0 * trig::cos(half_gap)).sqrt();
-    let linkage = second_dyad_on_the_crank_pin([reach - 1.5, 1.5]);
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
-    let reached = motion.circuits[0].input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    assert!((reached - 179.95).abs() < 1e-6, "{reached}");
+fn gaps_and_windows_are_found_down_to_rounding() {
+    for half_width_deg in [3.0, 0.05, 1e-3, 1e-4] {
+        let half = trig::radians(half_width_deg);
+        // 3 - sqrt(5 + 4 cos) without its cancellation: 8 sin^2(half / 2) over the sum of both.
+        let less = 8.0 * trig::sin(half / 2.0).powi(2) / (3.0 + (5.0 + 4.0 * trig::cos(half)).sqrt());
+        // The base is rounded, so an edge is known to its rounding over the slope of the base there.
+        let edge_deg = trig::degrees(8.0 * f64::EPSILON / (2.0 / 3.0 * half));
+        for direction in [0.0, 37.123_456_7, 201.9] {
+            let opposite = direction + 180.0;
+            let near = |deg: f64, side: f64| {
+                let off = (deg - opposite - side * half_width_deg).rem_euclid(360.0);
+                off.min(360.0 - off) <= edge_deg
+            };
+            let gap = second_dyad_towards(direction, [1.5 - less, 1.5]);
+            for circuit in Motion::of(&gap, &Sampler::new(Sampling::Step(10.0))).circuits {
+                let (low, high) = (circuit.passes[0].from.stop.at, circuit.passes[0].to.stop.at);
+                assert!(near(low, 1.0) && near(high, -1.0), "gap of {half_width_deg} at {opposite}: {low} to {high}");
+            }
+            let window = second_dyad_towards(direction, [4.0 - less, 1.0]);
+            let motion = Motion::of(&window, &Sampler::new(Sampling::Step(10.0)));
+            assert_eq!(motion.circuits.len(), 2, "window of {half_width_deg} at {opposite}");
+            for circuit in motion.circuits {
+                let (low, high) = (circuit.passes[0].from.stop.at, circuit.passes[0].to.stop.at);
+                assert!(
+                    near(low, -1.0) && near(high, 1.0),
+                    "window of {half_width_deg} at {opposite}: {low} to {high}"
+                );
+            }
+        }
+    }
+}
+
+/// A gap of no width is a change point: nothing less than rounding parts the motion.
+#[test]
+fn what_misses_by_rounding_only_is_a_change_point() {
+    let touch = second_dyad_towards(37.123_456_7, [1.5, 1.5]);
+    let motion = Motion::of(&touch, &Sampler::new(Sampling::Step(10.0)));
+    // Two turns each, for the second dyad changes its side after the first.
+    let turns: Vec<f64> = motion.circuits.iter().map(|c| c.passes.iter().map(|pass| pass.length()).sum()).collect();
+    assert_eq!(turns, [720.0, 720.0]);
+    assert!(motion.circuits.iter().all(|circuit| circuit.closed));
 }
 
 #[test]

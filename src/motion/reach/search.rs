@@ -1,24 +1,23 @@
-//! Limits by sampling: zeros of what is left to stretch or fold are bracketed and refined to the last bit.
+//! Limits by search: pieces that are certain to have one at most, and bisection to the last bit.
 
 use super::Dyad;
+use super::certain::{Piece, pieces};
 use crate::linkage::{Flat, Input, Linkage, Signs, Step};
+use crate::motion::chain::{Drive, chain};
 use crate::motion::circuit::Stop;
 use crate::motion::interval::{Cause, IntervalEnd, Span};
-use crate::motion::jet::Jets;
 use crate::motion::kernel::{Columns, Modes, OwnInputs, place};
+use crate::motion::series::{Planar, Series};
 
-/// Samples to a turn when zeros are bracketed.
-const SAMPLES: usize = 720;
-
-/// A dyad whose reach is sampled along a span.
-pub(super) struct Sampled<'a> {
+/// A dyad whose limits are searched for along a span.
+pub(super) struct Search<'a> {
     pub linkage: &'a Linkage,
     pub dyad: &'a Dyad,
     pub span: Span,
     pub signs: Signs,
 }
 
-impl Sampled<'_> {
+impl Search<'_> {
     /// The extent at each input; the ends of the span with the dyad flat that ends it.
     fn extents(&self, degs: &[f64]) -> Vec<f64> {
         let input = self.linkage.input();
@@ -37,7 +36,11 @@ impl Sampled<'_> {
                 }
             }
         }
-        (0..degs.len()).map(|i| self.dyad.extent(|joint| out.point(joint, i))).collect()
+        let extent = |i: usize| {
+            let Series([extent]) = self.dyad.extent(|joint| Planar::<f64, 1>::constant(out.point(joint, i).coords));
+            extent
+        };
+        (0..degs.len()).map(extent).collect()
     }
 
     /// What is left to stretch or to fold at an input, whichever is less; negative where the dyad does not close.
@@ -51,35 +54,40 @@ impl Sampled<'_> {
         if room.is_nan() { -1.0 } else { room }
     }
 
-    fn grid(&self) -> Vec<f64> {
-        let (from, to) = match self.span {
-            Span::Turn => (0.0, self.linkage.input().period()),
-            Span::Arc { lower, upper } => (lower.stop.at, upper.stop.at),
-        };
-        let turns = if self.linkage.input() == Input::Length { 1.0 } else { (to - from) / 360.0 };
-        let n = (turns * SAMPLES as f64).ceil() as usize + 4;
-        let at = |i: usize| if i == n { to } else { from + (to - from) * i as f64 / n as f64 };
-        (0..=n).map(at).collect()
+    /// Where the span begins and ends.
+    fn ends(&self) -> [f64; 2] {
+        match self.span {
+            Span::Turn => [0.0, self.linkage.input().period()],
+            Span::Arc { lower, upper } => [lower.stop.at, upper.stop.at],
+        }
     }
 
-    /// The least and the greatest extent.
+    /// The extents at so many inputs, evenly over the span.
+    fn survey(&self) -> Vec<f64> {
+        const INPUTS: usize = 128;
+        let [from, to] = self.ends();
+        let at = |i: usize| if i == INPUTS { to } else { from + (to - from) * i as f64 / INPUTS as f64 };
+        self.extents(&(0..=INPUTS).map(at).collect::<Vec<f64>>())
+    }
+
+    /// About the least and the greatest extent.
     pub fn range(&self) -> [f64; 2] {
-        let extents = self.extents(&self.grid());
+        let extents = self.survey();
         let fold = |pick: fn(f64, f64) -> f64, start| extents.iter().copied().fold(start, pick);
         [fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY)]
     }
 
     pub fn spans(&self, next_id: &mut usize) -> Vec<Span> {
-        let mut degs = self.grid();
-        let extents = self.extents(&degs);
-        let tolerance = self.tolerance(&extents);
-        if matches!(self.dyad.step, Step::Dyad { .. }) && extents.iter().all(|extent| *extent <= tolerance) {
+        let survey = self.survey();
+        let tolerance = self.tolerance(&survey);
+        let is_dyad = matches!(self.dyad.step, Step::Dyad { .. });
+        if is_dyad && survey.iter().all(|extent| *extent <= tolerance) {
             // Two joints that are one point throughout leave their dyad free to turn: it has no place.
             return Vec::new();
         }
-        let mut rooms: Vec<f64> = extents.iter().map(|&extent| self.room_of(extent)).collect();
-        let touched = self.look_between(&mut degs, &mut rooms, tolerance);
-        let open: Vec<bool> = rooms.iter().map(|room| *room >= -tolerance).collect();
+        let (degs, touched) = self.inputs(tolerance);
+        let is_open = |extent: f64| self.room_of(extent) >= -tolerance;
+        let open: Vec<bool> = self.extents(&degs).into_iter().map(is_open).collect();
         let mut end = |inside: f64, outside: f64| {
             *next_id += 1;
             let stop = Stop::of(self.linkage.input(), self.refine(inside, outside));
@@ -99,8 +107,52 @@ impl Sampled<'_> {
         touched.into_iter().fold(spans, |spans, at| {
             *next_id += 1;
             let stop = Stop::of(self.linkage.input(), at);
-            parted(spans, IntervalEnd::flat(stop, Cause::Change, self.dyad.index, *next_id), self.linkage.input())
+            let end = IntervalEnd::flat(stop, Cause::Change, self.dyad.index, *next_id);
+            let vanishes = is_dyad && self.extents(&[at])[0] <= tolerance;
+            parted(spans, end.with(self.dyad.index, vanishes), self.linkage.input())
         })
+    }
+
+    /// Inputs between neighbours of which there is one limit at most; and those at which a bound is touched and not
+    /// passed.
+    fn inputs(&self, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
+        let pieces = pieces(self.linkage, self.dyad, self.signs, self.ends());
+        let mut degs: Vec<f64> = pieces.iter().map(|piece| piece.from).chain(pieces.last().map(|p| p.to)).collect();
+        let mut touched = Vec::new();
+        for run in pieces.chunk_by(|a, b| !a.settled && !b.settled).filter(|run| !run[0].settled) {
+            match self.look_into(run, tolerance) {
+                Some(Found::Turning(at)) => degs.push(at),
+                Some(Found::Touch(at)) => touched.push(at),
+                None => {}
+            }
+        }
+        degs.sort_by(f64::total_cmp);
+        (degs, touched)
+    }
+
+    /// What a run of uncertain pieces hides: a dip or a rise that passes a bound, or one that touches it.
+    fn look_into(&self, run: &[Piece], tolerance: f64) -> Option<Found> {
+        let [from, to] = [run[0].from, run[run.len() - 1].to];
+        let rooms: Vec<f64> = run.iter().map(|piece| piece.from).chain([to]).map(|at| self.room(at)).collect();
+        let is_open = rooms[0] >= -tolerance;
+        if rooms.iter().any(|room| (*room >= -tolerance) != is_open) {
+            // Limits are seen between the pieces already.
+            return None;
+        }
+        let sign = if is_open { 1.0 } else { -1.0 };
+        // Near where a bound is touched the room is as flat as its rounding: the rate tells the place.
+        let level = self.level(from, to);
+        let at = level.unwrap_or_else(|| golden(from, to, |at| sign * self.room(at)));
+        let room = self.room(at);
+        if is_open && room < -tolerance || !is_open && room >= -tolerance {
+            return Some(Found::Turning(at));
+        }
+        // On both sides of a touch the room grows; where it does not, the extent lies along the bound.
+        let [start, end] = self.ends();
+        let aside = 1e-5 * (end - start);
+        let grows = |at: f64| (start..=end).contains(&at) && self.room(at) > 1e2 * tolerance;
+        (is_open && level.is_some() && room <= tolerance && grows(at - aside) && grows(at + aside))
+            .then_some(Found::Touch(at))
     }
 
     /// Extents that differ by no more than their rounding: what is within this of a bound touches it.
@@ -147,48 +199,16 @@ impl Sampled<'_> {
         }
     }
 
-    /// Inserts the bottom of a dip, or the top of a rise, that passes a bound between samples. The inputs at which a
-    /// bound is touched and not passed are returned.
-    fn look_between(&self, degs: &mut Vec<f64>, rooms: &mut Vec<f64>, tolerance: f64) -> Vec<f64> {
-        let mut found = Vec::new();
-        let mut touched = Vec::new();
-        for i in 1..degs.len() - 1 {
-            let (before, here, after) = (rooms[i - 1], rooms[i], rooms[i + 1]);
-            let is_open = here >= -tolerance;
-            let sign = if is_open { 1.0 } else { -1.0 };
-            let is_turning = sign * before >= sign * here && sign * here <= sign * after;
-            // Between samples the room changes by no more than a few times what it changed to the next one.
-            let is_near = here.abs() <= 4.0 * (before - here).abs().max((after - here).abs());
-            if is_turning && is_near {
-                let deg = golden(degs[i - 1], degs[i + 1], |deg| sign * self.room(deg));
-                let room = self.room(deg);
-                // Near where a bound is touched the room is as flat as its rounding: the slope tells the place.
-                let at = self.level(degs[i - 1], degs[i + 1]).unwrap_or(deg);
-                let clear = before.min(after) > 1e3 * tolerance;
-                if is_open && room < -tolerance || !is_open && room >= -tolerance {
-                    found.push((deg, room));
-                } else if is_open && clear && self.room(at) <= tolerance {
-                    touched.push(at);
-                }
-            }
-        }
-        for (deg, room) in found {
-            let at = degs.partition_point(|d| *d < deg);
-            degs.insert(at, deg);
-            rooms.insert(at, room);
-        }
-        touched
-    }
-
-    /// Where the length of the base is least or greatest between two inputs, by bisection of its rate.
-    fn level(&self, a: f64, b: f64) -> Option<f64> {
-        let (Step::Dyad { base: [p, q], .. } | Step::Slot { base: [p, q], .. }) = self.dyad.step else { return None };
+    /// Where the extent is least or greatest between two inputs, by bisection of its rate.
+    fn level(&self, mut a: f64, mut b: f64) -> Option<f64> {
         let rate = |at: f64| {
-            let stop = Stop::of(self.linkage.input(), at);
-            let jets = Jets::in_fixed_frame(self.linkage, stop, self.signs, Flat::NONE);
-            (jets.place(q) - jets.place(p)).dot(&(jets.velocity(q) - jets.velocity(p)))
+            let Stop { at, cos, sin } = Stop::of(self.linkage.input(), at);
+            let mode = |dyad: usize| f64::from(self.signs.get(dyad));
+            let drive = Drive { at, direction: [cos, sin] };
+            let places: Vec<Planar<f64, 2>> = chain(self.linkage, self.dyad.joint, drive, mode, |_, place| place);
+            let Series([_, rate]) = self.dyad.extent(|joint| places[joint]);
+            rate
         };
-        let (mut a, mut b) = (a, b);
         let rises = rate(b) > 0.0;
         if (rate(a) > 0.0) == rises {
             return None;
@@ -215,6 +235,14 @@ impl Sampled<'_> {
     }
 }
 
+/// What a run of uncertain pieces hides.
+enum Found {
+    /// An input on the other side of the bound.
+    Turning(f64),
+    /// The input at which the bound is touched.
+    Touch(f64),
+}
+
 /// The spans with the one that an end lies inside of parted there.
 fn parted(spans: Vec<Span>, end: IntervalEnd, input: Input) -> Vec<Span> {
     let mut out = Vec::new();
@@ -236,8 +264,8 @@ fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
     const RATIO: f64 = 0.618_033_988_749_894_9;
     let (mut x, mut y) = (b - RATIO * (b - a), a + RATIO * (b - a));
     let (mut fx, mut fy) = (f(x), f(y));
-    // 0.618^40 of a sample is below the rounding of an angle.
-    for _ in 0..40 {
+    // 0.618^60 of a whole turn is below the rounding of an angle.
+    for _ in 0..60 {
         if fx < fy {
             (b, y, fy) = (y, x, fx);
             x = b - RATIO * (b - a);

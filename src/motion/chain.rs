@@ -1,0 +1,82 @@
+use super::series::{Planar, Scalar, Series};
+use crate::linkage::{JointId, Linkage, Step};
+
+/// An input, as a value and, of an angle, as a direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drive<T> {
+    /// The angle in degrees, or the length.
+    pub at: T,
+    /// The cosine and the sine of the angle; of no meaning for a length.
+    pub direction: [T; 2],
+}
+
+/// Places the first `joints` joints as series in the input, each from those before it, in the frame of the fixed joints.
+///
+/// Angles of input are in radians, lengths in their unit. `mode` is what a dyad's height is multiplied by. Each joint is
+/// handed to `settle` before others are placed on it.
+///
+/// # Source
+/// The constraints of each dyad as [`super::kernel::place`] solves them, written so that each variable stands as few
+/// times as may be: that makes enclosures narrow.
+pub(super) fn chain<T: Scalar, const N: usize>(
+    linkage: &Linkage,
+    joints: usize,
+    drive: Drive<T>,
+    mode: impl Fn(usize) -> f64,
+    mut settle: impl FnMut(JointId, Planar<T, N>) -> Planar<T, N>,
+) -> Vec<Planar<T, N>> {
+    let constant = |value: f64| Series::constant(value);
+    let none = constant(0.0);
+    let mut at: Vec<Planar<T, N>> = Vec::with_capacity(joints);
+    for (id, joint) in linkage.joints[..joints].iter().enumerate() {
+        let place = match joint.step {
+            Step::Fixed(place) => Planar::constant(place.coords),
+            Step::Crank { pivot, length } => {
+                at[pivot].moved(Planar::turning(drive.direction, 1.0), constant(length), none)
+            }
+            Step::Gear { pivot, length, ratio, phase_deg } => {
+                let direction = drive.at.geared(ratio, phase_deg).cos_sin_deg();
+                let by = ratio[0] as f64 / ratio[1] as f64;
+                at[pivot].moved(Planar::turning(direction, by), constant(length), none)
+            }
+            Step::Piston { base, length, offset, index } => {
+                let b = (Series::variable(drive.at).square() + constant(offset * offset)).sqrt();
+                dyad(base.map(|j| at[j]), [b, constant(length)], mode(index))
+            }
+            Step::Dyad { base, lengths, index } => dyad(base.map(|j| at[j]), lengths.map(constant), mode(index)),
+            Step::Slide { from, length, line: [p, q], offset, index } => {
+                let unit = at[q].minus(at[p]).unit();
+                let h = constant(offset) - unit.cross(at[from].minus(at[p]));
+                let along = ((constant(length) - h) * (constant(length) + h)).sqrt().scaled(mode(index));
+                at[from].moved(unit, along, h)
+            }
+            Step::Slot { base: [p, q], offset, index } => {
+                let base = at[q].minus(at[p]);
+                let d2 = base.norm_squared();
+                let along = constant(offset * offset) / d2;
+                let across = (d2 - constant(offset * offset)).sqrt().scaled(offset * mode(index)) / d2;
+                at[p].moved(base, along, across)
+            }
+            Step::Rigid { base: [p, q], along, across } => {
+                at[p].moved(at[q].minus(at[p]), constant(along), constant(across))
+            }
+            Step::Directed { base: [p, q], along, across } => {
+                at[p].moved(at[q].minus(at[p]).unit(), constant(along), constant(across))
+            }
+        };
+        at.push(settle(id, place));
+    }
+    at
+}
+
+/// The third corner of a triangle of two links on a base, as the kernel places it.
+fn dyad<T: Scalar, const N: usize>([p, q]: [Planar<T, N>; 2], [l0, l1]: [Series<T, N>; 2], mode: f64) -> Planar<T, N> {
+    let base = q.minus(p);
+    let d2 = base.norm_squared();
+    let d = d2.sqrt();
+    let (sum, difference) = (l0 + l1, l0 - l1);
+    let discriminant = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
+    let along = Series::constant(0.5) + (sum * difference).scaled(0.5) / d2;
+    let across = discriminant.sqrt().scaled(0.5 * mode) / d2;
+    p.moved(base, along, across)
+}

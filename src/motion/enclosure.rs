@@ -1,0 +1,149 @@
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::series::Scalar;
+use crate::geometry::trig;
+
+/// All numbers from `low` to `high`: bounds on what a computation can give. Each operation is rounded outwards by the
+/// next floating-point number, so that the bounds hold for exact arithmetic. (The crates for this need processors
+/// beyond the baseline, or a system library.)
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Enclosure {
+    pub low: f64,
+    pub high: f64,
+}
+
+/// Nothing is known.
+const ALL: Enclosure = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+/// How far a sine or cosine may be off, in absolute terms: libm's are within an ulp, and angles are turned to radians.
+const TRIG_ERROR: f64 = 4.0 * f64::EPSILON;
+
+impl Enclosure {
+    /// Both numbers and all between them.
+    pub fn between(a: f64, b: f64) -> Enclosure {
+        Enclosure { low: a.min(b), high: a.max(b) }
+    }
+
+    /// The same, rounded outwards; everything where a bound is no number.
+    fn rounded(low: f64, high: f64) -> Enclosure {
+        if low.is_nan() || high.is_nan() { ALL } else { Enclosure { low: low.next_down(), high: high.next_up() } }
+    }
+
+    /// What is in both; this one where rounding has parted them.
+    pub fn meet(self, other: Enclosure) -> Enclosure {
+        let (low, high) = (self.low.max(other.low), self.high.min(other.high));
+        if low <= high { Enclosure { low, high } } else { self }
+    }
+
+    /// Whether a number is in it.
+    pub fn holds(self, x: f64) -> bool {
+        self.low <= x && x <= self.high
+    }
+
+    /// The cosines of all angles in it, in degrees.
+    fn cos_deg(self) -> Enclosure {
+        let [a, b] = [self.low, self.high].map(|deg| trig::cos_sin_deg(deg).0);
+        let mut out = Enclosure::rounded(a.min(b) - TRIG_ERROR, a.max(b) + TRIG_ERROR);
+        // Every half turn the cosine is 1 or -1.
+        let (first, last) = ((self.low / 180.0).ceil(), (self.high / 180.0).floor());
+        for half in [first, first + 1.0].into_iter().filter(|half| *half <= last) {
+            if half.rem_euclid(2.0) == 0.0 { out.high = 1.0 } else { out.low = -1.0 }
+        }
+        Enclosure { low: out.low.max(-1.0), high: out.high.min(1.0) }
+    }
+}
+
+impl From<f64> for Enclosure {
+    fn from(x: f64) -> Enclosure {
+        Enclosure { low: x, high: x }
+    }
+}
+
+impl Add for Enclosure {
+    type Output = Enclosure;
+    fn add(self, other: Enclosure) -> Enclosure {
+        Enclosure::rounded(self.low + other.low, self.high + other.high)
+    }
+}
+
+impl Sub for Enclosure {
+    type Output = Enclosure;
+    fn sub(self, other: Enclosure) -> Enclosure {
+        Enclosure::rounded(self.low - other.high, self.high - other.low)
+    }
+}
+
+impl Neg for Enclosure {
+    type Output = Enclosure;
+    fn neg(self) -> Enclosure {
+        Enclosure { low: -self.high, high: -self.low }
+    }
+}
+
+impl Mul for Enclosure {
+    type Output = Enclosure;
+    fn mul(self, other: Enclosure) -> Enclosure {
+        let products = [self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high];
+        if products.iter().any(|product| product.is_nan()) {
+            return ALL;
+        }
+        let [a, b, c, d] = products;
+        Enclosure::rounded(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+    }
+}
+
+impl Div for Enclosure {
+    type Output = Enclosure;
+    fn div(self, divisor: Enclosure) -> Enclosure {
+        if divisor.holds(0.0) {
+            return ALL;
+        }
+        self * Enclosure::rounded(1.0 / divisor.high, 1.0 / divisor.low)
+    }
+}
+
+impl Scalar for Enclosure {
+    fn square(self) -> Enclosure {
+        let (low, high) = (self.low * self.low, self.high * self.high);
+        let least = if self.holds(0.0) { 0.0 } else { low.min(high).next_down() };
+        Enclosure { low: least, ..Enclosure::rounded(least, low.max(high)) }
+    }
+
+    fn sqrt(self) -> Enclosure {
+        let [low, high] = [self.low, self.high].map(|x| x.max(0.0).sqrt());
+        Enclosure { low: low.next_down().max(0.0), ..Enclosure::rounded(low, high) }
+    }
+
+    fn cos_sin_deg(self) -> [Enclosure; 2] {
+        [self.cos_deg(), (self - Enclosure::from(90.0)).cos_deg()]
+    }
+
+    fn geared(self, [turns, of]: [i64; 2], phase_deg: f64) -> Enclosure {
+        self * Enclosure::from(turns as f64) / Enclosure::from(of as f64) + Enclosure::from(phase_deg)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn span() -> impl Strategy<Value = (Enclosure, f64)> {
+        (-400.0f64..400.0, 0.0f64..100.0, 0.0f64..=1.0).prop_map(|(low, width, part)| {
+            let inside = (low + part * width).clamp(low, low + width);
+            (Enclosure { low, high: low + width }, inside)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn what_comes_out_is_enclosed((a, x) in span(), (b, y) in span()) {
+            prop_assert!((a + b).holds(x + y) && (a - b).holds(x - y) && (a * b).holds(x * y));
+            prop_assert!((a / b).holds(x / y) && a.square().holds(x * x) && (-a).holds(-x));
+            prop_assert!(a.sqrt().holds(x.max(0.0).sqrt()));
+            let (cos, sin) = trig::cos_sin_deg(x);
+            let [c, s] = a.cos_sin_deg();
+            prop_assert!(c.holds(cos) && s.holds(sin), "{a:?} {x}: {c:?} {s:?}");
+        }
+    }
+}

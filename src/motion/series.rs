@@ -1,0 +1,191 @@
+//! The beginnings of Taylor series in the input, over numbers or over enclosures of numbers.
+//!
+//! Sums, products, quotients and roots of series are exact to their order, so that what comes out are derivatives in
+//! closed form and not differences; over [`super::enclosure::Enclosure`]s they are bounds on those derivatives.
+
+use std::array::from_fn;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::kernel::geared;
+use crate::geometry::{Vector, trig};
+
+/// What the coefficients of a series may be.
+pub(super) trait Scalar:
+    Copy
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Its product with itself.
+    fn square(self) -> Self;
+
+    /// Its root; of what rounding makes negative, 0.
+    fn sqrt(self) -> Self;
+
+    /// The cosine and the sine of an angle in degrees.
+    fn cos_sin_deg(self) -> [Self; 2];
+
+    /// The angle in degrees of a crank that turns `ratio[0]` times to `ratio[1]` turns of this angle.
+    fn geared(self, ratio: [i64; 2], phase_deg: f64) -> Self;
+}
+
+impl Scalar for f64 {
+    fn square(self) -> f64 {
+        self * self
+    }
+
+    fn sqrt(self) -> f64 {
+        self.max(0.0).sqrt()
+    }
+
+    fn cos_sin_deg(self) -> [f64; 2] {
+        trig::cos_sin_deg(self).into()
+    }
+
+    fn geared(self, ratio: [i64; 2], phase_deg: f64) -> f64 {
+        geared(self, ratio, phase_deg)
+    }
+}
+
+/// The coefficients of 1, t, t^2 and so on: `N` of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Series<T, const N: usize>(pub [T; N]);
+
+impl<T: Scalar, const N: usize> Series<T, N> {
+    pub fn constant(value: impl Into<T>) -> Self {
+        let value = value.into();
+        Series(from_fn(|n| if n == 0 { value } else { T::from(0.0) }))
+    }
+
+    /// The variable itself where it has this value.
+    pub fn variable(value: T) -> Self {
+        Series(from_fn(|n| if n == 0 { value } else { T::from(if n == 1 { 1.0 } else { 0.0 }) }))
+    }
+
+    /// The coefficient of `t^n` in the product.
+    fn coefficient(self, other: Self, n: usize) -> T {
+        let terms = (1..=n).map(|k| self.0[k] * other.0[n - k]);
+        terms.fold(self.0[0] * other.0[n], |sum, term| sum + term)
+    }
+
+    pub fn square(self) -> Self {
+        let mut product = self * self;
+        product.0[0] = self.0[0].square();
+        product
+    }
+
+    pub fn sqrt(self) -> Self {
+        let mut root = [self.0[0].sqrt(); N];
+        for n in 1..N {
+            let carried = (1..n).fold(self.0[n], |left, k| left - root[k] * root[n - k]);
+            root[n] = carried / (T::from(2.0) * root[0]);
+        }
+        Series(root)
+    }
+
+    pub fn scaled(self, by: f64) -> Self {
+        Series(self.0.map(|c| c * T::from(by)))
+    }
+}
+
+impl<T: Scalar, const N: usize> Add for Series<T, N> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Series(from_fn(|n| self.0[n] + other.0[n]))
+    }
+}
+
+impl<T: Scalar, const N: usize> Sub for Series<T, N> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Series(from_fn(|n| self.0[n] - other.0[n]))
+    }
+}
+
+impl<T: Scalar, const N: usize> Mul for Series<T, N> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Series(from_fn(|n| self.coefficient(other, n)))
+    }
+}
+
+impl<T: Scalar, const N: usize> Div for Series<T, N> {
+    type Output = Self;
+    fn div(self, divisor: Self) -> Self {
+        let mut quotient = [self.0[0] / divisor.0[0]; N];
+        for n in 1..N {
+            let carried = (1..=n).fold(self.0[n], |left, k| left - divisor.0[k] * quotient[n - k]);
+            quotient[n] = carried / divisor.0[0];
+        }
+        Series(quotient)
+    }
+}
+
+/// A place, or a difference of places, as it changes with the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Planar<T, const N: usize> {
+    pub x: Series<T, N>,
+    pub y: Series<T, N>,
+}
+
+impl<T: Scalar, const N: usize> Planar<T, N> {
+    pub fn constant(v: Vector) -> Self {
+        Planar { x: Series::constant(v.x), y: Series::constant(v.y) }
+    }
+
+    /// A direction that turns `by` radians to a radian of input.
+    pub fn turning([cos, sin]: [T; 2], by: f64) -> Self {
+        let (mut x, mut y) = ([cos; N], [sin; N]);
+        for n in 1..N {
+            let rate = T::from(by) / T::from(n as f64);
+            (x[n], y[n]) = (-(rate * y[n - 1]), rate * x[n - 1]);
+        }
+        Planar { x: Series(x), y: Series(y) }
+    }
+
+    pub fn minus(self, other: Self) -> Self {
+        Planar { x: self.x - other.x, y: self.y - other.y }
+    }
+
+    /// This place, moved `along` times a vector and `across` times its left normal.
+    pub fn moved(self, by: Self, along: Series<T, N>, across: Series<T, N>) -> Self {
+        Planar { x: self.x + along * by.x - across * by.y, y: self.y + along * by.y + across * by.x }
+    }
+
+    pub fn dot(self, other: Self) -> Series<T, N> {
+        self.x * other.x + self.y * other.y
+    }
+
+    pub fn cross(self, other: Self) -> Series<T, N> {
+        self.x * other.y - self.y * other.x
+    }
+
+    /// The square of its length.
+    pub fn norm_squared(self) -> Series<T, N> {
+        self.x.square() + self.y.square()
+    }
+
+    /// It and its length as one: the direction.
+    pub fn unit(self) -> Self {
+        let length = self.norm_squared().sqrt();
+        Planar { x: self.x / length, y: self.y / length }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn series_multiply_divide_and_take_roots() {
+        let t = Series::<f64, 4>([2.0, 1.0, 0.0, 0.0]);
+        assert_eq!((t * t * t).0, [8.0, 12.0, 6.0, 1.0]);
+        assert_eq!((t.square() / t).0, t.0);
+        assert_eq!(t.square().sqrt().0, t.0);
+        // 1 / t = 1/2 - (t-2)/4 + (t-2)^2/8 - (t-2)^3/16
+        assert_eq!((Series::constant(1.0) / t).0, [0.5, -0.25, 0.125, -0.0625]);
+    }
+}
