@@ -15,6 +15,8 @@ pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
 pub use mccarthy::InvertedSliderCrank;
 
+use std::cmp::Ordering;
+
 use crate::geometry::{Point, Vector};
 
 /// The most two-valued joints a linkage may have: [`Signs`] has a bit for each.
@@ -172,8 +174,22 @@ pub enum Side {
 }
 
 /// The sides of all dyads at once: the assembly mode.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+///
+/// Modes are in the order of their first dyads' sides, left before right.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Signs(u32);
+
+impl Ord for Signs {
+    fn cmp(&self, other: &Signs) -> Ordering {
+        self.0.reverse_bits().cmp(&other.0.reverse_bits())
+    }
+}
+
+impl PartialOrd for Signs {
+    fn partial_cmp(&self, other: &Signs) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
 
 impl Signs {
     /// The sign of a dyad: 1 left, -1 right.
@@ -188,6 +204,17 @@ impl Signs {
             Side::Left => Signs(self.0 & !(1 << dyad)),
             Side::Right => Signs(self.0 | 1 << dyad),
         }
+    }
+
+    /// Those of the first `dyads` dyads; of the others, left.
+    #[must_use]
+    pub fn of_first(self, dyads: usize) -> Signs {
+        Signs(self.0 & !(u32::MAX << dyads))
+    }
+
+    /// All assembly modes of that many dyads; the side of the last changes fastest, left first.
+    pub fn all(dyads: usize) -> impl Iterator<Item = Signs> {
+        (0..1u32 << dyads).map(move |k| Signs(if dyads == 0 { 0 } else { k.reverse_bits() >> (32 - dyads) }))
     }
 
     /// The same with some dyads on their other sides.
@@ -220,6 +247,18 @@ impl Flat {
         self.0 == 0
     }
 
+    /// The one that is placed before the others; none of none.
+    #[must_use]
+    pub fn first(self) -> Flat {
+        Flat(self.0 & self.0.wrapping_neg())
+    }
+
+    /// The one that is placed after the others; none of none.
+    #[must_use]
+    pub fn last(self) -> Flat {
+        Flat(self.0.checked_ilog2().map_or(0, |bit| 1 << bit))
+    }
+
     /// These and those.
     #[must_use]
     pub fn and(self, other: Flat) -> Flat {
@@ -240,6 +279,8 @@ pub struct Travel {
     pub circuits: Circuits,
     /// What happens at a change point.
     pub continuation: Continuation,
+    /// Which dyads change their sides where several lie flat at one input.
+    pub coincident: Coincident,
     /// The part of the curve that a source's figure shows; the rest is drawn lighter.
     pub arc: Option<Arc>,
 }
@@ -262,6 +303,19 @@ pub enum Continuation {
     Smooth,
     /// The branch is kept, and the joints turn a corner.
     Branch,
+}
+
+/// Which dyads change their sides where several come to lie flat at one input, and could change them one without the
+/// others. A dyad whose base vanishes there changes its side in any case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coincident {
+    /// All of them.
+    #[default]
+    Together,
+    /// The one that is placed first.
+    First,
+    /// The one that is placed last.
+    Last,
 }
 
 /// Part of one branch.

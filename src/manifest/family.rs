@@ -12,7 +12,7 @@ use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::Template;
 
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "id",
     "linkage",
     "title",
@@ -28,6 +28,7 @@ const KEYS: [&str; 16] = [
     "limit",
     "circuits",
     "continuation",
+    "coincident",
     "columns",
 ];
 
@@ -91,12 +92,14 @@ pub(super) fn read<'t>(
 fn overridden<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader: &mut Reader<'t>) -> Arc<Template> {
     let circuits = fields.get("circuits").and_then(|value| reader.word(value, &notation::CIRCUITS));
     let continuation = fields.get("continuation").and_then(|value| reader.word(value, &notation::CONTINUATIONS));
-    if circuits.is_none() && continuation.is_none() {
+    let coincident = fields.get("coincident").and_then(|value| reader.word(value, &notation::COINCIDENTS));
+    if circuits.is_none() && continuation.is_none() && coincident.is_none() {
         return template;
     }
     let mut own = Template::clone(&template);
     own.circuits = circuits.unwrap_or(own.circuits);
     own.continuation = continuation.unwrap_or(own.continuation);
+    own.coincident = coincident.unwrap_or(own.coincident);
     Arc::new(own)
 }
 

@@ -2,8 +2,8 @@
 
 use crate::geometry::trig;
 
-use super::interval::{Cause, Interval, Span, intervals};
-use crate::linkage::{Circuits, Continuation, Flat, Input, Linkage, Signs};
+use super::interval::{Interval, Span, intervals};
+use crate::linkage::{Circuits, Flat, Input, Linkage, Signs};
 
 /// A value of the input: an angle with its direction, which is the more exact of the two at a limit, or a length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -225,14 +225,7 @@ fn follow(
 fn after(linkage: &Linkage, all: &[Interval], (interval, rising): (usize, bool)) -> Option<(usize, bool)> {
     let from = &all[interval];
     let end = from.end(rising)?;
-    let (signs, rises) = match end.cause {
-        Cause::Asked => return None,
-        Cause::Limit => (from.signs.flipped(end.flips), !rising),
-        Cause::Change => {
-            let smooth = linkage.travel.continuation == Continuation::Smooth;
-            (from.signs.flipped(if smooth { end.flips } else { end.bound }), rising)
-        }
-    };
+    let (signs, rises) = end.onward(from.signs, rising, &linkage.travel)?;
     // It begins where this one ends: falling from the same upper end, or rising from the same lower one.
     let begins = |k: &usize| all[*k].signs == signs && all[*k].end(!rises).is_some_and(|e| e.id == end.id);
     (0..all.len()).find(begins).map(|k| (k, rises))

@@ -4,9 +4,11 @@
 //! base is within its reach; both of its sides then share what is left. So an end of an interval belongs to one
 //! dyad, and has one number by which the intervals that meet there are recognised.
 
+use std::collections::HashMap;
+
 use super::circuit::{End, Pass, Stop};
 use super::reach;
-use crate::linkage::{Flat, Input, Linkage, Side, Signs};
+use crate::linkage::{Circuits, Coincident, Continuation, Flat, Input, Linkage, Signs, Travel};
 
 /// Why an interval ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +68,22 @@ impl IntervalEnd {
             _ => (Cause::Limit, other.flips),
         };
         IntervalEnd { cause, flips, flat: self.flat.and(other.flat), bound: self.bound.and(other.bound), ..self }
+    }
+
+    /// The sides with which a motion goes on that comes here with a rising or falling input, and whether the input then
+    /// rises; none where it ends.
+    pub fn onward(&self, signs: Signs, rising: bool, travel: &Travel) -> Option<(Signs, bool)> {
+        let flips = match travel.coincident {
+            Coincident::Together => self.flips,
+            Coincident::First => self.flips.first().and(self.bound),
+            Coincident::Last => self.flips.last().and(self.bound),
+        };
+        match self.cause {
+            Cause::Asked => None,
+            Cause::Limit => Some((signs.flipped(flips), !rising)),
+            Cause::Change if travel.continuation == Continuation::Branch => Some((signs.flipped(self.bound), rising)),
+            Cause::Change => Some((signs.flipped(flips), rising)),
+        }
     }
 
     /// The same end with an angle that many degrees greater, a whole number of turns.
@@ -132,48 +150,70 @@ pub(super) struct Reach {
     pub shortfall: Option<String>,
 }
 
-/// All intervals of all assembly modes, within the range asked for.
+/// The intervals within the range asked for: of all assembly modes, or, where only the circuit through the start pose
+/// is wanted, of those that can be reached from it.
 pub(super) fn intervals(linkage: &Linkage) -> Reach {
+    let mut tree = Tree { linkage, left: HashMap::new(), next_id: 2, shortfall: None };
+    let travel = &linkage.travel;
+    let mut modes = match travel.circuits {
+        Circuits::Start => vec![travel.signs],
+        Circuits::All => Signs::all(linkage.dyads()).collect(),
+    };
+    let mut intervals = Vec::new();
+    let mut done = 0;
+    while let Some(&signs) = modes.get(done) {
+        done += 1;
+        for span in tree.spans(linkage.dyads(), signs) {
+            let interval = Interval { span, signs };
+            for rising in [true, false] {
+                let onward = interval.end(rising).and_then(|end| end.onward(signs, rising, travel));
+                modes.extend(onward.map(|(signs, _)| signs).filter(|signs| !modes.contains(signs)));
+            }
+            intervals.push(interval);
+        }
+    }
+    Reach { intervals, shortfall: tree.shortfall }
+}
+
+/// The whole range of the input that is asked for.
+fn whole(linkage: &Linkage) -> Span {
     let input = linkage.input();
     let asked = |at: f64, id| IntervalEnd::asked(Stop::of(input, at), id);
-    let span = match linkage.travel.range {
+    match linkage.travel.range {
         Some([from, to]) if to - from < input.period() => Span::Arc { lower: asked(from, 0), upper: asked(to, 1) },
         _ if input == Input::Length => Span::Arc { lower: asked(0.0, 0), upper: asked(f64::MAX / 16.0, 1) },
         _ => Span::Turn,
-    };
-    let mut explorer = Explorer { linkage, dyads: linkage.dyads(), next_id: 2, out: Vec::new(), shortfall: None };
-    explorer.explore(0, span, Signs::default());
-    Reach { intervals: explorer.out, shortfall: explorer.shortfall }
+    }
 }
 
-struct Explorer<'a> {
+/// The spans that the first few dyads leave, by their number and their sides: modes that share these share the spans,
+/// and the numbers of their ends.
+struct Tree<'a> {
     linkage: &'a Linkage,
-    dyads: usize,
+    left: HashMap<(usize, Signs), Vec<Span>>,
     next_id: usize,
-    out: Vec<Interval>,
     shortfall: Option<String>,
 }
 
-impl Explorer<'_> {
-    fn explore(&mut self, dyad: usize, span: Span, signs: Signs) {
-        if dyad == self.dyads {
-            self.out.push(Interval { span, signs });
-            return;
+impl Tree<'_> {
+    /// The spans on which the first `dyads` dyads close, with the sides of all but the last of them given.
+    fn spans(&mut self, dyads: usize, signs: Signs) -> Vec<Span> {
+        let Some(last) = dyads.checked_sub(1) else { return vec![whole(self.linkage)] };
+        let before = signs.of_first(last);
+        if let Some(known) = self.left.get(&(dyads, before)) {
+            return known.clone();
         }
-        let spans = match reach::cut(self.linkage, dyad, span, signs, &mut self.next_id) {
-            Ok(spans) => spans,
-            Err(reason) => {
-                let asked = self.linkage.travel.signs;
-                if (0..dyad).all(|k| signs.get(k) == asked.get(k)) {
+        let mut spans = Vec::new();
+        for span in self.spans(last, signs) {
+            match reach::cut(self.linkage, last, span, before, &mut self.next_id) {
+                Ok(parts) => spans.extend(parts),
+                Err(reason) if before == self.linkage.travel.signs.of_first(last) => {
                     self.shortfall.get_or_insert(reason);
                 }
-                return;
-            }
-        };
-        for side in [Side::Left, Side::Right] {
-            for &span in &spans {
-                self.explore(dyad + 1, span, signs.with(dyad, side));
+                Err(_) => {}
             }
         }
+        self.left.insert((dyads, before), spans.clone());
+        spans
     }
 }

@@ -2,9 +2,9 @@ use super::joints;
 use super::reader::{Fields, Reader, Value};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
-use crate::template::{Circuits, Continuation, InputValue, Parameter, Template};
+use crate::template::{Circuits, Coincident, Continuation, InputValue, Parameter, Template};
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "id",
     "source",
     "legend",
@@ -15,6 +15,7 @@ const KEYS: [&str; 14] = [
     "joints",
     "circuits",
     "continuation",
+    "coincident",
     "start",
     "input",
     "seen_from",
@@ -27,6 +28,10 @@ pub const CIRCUITS: [(&str, Circuits); 2] = [("start", Circuits::Start), ("all",
 /// The words for [`Continuation`].
 pub const CONTINUATIONS: [(&str, Continuation); 2] =
     [("smooth", Continuation::Smooth), ("branch", Continuation::Branch)];
+
+/// The words for [`Coincident`].
+pub const COINCIDENTS: [(&str, Coincident); 3] =
+    [("together", Coincident::Together), ("first", Coincident::First), ("last", Coincident::Last)];
 
 /// The template a `[[linkage]]` table describes; `None` where a problem stands in the way of it.
 pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Template> {
@@ -43,6 +48,7 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
     let circuits = fields.get("circuits").and_then(|value| reader.word(value, &CIRCUITS)).unwrap_or_default();
     let continuation =
         fields.get("continuation").and_then(|value| reader.word(value, &CONTINUATIONS)).unwrap_or_default();
+    let coincident = fields.get("coincident").and_then(|value| reader.word(value, &COINCIDENTS)).unwrap_or_default();
     let is_length = joints::has_piston(&fields);
     let start = fields.get("start").and_then(|value| reader.input(value, is_length, &scope));
     let keys = ["from", "to"];
@@ -63,6 +69,7 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
         seen_from: joints.seen_from,
         circuits,
         continuation,
+        coincident,
         start,
         input,
         arc,

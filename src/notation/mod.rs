@@ -4,7 +4,7 @@ mod joints;
 mod linkage;
 mod reader;
 
-pub use linkage::{CIRCUITS, CONTINUATIONS, check_name, slug, template};
+pub use linkage::{CIRCUITS, COINCIDENTS, CONTINUATIONS, check_name, slug, template};
 pub use reader::{Fields, Reader, Value};
 
 use crate::problem::Problem;

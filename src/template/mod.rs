@@ -9,7 +9,7 @@ pub use placing::{Coordinate, Placing};
 use crate::expression::{Bound, Caption, Expression, Unit};
 use crate::linkage::{self, Arc, Assembly, JointId, Travel};
 
-pub use crate::linkage::{Circuits, Continuation, Linkage, Side};
+pub use crate::linkage::{Circuits, Coincident, Continuation, Linkage, Side};
 
 /// A linkage family before it has numbers. All [`Bound`] expressions are over [`Template::parameters`].
 #[derive(Clone, Debug)]
@@ -36,6 +36,8 @@ pub struct Template {
     pub circuits: Circuits,
     /// What happens at a change point.
     pub continuation: Continuation,
+    /// Which dyads change their sides where several lie flat at one input.
+    pub coincident: Coincident,
     /// The input at which the sides hold.
     pub start: Option<InputValue>,
     /// The range of the input.
@@ -254,7 +256,7 @@ impl Template {
             let input_deg = [from.evaluate(values), to.evaluate(values)];
             input_deg.iter().all(|deg| deg.is_finite()).then_some(Arc { input_deg, branch: *branch })
         });
-        let (circuits, continuation) = (self.circuits, self.continuation);
-        Ok(Travel { start, range, circuits, continuation, arc, ..Travel::default() })
+        let (circuits, continuation, coincident) = (self.circuits, self.continuation, self.coincident);
+        Ok(Travel { start, range, circuits, continuation, coincident, arc, ..Travel::default() })
     }
 }

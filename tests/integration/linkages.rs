@@ -1,7 +1,7 @@
 //! Linkages of several dyads: their limits are found between samples, and their circuits keep every length.
 
 use coupler_atlas::geometry::{Point, Vector, trig};
-use coupler_atlas::linkage::{Assembly, Circuits, Linkage, Side, Step, Travel};
+use coupler_atlas::linkage::{Assembly, Circuits, Coincident, Linkage, Side, Step, Travel};
 use coupler_atlas::motion::{Motion, Pass, Sampler, Sampling};
 use proptest::prelude::*;
 
@@ -150,7 +150,7 @@ fn gaps_and_windows_are_found_down_to_rounding() {
     for half_width_deg in [3.0, 0.05, 1e-3, 1e-4] {
         let half = trig::radians(half_width_deg);
         // 3 - sqrt(5 + 4 cos) without its cancellation: 8 sin^2(half / 2) over the sum of both.
-        let less = 8.0 * trig::sin(half / 2.0).powi(2) / (3.0 + (5.0 + 4.0 * trig::cos(half)).sqrt());
+        let less = 8.0 * trig::sin(half / 2.0) * trig::sin(half / 2.0) / (3.0 + (5.0 + 4.0 * trig::cos(half)).sqrt());
         // The base is rounded, so an edge is known to its rounding over the slope of the base there.
         let edge_deg = trig::degrees(8.0 * f64::EPSILON / (2.0 / 3.0 * half));
         for direction in [0.0, 37.123_456_7, 201.9] {
@@ -233,6 +233,28 @@ fn dyads_that_lie_flat_together_go_on_together() {
             assert!((crank - wheel).norm() < 1e-12, "{g} {r} at {}: {crank} {wheel}", circuit.input[i]);
         }
     }
+}
+
+/// Two equal dyads on one base: both close at one input, and either could turn back without the other.
+#[test]
+fn which_of_coincident_dyads_change_sides_can_be_said() {
+    let modes = |coincident| -> Vec<[i8; 2]> {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", [0.0, 0.0].into());
+        let c = assembly.fixed("C", [4.0, 0.0].into());
+        let a = assembly.crank("A", o, 2.0).unwrap();
+        let b = assembly.dyad("B", [a, c], [2.0, 2.0], Side::Left).unwrap();
+        let d = assembly.dyad("D", [a, c], [2.5, 1.5], Side::Right).unwrap();
+        let linkage = assembly.finish(vec![b, d], None, Travel { coincident, ..Travel::default() }).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(24)));
+        check_motion(&linkage, &motion).unwrap();
+        let circuit = &motion.circuits[0];
+        assert!(circuit.closed);
+        circuit.passes.iter().map(|pass| [pass.signs.get(0), pass.signs.get(1)]).collect()
+    };
+    assert_eq!(modes(Coincident::Together), [[1, -1], [-1, 1]]);
+    assert_eq!(modes(Coincident::First), [[1, -1], [-1, -1]]);
+    assert_eq!(modes(Coincident::Last), [[1, 1], [1, -1]]);
 }
 
 /// Peaucellier's inversor draws a straight line to rounding, its ends included, where all its dyads lie flat at once.
