@@ -75,7 +75,7 @@ pub fn derivation(sources: Vec<(usize, Bound)>) -> Result<Vec<(usize, Bound)>, V
     };
     match dependency_order(sources.len(), needs) {
         Ok(order) => Ok(order.into_iter().map(|k| sources[k].clone()).collect()),
-        Err(cycle) => Err(cycle.into_iter().map(|k| sources[k].0).collect()),
+        Err(open) => Err(open.cycle.into_iter().map(|k| sources[k].0).collect()),
     }
 }
 

@@ -5,10 +5,12 @@
 //! machine; `+ - * / sqrt` are exact everywhere by IEEE 754.
 
 mod bounds;
+mod placement;
 mod similarity;
 pub mod trig;
 
 pub use bounds::Bounds;
+pub use placement::Placement;
 pub use similarity::Similarity;
 
 /// A point of the plane.

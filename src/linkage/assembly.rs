@@ -1,17 +1,24 @@
 use super::{Error, Joint, JointId, Link, Linkage, MAX_DYADS, Side, Signs, Step, Travel};
-use crate::geometry::{Point, Vector, left_normal};
+use crate::geometry::{Placement, Point, Vector, left_normal, trig};
 
-/// A link that turns about a pivot and carries the line of a slot.
+/// A body that is known by a joint and a line: what slides on a line, or is slid through.
 #[derive(Clone, Copy, Debug)]
 struct Carrier {
-    /// The pivot, and the joint the line slides through.
+    /// The joint its points are measured from, and another that names the line.
     base: [JointId; 2],
-    /// The foot of the line.
-    foot: JointId,
-    /// From the pivot to the foot; positive where the line's direction is the foot's turned to the left.
-    offset: f64,
+    /// How its points are placed.
+    body: Body,
     /// Its place among the links.
     link: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Body {
+    /// A link with the foot of its line, which is so far from its pivot; positive where the line's direction is the
+    /// foot's turned to the left.
+    Foot { foot: JointId, offset: f64 },
+    /// It keeps the direction of a line, as of [`Step::Directed`].
+    Line { line: [JointId; 2], offset: f64 },
 }
 
 /// A linkage being put together, joint by joint.
@@ -102,6 +109,8 @@ impl Assembly {
         let index = self.two_valued(name, side)?;
         let id = self.add(name, Step::Piston { base, length, offset, index });
         self.bar(base[1], id, length);
+        // McCarthy's foot is to the right of the line from pivot to pin, so the pivot is to the left of his line.
+        self.body([base[0], id], [base[0], id], -offset);
         Ok(id)
     }
 
@@ -143,6 +152,29 @@ impl Assembly {
         let index = self.two_valued(name, ahead)?;
         let id = self.add(name, Step::Slide { from, length, line, offset, index });
         self.bar(from, id, length);
+        self.body([id, line[1]], line, 0.0);
+        Ok(id)
+    }
+
+    /// The point of a guide, along two joints or `offset` to their left, at which the slot of a yoke meets it; the yoke
+    /// slides along the guide, and `from` slides in its slot, which is at `angle_deg` to the guide.
+    ///
+    /// # Errors
+    /// One joint given twice for the guide, a slot along the guide.
+    pub fn yoke(
+        &mut self,
+        name: &str,
+        from: JointId,
+        (line, offset): ([JointId; 2], f64),
+        angle_deg: f64,
+    ) -> Result<JointId, Error> {
+        self.two(name, line)?;
+        let (cos, sin) = trig::cos_sin_deg(angle_deg);
+        if sin == 0.0 {
+            return Err(Error::Parallel { joint: name.to_owned() });
+        }
+        let id = self.add(name, Step::Yoke { from, line, offset, slot: Vector::new(cos, sin) });
+        self.body([id, line[1]], line, 0.0);
         Ok(id)
     }
 
@@ -157,33 +189,41 @@ impl Assembly {
     pub fn slot(&mut self, name: &str, base: [JointId; 2], offset: f64, side: Side) -> Result<JointId, Error> {
         self.two(name, base)?;
         if offset == 0.0 {
-            let id = self.add(name, Step::Rigid { base, along: 0.0, across: 0.0 });
-            self.carriers.push(Carrier { base, foot: id, offset, link: self.links.len() });
-            self.links.push(Link { joints: vec![(base[0], Vector::zeros()), (id, Vector::zeros())] });
+            let foot = Step::Directed { from: base[0], line: base, offset: 0.0, along: 0.0, across: 0.0 };
+            let id = self.add(name, foot);
+            self.body(base, base, 0.0);
+            self.links[self.carriers[self.carriers.len() - 1].link].joints.push((id, Vector::zeros()));
             return Ok(id);
         }
         let index = self.two_valued(name, side)?;
         let id = self.add(name, Step::Slot { base, offset, index });
         // With the foot to the right of pivot -> joint, the line points to the left of pivot -> foot.
         let signed = if side == Side::Right { offset } else { -offset };
-        self.carriers.push(Carrier { base, foot: id, offset: signed, link: self.links.len() });
+        self.carriers.push(Carrier { base, body: Body::Foot { foot: id, offset: signed }, link: self.links.len() });
         self.bar(base[0], id, offset.abs());
         Ok(id)
     }
 
-    /// A point of the link through two joints, or of the link that carries a [`Assembly::slot`]: `along` from the first towards the second, `across` to the left.
+    /// A point of the link through two joints: `along` from the first towards the second, `across` to the left.
+    ///
+    /// Of what slides it is measured from the first joint along the line, as it points at the start, and to its left:
+    /// a [`Assembly::slot`]'s link and an actuator are known by their pivot and the joint they slide through or drive, a
+    /// slider's block and a yoke by their joint and the second joint of their line.
     ///
     /// # Errors
     /// One joint given twice, joints on no common link, joints that coincide.
     pub fn point(&mut self, name: &str, base: [JointId; 2], along: f64, across: f64) -> Result<JointId, Error> {
         if let Some(carrier) = self.carriers.iter().find(|carrier| carrier.base == base) {
-            let Carrier { foot, offset, link, .. } = *carrier;
-            let (step, place) = if offset == 0.0 {
-                (Step::Directed { base, along, across }, Vector::new(along, across))
-            } else {
-                let (along, across) = (-across / offset, along / offset);
-                let step = Step::Rigid { base: [base[0], foot], along, across };
-                (step, Vector::new(along, across) * offset.abs())
+            let Carrier { body, link, .. } = *carrier;
+            let (step, place) = match body {
+                Body::Line { line, offset } => {
+                    (Step::Directed { from: base[0], line, offset, along, across }, Vector::new(along, across))
+                }
+                Body::Foot { foot, offset } => {
+                    let (along, across) = (-across / offset, along / offset);
+                    let step = Step::Rigid { base: [base[0], foot], along, across };
+                    (step, Vector::new(along, across) * offset.abs())
+                }
             };
             let id = self.add(name, step);
             self.links[link].joints.push((id, place));
@@ -229,7 +269,8 @@ impl Assembly {
             self.directed_link("seen_from", joints)?;
         }
         let travel = Travel { signs: self.signs, ..travel };
-        Ok(Linkage { joints: self.joints, links: self.links, traced, seen_from, travel })
+        let placement = Placement::default();
+        Ok(Linkage { joints: self.joints, links: self.links, traced, seen_from, placement, travel })
     }
 
     /// The place of another two-valued joint.
@@ -250,6 +291,12 @@ impl Assembly {
 
     fn bar(&mut self, from: JointId, to: JointId, length: f64) {
         self.links.push(Link { joints: vec![(from, Vector::zeros()), (to, Vector::new(length, 0.0))] });
+    }
+
+    /// A body that keeps the direction of a line.
+    fn body(&mut self, base: [JointId; 2], line: [JointId; 2], offset: f64) {
+        self.carriers.push(Carrier { base, body: Body::Line { line, offset }, link: self.links.len() });
+        self.links.push(Link { joints: vec![(base[0], Vector::zeros())] });
     }
 
     fn two(&self, name: &str, base: [JointId; 2]) -> Result<(), Error> {

@@ -45,6 +45,12 @@ pub enum Error {
         /// The distance of the joints they are taken from.
         span: f64,
     },
+    /// The slot of a yoke is parallel to its guide.
+    #[error("the slot of `{joint}` lies along its guide")]
+    Parallel {
+        /// The joint to place.
+        joint: String,
+    },
     /// A gear ratio is no ratio of whole numbers from 1 to [`Error::MAX_RATIO`].
     #[error("`{joint}` is geared {} to {}, and both must be whole numbers from 1 to {} or their negatives", ratio[0], ratio[1], Error::MAX_RATIO)]
     Ratio {
@@ -73,6 +79,7 @@ impl Error {
             | Error::Length { joint, .. }
             | Error::NoDirection { joint, .. }
             | Error::NoTriangle { joint, .. }
+            | Error::Parallel { joint }
             | Error::Ratio { joint, .. }
             | Error::TooManyDyads { joint } => joint,
         }
@@ -88,6 +95,7 @@ impl Error {
             Error::Length { .. } => "give a length of more than 0",
             Error::NoDirection { .. } => "name two joints that are apart",
             Error::NoTriangle { .. } => "give distances that reach each other",
+            Error::Parallel { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
             Error::Ratio { .. } => "write it like ratio = [2, 3]",
             Error::TooManyDyads { .. } => "take joints away, or place some as points of links",
         }

@@ -17,6 +17,7 @@ pub use mccarthy::InvertedSliderCrank;
 
 use std::cmp::Ordering;
 
+pub use crate::geometry::Placement;
 use crate::geometry::{Point, Vector};
 
 /// The most two-valued joints a linkage may have: [`Signs`] has a bit for each.
@@ -36,6 +37,8 @@ pub struct Linkage {
     pub traced: Vec<JointId>,
     /// The link whose frame everything is reported in, by its origin and a joint on its x-axis.
     pub seen_from: Option<[JointId; 2]>,
+    /// Where the plane it is reported in is laid, after that.
+    pub placement: Placement,
     /// How it is to travel.
     pub travel: Travel,
 }
@@ -115,11 +118,27 @@ pub enum Step {
         /// Its place among the two-valued joints: its bit in [`Signs`].
         index: usize,
     },
-    /// On a link that carries a line through its pivot and a joint that slides on it: so far along and to the left.
+    /// On the guide of a yoke that slides along a line, its slot through a joint at an angle to the guide (the RPP
+    /// dyad): where the slot's line meets the guide.
+    Yoke {
+        /// The joint that slides in the slot.
+        from: JointId,
+        /// Two joints that the guide goes through, or runs beside.
+        line: [JointId; 2],
+        /// How far the guide runs to the left of the two.
+        offset: f64,
+        /// The slot's direction in the guide's frame, a unit vector with y other than 0.
+        slot: Vector,
+    },
+    /// On a body that keeps the direction of a line: so far along it and to the left of it from a joint.
     Directed {
-        /// The pivot, and the joint the line goes through.
-        base: [JointId; 2],
-        /// Along the line, from the pivot towards the joint.
+        /// The joint of the body it is measured from.
+        from: JointId,
+        /// A joint on the line, or beside it, and one that the line goes through.
+        line: [JointId; 2],
+        /// How far the line runs to the left of the first of them; no further than they are apart.
+        offset: f64,
+        /// Along the line.
         along: f64,
         /// To the left of the line.
         across: f64,
@@ -143,9 +162,12 @@ impl Step {
             | Step::Slide { index, .. }
             | Step::Slot { index, .. }
             | Step::Piston { index, .. } => Some(index),
-            Step::Fixed(_) | Step::Crank { .. } | Step::Gear { .. } | Step::Directed { .. } | Step::Rigid { .. } => {
-                None
-            }
+            Step::Fixed(_)
+            | Step::Crank { .. }
+            | Step::Gear { .. }
+            | Step::Yoke { .. }
+            | Step::Directed { .. }
+            | Step::Rigid { .. } => None,
         }
     }
 }

@@ -10,9 +10,9 @@ use crate::notation::{self, Fields, Reader, Value};
 use crate::page::{Layout, Paper};
 use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
-use crate::template::Template;
+use crate::template::{Placement, Template};
 
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "id",
     "linkage",
     "title",
@@ -29,6 +29,7 @@ const KEYS: [&str; 17] = [
     "circuits",
     "continuation",
     "coincident",
+    "place",
     "columns",
 ];
 
@@ -93,14 +94,24 @@ fn overridden<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader: &mut
     let circuits = fields.get("circuits").and_then(|value| reader.word(value, &notation::CIRCUITS));
     let continuation = fields.get("continuation").and_then(|value| reader.word(value, &notation::CONTINUATIONS));
     let coincident = fields.get("coincident").and_then(|value| reader.word(value, &notation::COINCIDENTS));
-    if circuits.is_none() && continuation.is_none() && coincident.is_none() {
+    let placement = fields.get("place").and_then(|value| placement(value, reader));
+    if circuits.is_none() && continuation.is_none() && coincident.is_none() && placement.is_none() {
         return template;
     }
     let mut own = Template::clone(&template);
     own.circuits = circuits.unwrap_or(own.circuits);
     own.continuation = continuation.unwrap_or(own.continuation);
     own.coincident = coincident.unwrap_or(own.coincident);
+    own.placement = placement.unwrap_or(own.placement);
     Arc::new(own)
+}
+
+/// Where the linkages of a family are laid.
+fn placement<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Placement> {
+    let fields = Fields::of(value, "`place`", &["mirror", "rotate"], reader)?;
+    let mirror = fields.get("mirror").map_or(Some(false), |value| reader.truth(value));
+    let rotate = fields.get("rotate").map_or(Some(0.0), |value| reader.measure(value, Dimension::Angle));
+    Some(Placement::new(mirror?, rotate?))
 }
 
 /// How a number of samples is spread.

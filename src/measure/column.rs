@@ -92,14 +92,21 @@ impl Sample<'_> {
         cross(v, self.acceleration()) / (speed * speed * speed)
     }
 
+    /// From one joint to another; as the linkage's own frame has it, but for a turn.
     fn between(&self, from: JointId, to: JointId) -> Vector {
-        self.jets.place(to) - self.jets.place(from)
+        self.unmirrored(self.jets.place(to) - self.jets.place(from))
+    }
+
+    /// A linkage that is placed mirrored keeps its angles.
+    fn unmirrored(&self, v: Vector) -> Vector {
+        Vector::new(v.x, v.y * self.linkage.placement.handedness())
     }
 
     /// How fast the line between two joints turns, to a radian of input.
     fn turning(&self, from: JointId, to: JointId) -> f64 {
         let line = self.between(from, to);
-        cross(line, self.jets.velocity(to) - self.jets.velocity(from)) / line.norm_squared()
+        let velocity = self.unmirrored(self.jets.velocity(to) - self.jets.velocity(from));
+        cross(line, velocity) / line.norm_squared()
     }
 
     /// The crank's pivot and pin.

@@ -60,8 +60,20 @@ pub(super) fn chain<T: Scalar, const N: usize>(
             Step::Rigid { base: [p, q], along, across } => {
                 at[p].moved(at[q].minus(at[p]), constant(along), constant(across))
             }
-            Step::Directed { base: [p, q], along, across } => {
-                at[p].moved(at[q].minus(at[p]).unit(), constant(along), constant(across))
+            Step::Yoke { from, line: [p, q], offset, slot } => {
+                let unit = at[q].minus(at[p]).unit();
+                let pin = at[from].minus(at[p]);
+                let along = unit.dot(pin) - (unit.cross(pin) - constant(offset)).scaled(slot.x / slot.y);
+                at[p].moved(unit, along, constant(offset))
+            }
+            Step::Directed { from, line: [p, q], offset, along, across } => {
+                let base = at[q].minus(at[p]);
+                let d2 = base.norm_squared();
+                let s = if offset == 0.0 { d2.sqrt() } else { (d2 - constant(offset * offset)).sqrt() };
+                // The line's direction is the base's, turned to the right by the angle whose sine is offset / d.
+                let (along, across) = (constant(along), constant(across));
+                let e = constant(offset);
+                at[from].moved(base, (along * s + across * e) / d2, (across * s - along * e) / d2)
             }
         };
         at.push(settle(id, place));

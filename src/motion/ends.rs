@@ -2,7 +2,7 @@
 
 use super::circuit::{End, Pass, Stop};
 use super::jet::Jets;
-use super::kernel::{Columns, Modes, OwnInputs, place};
+use super::kernel::{Columns, Modes, OwnInputs, place, place_joint};
 use crate::geometry::{Point, Vector, cross, left_normal};
 use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
 
@@ -37,10 +37,10 @@ pub(super) fn place_end(linkage: &Linkage, pass: &Pass, begins: bool, out: &mut 
                 }
             }
             // What hangs on a joint that was placed here is placed anew.
-            Step::Rigid { base: [p, q], along, across } => {
-                at(p) + (at(q) - at(p)) * along + left_normal(at(q) - at(p)) * across
+            _ => {
+                place_joint(linkage, id, inputs.all(), &modes, out, sample..sample + 1);
+                continue;
             }
-            _ => continue,
         };
         out.set(id, sample, placed);
     }

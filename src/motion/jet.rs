@@ -3,7 +3,7 @@
 use super::chain::{Drive, chain};
 use super::circuit::Stop;
 use super::series::{Planar, Series};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Placement, Point, Vector};
 use crate::linkage::{Flat, JointId, Linkage, Signs};
 
 /// A joint's place and its first three rates.
@@ -72,10 +72,22 @@ fn infinite(at: Jet) -> Jet {
     Planar { x: unbounded(at.x), y: unbounded(at.y) }
 }
 
-/// Places and rates in the frame the linkage is seen from.
-fn seen(linkage: &Linkage, at: Vec<Jet>) -> Vec<Jet> {
-    let Some([origin, end]) = linkage.seen_from else { return at };
-    let unit = at[end].minus(at[origin]).unit();
-    let turned = |v: Jet| Planar { x: unit.dot(v), y: unit.cross(v) };
-    at.iter().map(|place| turned(place.minus(at[origin]))).collect()
+/// Places and rates in the plane they are reported in.
+fn seen(linkage: &Linkage, mut at: Vec<Jet>) -> Vec<Jet> {
+    if let Some([origin, end]) = linkage.seen_from {
+        let (from, unit) = (at[origin], at[end].minus(at[origin]).unit());
+        for place in &mut at {
+            let v = place.minus(from);
+            *place = Planar { x: unit.dot(v), y: unit.cross(v) };
+        }
+    }
+    if linkage.placement != Placement::default() {
+        for Planar { x, y } in &mut at {
+            for n in 0..4 {
+                let placed = linkage.placement.vector(Vector::new(x.0[n], y.0[n]));
+                (x.0[n], y.0[n]) = (placed.x, placed.y);
+            }
+        }
+    }
+    at
 }

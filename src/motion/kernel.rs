@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use super::circuit::Stop;
-use crate::geometry::{Point, cross, trig};
+use crate::geometry::{Placement, Point, cross, trig};
 use crate::linkage::{Flat, JointId, Linkage, MAX_DYADS, Signs, Step};
 
 /// Positions of all joints at all samples, joint by joint.
@@ -106,34 +106,52 @@ impl OwnInputs {
 /// `inputs` are those of the samples of `range` alone. A dyad whose base is longer
 /// or shorter than it can reach is laid flat; one whose base has no length is not a number.
 pub fn place(linkage: &Linkage, joints: usize, inputs: Inputs, modes: &Modes, out: &mut Columns, range: Range<usize>) {
+    for id in 0..joints {
+        place_joint(linkage, id, inputs, modes, out, range.clone());
+    }
+}
+
+/// Places one joint from those before it, as [`place`] does.
+pub(super) fn place_joint(
+    linkage: &Linkage,
+    id: JointId,
+    inputs: Inputs,
+    modes: &Modes,
+    out: &mut Columns,
+    range: Range<usize>,
+) {
     let len = out.len;
-    for (id, joint) in linkage.joints[..joints].iter().enumerate() {
-        let (x_before, x_after) = out.x.split_at_mut(id * len);
-        let (y_before, y_after) = out.y.split_at_mut(id * len);
-        let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
-        let of = |j: JointId| (&x_before[j * len..][range.clone()], &y_before[j * len..][range.clone()]);
-        match joint.step {
-            Step::Fixed(at) => {
-                x.fill(at.x);
-                y.fill(at.y);
-            }
-            Step::Crank { pivot, length } => crank(of(pivot), length, (inputs.cos, inputs.sin), x, y),
-            Step::Gear { pivot, length, ratio, phase_deg } => {
-                let angle = |at: &f64| trig::cos_sin_deg(geared(*at, ratio, phase_deg));
-                let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.at.iter().map(angle).unzip();
-                crank(of(pivot), length, (&cos, &sin), x, y);
-            }
-            Step::Piston { base, length, offset, index } => {
-                piston((of(base[0]), of(base[1])), (inputs.at, length, offset), modes.0[index], x, y);
-            }
-            Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
-            Step::Slide { from, length, line, offset, index } => {
-                let line = (of(line[0]), of(line[1]));
-                slide(of(from), length, line, offset, modes.0[index], x, y);
-            }
-            Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
-            Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
-            Step::Directed { base, along, across } => directed(of(base[0]), of(base[1]), along, across, x, y),
+    let joint = &linkage.joints[id];
+    let (x_before, x_after) = out.x.split_at_mut(id * len);
+    let (y_before, y_after) = out.y.split_at_mut(id * len);
+    let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
+    let of = |j: JointId| (&x_before[j * len..][range.clone()], &y_before[j * len..][range.clone()]);
+    match joint.step {
+        Step::Fixed(at) => {
+            x.fill(at.x);
+            y.fill(at.y);
+        }
+        Step::Crank { pivot, length } => crank(of(pivot), length, (inputs.cos, inputs.sin), x, y),
+        Step::Gear { pivot, length, ratio, phase_deg } => {
+            let angle = |at: &f64| trig::cos_sin_deg(geared(*at, ratio, phase_deg));
+            let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.at.iter().map(angle).unzip();
+            crank(of(pivot), length, (&cos, &sin), x, y);
+        }
+        Step::Piston { base, length, offset, index } => {
+            piston((of(base[0]), of(base[1])), (inputs.at, length, offset), modes.0[index], x, y);
+        }
+        Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
+        Step::Slide { from, length, line, offset, index } => {
+            let line = (of(line[0]), of(line[1]));
+            slide(of(from), length, line, offset, modes.0[index], x, y);
+        }
+        Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
+        Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
+        Step::Yoke { from, line, offset, slot } => {
+            yoke(of(from), (of(line[0]), of(line[1])), offset, slot.x / slot.y, x, y);
+        }
+        Step::Directed { from, line, offset, along, across } => {
+            directed(of(from), (of(line[0]), of(line[1])), offset, [along, across], x, y);
         }
     }
 }
@@ -232,14 +250,48 @@ fn slot((px, py): Column, (qx, qy): Column, offset: f64, mode: f64, x: &mut [f64
     }
 }
 
-fn directed((px, py): Column, (qx, qy): Column, along: f64, across: f64, x: &mut [f64], y: &mut [f64]) {
+/// The RPP dyad: as far along the guide as the joint in the slot, less what the slot leans over up to there.
+fn yoke(
+    (ax, ay): Column,
+    ((px, py), (qx, qy)): (Column, Column),
+    offset: f64,
+    lean: f64,
+    x: &mut [f64],
+    y: &mut [f64],
+) {
     let n = x.len();
-    let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    let (ax, ay, px, py, qx, qy, y) = (&ax[..n], &ay[..n], &px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
     for i in 0..n {
         let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
         let d = (dx * dx + dy * dy).sqrt();
-        x[i] = px[i] + (along * dx - across * dy) / d;
-        y[i] = py[i] + (along * dy + across * dx) / d;
+        let (ux, uy) = (dx / d, dy / d);
+        let (vx, vy) = (ax[i] - px[i], ay[i] - py[i]);
+        let along = ux * vx + uy * vy - lean * (ux * vy - uy * vx - offset);
+        x[i] = px[i] + along * ux - offset * uy;
+        y[i] = py[i] + along * uy + offset * ux;
+    }
+}
+
+/// A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is that from p
+/// to q, turned to the right by the angle whose sine is offset / d.
+fn directed(
+    (ax, ay): Column,
+    ((px, py), (qx, qy)): (Column, Column),
+    offset: f64,
+    [along, across]: [f64; 2],
+    x: &mut [f64],
+    y: &mut [f64],
+) {
+    let n = x.len();
+    let (ax, ay, px, py, qx, qy, y) = (&ax[..n], &ay[..n], &px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        let d2 = dx * dx + dy * dy;
+        let d = d2.sqrt();
+        let s = ((d - offset) * (d + offset)).max(0.0).sqrt();
+        let (forward, left) = ((along * s + across * offset) / d2, (across * s - along * offset) / d2);
+        x[i] = ax[i] + forward * dx - left * dy;
+        y[i] = ay[i] + forward * dy + left * dx;
     }
 }
 
@@ -253,21 +305,29 @@ fn rigid((px, py): Column, (qx, qy): Column, along: f64, across: f64, x: &mut [f
     }
 }
 
-/// Puts the poses at `range` into the frame the linkage is seen from: origin at its first joint, x towards the second.
+/// Puts the poses into the plane they are reported in: that of the link the linkage is seen from, with its origin at a
+/// joint and x towards another, and laid as the linkage is placed.
 pub(super) fn see(linkage: &Linkage, out: &mut Columns) {
-    let Some([origin, end]) = linkage.seen_from else { return };
-    // The link is rigid: its length is known, and dividing by it keeps every other length too.
-    let ground = linkage.ground();
-    let length = match (ground.place(origin), ground.place(end)) {
-        (Some(from), Some(to)) => (to - from).norm(),
-        _ => return,
-    };
-    for i in 0..out.len {
-        let (o, e) = (out.point(origin, i), out.point(end, i));
-        let axis = (e - o) / length;
-        for joint in 0..linkage.joints.len() {
-            let v = out.point(joint, i) - o;
-            out.set(joint, i, Point::new(axis.dot(&v), cross(axis, v)));
+    if let Some([origin, end]) = linkage.seen_from {
+        // The link is rigid: its length is known, and dividing by it keeps every other length too.
+        let ground = linkage.ground();
+        let length = match (ground.place(origin), ground.place(end)) {
+            (Some(from), Some(to)) => (to - from).norm(),
+            _ => return,
+        };
+        for i in 0..out.len {
+            let (o, e) = (out.point(origin, i), out.point(end, i));
+            let axis = (e - o) / length;
+            for joint in 0..linkage.joints.len() {
+                let v = out.point(joint, i) - o;
+                out.set(joint, i, Point::new(axis.dot(&v), cross(axis, v)));
+            }
+        }
+    }
+    if linkage.placement != Placement::default() {
+        for (x, y) in out.x.iter_mut().zip(&mut out.y) {
+            let placed = linkage.placement.point(Point::new(*x, *y));
+            (*x, *y) = (placed.x, placed.y);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::reader::{Fields, Reader, Value};
 use crate::expression::{Bound, Kind};
 use crate::problem::{Problem, Span, nearest_or_all};
-use crate::template::{Coordinate, InputValue, JointTemplate, Placing, Side, dependency_order};
+use crate::template::{Coordinate, InputValue, JointTemplate, Open, Placing, Side, dependency_order};
 
 /// The joints of a linkage in the order they are placed.
 pub(super) struct Joints {
@@ -15,13 +15,14 @@ pub(super) struct Joints {
 }
 
 /// A way to place a joint: the key it is known by, and the keys that go with it.
-const KINDS: [(&str, &[&str]); 9] = [
+const KINDS: [(&str, &[&str]); 10] = [
     ("fixed", &["fixed"]),
     ("crank", &["crank", "length"]),
     ("gear", &["gear", "about", "length", "ratio", "phase"]),
     ("piston", &["piston", "length", "offset", "side"]),
     ("dyad", &["dyad", "lengths", "side"]),
     ("slide", &["slide", "length", "line", "offset", "side"]),
+    ("yoke", &["yoke", "line", "offset", "angle"]),
     ("slot", &["slot", "offset", "side"]),
     ("distances", &["point", "distances", "side"]),
     ("point", &["point", "along", "across"]),
@@ -78,7 +79,7 @@ fn joint<'t>(
     let given = |key: &&(&str, &[&str])| open.get(key.0).is_some();
     let Some((kind, keys)) = KINDS.iter().find(given) else {
         let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
-        reader.note(problem.help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `slot` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+        reader.note(problem.help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
     let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
@@ -126,6 +127,16 @@ fn joint<'t>(
             let offset = offset(&fields, scope, reader);
             let side = side(&fields, &[("ahead", Side::Left), ("behind", Side::Right)], reader);
             Some(Placing::Slide { from: from?, length: length?, line: line?, offset: offset?, side: side? })
+        }
+        "yoke" => {
+            let from = fields.get("yoke").and_then(|value| reference(value, names, reader));
+            let line = fields.required("line", "line = [\"P\", \"Q\"]", reader).and_then(|v| base(v, names, reader));
+            let offset = offset(&fields, scope, reader);
+            let angle = match fields.get("angle") {
+                None => Some(InputValue { value: Bound::constant(90.0), unit: None }),
+                Some(value) => reader.angle(value, scope),
+            };
+            Some(Placing::Yoke { from: from?, line: line?, offset: offset?, angle: angle? })
         }
         "slot" => {
             let base = fields.get("slot").and_then(|value| base(value, names, reader));
@@ -295,7 +306,7 @@ fn grids_are_only_traced(entries: &[(&str, Span, &Value)], placings: &[Placing],
 }
 
 /// The joints a joint is placed from: those it names, and, for a point of a link that carries a slot's line, the
-/// slot's foot, without which there is no such link.
+/// slot's foot, without which there is no such link; an actuator's and a slider's are named.
 fn needs(placings: &[Placing], k: usize) -> Vec<usize> {
     let mut bases = placings[k].bases();
     if let Placing::Point { base, .. } | Placing::Distances { base, .. } = &placings[k] {
@@ -309,11 +320,21 @@ fn needs(placings: &[Placing], k: usize) -> Vec<usize> {
 fn order(entries: &[(&str, Span, &Value)], placings: &[Placing], reader: &mut Reader) -> Option<Vec<usize>> {
     match dependency_order(placings.len(), |k| needs(placings, k)) {
         Ok(order) => Some(order),
-        Err(cycle) => {
-            let names: Vec<String> = cycle.iter().map(|&k| format!("`{}`", entries[k].0)).collect();
+        Err(Open { cycle, all }) => {
+            let names = |joints: &[usize]| joints.iter().map(|&k| format!("`{}`", entries[k].0)).collect::<Vec<_>>();
+            let (round, open) = (names(&cycle), names(&all));
             let problem =
-                Problem::error(entries[cycle[0]].2.span(), format!("the joint {} is placed from itself", names[0]));
-            let help = format!("the cycle is {}: place one of them from joints already placed", names.join(" -> "));
+                Problem::error(entries[cycle[0]].2.span(), format!("the joint {} is placed from itself", round[0]));
+            let help = if cycle.len() <= 2 {
+                format!("{} needs its own place: place it from joints already placed", round[0])
+            } else {
+                format!(
+                    "the cycle is {}: no chain of dyads solves this linkage, and {} stay open; \
+                     place one of them from joints already placed",
+                    round.join(" -> "),
+                    open.join(", ")
+                )
+            };
             reader.note(problem.help(help));
             None
         }

@@ -2,7 +2,7 @@ use super::joints;
 use super::reader::{Fields, Reader, Value};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
-use crate::template::{Circuits, Coincident, Continuation, InputValue, Parameter, Template};
+use crate::template::{Circuits, Coincident, Continuation, InputValue, Parameter, Placement, Template};
 
 const KEYS: [&str; 15] = [
     "id",
@@ -67,6 +67,7 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
         joints: joints.joints,
         traced: joints.traced,
         seen_from: joints.seen_from,
+        placement: Placement::default(),
         circuits,
         continuation,
         coincident,

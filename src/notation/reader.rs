@@ -174,6 +174,15 @@ impl<'t> Reader<'t> {
         Some(InputValue { value: self.placed(value, bound)?, unit: Some(quantity.unit) })
     }
 
+    /// Yes or no.
+    pub fn truth(&mut self, value: &Value<'t>) -> Option<bool> {
+        let truth = value.get_ref().as_bool();
+        if truth.is_none() {
+            self.wanted(value, "true or false", "write it without quotes");
+        }
+        truth
+    }
+
     /// An angle in degrees, or a length on paper in millimetres, without names.
     pub fn measure(&mut self, value: &Value<'t>, dimension: Dimension) -> Option<f64> {
         let quantity = self.quantity(value, dimension)?;

@@ -14,13 +14,22 @@ pub(super) struct Mechanism<'a> {
     pub pose: Vec<Point>,
     /// The guides of sliders that slide on the frame, each from end to end of what is used of it.
     guides: Vec<[Point; 2]>,
+    /// The slots of yokes, each from end to end of what is used of it, from the yoke's joint.
+    slots: Vec<(JointId, [Vector; 2])>,
 }
 
 impl<'a> Mechanism<'a> {
     /// A linkage in one pose of a circuit.
     pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>) -> Mechanism<'a> {
         let guides = (0..linkage.joints.len()).filter_map(|joint| guide(linkage, circuit, joint)).collect();
-        Mechanism { linkage, pose, guides }
+        let slots = (0..linkage.joints.len()).filter_map(|joint| slot(linkage, circuit, joint)).collect();
+        Mechanism { linkage, pose, guides, slots }
+    }
+
+    /// The slot of a yoke from end to end; where the guide moves, as far as the joint in it.
+    fn slot(&self, yoke: JointId, from: JointId) -> [Point; 2] {
+        let own = self.slots.iter().find(|(joint, _)| *joint == yoke);
+        own.map_or([self.pose[yoke], self.pose[from]], |(_, ends)| ends.map(|end| self.pose[yoke] + end))
     }
 
     /// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
@@ -53,7 +62,8 @@ impl<'a> Mechanism<'a> {
             .flat_map(|(centre, radius)| [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]);
         let joints = drawn_links(self.linkage).concat().into_iter().chain(ground(self.linkage));
         let joints = joints.map(|joint| self.pose[joint]);
-        Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels))
+        let slots = self.slots.iter().flat_map(|(joint, ends)| ends.map(|end| self.pose[*joint] + end));
+        Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels).chain(slots))
     }
 
     /// What lies under the curves: the bodies of plates, the frame as a hairline, guides.
@@ -86,7 +96,8 @@ impl<'a> Mechanism<'a> {
 
     /// The linkage in ink; `ink` is the colour of a joint.
     pub fn items(&self, plot: &Plot, theme: &Theme, ink: impl Fn(JointId) -> Color) -> Vec<Item> {
-        let at = |joint: JointId| plot.page_from_plane.apply(self.pose[joint]);
+        let page = |p: Point| plot.page_from_plane.apply(p);
+        let at = |joint: JointId| page(self.pose[joint]);
         let ground = ground(self.linkage);
         let mut items = Vec::new();
         let links = drawn_links(self.linkage);
@@ -95,12 +106,17 @@ impl<'a> Mechanism<'a> {
         for (id, joint) in self.linkage.joints.iter().enumerate() {
             match joint.step {
                 Step::Slide { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
-                Step::Slot { base: [_, through], .. } => {
-                    items.push(Item::Path(Path::stroked(vec![at(id), at(through)], heavy)));
-                    blocks.push((at(through), at(through) - at(id)));
+                Step::Yoke { from, line: [p, q], .. } => {
+                    items.push(Item::Path(Path::stroked(self.slot(id, from).map(page).to_vec(), heavy)));
+                    blocks.extend([(at(from), at(from) - at(id)), (at(id), at(q) - at(p))]);
+                }
+                Step::Slot { .. } | Step::Directed { .. } => {
+                    if let Some([foot, through]) = sliding_line(self.linkage, id) {
+                        items.push(Item::Path(Path::stroked(vec![at(foot), at(through)], heavy)));
+                        blocks.push((at(through), at(through) - at(foot)));
+                    }
                 }
                 Step::Piston { base: [pivot, _], .. } => items.extend(actuator(at(pivot), at(id), theme)),
-                Step::Directed { base: [pivot, through], .. } => blocks.push((at(through), at(through) - at(pivot))),
                 _ => {}
             }
         }
@@ -131,11 +147,15 @@ impl<'a> Mechanism<'a> {
 }
 
 /// The joints of the line of a slot or an actuator, if `joint` is placed by one.
-pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<Vec<JointId>> {
+pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<[JointId; 2]> {
     match linkage.joints[joint].step {
-        Step::Slot { base: [_, through], .. } => Some(vec![joint, through]),
-        Step::Directed { base: [pivot, through], .. } => Some(vec![pivot, through]),
-        Step::Piston { base: [pivot, _], .. } => Some(vec![pivot, joint]),
+        Step::Slot { base: [_, through], .. } => Some([joint, through]),
+        // A slot without offset has its foot at its pivot.
+        Step::Directed { from, line: [pivot, through], along: 0.0, across: 0.0, .. } if from == pivot => {
+            Some([pivot, through])
+        }
+        Step::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
+        Step::Yoke { from, .. } => Some([joint, from]),
         _ => None,
     }
 }
@@ -163,29 +183,42 @@ fn block(centre: Point, along: Vector, theme: &Theme) -> Item {
 
 /// What a slider uses of a line on the frame.
 fn guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
-    let Step::Slide { line: [p, q], .. } = linkage.joints[joint].step else { return None };
-    let ground = linkage.ground();
-    (ground.place(p).is_some() && ground.place(q).is_some()).then_some(())?;
-    let along = circuit.places.point(q, 0) - circuit.places.point(p, 0);
+    let (Step::Slide { line, .. } | Step::Yoke { line, .. }) = linkage.joints[joint].step else { return None };
+    let along = fixed_direction(linkage, circuit, line)?;
     let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
     Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
+}
+
+/// What a joint uses of the slot it slides in, of a yoke on the frame.
+fn slot(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<(JointId, [Vector; 2])> {
+    let Step::Yoke { from, line, .. } = linkage.joints[joint].step else { return None };
+    fixed_direction(linkage, circuit, line)?;
+    let arms = || circuit.points(from).zip(circuit.points(joint)).map(|(a, b)| a - b);
+    let longest = arms().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    let by = |a: &Vector, b: &Vector| longest.dot(a).total_cmp(&longest.dot(b));
+    Some((joint, [arms().min_by(by)?, arms().max_by(by)?]))
+}
+
+/// The direction of a line on the frame.
+fn fixed_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 2]) -> Option<Vector> {
+    let ground = linkage.ground();
+    (ground.place(p).is_some() && ground.place(q).is_some()).then_some(())?;
+    Some(circuit.places.point(q, 0) - circuit.places.point(p, 0))
 }
 
 /// The joints of the link at rest that something moves about.
 pub(super) fn ground(linkage: &Linkage) -> Vec<JointId> {
     let ground = linkage.ground();
-    let is_pivot = |joint: JointId| {
-        let drives = |step: &Step| matches!(step, Step::Piston { base: [pivot, _], .. } if *pivot == joint);
-        linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some())
-            || linkage.joints.iter().any(|joint| drives(&joint.step))
-    };
+    let is_pivot =
+        |joint: JointId| linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some());
     ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| is_pivot(joint)).collect()
 }
 
 /// The moving links as they are drawn, each by its joints in order: along a bar, or round a plate.
 pub(super) fn drawn_links(linkage: &Linkage) -> Vec<Vec<JointId>> {
     let ground = linkage.ground();
-    linkage.links.iter().filter(|link| !std::ptr::eq(*link, ground)).map(|link| outline(linkage, link)).collect()
+    let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, ground));
+    moving.map(|link| outline(linkage, link)).filter(|joints| joints.len() > 1).collect()
 }
 
 /// The joints of a link round its hull; the points of a grid are left out.

@@ -17,7 +17,7 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     // The frame is a link like the others here: a crank that lies on it cannot be seen.
     let mut links = drawn_links(linkage);
     links.push(ground(linkage));
-    links.extend((0..linkage.joints.len()).filter_map(|joint| sliding_line(linkage, joint)));
+    links.extend((0..linkage.joints.len()).filter_map(|joint| sliding_line(linkage, joint)).map(Vec::from));
     let pose = |sample: usize| -> Vec<Point> {
         (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
     };

@@ -3,13 +3,13 @@
 mod order;
 mod placing;
 
-pub use order::dependency_order;
+pub use order::{Open, dependency_order};
 pub use placing::{Coordinate, Placing};
 
 use crate::expression::{Bound, Caption, Expression, Unit};
 use crate::linkage::{self, Arc, Assembly, JointId, Travel};
 
-pub use crate::linkage::{Circuits, Coincident, Continuation, Linkage, Side};
+pub use crate::linkage::{Circuits, Coincident, Continuation, Linkage, Placement, Side};
 
 /// A linkage family before it has numbers. All [`Bound`] expressions are over [`Template::parameters`].
 #[derive(Clone, Debug)]
@@ -32,6 +32,8 @@ pub struct Template {
     pub traced: Vec<usize>,
     /// The link whose frame everything is reported in.
     pub seen_from: Option<[usize; 2]>,
+    /// Where the plane it is reported in is laid, after that.
+    pub placement: Placement,
     /// Which circuits are wanted.
     pub circuits: Circuits,
     /// What happens at a change point.
@@ -202,6 +204,11 @@ impl Template {
                     let line = (two(line), finite("`offset`", number(k, offset))?);
                     vec![assembly.slide(name, hung, line, *side)?]
                 }
+                Placing::Yoke { from, line, offset, angle } => {
+                    let line = (two(line), finite("`offset`", number(k, offset))?);
+                    let angle = finite("`angle`", angle.evaluate(values))?;
+                    vec![assembly.yoke(name, made[*from][0], line, angle)?]
+                }
                 Placing::Slot { base, offset, side } => {
                     vec![assembly.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
                 }
@@ -225,6 +232,7 @@ impl Template {
         let traced = self.traced.iter().flat_map(|&k| made[k].clone()).collect();
         let seen_from = self.seen_from.map(|joints| joints.map(|k| made[k][0]));
         let linkage = assembly.finish(traced, seen_from, self.travel(values)?)?;
+        let linkage = Linkage { placement: self.placement, ..linkage };
         match linkage.travel.range {
             Some([from, to]) if to - from > linkage.input().period() => {
                 let why = "more from `from` than it takes to come round";

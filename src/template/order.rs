@@ -1,16 +1,28 @@
+/// What cannot be put in order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Open {
+    /// A cycle, its first once more at the end.
+    pub cycle: Vec<usize>,
+    /// All that is in a cycle or needs what is.
+    pub all: Vec<usize>,
+}
+
 /// An order in which everything comes after what it needs; as numbered, where that is one.
 ///
 /// `needs(k)` are the numbers, below `count`, of what `k` needs.
 ///
 /// # Errors
-/// A cycle, its first once more at the end, where there is no such order.
-pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Result<Vec<usize>, Vec<usize>> {
+/// What stays open, where there is no such order.
+pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Result<Vec<usize>, Open> {
     let mut order: Vec<usize> = Vec::with_capacity(count);
     while order.len() < count {
         let is_ready = |k: &usize| !order.contains(k) && needs(*k).iter().all(|need| order.contains(need));
         match (0..count).find(is_ready) {
             Some(next) => order.push(next),
-            None => return Err(cycle(count, &needs, &order)),
+            None => {
+                let all = (0..count).filter(|k| !order.contains(k)).collect();
+                return Err(Open { cycle: cycle(count, &needs, &order), all });
+            }
         }
     }
     Ok(order)
@@ -44,7 +56,7 @@ mod tests {
     #[test]
     fn a_cycle_is_found_and_what_leads_to_it_left_out() {
         let needs = |k: usize| [vec![1], vec![2], vec![3], vec![1]][k].clone();
-        assert_eq!(dependency_order(4, needs), Err(vec![1, 2, 3, 1]));
-        assert_eq!(dependency_order(1, |_| vec![0]), Err(vec![0, 0]));
+        assert_eq!(dependency_order(4, needs), Err(Open { cycle: vec![1, 2, 3, 1], all: vec![0, 1, 2, 3] }));
+        assert_eq!(dependency_order(1, |_| vec![0]), Err(Open { cycle: vec![0, 0], all: vec![0] }));
     }
 }

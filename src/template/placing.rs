@@ -59,6 +59,17 @@ pub enum Placing {
         /// Left is ahead along the line, right is behind.
         side: Side,
     },
+    /// On the guide of a yoke, where the slot that a joint slides in meets it.
+    Yoke {
+        /// The joint that slides in the slot.
+        from: usize,
+        /// Two joints the guide goes through, or beside.
+        line: [usize; 2],
+        /// How far the guide runs to the left of them.
+        offset: Bound,
+        /// From the guide to the slot.
+        angle: InputValue,
+    },
     /// At the foot of a line that slides through a joint.
     Slot {
         /// The pivot, and the joint the line slides through.
@@ -95,7 +106,7 @@ impl Placing {
             Placing::Fixed(_) => Vec::new(),
             Placing::Crank { pivot, .. } => vec![*pivot],
             Placing::Gear { crank, pivot, .. } => vec![*crank, *pivot],
-            Placing::Slide { from, line, .. } => vec![*from, line[0], line[1]],
+            Placing::Slide { from, line, .. } | Placing::Yoke { from, line, .. } => vec![*from, line[0], line[1]],
             Placing::Dyad { base, .. }
             | Placing::Piston { base, .. }
             | Placing::Slot { base, .. }
@@ -111,7 +122,9 @@ impl Placing {
             Placing::Fixed(_) => {}
             Placing::Crank { pivot, .. } => *pivot = now(*pivot),
             Placing::Gear { crank, pivot, .. } => (*crank, *pivot) = (now(*crank), now(*pivot)),
-            Placing::Slide { from, line, .. } => (*from, *line) = (now(*from), line.map(now)),
+            Placing::Slide { from, line, .. } | Placing::Yoke { from, line, .. } => {
+                (*from, *line) = (now(*from), line.map(now));
+            }
             Placing::Dyad { base, .. }
             | Placing::Piston { base, .. }
             | Placing::Slot { base, .. }

@@ -7,6 +7,7 @@ mod linkages;
 mod manifests;
 mod mccarthy;
 mod program;
+mod rates;
 mod readme;
 mod thesis;
 
