@@ -51,41 +51,42 @@ impl FourBar {
     /// Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and the
     /// crank the link at the origin of the view.
     pub fn of(linkage: &Linkage) -> Option<FourBar> {
+        let [o, a, b, c] = FourBar::pins(linkage)?;
+        let length = |from: JointId, to: JointId| {
+            let link = linkage.links.iter().find(|link| link.place(from).is_some() && link.place(to).is_some())?;
+            Some((link.place(to)? - link.place(from)?).norm())
+        };
+        Some(FourBar { frame: length(o, c)?, crank: length(o, a)?, coupler: length(a, b)?, rocker: length(b, c)? })
+    }
+
+    /// The pins of the four-bar in a linkage, as [`FourBar::of`] sees it: crank pivot, crank pin, rocker pin, rocker pivot.
+    pub fn pins(linkage: &Linkage) -> Option<[JointId; 4]> {
         let mut crank = None;
         let mut dyad = None;
         for (id, joint) in linkage.joints.iter().enumerate() {
             match joint.step {
-                Step::Crank { pivot, length } if crank.is_none() => crank = Some((id, pivot, length)),
-                Step::Dyad { base, lengths, .. } if dyad.is_none() => dyad = Some((id, base, lengths)),
+                Step::Crank { pivot, .. } if crank.is_none() => crank = Some((id, pivot)),
+                Step::Dyad { base, .. } if dyad.is_none() => dyad = Some((id, base)),
                 Step::Fixed(_) | Step::Rigid { .. } => {}
                 _ => return None,
             }
         }
-        let ((a, o, crank), (b, base, lengths)) = (crank?, dyad?);
-        let (c, coupler, rocker) = match base {
-            [x, c] if x == a => (c, lengths[0], lengths[1]),
-            [c, x] if x == a => (c, lengths[1], lengths[0]),
+        let ((a, o), (b, base)) = (crank?, dyad?);
+        let c = match base {
+            [x, c] | [c, x] if x == a => c,
             _ => return None,
         };
-        let fixed = &linkage.links[0];
-        let frame = (fixed.place(c)? - fixed.place(o)?).norm();
-        // The loop of links by the pins at their ends, and each link's length.
-        let pins = [[o, c], [o, a], [a, b], [b, c]];
-        let lengths = [frame, crank, coupler, rocker];
-        let at = |from: JointId, to: JointId| (0..4).find(|&k| pins[k] == [from, to] || pins[k] == [to, from]);
-        let Some([origin, end]) = linkage.seen_from else {
-            return Some(FourBar { frame, crank, coupler, rocker });
-        };
-        let frame = at(origin, end)?;
-        let crank = (0..4).find(|&k| k != frame && pins[k].contains(&origin))?;
-        let rocker = (0..4).find(|&k| k != frame && pins[k].contains(&end))?;
-        let coupler = 6 - frame - crank - rocker;
-        Some(FourBar {
-            frame: lengths[frame],
-            crank: lengths[crank],
-            coupler: lengths[coupler],
-            rocker: lengths[rocker],
-        })
+        linkage.links[0].place(c)?;
+        let round = [o, a, b, c];
+        let Some([origin, end]) = linkage.seen_from else { return Some(round) };
+        // From the origin of the view round the loop, away from the joint on its x-axis.
+        let at = round.iter().position(|&pin| pin == origin)?;
+        let [next, opposite, last] = [1, 2, 3].map(|k| round[(at + k) % 4]);
+        match end {
+            end if end == last => Some([origin, next, opposite, last]),
+            end if end == next => Some([origin, last, opposite, next]),
+            _ => None,
+        }
     }
 
     /// Grashof's class. Lengths whose sums agree to within a few ulps make a change point: they are meant to be equal,

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Vector, cross, trig};
 use crate::linkage::{FourBar, JointId, Linkage, Step};
-use crate::motion::{Circuit, Jets};
+use crate::motion::{Circuit, Instant, Jets};
 
 /// A quantity of a traced joint, or of its linkage, at a sample.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ struct Sample<'a> {
 }
 
 /// Every column there is. Rates are to a radian of input, or to a unit of its length; unbounded ones are infinite.
-pub const COLUMNS: [Column; 17] = [
+pub const COLUMNS: [Column; 24] = [
     Column { name: "vx", definition: "velocity along x", take: |s| s.velocity().x },
     Column { name: "vy", definition: "velocity along y", take: |s| s.velocity().y },
     Column { name: "ax", definition: "acceleration along x", take: |s| s.acceleration().x },
@@ -31,6 +31,41 @@ pub const COLUMNS: [Column; 17] = [
     Column { name: "jy", definition: "jerk along y", take: |s| s.jets.jerk(s.joint).y },
     Column { name: "speed", definition: "magnitude of the velocity", take: |s| s.velocity().norm() },
     Column { name: "curvature", definition: "curvature of the path, positive to the left", take: |s| s.curvature() },
+    Column {
+        name: "curvature_rate",
+        definition: "derivative of the curvature by arc length",
+        take: |s| s.curvature_rate(),
+    },
+    Column {
+        name: "pole_x",
+        definition: "instant centre of the point's link, on the fixed centrode",
+        take: |s| s.instant(|i| i.pole.x),
+    },
+    Column {
+        name: "pole_y",
+        definition: "instant centre of the point's link, on the fixed centrode",
+        take: |s| s.instant(|i| i.pole.y),
+    },
+    Column {
+        name: "moving_pole_x",
+        definition: "instant centre in the link's frame, on the moving centrode: along it",
+        take: |s| s.instant(|i| i.moving_pole.x),
+    },
+    Column {
+        name: "moving_pole_y",
+        definition: "instant centre in the link's frame, on the moving centrode: to its left",
+        take: |s| s.instant(|i| i.moving_pole.y),
+    },
+    Column {
+        name: "inflection_x",
+        definition: "inflection pole: on the inflection circle opposite the instant centre",
+        take: |s| s.instant(|i| i.inflection_pole().x),
+    },
+    Column {
+        name: "inflection_y",
+        definition: "inflection pole: on the inflection circle opposite the instant centre",
+        take: |s| s.instant(|i| i.inflection_pole().y),
+    },
     Column { name: "psi_deg", definition: "output angle, deg: McCarthy (2.52), of a slot (2.45)", take: |s| s.psi() },
     Column { name: "phi_deg", definition: "coupler angle from the crank, deg: McCarthy (2.57)", take: |s| s.phi() },
     Column { name: "mu_deg", definition: "transmission angle, deg: McCarthy 2.3.3", take: |s| s.mu() },
@@ -90,6 +125,16 @@ impl Sample<'_> {
         let v = self.velocity();
         let speed = v.norm();
         cross(v, self.acceleration()) / (speed * speed * speed)
+    }
+
+    fn curvature_rate(&self) -> f64 {
+        let (v, a, j) = (self.velocity(), self.acceleration(), self.jets.jerk(self.joint));
+        let v2 = v.norm_squared();
+        (cross(v, j) * v2 - 3.0 * cross(v, a) * v.dot(&a)) / (v2 * v2 * v2)
+    }
+
+    fn instant(&self, of: impl Fn(&Instant) -> f64) -> f64 {
+        Instant::of_joint(self.linkage, &self.jets, self.joint).map_or(f64::NAN, |instant| of(&instant))
     }
 
     /// From one joint to another; as the linkage's own frame has it, but for a turn.

@@ -13,6 +13,7 @@ mod chain;
 mod circuit;
 mod enclosure;
 mod ends;
+mod instant;
 mod interval;
 mod jet;
 mod kernel;
@@ -23,6 +24,7 @@ mod series;
 mod spacing;
 
 pub use circuit::{End, Pass, Stop};
+pub use instant::Instant;
 pub use jet::Jets;
 pub use kernel::{Columns, Inputs, Modes, place};
 pub use path::{Dashes, Stroke, strokes};

@@ -3,6 +3,7 @@
 mod atlas;
 mod circuits;
 mod house;
+mod instant;
 mod linkages;
 mod manifests;
 mod mccarthy;

@@ -1,0 +1,174 @@
+//! The geometry of a link's motion at an instant: its pole, inflection circle and cubic of stationary curvature.
+
+use super::jet::Jets;
+use crate::geometry::{Point, Vector, cross, left_normal};
+use crate::linkage::{FourBar, JointId, Linkage};
+
+/// How a link moves at an instant, to the third order, as a plane that turns about its instant centre.
+///
+/// Nothing in it depends on how fast the input goes: the motion is taken by the link's own angle, in radians.
+///
+/// # Source
+/// Bottema and Roth, *Theoretical Kinematics* (1979), chapter VIII: with w the vector from the pole to a point of the
+/// link, its velocity is `i w`, its acceleration `q - w` and its jerk `k - i w`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// The instant centre: the point of the fixed centrode.
+    pub pole: Point,
+    /// The same in the link's own frame, from its first joint with x towards the second: the point of the moving centrode.
+    pub moving_pole: Vector,
+    /// From the pole to the inflection pole, whose acceleration is zero: a diameter of the inflection circle.
+    pub diameter: Vector,
+    /// The jerk of the point at the pole.
+    jerk: Vector,
+    /// 1 where the link turns counter-clockwise as the input rises, -1 where it turns clockwise; 1 at a limit.
+    sense: f64,
+}
+
+impl Instant {
+    /// Of a link through two joints, from their rates; `None` where it does not turn, or at a limit.
+    pub fn of_link(jets: &Jets, [a, b]: [JointId; 2]) -> Option<Instant> {
+        let arm = jets.place(b) - jets.place(a);
+        let rate = |of: fn(&Jets, JointId) -> Vector| (of(jets, b) - of(jets, a), of(jets, a));
+        let [(v, va), (acc, aa), (jerk, ja)] = [Jets::velocity, Jets::acceleration, Jets::jerk].map(rate);
+        // A rigid arm e has e' = i w e, e'' = (i w' - w^2) e, e''' = (i (w'' - w^3) - 3 w w') e.
+        let turning = |rate: Vector| cross(arm, rate) / arm.norm_squared();
+        let w = turning(v);
+        let (w1, w2) = (turning(acc), turning(jerk) + w * w * w);
+        // The joint's derivatives by the link's angle, from those by the input.
+        let first = va / w;
+        let second = (aa - first * w1) / (w * w);
+        let third = (ja - second * (3.0 * w * w1) - first * w2) / (w * w * w);
+        let frame = [jets.place(a), jets.place(b)];
+        Instant::of_plane(frame, [first, second, third], w.signum())
+    }
+
+    /// Of the coupler of a four-bar that stands on its frame, from where its pins are; `None` where crank and rocker are
+    /// parallel, and the coupler does not turn.
+    ///
+    /// At a limit, too: as its own angle goes, the coupler has no limits. There it turns about the crank's pin, while
+    /// that stands still.
+    pub fn of_coupler([o, a, b, c]: [Point; 4], sense: f64) -> Option<Instant> {
+        let (crank, coupler, rocker) = (a - o, b - a, b - c);
+        // crank' + coupler' = rocker', each a rate of turning times the arm's left normal, differentiated twice more.
+        let area = cross(crank, rocker);
+        let solve =
+            |known: Vector| [-cross(known, left_normal(rocker)) / area, -cross(known, left_normal(crank)) / area];
+        // Derivatives of an arm that turns at w, w', w''; what does not depend on the highest of them is known.
+        let [wc1, wr1] = solve(left_normal(coupler));
+        let bent = |arm: Vector, w: f64| -arm * (w * w);
+        let [wc2, wr2] = solve(bent(crank, wc1) - coupler - bent(rocker, wr1));
+        let swung = |arm: Vector, w: f64, w1: f64| -arm * (3.0 * w * w1) - left_normal(arm) * (w * w * w);
+        let [wc3, _] = solve(swung(crank, wc1, wc2) - left_normal(coupler) - swung(rocker, wr1, wr2));
+        let first = left_normal(crank) * wc1;
+        let second = left_normal(crank) * wc2 + bent(crank, wc1);
+        let third = left_normal(crank) * wc3 + swung(crank, wc1, wc2);
+        Instant::of_plane([a, b], [first, second, third], sense)
+    }
+
+    /// Of a plane with two joints, and the derivatives of the first by the plane's angle.
+    fn of_plane([a, b]: [Point; 2], [first, second, third]: [Vector; 3], sense: f64) -> Option<Instant> {
+        let to_pole = left_normal(first);
+        let axis = (b - a).normalize();
+        // The acceleration of the point at the pole is a'' less what turning about the pole adds, and so on.
+        let (diameter, jerk) = (second - to_pole, third + first);
+        let finite = |v: Vector| v.x.is_finite() && v.y.is_finite();
+        [to_pole, axis, diameter, jerk].into_iter().all(finite).then(|| Instant {
+            pole: a + to_pole,
+            moving_pole: Vector::new(axis.dot(&to_pole), cross(axis, to_pole)),
+            diameter,
+            jerk,
+            sense,
+        })
+    }
+
+    /// The point of zero acceleration; the inflection circle has it and the pole at the ends of a diameter.
+    pub fn inflection_pole(&self) -> Point {
+        self.pole + self.diameter
+    }
+
+    /// The common tangent of both centrodes, as long as the diameter, with the inflection pole to its left. As the link
+    /// turns counter-clockwise the pole goes the other way, by this length to a radian.
+    pub fn tangent(&self) -> Vector {
+        -left_normal(self.diameter)
+    }
+
+    /// The curvature of the path of the link's point that is here, positive to the left as it goes with rising input.
+    ///
+    /// # Source
+    /// Euler and Savary: `|w|^2 - w . q` over `|w|^3`.
+    pub fn curvature(&self, point: Point) -> f64 {
+        let w = point - self.pole;
+        self.sense * (w.norm_squared() - w.dot(&self.diameter)) / (w.norm_squared() * w.norm())
+    }
+
+    /// The derivative of that curvature by the length of the path. Where it is zero the point is on the cubic of
+    /// stationary curvature.
+    ///
+    /// # Source
+    /// `-[(w . k) |w|^2 + 3 (|w|^2 - w . q) (w x q)] / |w|^6`, from the derivatives of the path.
+    pub fn curvature_rate(&self, point: Point) -> f64 {
+        let w = point - self.pole;
+        let w2 = w.norm_squared();
+        let bend = w2 - w.dot(&self.diameter);
+        -(w.dot(&self.jerk) * w2 + 3.0 * bend * cross(w, self.diameter)) / (w2 * w2 * w2)
+    }
+
+    /// The parameters M and N of the cubic of stationary curvature `1/r = 1 / (M sin a) + 1 / (N cos a)`, with the pole for
+    /// origin and the angle a from the tangent, the inflection pole at 90 degrees; infinite where a term is missing.
+    ///
+    /// # Source
+    /// Hall, *Kinematics and Linkage Design* (1961), chapter 5.
+    pub fn cubic(&self) -> [f64; 2] {
+        let size = self.diameter.norm();
+        let [tangent, normal] = [self.tangent(), self.diameter].map(|axis| axis / size);
+        let area = 3.0 * size * size;
+        [area / (self.jerk.dot(&tangent) + 3.0 * size), area / self.jerk.dot(&normal)]
+    }
+
+    /// The point of the cubic of stationary curvature in a direction from the pole; none where the cubic goes to infinity.
+    pub fn cubic_point(&self, direction: Vector) -> Option<Point> {
+        let [m, n] = self.cubic();
+        let d = direction.normalize();
+        let [cos, sin] = [self.tangent(), self.diameter].map(|axis| d.dot(&axis.normalize()));
+        // Both sides times sin cos: the poles of the branches are the pole itself.
+        let radius = sin * cos / (cos / m + sin / n);
+        radius.is_finite().then(|| self.pole + d * radius)
+    }
+
+    /// Ball's point: on the inflection circle and on the cubic, its path is straight to the third order.
+    pub fn ball_point(&self) -> Option<Point> {
+        // On the circle the curvature is zero, and its rate with w . k.
+        let square = Vector::new(-self.jerk.y, self.jerk.x);
+        let along = square.try_normalize(0.0)?;
+        let point = self.pole + along * along.dot(&self.diameter);
+        (point.x.is_finite() && point.y.is_finite()).then_some(point)
+    }
+}
+
+/// The pins of the four-bar whose coupler a joint is on, if it is on one.
+fn coupler_of(linkage: &Linkage, joint: JointId) -> Option<[JointId; 4]> {
+    let pins = FourBar::pins(linkage)?;
+    let [_, a, b, _] = pins;
+    let has = |j: JointId| linkage.links.iter().any(|link| [j, a, b].iter().all(|&j| link.place(j).is_some()));
+    has(joint).then_some(pins)
+}
+
+impl Instant {
+    /// Of the link that a joint is on, and turns with; of several, the one that is placed first. `None` where it does not
+    /// turn, and, but for the coupler of a four-bar, at a limit.
+    pub fn of_joint(linkage: &Linkage, jets: &Jets, joint: JointId) -> Option<Instant> {
+        if let Some(pins) = coupler_of(linkage, joint) {
+            let [_, a, b, _] = pins;
+            let arm = jets.place(b) - jets.place(a);
+            let turning = cross(arm, jets.velocity(b) - jets.velocity(a));
+            let sense = if turning < 0.0 { -1.0 } else { 1.0 };
+            return Instant::of_coupler(pins.map(|pin| jets.place(pin)), sense);
+        }
+        let ground = linkage.ground();
+        let link = linkage.links.iter().find(|link| !std::ptr::eq(*link, ground) && link.place(joint).is_some())?;
+        let (first, from) = *link.joints.first()?;
+        let (second, _) = link.joints.iter().find(|(_, place)| *place != from)?;
+        Instant::of_link(jets, [first, *second])
+    }
+}
