@@ -9,7 +9,7 @@ use std::path::Path;
 use crate::expression::Caption;
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::{self, Panel, Sheet};
+use crate::page::{self, Panel, Sheet, View};
 use crate::problem::Problem;
 use crate::record::{Cells, FamilyRecord, FileRecord, Points, Run};
 use crate::render::{self, Format};
@@ -198,7 +198,12 @@ fn draw_page(
     let family = &planned.family;
     let template = &family.template;
     let line = |caption: &Option<Caption>, solved: &Solved| family.describe(caption.as_ref(), &solved.cell);
-    let panel = |solved| Panel { caption: line(&template.caption, solved), note: line(&template.note, solved), solved };
+    let panel = |solved| Panel {
+        caption: line(&template.caption, solved),
+        note: line(&template.note, solved),
+        solved,
+        view: View::Clearest,
+    };
     let sheet = Sheet {
         atlas: &plan.title,
         family: &family.id,

@@ -3,6 +3,7 @@
 mod init;
 mod inspect;
 mod list;
+mod manual;
 mod plan;
 mod render;
 mod validate;
@@ -13,9 +14,12 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use coupler_atlas::build;
 
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 with --strict, a cell is not assembled; 2 the input was wrong; \
+                          3 the machine failed.";
+
 /// Atlases of coupler curves: solves families of planar linkages and draws them as pages.
 #[derive(Debug, Parser)]
-#[command(name = "coupler-atlas", version, about, disable_help_subcommand = true)]
+#[command(name = "coupler-atlas", version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -28,6 +32,8 @@ enum Command {
     Inspect(inspect::Arguments),
     List(list::Arguments),
     Init(init::Arguments),
+    Completions(manual::Completions),
+    Man(manual::Manual),
 }
 
 /// How a command ended.
@@ -55,6 +61,8 @@ pub fn main() -> ExitCode {
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
+        Command::Completions(arguments) => manual::completions(&arguments),
+        Command::Man(arguments) => manual::manual(&arguments),
     };
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -80,6 +80,11 @@ fn seen(linkage: &Linkage, mut at: Vec<Jet>) -> Vec<Jet> {
             let v = place.minus(from);
             *place = Planar { x: unit.dot(v), y: unit.cross(v) };
         }
+        // What is on the link seen from is at rest, but for rounding.
+        for (joint, _) in &linkage.ground().joints {
+            let Planar { x, y } = at[*joint];
+            at[*joint] = Planar { x: Series::constant(x.0[0]), y: Series::constant(y.0[0]) };
+        }
     }
     if linkage.placement != Placement::default() {
         for Planar { x, y } in &mut at {

@@ -62,6 +62,13 @@ impl Circuit {
         self.signs[sample]
     }
 
+    /// Whether the input turns round at the end of a pass, for a dyad lies flat there.
+    pub fn turns_after(&self, pass: usize) -> bool {
+        let last = pass + 1 == self.passes.len();
+        let next = &self.passes[(pass + 1) % self.passes.len()];
+        (!last || self.closed) && self.passes[pass].heading() != next.heading()
+    }
+
     /// Places and rates of all joints at a sample.
     pub fn jets(&self, linkage: &Linkage, sample: usize) -> Jets {
         let (at, signs) = (self.input[sample], self.signs[sample]);

@@ -9,7 +9,7 @@ use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 use crate::geometry::{Point, Vector};
 use crate::motion;
-use crate::scene::{Anchor, Canvas, Circle, Color, Face, Group, Item, Line, Path, Run, Stroke, Text};
+use crate::scene::{Anchor, Canvas, Circle, Color, Face, Group, Item, Line, Moving, Path, Run, Stroke, Text};
 
 /// A part of the page: its lengths are in 1/100 mm, its origin the upper left corner.
 pub(super) type Area<'s> = DrawingArea<Canvas<'s>, Shift>;
@@ -126,6 +126,10 @@ fn moved(item: &Item, by: Vector) -> Item {
         }
         Item::Circle(circle) => Item::Circle(Circle { centre: circle.centre + by, ..circle.clone() }),
         Item::Text(text) => Item::Text(Text { at: text.at + by, ..text.clone() }),
+        Item::Moving(moving) => {
+            let frame = |items: &Vec<Item>| items.iter().map(|item| moved(item, by)).collect();
+            Item::Moving(Moving { frames: moving.frames.iter().map(frame).collect(), ..moving.clone() })
+        }
     }
 }
 

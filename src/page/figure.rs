@@ -6,21 +6,24 @@ use super::mechanism::Mechanism;
 use super::plot::{Plot, round_number};
 use super::pose;
 use super::theme::Theme;
-use super::{Options, Panel, Sheet};
+use super::{Options, Panel, Sheet, View};
 use crate::geometry::{Bounds, Point};
 use crate::linkage::{Input, JointId};
 use crate::motion::{self, Circuit, Dashes};
-use crate::scene::{Circle, Color, Item, Line, Path};
+use crate::scene::{Circle, Color, Item, Line, Moving, Path};
 use crate::sweep::{Curve, Solved};
 
 /// A chord is nowhere further than this from its curve, in millimetres on paper.
 const CHORD_ERROR: f64 = 0.01;
 
-/// A cell with the pose its linkage is drawn in.
+/// A cell with the poses its linkage is drawn in.
 pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
     solved: &'a Solved,
-    mechanism: Mechanism<'a>,
+    /// The linkage in one pose, or in all it goes through.
+    mechanisms: Vec<Mechanism<'a>>,
+    /// How long it takes to go through them.
+    seconds: f64,
     pub extents: Extents,
 }
 
@@ -30,11 +33,24 @@ impl<'a> Figure<'a> {
         let solved = panel.solved;
         let first = solved.curves.first()?;
         let circuit = solved.circuit(first);
-        let pose = pose::clearest(&solved.linkage, circuit);
-        let mechanism = Mechanism::new(&solved.linkage, circuit, pose);
+        let (poses, seconds) = match &panel.view {
+            View::Clearest => (vec![pose::clearest(&solved.linkage, circuit)], 0.0),
+            View::At(pose) => (vec![pose.clone()], 0.0),
+            View::Moving { poses, seconds } => (poses.clone(), *seconds),
+        };
+        let mechanism = |pose| Mechanism::new(&solved.linkage, circuit, pose);
+        let mechanisms: Vec<Mechanism> = poses.into_iter().map(mechanism).collect();
         let curve = Bounds::of(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
-        let key = mechanism.bounds().union(curve);
-        Some(Figure { panel, solved, mechanism, extents: Extents { curve, key } })
+        let key = mechanisms.iter().fold(curve, |key, mechanism| key.union(mechanism.bounds()));
+        Some(Figure { panel, solved, mechanisms, seconds, extents: Extents { curve, key } })
+    }
+
+    /// What is drawn of the linkage in its pose, or moves with it.
+    fn posed(&self, items: impl Fn(&Mechanism) -> Vec<Item>) -> Vec<Item> {
+        match &self.mechanisms[..] {
+            [only] => items(only),
+            all => vec![Item::Moving(Moving { frames: all.iter().map(items).collect(), seconds: self.seconds })],
+        }
     }
 
     /// Draws it in a frame of an area.
@@ -150,39 +166,36 @@ impl<'a> Figure<'a> {
     fn limit_poses(&self) -> Vec<Vec<Vec<Point>>> {
         let poses = |circuit: &Circuit| {
             let passes = &circuit.passes;
-            let n = passes.len();
-            let is_limit = |k: usize| {
-                n > 1 && passes[k].heading() != passes[(k + 1) % n].heading() && !passes[k].to.flat.is_none()
-            };
             let pose = |k: usize| motion::pose(&self.solved.linkage, &passes[k], passes[k].to.stop.at);
-            (0..n).filter(|&k| is_limit(k)).map(pose).collect()
+            (0..passes.len()).filter(|&k| circuit.turns_after(k)).map(pose).collect()
         };
         self.solved.motion.circuits.iter().map(poses).collect()
     }
 
     fn traced_points(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
-        let mut done = Vec::new();
-        let mut items = Vec::new();
+        let mut curves: Vec<&Curve> = Vec::new();
         for curve in self.solved.curves.iter().filter(|curve| curve.circuit == self.solved.curves[0].circuit) {
-            if !done.contains(&curve.joint) {
-                done.push(curve.joint);
-                let stroke = Some(theme.stroke(self.ink(curve, theme), theme.fine));
-                let centre = plot.page_from_plane.apply(self.mechanism.pose[curve.joint]);
-                items.push(Item::Circle(Circle { centre, radius: theme.joint, stroke, fill: Some(theme.paper) }));
+            if curves.iter().all(|done| done.joint != curve.joint) {
+                curves.push(curve);
             }
         }
-        items
+        let circle = |curve: &Curve, mechanism: &Mechanism| {
+            let stroke = Some(theme.stroke(self.ink(curve, theme), theme.fine));
+            let centre = plot.page_from_plane.apply(mechanism.pose[curve.joint]);
+            Item::Circle(Circle { centre, radius: theme.joint, stroke, fill: Some(theme.paper) })
+        };
+        self.posed(|mechanism| curves.iter().map(|curve| circle(curve, mechanism)).collect())
     }
 
     fn underlay(&self, area: &Area, plot: &Plot, theme: &Theme) {
-        let items = self.mechanism.underlay(plot, theme);
+        let items = self.posed(|mechanism| mechanism.underlay(plot, theme));
         draw(area, &Drawing { class: "underlay", title: String::new(), items });
     }
 
     fn linkage(&self, area: &Area, plot: &Plot, theme: &Theme) {
         let traced = |joint| self.solved.curves.iter().find(|curve| curve.joint == joint);
         let ink = |joint| traced(joint).map_or(theme.ink, |curve| self.ink(curve, theme));
-        let items = self.mechanism.items(plot, theme, ink);
+        let items = self.posed(|mechanism| mechanism.items(plot, theme, ink));
         draw(area, &Drawing { class: "linkage", title: String::new(), items });
     }
 }

@@ -11,6 +11,7 @@ mod theme;
 
 pub use theme::Theme;
 
+use crate::geometry::Point;
 use crate::scene::Scene;
 use crate::sweep::Solved;
 
@@ -107,6 +108,25 @@ pub struct Panel<'a> {
     pub note: String,
     /// The cell.
     pub solved: &'a Solved,
+    /// The pose its linkage is drawn in.
+    pub view: View,
+}
+
+/// The pose a linkage is drawn in; a pose is the places of all its joints.
+#[derive(Clone, Debug, Default)]
+pub enum View {
+    /// The clearest of the first circuit.
+    #[default]
+    Clearest,
+    /// This one.
+    At(Vec<Point>),
+    /// All of these one after the other, again and again.
+    Moving {
+        /// The poses at equal steps of time, the first once more at the end.
+        poses: Vec<Vec<Point>>,
+        /// How long it takes from the first to the last.
+        seconds: f64,
+    },
 }
 
 /// Draws a page.

@@ -50,6 +50,7 @@ impl Raster {
             Item::Path(path) => self.path(path),
             Item::Circle(circle) => self.circle(circle),
             Item::Text(text) => self.text(text),
+            Item::Moving(moving) => moving.frames.iter().take(1).flatten().for_each(|item| self.item(item)),
         }
     }
 

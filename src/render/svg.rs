@@ -2,7 +2,7 @@ use std::fmt::Write;
 
 use super::TextMode;
 use crate::geometry::Point;
-use crate::scene::{Anchor, Circle, Color, Face, Group, Item, Path, Scene, Segment, Stroke, Text};
+use crate::scene::{Anchor, Circle, Color, Face, Group, Item, Moving, Path, Scene, Segment, Stroke, Text};
 
 /// A scene as an SVG document, in millimetres to 1/1000 mm.
 pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
@@ -37,8 +37,9 @@ impl Writer {
     fn item(&mut self, item: &Item) {
         match item {
             Item::Group(group) => self.group(group),
-            Item::Path(path) => self.path(path),
-            Item::Circle(circle) => self.circle(circle),
+            Item::Path(path) => self.path(path, None),
+            Item::Circle(circle) => self.circle(circle, None),
+            Item::Moving(moving) => self.moving(moving),
             Item::Text(text) if self.text == TextMode::Outlines => self.outlines(text),
             Item::Text(text) => self.text(text),
         }
@@ -66,6 +67,43 @@ impl Writer {
         self.out.push_str("</g>\n");
     }
 
+    /// Each item of the first frame, with its places in all of them.
+    fn moving(&mut self, moving: &Moving) {
+        let Some(first) = moving.frames.first() else { return };
+        for (k, item) in first.iter().enumerate() {
+            let frames = || moving.frames.iter().filter_map(|frame| frame.get(k));
+            let paths = || frames().filter_map(|item| if let Item::Path(path) = item { Some(path) } else { None });
+            let circles =
+                || frames().filter_map(|item| if let Item::Circle(circle) = item { Some(circle) } else { None });
+            match item {
+                Item::Path(path) => {
+                    let values: Vec<String> = paths().map(path_data).collect();
+                    self.path(path, Some(&self.animation("d", &values, moving.seconds)));
+                }
+                Item::Circle(circle) => {
+                    let along = |of: fn(&Circle) -> f64| -> Vec<String> {
+                        circles().map(|circle| Number(micrometres(of(circle))).to_string()).collect()
+                    };
+                    let x = self.animation("cx", &along(|circle| circle.centre.x), moving.seconds);
+                    let y = self.animation("cy", &along(|circle| circle.centre.y), moving.seconds);
+                    self.circle(circle, Some(&(x + &y)));
+                }
+                _ => self.item(item),
+            }
+        }
+    }
+
+    /// The element that moves an attribute; nothing where it stays.
+    fn animation(&self, attribute: &str, values: &[String], seconds: f64) -> String {
+        if values.iter().all(|value| *value == values[0]) {
+            return String::new();
+        }
+        let values = values.join(";");
+        format!(
+            "<animate attributeName=\"{attribute}\" values=\"{values}\" dur=\"{seconds}s\" repeatCount=\"indefinite\"/>"
+        )
+    }
+
     fn paint(&mut self, stroke: Option<Stroke>, fill: Option<Color>) {
         if let Some(fill) = fill {
             self.raw(format_args!(" fill=\"{}\"", Hex(fill)));
@@ -77,29 +115,30 @@ impl Writer {
                 self.out.push_str(" stroke-linecap=\"round\"");
             }
         }
-        self.out.push_str("/>\n");
     }
 
-    fn path(&mut self, path: &Path) {
-        self.out.push_str("<path d=\"");
-        let mut pen = Pen::default();
-        for line in &path.lines {
-            for (k, &point) in line.points.iter().enumerate() {
-                pen.to(&mut self.out, if k == 0 { 'm' } else { 'l' }, &[point]);
-            }
-            if line.closed {
-                pen.close(&mut self.out);
-            }
+    /// Ends an element, with what moves it inside.
+    fn end(&mut self, name: &str, animation: Option<&String>) {
+        match animation.filter(|animation| !animation.is_empty()) {
+            None => self.out.push_str("/>\n"),
+            Some(animation) => self.raw(format_args!(">{animation}</{name}>\n")),
         }
+    }
+
+    fn path(&mut self, path: &Path, animation: Option<&String>) {
+        self.out.push_str("<path d=\"");
+        write_path(&mut self.out, path);
         self.out.push('"');
         self.paint(path.stroke, path.fill);
+        self.end("path", animation);
     }
 
-    fn circle(&mut self, circle: &Circle) {
+    fn circle(&mut self, circle: &Circle, animation: Option<&String>) {
         let [x, y] = [circle.centre.x, circle.centre.y].map(|c| Number(micrometres(c)));
         let radius = Number(micrometres(circle.radius));
         self.raw(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""));
         self.paint(circle.stroke, circle.fill);
+        self.end("circle", animation);
     }
 
     fn text(&mut self, text: &Text) {
@@ -152,7 +191,35 @@ impl Writer {
         }
         self.out.push('"');
         self.paint(None, Some(text.color));
+        self.end("path", None);
     }
+}
+
+fn write_path(out: &mut String, path: &Path) {
+    let mut pen = Pen::default();
+    for line in &path.lines {
+        for (k, &point) in line.points.iter().enumerate() {
+            pen.to(out, if k == 0 { 'm' } else { 'l' }, &[point]);
+        }
+        if line.closed {
+            pen.close(out);
+        }
+    }
+}
+
+/// A path in absolute coordinates: values between two frames are then places between them.
+fn path_data(path: &Path) -> String {
+    let mut out = String::new();
+    for line in &path.lines {
+        for (k, point) in line.points.iter().enumerate() {
+            let [x, y] = [point.x, point.y].map(|c| Number(micrometres(c)));
+            let _ = write!(out, "{}{x} {y}", if k == 0 { 'M' } else { 'L' });
+        }
+        if line.closed {
+            out.push('Z');
+        }
+    }
+    out
 }
 
 /// Writes path data in relative coordinates. Places are rounded to micrometres before they are subtracted, so that

@@ -42,6 +42,8 @@ pub enum Item {
     Circle(Circle),
     /// A line of text.
     Text(Text),
+    /// Items that move.
+    Moving(Moving),
 }
 
 /// Items that belong together, and what they are.
@@ -57,6 +59,16 @@ pub struct Group {
     pub data: Vec<(&'static str, String)>,
     /// What is drawn.
     pub items: Vec<Item>,
+}
+
+/// Items that go from place to place, again and again. Where nothing can move they stand as in the first frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moving {
+    /// The items at equal steps of time, the first once more at the end where they come back to it. They differ in their
+    /// places only.
+    pub frames: Vec<Vec<Item>>,
+    /// How long it takes from the first frame to the last.
+    pub seconds: f64,
 }
 
 /// Polylines, stroked or filled or both.

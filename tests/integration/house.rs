@@ -32,7 +32,7 @@ const HOUSE: [(&str, &str); 18] = [
     ),
     (
         "cli",
-        "build catalogue expression family linkage manifest measure motion page problem record render sweep template",
+        "build catalogue expression family geometry linkage manifest measure motion page problem record render sweep template",
     ),
 ];
 

@@ -286,7 +286,7 @@ fn inspect_tells_class_circuits_and_poses() {
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("class: double-rocker"), "{out}");
     assert!(
-        out.contains("circuit 1: from 28.95502437° on branch 1 to 97.18075578°, on branch -1 to 28.95502437°"),
+        out.contains("circuit 1: from 28.95502437° on branch 1 to 97.18075578° (B flat), on branch -1 to 28.95502437°"),
         "{out}"
     );
     assert_eq!(out.matches("at 60°, circuit 1, branch").count(), 2, "{out}");
@@ -301,6 +301,8 @@ fn inspect_tells_class_circuits_and_poses() {
     let slider = &value["poses"][0]["joints"][3];
     assert!((slider["place"][0].as_f64().unwrap() - 3f64.sqrt()).abs() < 1e-12);
     assert!((slider["velocity"][0].as_f64().unwrap() + 1.0).abs() < 1e-12);
+    // Both its pins going one way, the coupler does not turn.
+    assert!(value["poses"][0]["links"][1]["angular_velocity"].as_f64().unwrap().abs() < 1e-15);
     let (code, _, err) = run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "q=1"]);
     assert_eq!(code, 2);
     assert!(err.contains("there is no parameter `q`"), "{err}");
@@ -308,6 +310,81 @@ fn inspect_tells_class_circuits_and_poses() {
     assert!(run(folder.path(), &["inspect", "evans", "p"]).2.contains("there is no `=`"));
     assert!(run(folder.path(), &["inspect", "evans", "p=2"]).2.contains("`a` has no value"));
     assert!(run(folder.path(), &["inspect", "evans", "p=9", "a=1"]).1.contains("not assembled: B cannot be placed"));
+    assert_eq!(run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "--at", "nan"]).0, 2);
+    assert_eq!(run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "--animate"]).0, 2, "it needs a file");
+}
+
+/// Every key that the JSON has is described, and nothing is described that it has not.
+#[test]
+fn the_json_of_inspect_is_the_one_described() {
+    fn keys(value: &serde_json::Value, found: &mut std::collections::BTreeSet<String>) {
+        match value {
+            serde_json::Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
+            serde_json::Value::Object(object) => {
+                for (key, value) in object {
+                    found.insert(key.clone());
+                    // What is in these is named by the linkage and the measures.
+                    if !["parameters", "measures"].contains(&key.as_str()) {
+                        keys(value, found);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    let (_, out, _) = run(Path::new("."), &["inspect", "watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--json"]);
+    let mut printed = std::collections::BTreeSet::new();
+    keys(&serde_json::from_str(&out).unwrap(), &mut printed);
+    let text = include_str!("../../docs/inspect.md");
+    let columns = text.lines().filter_map(|line| line.strip_prefix("| `")?.split(" |").next());
+    let described: std::collections::BTreeSet<String> = columns
+        .flat_map(|column| column.split('`').filter(|word| word.chars().all(|c| c.is_ascii_lowercase() || c == '_')))
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect();
+    let inner = ["trace", "measures", "flat", "name", "place", "velocity", "acceleration", "jerk"];
+    let inner = inner.into_iter().chain(["angular_velocity", "angular_acceleration"]).map(str::to_owned);
+    for key in inner.clone() {
+        assert!(text.contains(&format!("`{key}`")), "{key}");
+    }
+    assert_eq!(printed, described.into_iter().chain(inner).collect());
+}
+
+#[test]
+fn the_manual_and_completions_know_every_command() {
+    let here = Path::new(".");
+    let (code, manual, _) = run(here, &["man"]);
+    assert_eq!(code, 0);
+    let (code, completions, _) = run(here, &["completions", "bash"]);
+    assert_eq!(code, 0);
+    for command in ["render", "validate", "inspect", "list", "init", "completions", "man"] {
+        assert!(manual.contains(&format!(".SH {}\n", command.to_uppercase())), "{command}");
+        assert!(completions.contains(command), "{command}");
+    }
+    assert!(manual.contains("\\-\\-animate") && manual.contains("Exit codes"));
+    assert_eq!(run(here, &["completions", "dos"]).0, 2);
+}
+
+/// What moves is drawn in each frame as it is in a picture of that pose.
+#[test]
+fn a_plate_moves_through_the_whole_circuit() {
+    let folder = TempDir::new().unwrap();
+    let plate = |arguments: &[&str]| {
+        let (code, _, err) = run(folder.path(), &[arguments, &["--svg", "plate.svg"]].concat());
+        assert_eq!(code, 0, "{err}");
+        fs::read_to_string(folder.path().join("plate.svg")).unwrap()
+    };
+    let moving = plate(&["inspect", "hoeken", "--animate"]);
+    let xs: Vec<&str> =
+        moving.split("attributeName=\"cx\" values=\"").nth(1).unwrap().split('"').next().unwrap().split(';').collect();
+    assert_eq!(xs.len(), 121, "a frame to three degrees, and the first again");
+    assert_eq!(xs[0], xs[120]);
+    assert!(moving.contains("dur=\"4s\"") && moving.contains("repeatCount=\"indefinite\""));
+    let still = plate(&["inspect", "hoeken"]);
+    assert!(!still.contains("<animate"));
+    // From limit to limit and back.
+    let rocking = plate(&["inspect", "watt", "p=4", "r=2", "s=2", "a=2", "--animate"]);
+    assert!(rocking.matches("<animate").count() > 8);
 }
 
 #[test]

@@ -1,0 +1,117 @@
+use coupler_atlas::geometry::{Point, Vector};
+use coupler_atlas::linkage::{FourBar, Input};
+use coupler_atlas::measure;
+use coupler_atlas::motion::{Circuit, End, Pass};
+use serde_json::{Map, Value, json};
+
+use super::{Pose, Report, flat_joints, instants, turnings};
+
+/// The version of the format; docs/inspect.md describes it.
+const FORMAT: u32 = 1;
+
+/// For programs.
+pub(super) fn json(report: &Report) -> String {
+    let Report { family, solved, .. } = report;
+    let values = solved.cell.values.iter().map(|value| number(*value));
+    let parameters: Map<String, Value> = family.names.iter().cloned().zip(values).collect();
+    let curves: Vec<Value> = solved
+        .curves
+        .iter()
+        .map(|curve| json!({ "trace": curve.trace, "circuit": curve.circuit, "measures": measures(&curve.measures) }))
+        .collect();
+    let whole = json!({
+        "format": FORMAT,
+        "linkage": family.id,
+        "parameters": parameters,
+        "class": FourBar::of(&solved.linkage).map(|four_bar| four_bar.class().name()),
+        "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
+        "status": solved.status().name(),
+        "reason": solved.motion.shortfall,
+        "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(report, circuit)).collect::<Vec<_>>(),
+        "curves": curves,
+        "poses": report.poses.iter().map(|pose| self::pose(report, pose)).collect::<Vec<_>>(),
+    });
+    format!("{whole:#}\n")
+}
+
+/// JSON has no infinity: what is unbounded, and what does not exist, is null.
+fn number(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { Value::Null }
+}
+
+fn pair(v: Vector) -> Value {
+    json!([number(v.x), number(v.y)])
+}
+
+fn point(p: Point) -> Value {
+    pair(p.coords)
+}
+
+fn circuit(report: &Report, circuit: &Circuit) -> Value {
+    let solved = report.solved;
+    let end = |end: End| json!({ "input": end.stop.at, "flat": flat_joints(solved, end.flat) });
+    let pass = |(k, pass): (usize, &Pass)| {
+        let signs: Vec<i8> = (0..solved.linkage.dyads()).map(|dyad| pass.signs.get(dyad)).collect();
+        json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.turns_after(k) })
+    };
+    let passes: Vec<Value> = circuit.passes.iter().enumerate().map(pass).collect();
+    json!({ "closed": circuit.closed, "passes": passes })
+}
+
+fn measures(values: &[measure::Value]) -> Value {
+    let value = |value: &measure::Value| match value {
+        measure::Value::Number(value) => number(*value),
+        measure::Value::Word(word) => json!(word),
+        measure::Value::Missing => Value::Null,
+    };
+    let named = measure::ALL.iter().zip(values).map(|(m, v)| (m.name.to_owned(), value(v)));
+    named.collect::<Map<_, _>>().into()
+}
+
+fn pose(report: &Report, pose: &Pose) -> Value {
+    let (solved, jets) = (report.solved, &pose.jets);
+    let joint = |joint: usize| {
+        json!({
+            "name": solved.linkage.joints[joint].name,
+            "place": point(jets.place(joint)),
+            "velocity": pair(jets.velocity(joint)),
+            "acceleration": pair(jets.acceleration(joint)),
+            "jerk": pair(jets.jerk(joint)),
+        })
+    };
+    let joints: Vec<Value> = (0..solved.linkage.joints.len()).map(joint).collect();
+    let links: Vec<Value> = turnings(solved, pose)
+        .into_iter()
+        .map(|turning| {
+            json!({
+                "joints": turning.joints,
+                "angular_velocity": number(turning.velocity),
+                "angular_acceleration": number(turning.acceleration),
+            })
+        })
+        .collect();
+    let instants: Vec<Value> = instants(solved, pose)
+        .filter_map(|(joint, instant)| {
+            let instant = instant?;
+            let place = jets.place(joint);
+            Some(json!({
+                "joint": solved.linkage.joints[joint].name,
+                "pole": point(instant.pole),
+                "moving_pole": pair(instant.moving_pole),
+                "inflection_pole": point(instant.inflection_pole()),
+                "ball_point": instant.ball_point().map(point),
+                "cubic": instant.cubic().map(number),
+                "curvature": number(instant.curvature(place)),
+                "curvature_rate": number(instant.curvature_rate(place)),
+            }))
+        })
+        .collect();
+    json!({
+        "input": pose.input,
+        "circuit": pose.circuit,
+        "branch": pose.pass.signs.get(0),
+        "joints": joints,
+        "links": links,
+        "instants": instants,
+    })
+}

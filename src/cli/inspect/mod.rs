@@ -1,0 +1,188 @@
+//! One linkage, as text for people, as JSON for programs, and as a plate.
+
+mod json;
+mod plate;
+mod text;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+use coupler_atlas::expression::Expression;
+use coupler_atlas::family::{Family, Sampling};
+use coupler_atlas::geometry::{Vector, cross};
+use coupler_atlas::linkage::{Flat, Input, JointId};
+use coupler_atlas::motion::{Instant, Jets, Pass, Sampler, Stop};
+use coupler_atlas::problem::nearest_or_all;
+use coupler_atlas::sweep::{self, Solved};
+use coupler_atlas::template::Template;
+use coupler_atlas::{build, catalogue, manifest};
+
+use super::{Outcome, WrongInput, print};
+
+/// Look at one linkage: its class, its circuits and their limits, where its joints are and how fast they move.
+///
+/// Rates are to a radian of input, or to a unit of an actuator's length. With --json everything is told as JSON, which
+/// docs/inspect.md describes.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The linkage: one of the catalogue, or of the manifest given.
+    linkage: String,
+    /// Its parameters, as numbers or expressions: p=2 "a=(1+2)^1.5/2".
+    #[arg(value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// A manifest whose own linkages can be named.
+    #[arg(long, value_name = "FILE")]
+    manifest: Option<PathBuf>,
+    /// Say where the joints are at this input, in degrees or as a length.
+    #[arg(long, value_name = "INPUT", allow_negative_numbers = true)]
+    at: Option<f64>,
+    /// Of the poses at that input, only those with the first two-valued joint on this side: 1 left, -1 right.
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(i8).range(-1..=1))]
+    branch: Option<i8>,
+    /// As JSON.
+    #[arg(long)]
+    json: bool,
+    /// Draw it on one plate: at the input, or where it can be seen best.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Let it move through its first circuit, over and over.
+    #[arg(long, requires = "svg", conflicts_with = "at")]
+    animate: bool,
+}
+
+/// What is told of a linkage.
+struct Report<'a> {
+    family: &'a Family,
+    solved: &'a Solved,
+    /// The input asked for.
+    at: Option<f64>,
+    /// Its poses there.
+    poses: Vec<Pose<'a>>,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let template = template(arguments)?;
+    let given = arguments.parameters.iter().map(|text| parameter(text)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(at) = arguments.at.filter(|at| !at.is_finite()) {
+        return Err(WrongInput(format!("--at {at}: give a finite number, as in --at 30")).into());
+    }
+    let family = Family::single(template, &given, Sampling::Samples(360))
+        .map_err(|wrong| WrongInput(format!("{}: {}", arguments.linkage, wrong.join("; "))))?;
+    let Some(solved) = sweep::solve(&family, &Sampler::new(family.sampling), 0) else {
+        return Err(WrongInput(format!("{}: its values make no linkage", arguments.linkage)).into());
+    };
+    let poses: Vec<Pose> = arguments.at.map(|at| poses(&solved, at, arguments.branch)).unwrap_or_default();
+    let report = Report { family: &family, solved: &solved, at: arguments.at, poses };
+    if let Some(path) = &arguments.svg {
+        build::write_file(path, &plate::plate(&report, arguments.animate))?;
+    }
+    print(&if arguments.json { json::json(&report) } else { text::text(&report) })?;
+    Ok(Outcome::Done)
+}
+
+/// The linkage asked for.
+fn template(arguments: &Arguments) -> anyhow::Result<Arc<Template>> {
+    let mut known: Vec<Arc<Template>> = Vec::new();
+    if let Some(path) = &arguments.manifest {
+        let text = build::read_manifest(path)?;
+        let (own, problems) = manifest::linkages(&text);
+        super::plan::report(path, &text, &problems);
+        known.extend(own);
+    }
+    known.extend(catalogue::all().iter().cloned());
+    let found = known.iter().find(|template| template.id == arguments.linkage).cloned();
+    found.ok_or_else(|| {
+        let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
+        let name = &arguments.linkage;
+        WrongInput(format!("there is no linkage `{name}`: {}", nearest_or_all(name, &ids))).into()
+    })
+}
+
+/// `name=value`, the value a number or an expression without names.
+fn parameter(text: &str) -> Result<(String, f64), WrongInput> {
+    let wrong = |why: String| WrongInput(format!("`{text}`: {why}; write it like p=2 or \"a=sqrt(2)\""));
+    let (name, value) = text.split_once('=').ok_or_else(|| wrong("there is no `=`".to_owned()))?;
+    let expression = Expression::parse(value).map_err(|error| wrong(error.message))?;
+    if let Some(name) = expression.names().first() {
+        return Err(wrong(format!("`{name}` has no value here")));
+    }
+    Ok((name.trim().to_owned(), expression.evaluate(|_| f64::NAN)))
+}
+
+/// The linkage at one input, on one pass.
+struct Pose<'a> {
+    circuit: usize,
+    pass: &'a Pass,
+    input: f64,
+    jets: Jets,
+}
+
+/// Every pose at an input, circuit by circuit.
+fn poses(solved: &Solved, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
+    let input = solved.linkage.input();
+    let mut found = Vec::new();
+    for (circuit, motion) in (1..).zip(&solved.motion.circuits) {
+        for pass in &motion.passes {
+            let (from, to) = (pass.from.stop.at, pass.to.stop.at);
+            let [low, high] = [from.min(to), from.max(to)];
+            // The input may have been given a few turns off.
+            let over = (at - low).rem_euclid(input.period());
+            let is_branch = branch.is_none_or(|branch| pass.signs.get(0) == branch);
+            // The end of a whole turn is its beginning.
+            let is_seam = motion.closed && motion.passes.len() == 1 && low + over == high;
+            if low + over <= high && is_branch && !is_seam {
+                let end = [pass.from, pass.to].into_iter().find(|end| end.stop.at == low + over);
+                let (stop, flat) = end.map_or((Stop::of(input, low + over), Flat::NONE), |end| (end.stop, end.flat));
+                let jets = Jets::of(&solved.linkage, stop, pass.signs, flat);
+                found.push(Pose { circuit, pass, input: stop.at, jets });
+            }
+        }
+    }
+    found
+}
+
+/// A moving link: its joints, and how fast it turns.
+struct Turning<'a> {
+    joints: Vec<&'a str>,
+    /// To a radian, or a unit, of input.
+    velocity: f64,
+    /// The derivative of that by the input.
+    acceleration: f64,
+}
+
+/// The moving links of a pose that have two joints to tell their direction by.
+fn turnings<'a>(solved: &'a Solved, pose: &Pose) -> Vec<Turning<'a>> {
+    let linkage = &solved.linkage;
+    let jets = &pose.jets;
+    let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, linkage.ground()));
+    let turning = |link: &'a coupler_atlas::linkage::Link| {
+        let (first, place) = *link.joints.first()?;
+        let (second, _) = *link.joints.iter().find(|(_, other)| *other != place)?;
+        let between = |of: fn(&Jets, JointId) -> Vector| of(jets, second) - of(jets, first);
+        let arm = jets.place(second) - jets.place(first);
+        let along = |rate: Vector| cross(arm, rate) / arm.norm_squared();
+        Some(Turning {
+            joints: link.joints.iter().map(|(joint, _)| linkage.joints[*joint].name.as_str()).collect(),
+            velocity: along(between(Jets::velocity)),
+            acceleration: along(between(Jets::acceleration)),
+        })
+    };
+    moving.filter_map(turning).collect()
+}
+
+/// The instant geometry of each traced joint's link.
+fn instants<'a>(solved: &'a Solved, pose: &'a Pose) -> impl Iterator<Item = (JointId, Option<Instant>)> + use<'a> {
+    let linkage = &solved.linkage;
+    linkage.traced.iter().map(move |&joint| (joint, Instant::of_joint(linkage, &pose.jets, joint)))
+}
+
+/// The names of the joints whose dyads lie flat at an end.
+fn flat_joints(solved: &Solved, flat: Flat) -> Vec<&str> {
+    let is_flat = |joint: &&coupler_atlas::linkage::Joint| joint.step.index().is_some_and(|index| flat.has(index));
+    solved.linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
+}
+
+fn unit(solved: &Solved) -> &'static str {
+    if solved.linkage.input() == Input::Length { "" } else { "°" }
+}

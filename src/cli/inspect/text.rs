@@ -1,0 +1,111 @@
+use std::fmt::Write;
+
+use coupler_atlas::geometry::Point;
+use coupler_atlas::linkage::FourBar;
+use coupler_atlas::motion::{Circuit, Pass};
+use coupler_atlas::sweep::Solved;
+
+use super::{Pose, Report, flat_joints, instants, turnings, unit};
+
+/// For people.
+pub(super) fn text(report: &Report) -> String {
+    let Report { family, solved, at, poses } = report;
+    let mut out = String::new();
+    let values =
+        family.names.iter().zip(&solved.cell.values).map(|(name, value)| format!("{name} = {}", short(*value, 10)));
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{}: {}", family.id, values.collect::<Vec<_>>().join(", "));
+    if let Some(four_bar) = FourBar::of(&solved.linkage) {
+        let _ = writeln!(out, "class: {}", four_bar.class().name());
+    }
+    if let Some(reason) = &solved.motion.shortfall {
+        let _ = writeln!(out, "not assembled: {reason}");
+    }
+    for (number, circuit) in (1..).zip(&solved.motion.circuits) {
+        let _ = writeln!(out, "circuit {number}: {}", course(solved, circuit));
+    }
+    if let (Some(at), true) = (at, poses.is_empty()) {
+        let _ = writeln!(out, "at {}{}: no circuit comes there", short(*at, 10), unit(solved));
+    }
+    for pose in poses {
+        describe(solved, pose, &mut out);
+    }
+    out
+}
+
+/// A number to read, with so many significant digits and no zeros after them.
+fn short(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    match rounded {
+        0.0 => "0".to_owned(),
+        x if x.is_finite() && !(1e-4..1e7).contains(&x.abs()) => format!("{x:e}"),
+        x => x.to_string(),
+    }
+}
+
+fn point(p: Point) -> String {
+    format!("({}, {})", short(p.x, 7), short(p.y, 7))
+}
+
+/// How the input goes on a circuit: "a full turn on branch 1", "from 28.96° on branch 1 to 97.18° (B flat), on branch -1
+/// to 28.96° (B flat)".
+fn course(solved: &Solved, circuit: &Circuit) -> String {
+    let unit = unit(solved);
+    let first = &circuit.passes[0];
+    if let [pass] = circuit.passes[..]
+        && circuit.closed
+    {
+        let turns = (pass.length() / 360.0).round();
+        let length = if turns == 1.0 { "a full turn".to_owned() } else { format!("{turns} turns") };
+        return format!("{length} on branch {}", pass.signs.get(0));
+    }
+    let flat = |pass: &Pass| match &flat_joints(solved, pass.to.flat)[..] {
+        [] => String::new(),
+        joints => format!(" ({} flat)", joints.join(", ")),
+    };
+    let step =
+        |pass: &Pass| format!("on branch {} to {}{unit}{}", pass.signs.get(0), short(pass.to.stop.at, 10), flat(pass));
+    let steps: Vec<String> = circuit.passes.iter().map(step).collect();
+    format!("from {}{unit} {}", short(first.from.stop.at, 10), steps.join(", "))
+}
+
+/// A table of the joints, one of the links, and the instant geometry of the traced joints' links.
+fn describe(solved: &Solved, pose: &Pose, out: &mut String) {
+    let (at, branch) = (short(pose.input, 10), pose.pass.signs.get(0));
+    let _ = writeln!(out, "\nat {at}{}, circuit {}, branch {branch}", unit(solved), pose.circuit);
+    let width = solved.linkage.joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0).max(5);
+    let row = |out: &mut String, name: &str, cells: &[String]| {
+        let cells: String = cells.iter().map(|cell| format!("{cell:>13}")).collect();
+        let _ = writeln!(out, "{name:<width$}{cells}");
+    };
+    row(out, "joint", &["x", "y", "vx", "vy", "ax", "ay", "jx", "jy"].map(str::to_owned));
+    for (joint, named) in solved.linkage.joints.iter().enumerate() {
+        let jets = &pose.jets;
+        let vectors = [jets.place(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
+        let cells: Vec<String> = vectors.iter().flat_map(|v| [short(v.x, 7), short(v.y, 7)]).collect();
+        row(out, &named.name, &cells);
+    }
+    for turning in turnings(solved, pose) {
+        let (name, w) = (turning.joints.join("-"), short(turning.velocity, 7));
+        let _ = writeln!(out, "link {name} turns at {w}, changing by {}", short(turning.acceleration, 7));
+    }
+    for (joint, instant) in instants(solved, pose) {
+        let name = &solved.linkage.joints[joint].name;
+        let Some(instant) = instant else {
+            let _ = writeln!(out, "{name}: its link does not turn, or is at a limit");
+            continue;
+        };
+        let place = pose.jets.place(joint);
+        let [m, n] = instant.cubic().map(|x| short(x, 7));
+        let _ = writeln!(
+            out,
+            "{name}: instant centre {}, inflection pole {}, path curved by {}, changing by {}",
+            point(instant.pole),
+            point(instant.inflection_pole()),
+            short(instant.curvature(place), 7),
+            short(instant.curvature_rate(place), 7)
+        );
+        let ball = instant.ball_point().map_or("none".to_owned(), point);
+        let _ = writeln!(out, "{name}: cubic of stationary curvature M = {m}, N = {n}; Ball's point {ball}");
+    }
+}
