@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::notation;
 use crate::template::Template;
 
-const FILES: [&str; 16] = [
+const FILES: [&str; 19] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -17,7 +17,10 @@ const FILES: [&str; 16] = [
     include_str!("hrones-nelson.toml"),
     include_str!("slider-crank.toml"),
     include_str!("inverted-slider-crank.toml"),
+    include_str!("scotch-yoke.toml"),
     include_str!("jansen.toml"),
+    include_str!("klann.toml"),
+    include_str!("pantograph.toml"),
     include_str!("peaucellier-lipkin.toml"),
     include_str!("hart-inversor.toml"),
     include_str!("linear-actuator.toml"),

@@ -67,7 +67,7 @@ impl Assembly {
     }
 
     /// The pin of a second crank about `pivot`, geared to the first: it turns `ratio[0]` times while that turns
-    /// `ratio[1]` times, and stands at `phase_deg` degrees where that stands at 0.
+    /// `ratio[1]` times, both whole, and stands at `phase_deg` degrees where that stands at 0.
     ///
     /// # Errors
     /// A length that is not positive, a ratio with a 0 in it or out of bounds.
@@ -75,15 +75,15 @@ impl Assembly {
         &mut self,
         name: &str,
         (pivot, length): (JointId, f64),
-        ratio: [i64; 2],
+        ratio: [f64; 2],
         phase_deg: f64,
     ) -> Result<JointId, Error> {
         positive(name, length)?;
-        let [n, d] = ratio;
-        let bad = |x: i64| x == 0 || x.unsigned_abs() > Error::MAX_RATIO;
-        if bad(n) || bad(d) {
+        let is_good = |x: &f64| x.fract() == 0.0 && (1.0..=Error::MAX_RATIO as f64).contains(&x.abs());
+        if !ratio.iter().all(is_good) {
             return Err(Error::Ratio { joint: name.to_owned(), ratio });
         }
+        let [n, d] = ratio.map(|x| x as i64);
         let common = super::gcd(n.unsigned_abs() as u32, d.unsigned_abs() as u32);
         let lowest = i64::from(common) * d.signum();
         let id = self.add(name, Step::Gear { pivot, length, ratio: [n / lowest, d / lowest], phase_deg });

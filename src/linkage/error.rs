@@ -57,7 +57,7 @@ pub enum Error {
         /// The joint to place.
         joint: String,
         /// The ratio.
-        ratio: [i64; 2],
+        ratio: [f64; 2],
     },
     /// More dyads than [`MAX_DYADS`].
     #[error("`{joint}` is one dyad more than the {MAX_DYADS} a linkage may have")]

@@ -101,7 +101,8 @@ fn joint<'t>(
             let pivot =
                 fields.required("about", "about = \"P\"", reader).and_then(|value| reference(value, names, reader));
             let length = fields.required("length", "length = 1", reader).and_then(|value| reader.bound(value, scope));
-            let ratio = fields.required("ratio", "ratio = [2, 3]", reader).and_then(|value| ratio(value, reader));
+            let ratio =
+                fields.required("ratio", "ratio = [2, 3]", reader).and_then(|value| ratio(value, scope, reader));
             let phase = match fields.get("phase") {
                 None => Some(InputValue { value: Bound::constant(0.0), unit: None }),
                 Some(value) => reader.angle(value, scope),
@@ -181,13 +182,14 @@ fn coordinate<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader
     Some(Coordinate::Range { from: from?, to: to?, count: count? })
 }
 
-/// Two whole numbers that are not 0.
-fn ratio<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<[i64; 2]> {
+/// Two whole numbers that are not 0; those that come of parameters are checked with their values.
+fn ratio<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader<'t>) -> Option<[Bound; 2]> {
     let [a, b] = reader.pair(value)?;
     let mut whole = |value: &Value<'t>| {
-        let number = reader.constant(value)?;
-        if number.fract() == 0.0 && number != 0.0 && number.abs() <= 100.0 {
-            return Some(number as i64);
+        let bound = reader.bound(value, scope)?;
+        let number = bound.evaluate(|_| f64::NAN);
+        if number.is_nan() || number.fract() == 0.0 && (1.0..=100.0).contains(&number.abs()) {
+            return Some(bound);
         }
         let problem = Problem::error(value.span(), format!("{number} makes no gear ratio"));
         reader.note(problem.help("give whole numbers from 1 to 100; a negative one turns the other way"));

@@ -188,9 +188,10 @@ impl Template {
                     vec![assembly.fixed(name, at.into())]
                 }
                 Placing::Crank { pivot, length } => vec![assembly.crank(name, made[*pivot][0], number(k, length))?],
-                Placing::Gear { pivot, length, ratio, phase, .. } => {
+                Placing::Gear { pivot, length, ratio: [n, m], phase, .. } => {
+                    let ratio = [number(k, n), number(k, m)];
                     let phase = finite("`phase`", phase.evaluate(values))?;
-                    vec![assembly.gear(name, (made[*pivot][0], number(k, length)), *ratio, phase)?]
+                    vec![assembly.gear(name, (made[*pivot][0], number(k, length)), ratio, phase)?]
                 }
                 Placing::Piston { base, length, offset, side } => {
                     let crank = (number(k, length), finite("`offset`", number(k, offset))?);

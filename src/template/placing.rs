@@ -21,8 +21,8 @@ pub enum Placing {
         pivot: usize,
         /// The length.
         length: Bound,
-        /// Its turns to those of the first.
-        ratio: [i64; 2],
+        /// Its turns to those of the first: whole numbers.
+        ratio: [Bound; 2],
         /// Its angle where the first crank's is 0.
         phase: InputValue,
     },

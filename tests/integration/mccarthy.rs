@@ -198,27 +198,6 @@ fn rates_at_a_limit_are_unbounded() {
 }
 
 #[test]
-fn jansens_foot_is_flat_where_it_walks() {
-    use coupler_atlas::catalogue;
-    let template = catalogue::find("jansen").unwrap();
-    let defaults: Vec<f64> =
-        template.parameters.iter().map(|p| p.default.as_ref().unwrap().evaluate(|_| f64::NAN)).collect();
-    let linkage = template.linkage(&defaults).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(1.0)));
-    let circuit = &motion.circuits[0];
-    let foot: Vec<Point> = circuit.points(linkage.traced[0]).collect();
-    let low = foot.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
-    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-    for p in foot.iter().filter(|p| p.y < low + 1.0) {
-        (left, right) = (left.min(p.x), right.max(p.x));
-    }
-    // Within a millimetre of the ground, of a leg 90 mm tall, over four cranks' length.
-    assert!(right - left > 3.0 * 15.0, "a stride of {}", right - left);
-    let high = foot.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
-    assert!((15.0..30.0).contains(&(high - low)), "a step of {}", high - low);
-}
-
-#[test]
 fn columns_are_mccarthys_angles() {
     use coupler_atlas::measure::{column, take_columns};
     let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };

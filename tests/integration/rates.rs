@@ -167,7 +167,7 @@ fn everything([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
     let c = assembly.fixed("C", [4.0, 0.5].into());
     let f = assembly.fixed("F", [-3.0, 1.0].into());
     let pin = assembly.crank("A", o, crank).unwrap();
-    let gear = assembly.gear("G", (c, 0.5 * crank), [-3, 2], phase).unwrap();
+    let gear = assembly.gear("G", (c, 0.5 * crank), [-3.0, 2.0], phase).unwrap();
     let dyad = assembly.dyad("B", [pin, gear], [a, b], Side::Left).unwrap();
     let point = assembly.point("M", [pin, dyad], 1.2, -0.7).unwrap();
     let slide = assembly.slide("S", (point, 7.0), ([f, o], offset), Side::Right).unwrap();
