@@ -14,22 +14,25 @@ pub(super) struct Mechanism<'a> {
     pub pose: Vec<Point>,
     /// The guides of sliders that slide on the frame, each from end to end of what is used of it.
     guides: Vec<[Point; 2]>,
-    /// The slots of yokes, each from end to end of what is used of it, from the yoke's joint.
-    slots: Vec<(JointId, [Vector; 2])>,
+    slots: Vec<Slot>,
+}
+
+/// A slot: what a joint uses of the line it slides along, on a link that moves.
+struct Slot {
+    /// From end to end.
+    ends: [Point; 2],
+    /// The foot of the line, or the joint of the yoke.
+    foot: Point,
+    /// The joint that slides in it.
+    block: Point,
 }
 
 impl<'a> Mechanism<'a> {
     /// A linkage in one pose of a circuit.
     pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>) -> Mechanism<'a> {
         let guides = (0..linkage.joints.len()).filter_map(|joint| guide(linkage, circuit, joint)).collect();
-        let slots = (0..linkage.joints.len()).filter_map(|joint| slot(linkage, circuit, joint)).collect();
+        let slots = (0..linkage.joints.len()).filter_map(|joint| slot(linkage, circuit, &pose, joint)).collect();
         Mechanism { linkage, pose, guides, slots }
-    }
-
-    /// The slot of a yoke from end to end; where the guide moves, as far as the joint in it.
-    fn slot(&self, yoke: JointId, from: JointId) -> [Point; 2] {
-        let own = self.slots.iter().find(|(joint, _)| *joint == yoke);
-        own.map_or([self.pose[yoke], self.pose[from]], |(_, ends)| ends.map(|end| self.pose[yoke] + end))
     }
 
     /// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
@@ -62,7 +65,7 @@ impl<'a> Mechanism<'a> {
             .flat_map(|(centre, radius)| [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]);
         let joints = drawn_links(self.linkage).concat().into_iter().chain(ground(self.linkage));
         let joints = joints.map(|joint| self.pose[joint]);
-        let slots = self.slots.iter().flat_map(|(joint, ends)| ends.map(|end| self.pose[*joint] + end));
+        let slots = self.slots.iter().flat_map(|slot| slot.ends);
         Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels).chain(slots))
     }
 
@@ -88,7 +91,7 @@ impl<'a> Mechanism<'a> {
         }
         for guide in &self.guides {
             let [a, b] = guide.map(|p| plot.page_from_plane.apply(p));
-            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (3.0 * theme.joint);
+            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.4 * theme.joint);
             items.push(Item::Path(Path::stroked(vec![a - over, b + over], theme.stroke(theme.ink, theme.fine))));
         }
         items
@@ -106,16 +109,7 @@ impl<'a> Mechanism<'a> {
         for (id, joint) in self.linkage.joints.iter().enumerate() {
             match joint.step {
                 Step::Slide { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
-                Step::Yoke { from, line: [p, q], .. } => {
-                    items.push(Item::Path(Path::stroked(self.slot(id, from).map(page).to_vec(), heavy)));
-                    blocks.extend([(at(from), at(from) - at(id)), (at(id), at(q) - at(p))]);
-                }
-                Step::Slot { .. } | Step::Directed { .. } => {
-                    if let Some([foot, through]) = sliding_line(self.linkage, id) {
-                        items.push(Item::Path(Path::stroked(vec![at(foot), at(through)], heavy)));
-                        blocks.push((at(through), at(through) - at(foot)));
-                    }
-                }
+                Step::Yoke { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
                 Step::Piston { base: [pivot, _], .. } => items.extend(actuator(at(pivot), at(id), theme)),
                 _ => {}
             }
@@ -125,11 +119,21 @@ impl<'a> Mechanism<'a> {
             let closed = is_plate(&points);
             items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke: Some(heavy), fill: None }));
         }
+        for Slot { ends, foot, block } in &self.slots {
+            let ends = ends.map(page);
+            items.push(Item::Path(Path::stroked(vec![page(*foot), ends[0], ends[1]], heavy)));
+            items.push(slotted(ends, theme));
+            blocks.push((page(*block), ends[1] - ends[0]));
+        }
         items.extend(blocks.into_iter().map(|(centre, along)| block(centre, along, theme)));
         let mut joints: Vec<JointId> = links.concat();
         joints.extend(&ground);
         joints.sort_unstable();
         joints.dedup();
+        // The foot of a slot without offset is its pivot.
+        joints.retain(|&joint| {
+            !matches!(self.linkage.joints[joint].step, Step::Directed { along: 0.0, across: 0.0, .. })
+        });
         let circle = |centre, radius, color| {
             let stroke = Some(theme.stroke(color, theme.fine));
             Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
@@ -152,7 +156,7 @@ pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<[JointId
         Step::Slot { base: [_, through], .. } => Some([joint, through]),
         // A slot without offset has its foot at its pivot.
         Step::Directed { from, line: [pivot, through], along: 0.0, across: 0.0, .. } if from == pivot => {
-            Some([pivot, through])
+            Some([joint, through])
         }
         Step::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
         Step::Yoke { from, .. } => Some([joint, from]),
@@ -189,14 +193,47 @@ fn guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point;
     Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
 }
 
-/// What a joint uses of the slot it slides in, of a yoke on the frame.
-fn slot(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<(JointId, [Vector; 2])> {
-    let Step::Yoke { from, line, .. } = linkage.joints[joint].step else { return None };
-    fixed_direction(linkage, circuit, line)?;
-    let arms = || circuit.points(from).zip(circuit.points(joint)).map(|(a, b)| a - b);
-    let longest = arms().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
-    let by = |a: &Vector, b: &Vector| longest.dot(a).total_cmp(&longest.dot(b));
-    Some((joint, [arms().min_by(by)?, arms().max_by(by)?]))
+/// The slot whose foot or yoke a joint is, in a pose.
+fn slot(linkage: &Linkage, circuit: &Circuit, pose: &[Point], joint: JointId) -> Option<Slot> {
+    // The line's direction follows the base: that of a slot its pivot and foot, that of a yoke its guide, that of a slot
+    // without offset the line itself.
+    let ([from, to], through) = match linkage.joints[joint].step {
+        Step::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
+        Step::Directed { from, line: [pivot, through], along: 0.0, across: 0.0, .. } if from == pivot => {
+            ([pivot, through], through)
+        }
+        Step::Yoke { from, line, .. } => (line, from),
+        _ => return None,
+    };
+    let turned = |base: Vector, arm: Vector| Vector::new(base.dot(&arm), cross(base, arm)) / base.norm();
+    let point = |joint, sample| circuit.places.point(joint, sample);
+    let arm = |i: usize| turned(point(to, i) - point(from, i), point(through, i) - point(joint, i));
+    let arms: Vec<Vector> = (0..circuit.len()).map(arm).filter(|arm| arm.x.is_finite() && arm.y.is_finite()).collect();
+    let longest = arms.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    let by = |a: &&Vector, b: &&Vector| longest.dot(a).total_cmp(&longest.dot(b));
+    let unit = (pose[to] - pose[from]).normalize();
+    let back = |arm: &Vector| pose[joint] + unit * arm.x + left_normal(unit) * arm.y;
+    let ends = [back(arms.iter().min_by(by)?), back(arms.iter().max_by(by)?)];
+    Some(Slot { ends, foot: pose[joint], block: pose[through] })
+}
+
+/// The hole of a slot, as wide as a block, with round ends.
+fn slotted([a, b]: [Point; 2], theme: &Theme) -> Item {
+    const TO_AN_END: usize = 12;
+    let radius = 1.5 * theme.joint;
+    let along = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
+    // The block has room for its own length at both ends.
+    let over = along * (2.4 * theme.joint - radius);
+    let round = |centre: Point, from: Vector| {
+        (0..=TO_AN_END).map(move |k| {
+            let (cos, sin) = trig::cos_sin_deg(180.0 * k as f64 / TO_AN_END as f64);
+            centre + (from * cos + left_normal(from) * sin) * radius
+        })
+    };
+    let normal = left_normal(along);
+    let points = round(b + over, -normal).chain(round(a - over, normal)).collect();
+    let stroke = Some(theme.stroke(theme.ink, theme.fine));
+    Item::Path(Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) })
 }
 
 /// The direction of a line on the frame.

@@ -32,12 +32,27 @@ fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
     let title =
         Words::new(sheet.title, Point::new(left, top + 0.9 * theme.title), Anchor::Start, theme.title, theme.ink);
     draw(root, &title.fitted(right - left));
-    let at = Point::new(left, top + 0.9 * theme.title + 1.85 * theme.source);
-    let source = Words::new(&sheet.source, at, Anchor::Start, theme.source, theme.grey);
-    draw(root, &source.italic(sheet.symbols).fitted(right - left));
+    let mut at = Point::new(left, top + 0.9 * theme.title + 1.85 * theme.source);
+    let words = |text: &str, at| Words::new(text, at, Anchor::Start, theme.source, theme.grey).italic(sheet.symbols);
+    // What is too long for one line is parted between two of its parts; there is no room for a third line.
+    let (first, second) = parted(&sheet.source, |text| words(text, at).text.width() <= right - left);
+    for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
+        draw(root, &words(line, at).fitted(right - left));
+        at.y += 1.35 * theme.source;
+    }
     let folio = format!("{} · page {} of {}", sheet.atlas, sheet.page, sheet.of);
     let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
     draw(root, &Words::new(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
+}
+
+/// A text in two, parted at the last ` · ` before which it fits; if it does not fit whole.
+fn parted(text: &str, fits: impl Fn(&str) -> bool) -> (&str, &str) {
+    const SEPARATOR: &str = " · ";
+    if fits(text) {
+        return (text, "");
+    }
+    let at = text.rmatch_indices(SEPARATOR).map(|(at, _)| at).find(|&at| fits(&text[..at]));
+    at.map_or((text, ""), |at| (&text[..at], &text[at + SEPARATOR.len()..]))
 }
 
 fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {

@@ -17,7 +17,14 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     // The frame is a link like the others here: a crank that lies on it cannot be seen.
     let mut links = drawn_links(linkage);
     links.push(ground(linkage));
-    links.extend((0..linkage.joints.len()).filter_map(|joint| sliding_line(linkage, joint)).map(Vec::from));
+    for [foot, through] in (0..linkage.joints.len()).filter_map(|joint| sliding_line(linkage, joint)) {
+        // The link that carries a line goes on to what slides on it.
+        match links.iter_mut().find_map(|link| Some((link.iter().position(|joint| *joint == foot)?, link))) {
+            Some((at, carrier)) if !carrier.contains(&through) => carrier.insert(at + 1, through),
+            Some(_) => {}
+            None => links.push(vec![foot, through]),
+        }
+    }
     let pose = |sample: usize| -> Vec<Point> {
         (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
     };
@@ -44,7 +51,9 @@ fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
                 least = least.min((at[joint] - at[other]).norm());
             }
         }
-        for link in links.iter().filter(|link| !link.contains(&joint)) {
+        // The foot of a slot without offset is its pivot, and so on the frame.
+        let is_on = |link: &&Vec<usize>| link.iter().any(|&other| at[other] == at[joint]);
+        for link in links.iter().filter(|link| !is_on(link)) {
             for pair in link.windows(2) {
                 least = least.min(distance_to_segment(at[joint], at[pair[0]], at[pair[1]]));
             }
