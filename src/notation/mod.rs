@@ -1,5 +1,6 @@
 //! A template as written in TOML: the `[[linkage]]` tables of manifests and of the catalogue.
 
+mod joint;
 mod joints;
 mod linkage;
 mod reader;

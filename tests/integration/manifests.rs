@@ -217,7 +217,31 @@ fn each_mistake_in_a_linkage_has_its_message() {
             "point = [\"A\", \"C\"]",
             "`M` needs a link with both `A` and `C`, and no link has both",
         ),
-        ("length = 1", "length = -1", "the length -1 of `A` is not positive"),
+        ("length = 1", "length = -1", "a link of length -1 is none"),
+        ("lengths = [3, 3.5]", "lengths = [3, 0]", "a link of length 0 is none"),
+        ("trace = [\"M\"]", "trace = [\"M\", \"C\"]", "the traced joint `C` is not reached by the motion"),
+        (
+            "dyad = [\"A\", \"C\"]",
+            "dyad = [\"A\", \"M\"]",
+            "no chain of dyads solves this linkage, and `B`, `M` stay open",
+        ),
+        ("dyad = [\"A\", \"C\"]", "dyad = [\"A\", \"B\"]", "`B` needs its own place"),
+        (
+            "M = {",
+            "Y = { yoke = \"A\", line = [\"O\", \"C\"], angle = \"180 deg\" }\nM = {",
+            "the slot of `Y` lies along its guide",
+        ),
+        (
+            "C = {",
+            "C = { gear = \"A\", about = \"G\", length = 1, ratio = [\"p / 3\", 1] }\nG = {",
+            "`C` is geared 1.3333333333333333 to 1, and both must be whole numbers",
+        ),
+        (
+            "M = {",
+            "G = { gear = \"A\", about = \"C\", length = 1, ratio = [1, 0.5] }\nM = {",
+            "0.5 makes no gear ratio",
+        ),
+        ("trace =", "coincident = \"last one\"\ntrace =", "`last one` is not one of the words allowed here"),
         ("length = 1", "length = \"p - 4\"", "the length 0 of `A` is not positive"),
         ("length = 1", "length = \"q\"", "there is no `q`"),
         ("length = 1", "lenght = 1", "a joint with `crank` has no key `lenght`"),
@@ -256,6 +280,27 @@ fn a_grid_of_points_traces_each_across_fastest() {
         .map(|place| (place.x, place.y))
         .collect();
     assert_eq!(places, [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 1.0)]);
+}
+
+#[test]
+fn a_family_may_be_placed_mirrored_and_turned() {
+    use coupler_atlas::geometry::{Placement, Point};
+    let placed = |place: &str| {
+        let text = OWN.replacen("sampling =", &format!("place = {place}\nsampling ="), 1);
+        plan(&text).families[0].family.template.placement
+    };
+    let p = Point::new(2.0, 1.0);
+    assert_eq!(placed("{ mirror = true, rotate = \"90 deg\" }").point(p), Point::new(1.0, 2.0));
+    assert_eq!(placed("{ rotate = \"-0.5 * 180 deg\" }").point(p), Point::new(1.0, -2.0));
+    assert_eq!(placed("{}"), Placement::default());
+    for (place, message) in [
+        ("{ mirror = 1 }", "true or false"),
+        ("{ rotate = 90 }", "the unit is missing"),
+        ("{ turn = \"90 deg\" }", "`place` has no key `turn`"),
+    ] {
+        let report = problems(&OWN.replacen("sampling =", &format!("place = {place}\nsampling ="), 1));
+        assert!(report.contains(message), "{report}");
+    }
 }
 
 #[test]

@@ -17,13 +17,26 @@ fn the_readmes_further_joints_can_be_read() {
     let readme = include_str!("../../README.md");
     let joints: Vec<&str> =
         readme.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
-    assert_eq!(joints.len(), 4);
+    assert_eq!(joints.len(), 5);
     for joint in joints {
         let is_input = joint.contains("piston");
         let a = if is_input { "A = { fixed = [1, 2] }" } else { "A = { crank = \"O\", length = 1 }" };
-        let all = "O = { fixed = [0, 0] }\nC = { fixed = [4, 0] }\nP = { fixed = [5, 1] }\nQ = { fixed = [6, 2] }";
+        // Whatever the joint uses, the others are used by dyads on it.
+        let dyad = |name: &str, on: [&str; 2]| {
+            format!("{name} = {{ dyad = [\"{}\", \"{}\"], lengths = [1, 1], side = \"left\" }}", on[0], on[1])
+        };
+        let rest: Vec<String> = ["A", "O", "C", "P", "Q"]
+            .iter()
+            .enumerate()
+            .map(|(k, joint)| {
+                dyad(&format!("Z{}", k + 1), [&if k == 0 { "X".to_owned() } else { format!("Z{k}") }, joint])
+            })
+            .collect();
         let text = format!(
-            "[atlas]\ntitle = \"T\"\n[[linkage]]\nid = \"mine\"\ntrace = [\"X\", \"A\", \"C\", \"P\", \"Q\", \"O\"]\n[linkage.joints]\n{all}\n{a}\nX = {joint}\n"
+            "[atlas]\ntitle = \"T\"\n[[linkage]]\nid = \"mine\"\ntrace = [\"X\", \"Z5\"]\n[linkage.joints]\n\
+             O = {{ fixed = [0, 0] }}\nC = {{ fixed = [4, 0] }}\nP = {{ fixed = [5, 1] }}\nQ = {{ fixed = [6, 2] }}\n\
+             {a}\nX = {joint}\n{}\n",
+            rest.join("\n")
         );
         let (own, problems) = manifest::linkages(&text);
         assert!(own.len() == 1 && problems.is_empty(), "{}", report(&problems, "README.md", &text, false));
@@ -33,7 +46,7 @@ fn the_readmes_further_joints_can_be_read() {
 #[test]
 fn the_readme_names_every_command_and_linkages_are_listed_by_the_program() {
     let readme = include_str!("../../README.md");
-    for command in ["`render ", "`validate ", "`inspect ", "`list ", "`init "] {
+    for command in ["`render ", "`validate ", "`inspect ", "`list ", "`init ", "`completions ", "`man`"] {
         assert!(readme.contains(command), "{command}");
     }
 }
