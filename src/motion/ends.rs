@@ -2,7 +2,7 @@
 
 use super::circuit::{End, Pass, Stop};
 use super::jet::Jets;
-use super::kernel::{Columns, Modes, OwnInputs, place, place_joint};
+use super::kernel::{Columns, Modes, OwnInputs, place, place_joints};
 use crate::geometry::{Point, Vector, cross, left_normal};
 use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
 
@@ -38,7 +38,7 @@ pub(super) fn place_end(linkage: &Linkage, pass: &Pass, begins: bool, out: &mut 
             }
             // What hangs on a joint that was placed here is placed anew.
             _ => {
-                place_joint(linkage, id, inputs.all(), &modes, out, sample..sample + 1);
+                place_joints(linkage, id..id + 1, inputs.all(), &modes, out, sample..sample + 1);
                 continue;
             }
         };

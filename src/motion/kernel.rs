@@ -106,52 +106,52 @@ impl OwnInputs {
 /// `inputs` are those of the samples of `range` alone. A dyad whose base is longer
 /// or shorter than it can reach is laid flat; one whose base has no length is not a number.
 pub fn place(linkage: &Linkage, joints: usize, inputs: Inputs, modes: &Modes, out: &mut Columns, range: Range<usize>) {
-    for id in 0..joints {
-        place_joint(linkage, id, inputs, modes, out, range.clone());
-    }
+    place_joints(linkage, 0..joints, inputs, modes, out, range);
 }
 
-/// Places one joint from those before it, as [`place`] does.
-pub(super) fn place_joint(
+/// Places some of the joints from those before them, as [`place`] does.
+pub(super) fn place_joints(
     linkage: &Linkage,
-    id: JointId,
+    joints: Range<JointId>,
     inputs: Inputs,
     modes: &Modes,
     out: &mut Columns,
     range: Range<usize>,
 ) {
     let len = out.len;
-    let joint = &linkage.joints[id];
-    let (x_before, x_after) = out.x.split_at_mut(id * len);
-    let (y_before, y_after) = out.y.split_at_mut(id * len);
-    let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
-    let of = |j: JointId| (&x_before[j * len..][range.clone()], &y_before[j * len..][range.clone()]);
-    match joint.step {
-        Step::Fixed(at) => {
-            x.fill(at.x);
-            y.fill(at.y);
-        }
-        Step::Crank { pivot, length } => crank(of(pivot), length, (inputs.cos, inputs.sin), x, y),
-        Step::Gear { pivot, length, ratio, phase_deg } => {
-            let angle = |at: &f64| trig::cos_sin_deg(geared(*at, ratio, phase_deg));
-            let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.at.iter().map(angle).unzip();
-            crank(of(pivot), length, (&cos, &sin), x, y);
-        }
-        Step::Piston { base, length, offset, index } => {
-            piston((of(base[0]), of(base[1])), (inputs.at, length, offset), modes.0[index], x, y);
-        }
-        Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
-        Step::Slide { from, length, line, offset, index } => {
-            let line = (of(line[0]), of(line[1]));
-            slide(of(from), length, line, offset, modes.0[index], x, y);
-        }
-        Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
-        Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
-        Step::Yoke { from, line, offset, slot } => {
-            yoke(of(from), (of(line[0]), of(line[1])), offset, slot.x / slot.y, x, y);
-        }
-        Step::Directed { from, line, offset, along, across } => {
-            directed(of(from), (of(line[0]), of(line[1])), offset, [along, across], x, y);
+    for id in joints {
+        let joint = &linkage.joints[id];
+        let (x_before, x_after) = out.x.split_at_mut(id * len);
+        let (y_before, y_after) = out.y.split_at_mut(id * len);
+        let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
+        let of = |j: JointId| (&x_before[j * len..][range.clone()], &y_before[j * len..][range.clone()]);
+        match joint.step {
+            Step::Fixed(at) => {
+                x.fill(at.x);
+                y.fill(at.y);
+            }
+            Step::Crank { pivot, length } => crank(of(pivot), length, (inputs.cos, inputs.sin), x, y),
+            Step::Gear { pivot, length, ratio, phase_deg } => {
+                let angle = |at: &f64| trig::cos_sin_deg(geared(*at, ratio, phase_deg));
+                let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.at.iter().map(angle).unzip();
+                crank(of(pivot), length, (&cos, &sin), x, y);
+            }
+            Step::Piston { base, length, offset, index } => {
+                piston((of(base[0]), of(base[1])), (inputs.at, length, offset), modes.0[index], x, y);
+            }
+            Step::Dyad { base, lengths, index } => dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y),
+            Step::Slide { from, length, line, offset, index } => {
+                let line = (of(line[0]), of(line[1]));
+                slide(of(from), length, line, offset, modes.0[index], x, y);
+            }
+            Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
+            Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
+            Step::Yoke { from, line, offset, slot } => {
+                yoke(of(from), (of(line[0]), of(line[1])), offset, slot.x / slot.y, x, y);
+            }
+            Step::Directed { from, line, offset, along, across } => {
+                directed(of(from), (of(line[0]), of(line[1])), offset, [along, across], x, y);
+            }
         }
     }
 }

@@ -6,8 +6,17 @@
 //! point*, where a dyad lies flat and the input goes on; at the end of the range asked for; or, on a full turn, at
 //! input 0.
 //!
+//! Dyads that lie flat at one input change their sides together, or one of them alone, as the linkage's
+//! [`crate::linkage::Coincident`] has it. A dyad whose base vanishes takes its place by continuity; where there is none
+//! its joint has no place there, and is not a number.
+//!
+//! Limits of dyads on crank and frame are in closed form. Of all others it is certain that none is missed, down to 1e-12
+//! of a turn, or of an actuator's stroke, by enclosures of the chain and of its rate; where a dyad misses by no more than
+//! rounding, 64 units in the last place of its lengths, it has a change point and no limit.
+//!
 //! Positions come from kernels over columns (one joint, all samples). At the end of a pass the flat dyad's height is
-//! multiplied by exactly 0, and a limit of a dyad on crank and frame is carried as its cosine, not its angle.
+//! multiplied by exactly 0, and a limit of a dyad on crank and frame is carried as its cosine, not its angle. Rates come
+//! from Taylor series through the same chain.
 
 mod chain;
 mod circuit;
