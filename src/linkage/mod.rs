@@ -8,12 +8,14 @@ mod assembly;
 mod error;
 mod four_bar;
 mod mccarthy;
+mod sextic;
 
 pub use assembly::Assembly;
 pub use error::Error;
 pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
 pub use mccarthy::InvertedSliderCrank;
+pub use sextic::{DoublePoint, Node, Sextic};
 
 use std::cmp::Ordering;
 

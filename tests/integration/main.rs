@@ -11,6 +11,7 @@ mod mccarthy;
 mod program;
 mod rates;
 mod readme;
+mod sextic;
 mod thesis;
 
 /// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and
