@@ -6,6 +6,7 @@
 use std::hint::black_box;
 
 use coupler_atlas::linkage::{Assembly, Flat, Linkage, Side, Signs, Travel};
+use coupler_atlas::measure::{self, Subject};
 use coupler_atlas::motion::{Columns, Inputs, Modes, Motion, Sampler, Sampling, Stop, place};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -55,5 +56,42 @@ fn motion(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, kernel, motion);
+/// Random four-bars of every class, solved and measured.
+fn measures(criterion: &mut Criterion) {
+    let sampler = Sampler::new(Sampling::Samples(SAMPLES));
+    // A linear congruential generator: the same linkages on every machine.
+    let mut state = 1_u64;
+    let mut random = |from: f64, to: f64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from + (to - from) * ((state >> 11) as f64 / (1_u64 << 53) as f64)
+    };
+    let linkage = |random: &mut dyn FnMut(f64, f64) -> f64| {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", [0.0, 0.0].into());
+        let c = assembly.fixed("C", [random(0.5, 4.0), 0.0].into());
+        let a = assembly.crank("A", o, random(0.5, 3.0)).expect("a crank");
+        let lengths = [random(0.5, 4.0), random(0.5, 4.0)];
+        let b = assembly.dyad("B", [a, c], lengths, Side::Left).expect("a dyad");
+        let m = assembly.point("M", [a, b], random(-2.0, 2.0), random(-2.0, 2.0)).expect("a point");
+        assembly.finish(vec![m], None, Travel::default()).expect("a four-bar")
+    };
+    let linkages: Vec<Linkage> = (0..200).map(|_| linkage(&mut random)).collect();
+    let mut group = criterion.benchmark_group("measures");
+    group.throughput(Throughput::Elements(linkages.len() as u64));
+    group.sample_size(20);
+    group.bench_function("cells of a random four-bar", |bencher| {
+        bencher.iter(|| {
+            for linkage in &linkages {
+                let motion = Motion::of(linkage, &sampler);
+                for circuit in &motion.circuits {
+                    let subject = Subject::new(linkage, &motion, circuit, linkage.traced[0]);
+                    black_box(measure::take(&subject));
+                }
+            }
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, kernel, motion, measures);
 criterion_main!(benches);

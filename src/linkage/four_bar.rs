@@ -89,6 +89,30 @@ impl FourBar {
         }
     }
 
+    /// McCarthy's type: by the signs of `g - a + h - b`, `g - a - h + b` and `h + b - g - a`, which say whether the limits
+    /// of input and output exist; of a rocker with one limit, whether its range is about 0 or about pi.
+    ///
+    /// # Source
+    /// McCarthy and Soh, *Geometric Design of Linkages*, table 2.2.
+    pub fn kind(self) -> &'static str {
+        let FourBar { frame: g, crank: a, coupler: h, rocker: b } = self;
+        let tolerance = tolerance(g + a + h + b);
+        let signs = [(g - a) + (h - b), (g - a) - (h - b), (h - a) - (g - b)];
+        if signs.iter().any(|sign| sign.abs() <= tolerance) {
+            return Class::ChangePoint.name();
+        }
+        match signs.map(|sign| sign > 0.0) {
+            [true, true, true] => "crank-rocker",
+            [true, false, false] => "rocker-crank",
+            [false, false, true] => "double-crank",
+            [false, true, false] => "double-rocker",
+            [false, false, false] => "00 double-rocker",
+            [true, true, false] => "0π double-rocker",
+            [true, false, true] => "π0 double-rocker",
+            [false, true, true] => "ππ double-rocker",
+        }
+    }
+
     /// Grashof's class. Lengths whose sums agree to within a few ulps make a change point: they are meant to be equal,
     /// and decimals such as 0.1 + 0.2 are not.
     pub fn class(self) -> Class {

@@ -2,15 +2,27 @@
 
 mod class;
 mod column;
+mod extreme;
 mod input_range;
+mod kind;
+mod path;
+mod shape;
+mod speed_ratio;
+mod swing;
+mod time_ratio;
+mod trail;
+mod transmission;
 
 pub use column::{COLUMNS, Column, column, take_columns};
 
+use std::cell::OnceCell;
+
 use crate::linkage::{Class, JointId, Linkage};
 use crate::motion::{Circuit, Motion};
+use trail::Trail;
 
 /// What a measure is taken of: a traced joint on a circuit.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Subject<'a> {
     /// The linkage.
     pub linkage: &'a Linkage,
@@ -20,6 +32,19 @@ pub struct Subject<'a> {
     pub circuit: &'a Circuit,
     /// The traced joint.
     pub joint: JointId,
+    trail: OnceCell<Trail>,
+}
+
+impl<'a> Subject<'a> {
+    /// A traced joint on a circuit of a linkage's motion.
+    pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
+        Subject { linkage, motion, circuit, joint, trail: OnceCell::new() }
+    }
+
+    /// The curve, made once for all measures.
+    fn trail(&self) -> &Trail {
+        self.trail.get_or_init(|| Trail::of(self.circuit, self.joint))
+    }
 }
 
 /// A measured value.
@@ -49,7 +74,28 @@ pub struct Measure {
 }
 
 /// Every measure, in the order of the columns.
-pub const ALL: [Measure; 3] = [class::CLASS, input_range::INPUT_MIN, input_range::INPUT_MAX];
+pub const ALL: [Measure; 20] = [
+    class::CLASS,
+    kind::TYPE,
+    kind::SHORTEST,
+    input_range::INPUT_MIN,
+    input_range::INPUT_MAX,
+    swing::OUTPUT_SWING,
+    transmission::MU_MIN,
+    transmission::MU_MAX,
+    time_ratio::TIME_RATIO,
+    path::LENGTH,
+    path::AREA,
+    path::BOX[0],
+    path::BOX[1],
+    path::BOX[2],
+    path::BOX[3],
+    shape::CUSPS,
+    shape::CRUNODES,
+    shape::INFLECTIONS,
+    shape::CURVATURE_MAX,
+    speed_ratio::SPEED_RATIO,
+];
 
 /// A name that is true or false of a curve: `is_crank_rocker` and its like, by the word it asks for.
 pub const TRUTHS: [(&str, &str); 5] = [

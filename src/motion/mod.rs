@@ -75,6 +75,11 @@ impl Motion {
     }
 }
 
+/// Where every joint is at inputs of a pass, as seen from the linkage's own view.
+pub fn poses(linkage: &Linkage, pass: &Pass, inputs: &[f64]) -> Columns {
+    path::at(linkage, pass, inputs)
+}
+
 /// Where every joint is at one input of a pass, as seen from the linkage's own view.
 pub fn pose(linkage: &Linkage, pass: &Pass, input: f64) -> Vec<Point> {
     let columns = path::at(linkage, pass, &[input]);

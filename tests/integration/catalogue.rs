@@ -6,7 +6,7 @@ use coupler_atlas::motion::{Circuit, Motion, Sampler, Sampling};
 
 use crate::linkages::{check_motion, third_corner};
 
-fn defaults(id: &str) -> Linkage {
+pub fn defaults(id: &str) -> Linkage {
     let template = coupler_atlas::catalogue::find(id).unwrap();
     let mut values: Vec<f64> = vec![f64::NAN; template.parameters.len()];
     let slot = |name: &str| template.parameters.iter().position(|p| p.name == name).unwrap();

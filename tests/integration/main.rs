@@ -8,6 +8,7 @@ mod instant;
 mod linkages;
 mod manifests;
 mod mccarthy;
+mod measures;
 mod program;
 mod rates;
 mod readme;

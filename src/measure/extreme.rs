@@ -1,0 +1,62 @@
+use super::Subject;
+use crate::geometry::Point;
+use crate::motion::{self, Pass};
+
+/// The least and the greatest value of a quantity of the pose over a circuit, by its samples and then by parabolas between
+/// them. An extreme is as flat as it is smooth: what a parabola misses of its place is missed twice over in its value.
+pub(super) fn extremes(subject: &Subject, quantity: impl Fn(&dyn Fn(usize) -> Point) -> f64) -> [f64; 2] {
+    let circuit = subject.circuit;
+    let values: Vec<f64> = (0..circuit.len()).map(|i| quantity(&|joint| circuit.places.point(joint, i))).collect();
+    let at = |pass: &Pass, input: f64| {
+        let pose = motion::pose(subject.linkage, pass, input);
+        quantity(&|joint| pose[joint])
+    };
+    [1.0, -1.0].map(|sign| {
+        let finite = (0..values.len()).filter(|&i| values[i].is_finite());
+        let Some(best) = finite.min_by(|&a, &b| (sign * values[a]).total_cmp(&(sign * values[b]))) else {
+            return f64::NAN;
+        };
+        let mut least = sign * values[best];
+        for pass in &circuit.passes {
+            let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+            let middle = circuit.input[best];
+            // On a whole turn the first sample is between the last and the second.
+            let step = (high - low) / circuit.len().max(2) as f64;
+            let turn = if middle > high { low - high } else { 0.0 };
+            if pass.signs == circuit.signs(best) && (low - step..=high + step).contains(&(middle + turn)) {
+                let neighbours = [-1, 1].map(|way: isize| {
+                    let k = best as isize + way;
+                    let beside = usize::try_from(k).ok().and_then(|k| circuit.input.get(k));
+                    let off = beside.map_or(step, |input| (input - middle).abs());
+                    (middle + turn + way as f64 * off).clamp(low, high)
+                });
+                least =
+                    least.min(parabolic(|input| sign * at(pass, input), neighbours[0], middle + turn, neighbours[1]));
+            }
+        }
+        sign * least
+    })
+}
+
+/// The least value of a function about a place where it is less than at both ends, by parabolas through three places.
+fn parabolic(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64, mut c: f64) -> f64 {
+    const ROUNDS: usize = 8;
+    let (mut fa, mut fb, mut fc) = (f(a), f(b), f(c));
+    for _ in 0..ROUNDS {
+        let (left, right) = ((b - a) * (fb - fc), (b - c) * (fb - fa));
+        let vertex = b - ((b - a) * left - (b - c) * right) / (2.0 * (left - right));
+        if !vertex.is_finite() || vertex <= a || vertex >= c || vertex == b {
+            break;
+        }
+        let fv = f(vertex);
+        if fv > fb {
+            // The vertex is a new end.
+            if vertex < b { (a, fa) = (vertex, fv) } else { (c, fc) = (vertex, fv) }
+        } else if vertex < b {
+            (c, fc, b, fb) = (b, fb, vertex, fv);
+        } else {
+            (a, fa, b, fb) = (b, fb, vertex, fv);
+        }
+    }
+    fb.min(fa).min(fc)
+}

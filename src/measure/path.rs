@@ -1,0 +1,58 @@
+use super::{Measure, Subject, Value};
+use crate::geometry::Vector;
+
+/// The length of the path.
+pub const LENGTH: Measure = Measure {
+    name: "length",
+    unit: "",
+    is_word: false,
+    definition: "length of the path over the circuit, in the manifest's unit",
+    take: |subject: &Subject| Value::Number(subject.trail().lengths().iter().sum()),
+};
+
+/// The area inside it.
+pub const AREA: Measure = Measure {
+    name: "area",
+    unit: "",
+    is_word: false,
+    definition: "area the path goes round, in the manifest's unit squared: positive counter-clockwise; empty where it does not close",
+    take: |subject: &Subject| subject.trail().area().map_or(Value::Missing, Value::Number),
+};
+
+/// The box round it.
+pub const BOX: [Measure; 4] = [
+    Measure {
+        name: "bbox_x_min",
+        unit: "",
+        is_word: false,
+        definition: "least x of the curve",
+        take: |subject: &Subject| reach(subject, Vector::new(-1.0, 0.0)),
+    },
+    Measure {
+        name: "bbox_x_max",
+        unit: "",
+        is_word: false,
+        definition: "greatest x of the curve",
+        take: |subject: &Subject| reach(subject, Vector::new(1.0, 0.0)),
+    },
+    Measure {
+        name: "bbox_y_min",
+        unit: "",
+        is_word: false,
+        definition: "least y of the curve",
+        take: |subject: &Subject| reach(subject, Vector::new(0.0, -1.0)),
+    },
+    Measure {
+        name: "bbox_y_max",
+        unit: "",
+        is_word: false,
+        definition: "greatest y of the curve",
+        take: |subject: &Subject| reach(subject, Vector::new(0.0, 1.0)),
+    },
+];
+
+fn reach(subject: &Subject, direction: Vector) -> Value {
+    let reach = subject.trail().reach(direction);
+    // The least is the furthest the other way.
+    Value::Number(if direction.x + direction.y < 0.0 { -reach } else { reach })
+}

@@ -1,0 +1,111 @@
+use super::{Measure, Subject, Value};
+use crate::geometry::{cross, trig};
+use crate::linkage::{Flat, Input};
+use crate::motion::{Jets, Stop};
+
+/// How often the path crosses itself.
+pub const CRUNODES: Measure = Measure {
+    name: "crunodes",
+    unit: "",
+    is_word: false,
+    definition: "points at which the path crosses itself, as its samples show",
+    take: |subject: &Subject| Value::Number(subject.trail().crossings().len() as f64),
+};
+
+/// How often it bends the other way.
+pub const INFLECTIONS: Measure = Measure {
+    name: "inflections",
+    unit: "",
+    is_word: false,
+    definition: "points at which the path begins to bend the other way, as its samples show",
+    take: |subject: &Subject| Value::Number(subject.trail().inflections() as f64),
+};
+
+/// How often it stops and turns back.
+pub const CUSPS: Measure = Measure {
+    name: "cusps",
+    unit: "",
+    is_word: false,
+    definition: "points at which the path stands still and turns back: slower than a millionth of its fastest",
+    take: |subject: &Subject| Value::Number(cusps(subject) as f64),
+};
+
+/// Its sharpest bend.
+pub const CURVATURE_MAX: Measure = Measure {
+    name: "curvature_max",
+    unit: "",
+    is_word: false,
+    definition: "greatest curvature of the path, 1 over the manifest's unit; inf at a cusp",
+    take: |subject: &Subject| sharpest(subject).map_or(Value::Missing, Value::Number),
+};
+
+/// Speed and curvature of the path at an input of the pass that a sample is on.
+fn speed_and_curvature(subject: &Subject, sample: usize, input: f64) -> [f64; 2] {
+    let stop = Stop::of(subject.linkage.input(), input);
+    let jets = Jets::of(subject.linkage, stop, subject.circuit.signs(sample), Flat::NONE);
+    let (v, a) = (jets.velocity(subject.joint), jets.acceleration(subject.joint));
+    let speed = v.norm();
+    [speed, (cross(v, a) / (speed * speed * speed)).abs()]
+}
+
+/// The inputs beside a sample on its own pass.
+fn beside(subject: &Subject, sample: usize) -> [f64; 2] {
+    let input = |k: usize| subject.circuit.input.get(k).copied();
+    let here = subject.circuit.input[sample];
+    let (before, after) = (sample.checked_sub(1).and_then(input), input(sample + 1));
+    let step = after.or(before).map_or(0.0, |other| (other - here).abs());
+    [here - before.map_or(step, |b| (here - b).abs()), here + after.map_or(step, |a| (a - here).abs())]
+}
+
+fn cusps(subject: &Subject) -> usize {
+    let trail = subject.trail();
+    let turns: Vec<usize> = (0..trail.points.len()).filter(|&i| trail.turns_sharply(i)).collect();
+    if turns.is_empty() {
+        return 0;
+    }
+    let longest = trail.lengths().into_iter().fold(0.0, f64::max);
+    let mut found: Vec<f64> = Vec::new();
+    for i in turns {
+        let sample = trail.samples[i];
+        let [mut a, mut b] = beside(subject, sample);
+        let step = (b - a).abs();
+        for _ in 0..80 {
+            let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+            let [sc, sd] = [c, d].map(|input| speed_and_curvature(subject, sample, input)[0]);
+            if sc < sd { b = d } else { a = c }
+        }
+        let still = speed_and_curvature(subject, sample, a)[0];
+        // The speed of the longest step, to a radian or a unit of length, for comparison.
+        let unit = if subject.linkage.input() == Input::Length { 1.0 } else { trig::degrees(1.0) };
+        let fastest = longest / (step / 2.0) * unit;
+        let is_new = found.iter().all(|other| (other - a).abs() > step / 4.0);
+        if still <= 1e-6 * fastest && is_new {
+            found.push(a);
+        }
+    }
+    found.len()
+}
+
+fn sharpest(subject: &Subject) -> Option<f64> {
+    let trail = subject.trail();
+    let sharpest = trail.sharpest()?;
+    if trail.points.iter().enumerate().any(|(i, _)| trail.turns_sharply(i)) && cusps(subject) > 0 {
+        return Some(f64::INFINITY);
+    }
+    let sample = trail.samples[sharpest];
+    let [mut a, mut b] = beside(subject, sample);
+    let is_end = |input: &f64| {
+        let ends = || subject.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]);
+        ends().any(|end| !end.flat.is_none() && (end.stop.at - input).abs() <= (b - a).abs())
+    };
+    // At a limit the path bends as it does elsewhere, but its rates do not tell.
+    if is_end(&subject.circuit.input[sample]) {
+        return Some(trail.curvature_near(sharpest));
+    }
+    let at = |input: f64| speed_and_curvature(subject, sample, input)[1];
+    for _ in 0..40 {
+        let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+        if at(c) > at(d) { b = d } else { a = c }
+    }
+    Some(at((a + b) / 2.0).max(at(subject.circuit.input[sample])))
+}

@@ -1,0 +1,36 @@
+use super::extreme::extremes;
+use super::{Measure, Subject, Value};
+use crate::geometry::{Vector, cross, trig};
+use crate::linkage::FourBar;
+
+/// How far the output link swings.
+pub const OUTPUT_SWING: Measure = Measure {
+    name: "output_swing_deg",
+    unit: "deg",
+    is_word: false,
+    definition: "angle the output link of a four-bar swings through over the circuit; 360 where it turns round",
+    take: |subject: &Subject| swing(subject).map_or(Value::Missing, Value::Number),
+};
+
+fn swing(subject: &Subject) -> Option<f64> {
+    let [_, _, b, c] = FourBar::pins(subject.linkage)?;
+    let circuit = subject.circuit;
+    let arm = |i: usize| circuit.places.point(b, i) - circuit.places.point(c, i);
+    let angle = |from: Vector, to: Vector| trig::degrees(trig::atan2(cross(from, to), from.dot(&to)));
+    // How far it has turned at each sample, from the first; and over the whole, back to where it began.
+    let mut turned = vec![0.0];
+    for i in 1..circuit.len() {
+        turned.push(turned[i - 1] + angle(arm(i - 1), arm(i)));
+    }
+    let last = circuit.len() - 1;
+    if circuit.closed && (turned[last] + angle(arm(last), arm(0))).abs() > 180.0 {
+        return Some(360.0);
+    }
+    // Rocking, it never goes so far from the middle of its swing that its direction from there is in doubt.
+    let [low, high] = turned.iter().fold([0.0f64; 2], |[low, high], t| [low.min(*t), high.max(*t)]);
+    let (cos, sin) = trig::cos_sin_deg((low + high) / 2.0);
+    let first = arm(0);
+    let middle = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
+    let [least, greatest] = extremes(subject, |place| angle(middle, place(b) - place(c)));
+    Some(greatest - least)
+}

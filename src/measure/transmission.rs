@@ -1,0 +1,90 @@
+use super::extreme::extremes;
+use super::{Measure, Subject, Value};
+use crate::geometry::{cross, trig};
+use crate::linkage::{FourBar, JointId, Linkage, Step, four_bar_tolerance};
+
+/// The least transmission angle.
+pub const MU_MIN: Measure = Measure {
+    name: "mu_min_deg",
+    unit: "deg",
+    is_word: false,
+    definition: "least transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins (McCarthy 2.3.3)",
+    take: |subject: &Subject| least_and_greatest(subject).map_or(Value::Missing, |[least, _]| Value::Number(least)),
+};
+
+/// The greatest transmission angle.
+pub const MU_MAX: Measure = Measure {
+    name: "mu_max_deg",
+    unit: "deg",
+    is_word: false,
+    definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins",
+    take: |subject: &Subject| least_and_greatest(subject).map_or(Value::Missing, |[_, most]| Value::Number(most)),
+};
+
+/// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 where it is flat.
+fn opposite(side: f64, [x, y]: [f64; 2]) -> f64 {
+    // Half the angle has sine and cosine by the factors of Heron's formula. At a limit they are zero but for the rounding
+    // of the places the side is taken from.
+    let rounding = 4.0 * four_bar_tolerance(side + x + y);
+    let clear = |gap: f64| if gap.abs() <= rounding { 0.0 } else { gap };
+    let sine = clear(side - (x - y).abs()) * (side + (x - y).abs());
+    let cosine = clear(x + y - side) * (x + y + side);
+    2.0 * trig::degrees(trig::atan2(sine.max(0.0).sqrt(), cosine.max(0.0).sqrt()))
+}
+
+fn least_and_greatest(subject: &Subject) -> Option<[f64; 2]> {
+    let linkage = subject.linkage;
+    let FourBar { frame, crank, coupler, rocker } = FourBar::of(linkage)?;
+    if linkage.seen_from.is_none() {
+        // By the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the frame line.
+        let [o, a, _, c] = FourBar::pins(linkage)?;
+        let [least, greatest] = distances(subject, [o, a, c], [frame, crank]);
+        return Some([least, greatest].map(|d| opposite(d, [coupler, rocker])));
+    }
+    let [o, a, b, c] = FourBar::pins(linkage)?;
+    let angle = |[from, to]: [JointId; 2], sides: [f64; 2]| {
+        extremes(subject, |place| (place(from) - place(to)).norm()).map(|side| opposite(side, sides))
+    };
+    let at_rocker = angle([a, c], [coupler, rocker]);
+    if !is_driven(linkage, [a, b]) {
+        return Some(at_rocker);
+    }
+    let at_crank = angle([o, b], [crank, coupler]);
+    Some([at_rocker[0].min(at_crank[0]), at_rocker[1].max(at_crank[1])])
+}
+
+/// Whether the link through two pins is the one that is driven: the crank of the linkage as it was assembled.
+fn is_driven(linkage: &Linkage, pins: [JointId; 2]) -> bool {
+    linkage.joints.iter().enumerate().any(|(id, joint)| match joint.step {
+        Step::Crank { pivot, .. } => pins == [pivot, id] || pins == [id, pivot],
+        _ => false,
+    })
+}
+
+/// The least and the greatest distance of a crank's pin from another fixed pivot over a circuit.
+fn distances(subject: &Subject, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2]) -> [f64; 2] {
+    let circuit = subject.circuit;
+    let at = |joint, i| circuit.places.point(joint, i);
+    // The direction of the frame line, by the input at which the crank points along it.
+    let along = at(c, 0) - at(o, 0);
+    let arm = at(a, 0) - at(o, 0);
+    let turned = cross(arm, along) * subject.linkage.placement.handedness();
+    let turn = trig::degrees(trig::atan2(turned, arm.dot(&along)));
+    let towards = circuit.input[0] + turn;
+    let reached = |deg: f64| {
+        circuit.passes.iter().any(|pass| {
+            let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+            (deg - low + 1e-9).rem_euclid(360.0) <= high - low + 2e-9
+        })
+    };
+    let samples = (0..circuit.len()).map(|i| (at(a, i) - at(c, i)).norm());
+    let [mut least, mut greatest] =
+        samples.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], d| [least.min(d), greatest.max(d)]);
+    if reached(towards) {
+        least = (frame - crank).abs();
+    }
+    if reached(towards + 180.0) {
+        greatest = frame + crank;
+    }
+    [least, greatest]
+}

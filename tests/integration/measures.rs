@@ -1,0 +1,199 @@
+//! Measures against closed forms, and what they must not depend on.
+
+use coupler_atlas::geometry::{Point, trig};
+use coupler_atlas::linkage::{Assembly, Circuits, FourBar, Linkage, Placement, Side, Travel};
+use coupler_atlas::measure::{self, Subject, Value};
+use coupler_atlas::motion::{Motion, Sampler, Sampling};
+use proptest::prelude::*;
+
+use crate::catalogue::defaults;
+
+/// A four-bar with its pins A and B and a coupler point M traced.
+fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", Point::new(0.0, 0.0));
+    let c = assembly.fixed("C", Point::new(frame, 0.0));
+    let a = assembly.crank("A", o, crank).unwrap();
+    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = assembly.point("M", [a, b], along, across).unwrap();
+    let travel = Travel { circuits: Circuits::All, ..Travel::default() };
+    assembly.finish(vec![a, b, m], None, travel).unwrap()
+}
+
+/// The measures of a traced joint on a circuit, by name.
+fn measured(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
+    let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(samples)));
+    let subject = Subject::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
+    let values = measure::take(&subject);
+    move |name| values[measure::ALL.iter().position(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))]
+}
+
+fn number(value: Value) -> f64 {
+    if let Value::Number(value) = value { value } else { panic!("{value:?}") }
+}
+
+#[test]
+fn a_circle_is_measured_as_one() {
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    let value = measured(&linkage, 0, 0, 36);
+    let near = |name: &str, expected: f64| {
+        let found = number(value(name));
+        assert!((found - expected).abs() < 1e-6 * expected.abs().max(1.0), "{name}: {found} {expected}");
+    };
+    let pi = std::f64::consts::PI;
+    near("length", 2.5 * pi);
+    near("area", 1.25 * 1.25 * pi);
+    for (name, side) in [("bbox_x_min", -1.25), ("bbox_x_max", 1.25), ("bbox_y_min", -1.25), ("bbox_y_max", 1.25)] {
+        near(name, side);
+    }
+    near("curvature_max", 0.8);
+    near("speed_ratio", 1.0);
+    for name in ["cusps", "crunodes", "inflections"] {
+        assert_eq!(value(name), Value::Number(0.0), "{name}");
+    }
+}
+
+#[test]
+fn transmission_swing_and_time_ratio_have_closed_forms() {
+    let bar = [4.0, 1.0, 3.0, 3.5];
+    let value = measured(&four_bar(bar, (1.0, 1.0)), 2, 0, 50);
+    let angle = |c: f64| trig::degrees(trig::acos(c));
+    // McCarthy 2.3.3: cos mu = (h^2 + b^2 - d^2) / 2hb with d from g - a to g + a.
+    let mu = |d: f64| angle((9.0 + 12.25 - d * d) / 21.0);
+    assert!((number(value("mu_min_deg")) - mu(3.0)).abs() < 1e-12);
+    assert!((number(value("mu_max_deg")) - mu(5.0)).abs() < 1e-12);
+    // The rocker's turning points, from the triangles with crank and coupler in line.
+    let psi = |reach: f64| angle((16.0 + 12.25 - reach * reach) / 28.0);
+    assert!((number(value("output_swing_deg")) - (psi(4.0) - psi(2.0))).abs() < 1e-9);
+    let theta = |reach: f64| angle((16.0 + reach * reach - 12.25) / (8.0 * reach));
+    let slower = 180.0 + (theta(2.0) - theta(4.0)).abs();
+    assert!((number(value("time_ratio")) - slower / (360.0 - slower)).abs() < 1e-12);
+    assert_eq!((value("type"), value("shortest")), (Value::Word("crank-rocker"), Value::Word("crank")));
+    // A triple-rocker: the angle is 0 or 180 at its limits, and 180 where the crank is on the frame line.
+    let value = measured(&four_bar([4.0, 2.0, 2.0, 2.0], (1.0, 1.0)), 2, 0, 50);
+    assert!((number(value("mu_min_deg")) - angle(0.5)).abs() < 1e-12, "folded crank: 2, 2 and 2");
+    assert_eq!(number(value("mu_max_deg")), 180.0);
+    assert_eq!(value("type"), Value::Word("0π double-rocker"));
+    assert_eq!(value("time_ratio"), Value::Missing);
+    // A drag-link turns its output round.
+    let value = measured(&four_bar([1.0, 3.0, 3.5, 4.0], (1.0, 1.0)), 2, 0, 50);
+    assert_eq!((value("output_swing_deg"), value("type")), (Value::Number(360.0), Value::Word("double-crank")));
+    // A parallelogram's cranks keep the angle 0 at its change points.
+    let value = measured(&four_bar([3.0, 1.0, 3.0, 1.0], (1.0, 1.0)), 2, 0, 48);
+    assert_eq!((number(value("mu_min_deg")), number(value("mu_max_deg"))), (0.0, 180.0));
+}
+
+/// Every type of McCarthy's has its motion: what is said of the input and the output is so.
+#[test]
+fn types_say_where_the_links_go() {
+    let all = [[4.0, 1.0, 3.0, 3.5], [4.0, 3.5, 3.0, 1.0], [1.0, 3.0, 3.5, 4.0], [4.0, 3.0, 1.0, 3.5]];
+    let kinds = ["crank-rocker", "rocker-crank", "double-crank", "double-rocker"];
+    let rockers = [[2.0, 4.5, 1.0, 3.0], [4.0, 2.0, 2.0, 2.0], [2.0, 2.2, 4.4, 2.1], [2.0, 2.5, 1.0, 4.0]];
+    let names = ["00 double-rocker", "0π double-rocker", "π0 double-rocker", "ππ double-rocker"];
+    for (lengths, kind) in all.into_iter().zip(kinds).chain(rockers.into_iter().zip(names)) {
+        let [frame, crank, coupler, rocker] = lengths;
+        let found = FourBar { frame, crank, coupler, rocker }.kind();
+        let linkage = four_bar(lengths, (1.0, 1.0));
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(360)));
+        let circuit = &motion.circuits[0];
+        let turns = circuit.passes.len() == 1;
+        let goes_to = |at: Point, pivot: f64, way: f64| ((at.x - pivot) * way > 0.0) && at.y.abs() < 0.05;
+        let crank_goes = |way| circuit.points(2).any(|p| goes_to(p, 0.0, way));
+        let rocker_goes = |way| circuit.points(3).any(|p| goes_to(p, frame, way));
+        let expected = match kind {
+            "crank-rocker" | "double-crank" => turns,
+            "rocker-crank" | "double-rocker" => !turns,
+            "00 double-rocker" => crank_goes(1.0) && !crank_goes(-1.0) && rocker_goes(1.0) && !rocker_goes(-1.0),
+            "0π double-rocker" => crank_goes(1.0) && !crank_goes(-1.0) && rocker_goes(-1.0) && !rocker_goes(1.0),
+            "π0 double-rocker" => crank_goes(-1.0) && !crank_goes(1.0) && rocker_goes(1.0) && !rocker_goes(-1.0),
+            _ => crank_goes(-1.0) && !crank_goes(1.0) && rocker_goes(-1.0) && !rocker_goes(1.0),
+        };
+        assert!(expected && found == kind, "{lengths:?}: {found}, {kind}");
+    }
+}
+
+/// Bernoulli's lemniscate: of half-width a its length is 5.24411510858424 a (the lemniscate constant twice), it crosses
+/// itself once and there bends the other way twice, and its two halves go round opposite ways.
+#[test]
+fn a_lemniscate_is_measured_as_one() {
+    let root = 2f64.sqrt();
+    let linkage = four_bar([2.0, root, 2.0, root], (1.0, 0.0));
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(360)));
+    // Of the parallelogram and the antiparallelogram, the one whose middle does not go on a circle.
+    let eight =
+        (0..2).find(|&k| motion.circuits[k].points(4).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5)).unwrap();
+    let value = measured(&linkage, 2, eight, 360);
+    assert!((number(value("length")) - 5.244_115_108_584_24 * root).abs() < 1e-5, "{:?}", value("length"));
+    assert!(number(value("area")).abs() < 1e-6);
+    assert_eq!((value("crunodes"), value("inflections")), (Value::Number(1.0), Value::Number(2.0)));
+    assert!((number(value("bbox_x_max")) - 1.0 - root).abs() < 1e-7);
+    // Its greatest curvature is 3 / a, at both ends.
+    assert!((number(value("curvature_max")) - 3.0 / root).abs() < 1e-5, "{:?}", value("curvature_max"));
+}
+
+/// The published proportions of Hoeken's linkage, crank 1, frame 2, coupler and rocker 2.5.
+#[test]
+fn hoekens_box_is_that_of_its_crossings() {
+    let linkage = defaults("hoeken");
+    let value = measured(&linkage, 0, 0, 360);
+    // (8.3): on the axis at p the curve is at the roots of 4 a^2 - p^2 +- 2 p r - r^2.
+    assert!((number(value("bbox_y_max")) - 24f64.sqrt()).abs() < 1e-7);
+    assert_eq!((value("cusps"), value("crunodes")), (Value::Number(0.0), Value::Number(0.0)));
+}
+
+/// A coupler point on the moving centrode has a cusp where it comes to the pole.
+#[test]
+fn a_point_of_the_moving_centrode_has_a_cusp() {
+    use coupler_atlas::motion::Instant;
+    let plain = four_bar([4.0, 1.0, 3.0, 3.5], (1.0, 1.0));
+    let motion = Motion::of(&plain, &Sampler::new(Sampling::Samples(360)));
+    let jets = motion.circuits[0].jets(&plain, 100);
+    let pole = Instant::of_link(&jets, [2, 3]).unwrap().moving_pole;
+    let value = measured(&four_bar([4.0, 1.0, 3.0, 3.5], (pole.x, pole.y)), 2, 0, 77);
+    assert_eq!((value("cusps"), value("curvature_max")), (Value::Number(1.0), Value::Number(f64::INFINITY)));
+    assert_eq!(value("crunodes"), Value::Number(0.0));
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    /// What is measured depends on neither size nor place; lengths and areas go with the scale.
+    #[test]
+    fn measures_are_those_of_the_shape(
+        lengths in prop::array::uniform4(0.3f64..3.0), (along, across) in (-2.0f64..2.0, -2.0f64..2.0),
+        (scale, turn, mirrored) in (0.1f64..10.0, 0.0f64..360.0, any::<bool>()),
+    ) {
+        let plain = four_bar(lengths, (along, across));
+        let moved = Linkage {
+            placement: Placement::new(mirrored, turn),
+            ..four_bar(lengths.map(|l| l * scale), (along * scale, across * scale))
+        };
+        let motion = Motion::of(&plain, &Sampler::new(Sampling::Samples(60)));
+        let rocks: Vec<bool> = motion.circuits.iter().map(|circuit| circuit.passes.len() > 1).collect();
+        for (circuit, rocks) in rocks.iter().enumerate() {
+            let (before, after) = (measured(&plain, 2, circuit, 60), measured(&moved, 2, circuit, 60));
+            for m in measure::ALL {
+                let power = match m.name {
+                    "length" => scale,
+                    "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
+                    "curvature_max" => 1.0 / scale,
+                    name if name.starts_with("bbox") => continue,
+                    _ => 1.0,
+                };
+                match (before(m.name), after(m.name)) {
+                    (Value::Number(a), Value::Number(b)) => {
+                        prop_assert!(!a.is_nan(), "{}", m.name);
+                        // Of a bend sharper than the samples lie, rounding decides which sample is nearest to it.
+                        // Beside a limit that is so of every bend.
+                        if m.name == "curvature_max" && (a * number(before("length")) > 60.0 || *rocks) {
+                            continue;
+                        }
+                        let is_same = a * power == b || (a * power - b).abs() <= 1e-5 * b.abs().max(scale.min(1.0) * 1e-3);
+                        prop_assert!(is_same, "{} {:?}: {} {}", m.name, lengths, a * power, b);
+                    }
+                    (a, b) => prop_assert_eq!(a, b, "{}", m.name),
+                }
+            }
+        }
+    }
+}
