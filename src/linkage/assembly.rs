@@ -1,4 +1,4 @@
-use super::{Error, Joint, JointId, Link, Linkage, MAX_DYADS, Side, Signs, Step, Travel};
+use super::{Error, Joint, JointId, LineIs, Link, Linkage, MAX_DYADS, Side, Signs, Step, Travel};
 use crate::geometry::{Placement, Point, Vector, left_normal, trig};
 
 /// A body that is known by a joint and a line: what slides on a line, or is slid through.
@@ -18,7 +18,7 @@ enum Body {
     /// foot's turned to the left.
     Foot { foot: JointId, offset: f64 },
     /// It keeps the direction of a line, as of [`Step::Directed`].
-    Line { line: [JointId; 2], offset: f64 },
+    Line { line: [JointId; 2], offset: f64, line_is: LineIs },
 }
 
 /// A linkage being put together, joint by joint.
@@ -110,7 +110,7 @@ impl Assembly {
         let id = self.add(name, Step::Piston { base, length, offset, index });
         self.bar(base[1], id, length);
         // McCarthy's foot is to the right of the line from pivot to pin, so the pivot is to the left of his line.
-        self.body([base[0], id], [base[0], id], -offset);
+        self.body([base[0], id], [base[0], id], (-offset, LineIs::Driven));
         Ok(id)
     }
 
@@ -147,12 +147,12 @@ impl Assembly {
         (line, offset): ([JointId; 2], f64),
         ahead: Side,
     ) -> Result<JointId, Error> {
-        self.two(name, line)?;
+        self.line(name, line)?;
         positive(name, length)?;
         let index = self.two_valued(name, ahead)?;
         let id = self.add(name, Step::Slide { from, length, line, offset, index });
         self.bar(from, id, length);
-        self.body([id, line[1]], line, 0.0);
+        self.body([id, line[1]], line, (0.0, LineIs::Towards));
         Ok(id)
     }
 
@@ -168,35 +168,34 @@ impl Assembly {
         (line, offset): ([JointId; 2], f64),
         angle_deg: f64,
     ) -> Result<JointId, Error> {
-        self.two(name, line)?;
+        self.line(name, line)?;
         let (cos, sin) = trig::cos_sin_deg(angle_deg);
         if sin == 0.0 {
             return Err(Error::Parallel { joint: name.to_owned() });
         }
         let id = self.add(name, Step::Yoke { from, line, offset, slot: Vector::new(cos, sin) });
-        self.body([id, line[1]], line, 0.0);
+        self.body([id, line[1]], line, (0.0, LineIs::Towards));
         Ok(id)
     }
 
     /// The foot, at a distance `offset` from the pivot `base[0]`, of the line that slides through `base[1]`; on a side
     /// of `base[0] -> base[1]`. The pivot and the foot are on one link.
     ///
-    /// With no offset the foot is the pivot, and not two-valued. Points of the link that carries the line are given
-    /// by [`Assembly::point`] on the same two joints: along the line, as it points at the start, and to the left.
+    /// With no offset the foot is the pivot, and the side says which way the line points. Points of the link that carries
+    /// the line are given by [`Assembly::point`] on the same two joints: along the line, as it points at the start, and to
+    /// the left.
     ///
     /// # Errors
     /// One joint given twice, one dyad too many.
     pub fn slot(&mut self, name: &str, base: [JointId; 2], offset: f64, side: Side) -> Result<JointId, Error> {
         self.two(name, base)?;
+        let index = self.two_valued(name, side)?;
+        let id = self.add(name, Step::Slot { base, offset, index });
         if offset == 0.0 {
-            let foot = Step::Directed { from: base[0], line: base, offset: 0.0, along: 0.0, across: 0.0 };
-            let id = self.add(name, foot);
-            self.body(base, base, 0.0);
+            self.body(base, base, (0.0, LineIs::Turned(index)));
             self.links[self.carriers[self.carriers.len() - 1].link].joints.push((id, Vector::zeros()));
             return Ok(id);
         }
-        let index = self.two_valued(name, side)?;
-        let id = self.add(name, Step::Slot { base, offset, index });
         // With the foot to the right of pivot -> joint, the line points to the left of pivot -> foot.
         let signed = if side == Side::Right { offset } else { -offset };
         self.carriers.push(Carrier { base, body: Body::Foot { foot: id, offset: signed }, link: self.links.len() });
@@ -213,11 +212,23 @@ impl Assembly {
     /// # Errors
     /// One joint given twice, joints on no common link, joints that coincide.
     pub fn point(&mut self, name: &str, base: [JointId; 2], along: f64, across: f64) -> Result<JointId, Error> {
-        if let Some(carrier) = self.carriers.iter().find(|carrier| carrier.base == base) {
+        let mut carriers = self.carriers.iter().filter(|carrier| carrier.base == base);
+        if let Some(carrier) = carriers.next() {
+            if carriers.next().is_some() {
+                let base = base.map(|j| self.joints[j].name.clone());
+                return Err(Error::Ambiguous { joint: name.to_owned(), base });
+            }
             let Carrier { body, link, .. } = *carrier;
             let (step, place) = match body {
-                Body::Line { line, offset } => {
-                    (Step::Directed { from: base[0], line, offset, along, across }, Vector::new(along, across))
+                Body::Line { line, offset, line_is } => {
+                    // At the start it points towards the joint, whichever side that is.
+                    let sense = match line_is {
+                        LineIs::Turned(index) => -f64::from(self.signs.get(index)),
+                        LineIs::Towards | LineIs::Driven => 1.0,
+                    };
+                    let (from, place) = (base[0], Vector::new(along, across));
+                    let [along, across] = [along * sense, across * sense];
+                    (Step::Directed { from, line, offset, line_is, along, across }, place)
                 }
                 Body::Foot { foot, offset } => {
                     let (along, across) = (-across / offset, along / offset);
@@ -294,9 +305,21 @@ impl Assembly {
     }
 
     /// A body that keeps the direction of a line.
-    fn body(&mut self, base: [JointId; 2], line: [JointId; 2], offset: f64) {
-        self.carriers.push(Carrier { base, body: Body::Line { line, offset }, link: self.links.len() });
+    fn body(&mut self, base: [JointId; 2], line: [JointId; 2], (offset, line_is): (f64, LineIs)) {
+        self.carriers.push(Carrier { base, body: Body::Line { line, offset, line_is }, link: self.links.len() });
         self.links.push(Link { joints: vec![(base[0], Vector::zeros())] });
+    }
+
+    /// Two joints that a line goes through: of one link, they are apart.
+    fn line(&self, name: &str, line: [JointId; 2]) -> Result<(), Error> {
+        self.two(name, line)?;
+        match self.common_link(line) {
+            Some((_, from, to)) if from == to => {
+                let base = line.map(|j| self.joints[j].name.clone());
+                Err(Error::NoDirection { joint: name.to_owned(), base })
+            }
+            _ => Ok(()),
+        }
     }
 
     fn two(&self, name: &str, base: [JointId; 2]) -> Result<(), Error> {

@@ -45,6 +45,14 @@ pub enum Error {
         /// The distance of the joints they are taken from.
         span: f64,
     },
+    /// A point is wanted of what slides, and more than one thing is known by the joints given.
+    #[error("`{joint}` may be on more than one link that is known by `{}` and `{}`", base[0], base[1])]
+    Ambiguous {
+        /// The joint to place.
+        joint: String,
+        /// The joints it hangs on.
+        base: [String; 2],
+    },
     /// The slot of a yoke is parallel to its guide.
     #[error("the slot of `{joint}` lies along its guide")]
     Parallel {
@@ -79,6 +87,7 @@ impl Error {
             | Error::Length { joint, .. }
             | Error::NoDirection { joint, .. }
             | Error::NoTriangle { joint, .. }
+            | Error::Ambiguous { joint, .. }
             | Error::Parallel { joint }
             | Error::Ratio { joint, .. }
             | Error::TooManyDyads { joint } => joint,
@@ -95,6 +104,7 @@ impl Error {
             Error::Length { .. } => "give a length of more than 0",
             Error::NoDirection { .. } => "name two joints that are apart",
             Error::NoTriangle { .. } => "give distances that reach each other",
+            Error::Ambiguous { .. } => "give each of them a pivot, or a second joint of its line, of its own",
             Error::Parallel { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
             Error::Ratio { .. } => "write it like ratio = [2, 3]",
             Error::TooManyDyads { .. } => "take joints away, or place some as points of links",

@@ -111,11 +111,12 @@ pub enum Step {
         index: usize,
     },
     /// At the foot of the line that slides through a joint (the RPR dyad, McCarthy's inverted slider-crank): square
-    /// to the line from `base[1]`, at a distance `offset` from `base[0]`.
+    /// to the line from `base[1]`, at a distance `offset` from `base[0]`. Without offset the foot is the pivot, and the side
+    /// says which way the line points: to the right of it from the pivot towards the joint.
     Slot {
         /// The pivot of the link that carries the line, and the joint it slides through.
         base: [JointId; 2],
-        /// The line's distance from the pivot, not zero; negative on the other side.
+        /// The line's distance from the pivot; negative on the other side.
         offset: f64,
         /// Its place among the two-valued joints: its bit in [`Signs`].
         index: usize,
@@ -140,6 +141,8 @@ pub enum Step {
         line: [JointId; 2],
         /// How far the line runs to the left of the first of them; no further than they are apart.
         offset: f64,
+        /// What says how far along the line the second of them is.
+        line_is: LineIs,
         /// Along the line.
         along: f64,
         /// To the left of the line.
@@ -154,6 +157,17 @@ pub enum Step {
         /// To the left of that line, in parts of their distance.
         across: f64,
     },
+}
+
+/// How a line through a joint, beside another, is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineIs {
+    /// It points from the one to the other.
+    Towards,
+    /// It does so on the right side of a two-valued joint, a slot without offset, and away on the left.
+    Turned(usize),
+    /// The one is as far along it from the other as the input says: an actuator's.
+    Driven,
 }
 
 impl Step {

@@ -134,8 +134,11 @@ fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
         reader.note(problem.help("write { samples = 180, spacing = \"smooth\" }"));
     }
     match (fields.get("step"), fields.get("samples")) {
+        // Of a linkage that cannot be read it is not known what drives it.
+        (Some(value), None) if template.is_none() && value.get_ref().as_str().is_none() => None,
         (Some(value), None) if template.is_some_and(Template::is_driven_by_length) => {
-            let step = reader.constant(value)?;
+            let step = reader.length(value, &[])?.evaluate(|_| f64::NAN);
+            let step = reader.finite(value, step)?;
             if step > 0.0 {
                 return Some(Sampling::Step(step));
             }

@@ -1,7 +1,7 @@
 //! Quantities of a single sample: the further columns a family may ask of `points.csv`.
 
 use crate::geometry::{Vector, cross, trig};
-use crate::linkage::{FourBar, JointId, Linkage, Step};
+use crate::linkage::{FourBar, JointId, Linkage, Signs, Step};
 use crate::motion::{Circuit, Instant, Jets};
 
 /// A quantity of a traced joint, or of its linkage, at a sample.
@@ -19,6 +19,8 @@ struct Sample<'a> {
     linkage: &'a Linkage,
     joint: JointId,
     jets: Jets,
+    input: f64,
+    signs: Signs,
 }
 
 /// Every column there is. Rates are to a radian of input, or to a unit of its length; unbounded ones are infinite.
@@ -100,7 +102,8 @@ pub fn take_columns(
     if columns.is_empty() {
         return Vec::new();
     }
-    let sample = Sample { linkage, joint, jets: circuit.jets(linkage, sample) };
+    let (jets, input, signs) = (circuit.jets(linkage, sample), circuit.input[sample], circuit.signs(sample));
+    let sample = Sample { linkage, joint, jets, input, signs };
     columns.iter().map(|column| (column.take)(&sample)).collect()
 }
 
@@ -151,7 +154,8 @@ impl Sample<'_> {
     fn turning(&self, from: JointId, to: JointId) -> f64 {
         let line = self.between(from, to);
         let velocity = self.unmirrored(self.jets.velocity(to) - self.jets.velocity(from));
-        cross(line, velocity) / line.norm_squared()
+        let ratio = cross(line, velocity) / line.norm_squared();
+        if ratio.is_finite() { ratio } else { f64::INFINITY }
     }
 
     /// The crank's pivot and pin.
@@ -172,18 +176,36 @@ impl Sample<'_> {
         })
     }
 
-    /// The slot on the crank's pin: pivot C, pin A, foot B, and the crank's pivot.
-    fn slot(&self) -> Option<Loop> {
-        let (o, a) = self.crank().filter(|_| self.linkage.seen_from.is_none())?;
-        self.linkage.joints.iter().enumerate().find_map(|(b, joint)| match joint.step {
-            Step::Slot { base: [c, through], .. } if through == a => Some(Loop { o, a, b, c }),
+    /// The inverted slider-crank: a slot on the crank's pin, or the actuator that drives it.
+    fn slider(&self) -> Option<Slider> {
+        if self.linkage.seen_from.is_some() {
+            return None;
+        }
+        self.linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.step {
+            Step::Slot { base: [c, a], offset, index } => {
+                let (o, crank) = self.crank()?;
+                // McCarthy draws the foot to the right of C -> A: there the slide is positive.
+                let arm = self.between(c, a);
+                let side = -f64::from(self.signs.get(index)) * if offset < 0.0 { -1.0 } else { 1.0 };
+                let slide = side * (arm.norm_squared() - offset * offset).max(0.0).sqrt();
+                let rate = arm.dot(&self.unmirrored(self.jets.velocity(a) - self.jets.velocity(c))) / slide;
+                (a == crank).then_some(Slider { o, a, c, offset: offset.abs(), slide, rate })
+            }
+            Step::Piston { base: [c, o], offset, .. } => {
+                Some(Slider { o, a: id, c, offset, slide: self.input, rate: 1.0 })
+            }
             _ => None,
         })
     }
 
     fn psi(&self) -> f64 {
-        let of = |l: Loop| signed_angle(self.between(l.o, l.c), self.between(l.c, l.b));
-        self.four_bar().or_else(|| self.slot()).map_or(f64::NAN, of)
+        let of_slider = |s: Slider| {
+            let angle = signed_angle(self.between(s.o, s.c), self.between(s.c, s.a)) - s.beta();
+            // From -180 to 180, as the other angles are.
+            angle - 360.0 * (angle / 360.0).round()
+        };
+        let of_rocker = |l: Loop| signed_angle(self.between(l.o, l.c), self.between(l.c, l.b));
+        self.four_bar().map(of_rocker).or_else(|| self.slider().map(of_slider)).unwrap_or(f64::NAN)
     }
 
     fn phi(&self) -> f64 {
@@ -195,7 +217,13 @@ impl Sample<'_> {
     }
 
     fn psi_ratio(&self) -> f64 {
-        self.four_bar().or_else(|| self.slot()).map_or(f64::NAN, |l| self.turning(l.c, l.b))
+        // As psi is C-A's angle less beta, whose rate is e s' / b^2.
+        let of_slider = |s: Slider| {
+            let ratio = self.turning(s.c, s.a) - s.offset * s.rate / self.between(s.c, s.a).norm_squared();
+            if ratio.is_finite() { ratio } else { f64::INFINITY }
+        };
+        let of_rocker = |l: Loop| self.turning(l.c, l.b);
+        self.four_bar().map(of_rocker).or_else(|| self.slider().map(of_slider)).unwrap_or(f64::NAN)
     }
 
     fn phi_ratio(&self) -> f64 {
@@ -208,20 +236,34 @@ impl Sample<'_> {
         four_bar.solvability(trig::atan2(cross(frame, crank), frame.dot(&crank)))
     }
 
-    /// Positive where the foot is right of C -> A, as McCarthy draws it.
     fn slide(&self) -> f64 {
-        self.slot().map_or(f64::NAN, |l| {
-            let (foot, line) = (self.between(l.c, l.b), self.between(l.b, l.a));
-            line.norm() * cross(foot, line).signum()
-        })
+        self.slider().map_or(f64::NAN, |s| s.slide)
     }
 
     fn b(&self) -> f64 {
-        self.slot().map_or(f64::NAN, |l| self.between(l.c, l.a).norm())
+        self.slider().map_or(f64::NAN, |s| self.between(s.c, s.a).norm())
     }
 
     fn beta(&self) -> f64 {
-        self.slot().map_or(f64::NAN, |l| signed_angle(self.between(l.c, l.b), self.between(l.c, l.a)))
+        self.slider().map_or(f64::NAN, |s| s.beta())
+    }
+}
+
+/// McCarthy's inverted slider-crank: the crank's pivot and pin, the pivot of the slider's line, its offset and its slide.
+struct Slider {
+    o: JointId,
+    a: JointId,
+    c: JointId,
+    offset: f64,
+    slide: f64,
+    /// The rate of the slide.
+    rate: f64,
+}
+
+impl Slider {
+    /// (2.40): `b cos beta = e` and `b sin beta = s`.
+    fn beta(&self) -> f64 {
+        trig::degrees(trig::atan2(self.slide, self.offset))
     }
 }
 

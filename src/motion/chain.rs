@@ -1,5 +1,5 @@
 use super::series::{Planar, Scalar, Series};
-use crate::linkage::{JointId, Linkage, Step};
+use crate::linkage::{JointId, LineIs, Linkage, Step};
 
 /// An input, as a value and, of an angle, as a direction.
 #[derive(Clone, Copy, Debug)]
@@ -12,8 +12,9 @@ pub(super) struct Drive<T> {
 
 /// Places the first `joints` joints as series in the input, each from those before it, in the frame of the fixed joints.
 ///
-/// Angles of input are in radians, lengths in their unit. `mode` is what a dyad's height is multiplied by. Each joint is
-/// handed to `settle` before others are placed on it.
+/// Angles of input are in radians, lengths in their unit. `mode` is what a dyad's height is multiplied by; of one that is
+/// multiplied by 0 the height is left out, with its rates. Each joint is handed to `settle`, with those before it, before
+/// others are placed on it.
 ///
 /// # Source
 /// The constraints of each dyad as [`super::kernel::place`] solves them, written so that each variable stands as few
@@ -23,7 +24,7 @@ pub(super) fn chain<T: Scalar, const N: usize>(
     joints: usize,
     drive: Drive<T>,
     mode: impl Fn(usize) -> f64,
-    mut settle: impl FnMut(JointId, Planar<T, N>) -> Planar<T, N>,
+    mut settle: impl FnMut(JointId, Planar<T, N>, &[Planar<T, N>]) -> Planar<T, N>,
 ) -> Vec<Planar<T, N>> {
     let constant = |value: f64| Series::constant(value);
     let none = constant(0.0);
@@ -47,14 +48,17 @@ pub(super) fn chain<T: Scalar, const N: usize>(
             Step::Slide { from, length, line: [p, q], offset, index } => {
                 let unit = at[q].minus(at[p]).unit();
                 let h = constant(offset) - unit.cross(at[from].minus(at[p]));
-                let along = ((constant(length) - h) * (constant(length) + h)).sqrt().scaled(mode(index));
+                let along = (constant(length) - h) * (constant(length) + h);
+                let along = if mode(index) == 0.0 { none } else { along.sqrt().scaled(mode(index)) };
                 at[from].moved(unit, along, h)
             }
+            Step::Slot { base: [p, _], offset: 0.0, .. } => at[p],
             Step::Slot { base: [p, q], offset, index } => {
                 let base = at[q].minus(at[p]);
                 let d2 = base.norm_squared();
                 let along = constant(offset * offset) / d2;
-                let across = (d2 - constant(offset * offset)).sqrt().scaled(offset * mode(index)) / d2;
+                let across = d2 - constant(offset * offset);
+                let across = if mode(index) == 0.0 { none } else { across.sqrt().scaled(offset * mode(index)) / d2 };
                 at[p].moved(base, along, across)
             }
             Step::Rigid { base: [p, q], along, across } => {
@@ -66,17 +70,23 @@ pub(super) fn chain<T: Scalar, const N: usize>(
                 let along = unit.dot(pin) - (unit.cross(pin) - constant(offset)).scaled(slot.x / slot.y);
                 at[p].moved(unit, along, constant(offset))
             }
-            Step::Directed { from, line: [p, q], offset, along, across } => {
+            Step::Directed { from, line: [p, q], offset, line_is, along, across } => {
                 let base = at[q].minus(at[p]);
                 let d2 = base.norm_squared();
-                let s = if offset == 0.0 { d2.sqrt() } else { (d2 - constant(offset * offset)).sqrt() };
+                let sense = if let LineIs::Turned(index) = line_is { -mode(index) } else { 1.0 };
+                let s = match line_is {
+                    LineIs::Driven => Series::variable(drive.at),
+                    _ if offset == 0.0 => d2.sqrt(),
+                    _ => (d2 - constant(offset * offset)).sqrt(),
+                };
                 // The line's direction is the base's, turned to the right by the angle whose sine is offset / d.
-                let (along, across) = (constant(along), constant(across));
+                let (along, across) = (constant(along * sense), constant(across * sense));
                 let e = constant(offset);
                 at[from].moved(base, (along * s + across * e) / d2, (across * s - along * e) / d2)
             }
         };
-        at.push(settle(id, place));
+        let place = settle(id, place, &at);
+        at.push(place);
     }
     at
 }
@@ -89,6 +99,6 @@ fn dyad<T: Scalar, const N: usize>([p, q]: [Planar<T, N>; 2], [l0, l1]: [Series<
     let (sum, difference) = (l0 + l1, l0 - l1);
     let discriminant = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
     let along = Series::constant(0.5) + (sum * difference).scaled(0.5) / d2;
-    let across = discriminant.sqrt().scaled(0.5 * mode) / d2;
+    let across = if mode == 0.0 { Series::constant(0.0) } else { discriminant.sqrt().scaled(0.5 * mode) / d2 };
     p.moved(base, along, across)
 }

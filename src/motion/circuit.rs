@@ -148,6 +148,11 @@ fn start(linkage: &Linkage, all: &[Interval]) -> Result<usize, String> {
         None => middle_of_first_range(all, &ours, period).ok_or("no input allows the sides asked for")?,
     };
     let within = |k: &usize| all[*k].span.turns_to(at, period).is_some();
+    if let (Some(start), Some([from, to])) = (linkage.travel.start, linkage.travel.range)
+        && (start - from).rem_euclid(period) > to - from
+    {
+        return Err(format!("its start, an input of {start}, is not in the range asked for, from {from} to {to}"));
+    }
     ours.into_iter().find(within).ok_or_else(|| format!("it cannot be assembled at the start, an input of {at}"))
 }
 

@@ -4,7 +4,7 @@ use super::circuit::{End, Pass, Stop};
 use super::jet::Jets;
 use super::kernel::{Columns, Modes, OwnInputs, place, place_joints};
 use crate::geometry::{Point, Vector, cross, left_normal};
-use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
+use crate::linkage::{Flat, JointId, LineIs, Linkage, Signs, Step};
 
 /// Places every joint at one sample where a pass begins or ends, in the frame of the fixed joints.
 ///
@@ -35,6 +35,13 @@ pub(super) fn place_end(linkage: &Linkage, pass: &Pass, begins: bool, out: &mut 
                 } else {
                     at(p) + base * (flat_foot(lengths, base.norm()) / base.norm())
                 }
+            }
+            // A slot without offset whose joint is on its pivot: the line goes on as it comes.
+            Step::Directed { from, line, line_is: LineIs::Turned(index), along, across, .. } if flat.has(index) => {
+                let pose = Pose { linkage, at: out, sample, stop, signs: pass.signs, flat, inwards };
+                let sense = -f64::from(pass.signs.get(index));
+                let moved = pose.direction(line).map(|d| (d * along + left_normal(d) * across) * sense);
+                moved.map_or(Point::new(f64::NAN, f64::NAN), |moved| at(from) + moved)
             }
             // What hangs on a joint that was placed here is placed anew.
             _ => {

@@ -25,6 +25,9 @@ pub struct Instant {
     sense: f64,
 }
 
+/// A link that turns by less than this part of what it moves along does not turn.
+const TRANSLATION: f64 = 1e-13;
+
 impl Instant {
     /// Of a link through two joints, from their rates; `None` where it does not turn, or at a limit.
     pub fn of_link(jets: &Jets, [a, b]: [JointId; 2]) -> Option<Instant> {
@@ -34,6 +37,10 @@ impl Instant {
         // A rigid arm e has e' = i w e, e'' = (i w' - w^2) e, e''' = (i (w'' - w^3) - 3 w w') e.
         let turning = |rate: Vector| cross(arm, rate) / arm.norm_squared();
         let w = turning(v);
+        // A link that only moves along has its pole at infinity, and not where rounding has it.
+        if w.abs() * arm.norm() <= TRANSLATION * va.norm() {
+            return None;
+        }
         let (w1, w2) = (turning(acc), turning(jerk) + w * w * w);
         // The joint's derivatives by the link's angle, from those by the input.
         let first = va / w;
@@ -52,6 +59,9 @@ impl Instant {
         let (crank, coupler, rocker) = (a - o, b - a, b - c);
         // crank' + coupler' = rocker', each a rate of turning times the arm's left normal, differentiated twice more.
         let area = cross(crank, rocker);
+        if area.abs() <= TRANSLATION * crank.norm() * rocker.norm() {
+            return None;
+        }
         let solve =
             |known: Vector| [-cross(known, left_normal(rocker)) / area, -cross(known, left_normal(crank)) / area];
         // Derivatives of an arm that turns at w, w', w''; what does not depend on the highest of them is known.
@@ -119,16 +129,21 @@ impl Instant {
     ///
     /// # Source
     /// Hall, *Kinematics and Linkage Design* (1961), chapter 5.
-    pub fn cubic(&self) -> [f64; 2] {
+    ///
+    /// None where the diameter is nothing: a link that turns about a fixed pivot.
+    pub fn cubic(&self) -> Option<[f64; 2]> {
         let size = self.diameter.norm();
+        if size <= 1e-12 * (self.moving_pole.norm() + size) {
+            return None;
+        }
         let [tangent, normal] = [self.tangent(), self.diameter].map(|axis| axis / size);
         let area = 3.0 * size * size;
-        [area / (self.jerk.dot(&tangent) + 3.0 * size), area / self.jerk.dot(&normal)]
+        Some([area / (self.jerk.dot(&tangent) + 3.0 * size), area / self.jerk.dot(&normal)])
     }
 
     /// The point of the cubic of stationary curvature in a direction from the pole; none where the cubic goes to infinity.
     pub fn cubic_point(&self, direction: Vector) -> Option<Point> {
-        let [m, n] = self.cubic();
+        let [m, n] = self.cubic()?;
         let d = direction.normalize();
         let [cos, sin] = [self.tangent(), self.diameter].map(|axis| d.dot(&axis.normalize()));
         // Both sides times sin cos: the poles of the branches are the pole itself.

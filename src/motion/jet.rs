@@ -4,7 +4,7 @@ use super::chain::{Drive, chain};
 use super::circuit::Stop;
 use super::series::{Planar, Series};
 use crate::geometry::{Placement, Point, Vector};
-use crate::linkage::{Flat, JointId, Linkage, Signs};
+use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
 
 /// A joint's place and its first three rates.
 type Jet = Planar<f64, 4>;
@@ -29,9 +29,23 @@ impl Jets {
     pub(super) fn in_fixed_frame(linkage: &Linkage, stop: Stop, signs: Signs, flat: Flat) -> Jets {
         let drive = Drive { at: stop.at, direction: [stop.cos, stop.sin] };
         let mode = |dyad: usize| if flat.has(dyad) { 0.0 } else { f64::from(signs.get(dyad)) };
-        let settle = |joint: JointId, place: Jet| {
-            let is_flat = linkage.joints[joint].step.index().is_some_and(|dyad| flat.has(dyad));
-            if is_flat { infinite(place) } else { place }
+        let settle = |joint: JointId, place: Jet, at: &[Jet]| {
+            let between = |p: JointId, q: JointId| at[q].minus(at[p]);
+            // Where it goes to and fro at its limit: along its line, or square to its base.
+            match linkage.joints[joint].step {
+                // The foot of a slot without offset is its pivot.
+                Step::Slot { offset: 0.0, .. } => place,
+                Step::Slide { line: [p, q], index, .. } if flat.has(index) => unbounded(place, between(p, q)),
+                Step::Dyad { base: [p, q], index, .. }
+                | Step::Slot { base: [p, q], index, .. }
+                | Step::Piston { base: [p, q], index, .. }
+                    if flat.has(index) =>
+                {
+                    let base = between(p, q);
+                    unbounded(place, Planar { x: -base.y, y: base.x })
+                }
+                _ => place,
+            }
         };
         Jets(chain(linkage, linkage.joints.len(), drive, mode, settle))
     }
@@ -66,10 +80,16 @@ impl Jets {
     }
 }
 
-/// The same place with rates that have no bound.
-fn infinite(at: Jet) -> Jet {
-    let unbounded = |place: Series<f64, 4>| Series([place.0[0], f64::INFINITY, f64::INFINITY, f64::INFINITY]);
-    Planar { x: unbounded(at.x), y: unbounded(at.y) }
+/// The same place with rates that have no bound, but across the direction they have none in: there the velocity has one,
+/// and all rates where the direction stays.
+fn unbounded(at: Jet, direction: Jet) -> Jet {
+    let none = f64::INFINITY;
+    let rates = |place: Series<f64, 4>, along: Series<f64, 4>, across: Series<f64, 4>| match along.0 {
+        [0.0, 0.0, 0.0, 0.0] if across.0[0] != 0.0 => place,
+        [0.0, ..] if across.0[0] != 0.0 => Series([place.0[0], place.0[1], none, none]),
+        _ => Series([place.0[0], none, none, none]),
+    };
+    Planar { x: rates(at.x, direction.x, direction.y), y: rates(at.y, direction.y, direction.x) }
 }
 
 /// Places and rates in the plane they are reported in.

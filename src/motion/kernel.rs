@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use super::circuit::Stop;
 use crate::geometry::{Placement, Point, cross, trig};
-use crate::linkage::{Flat, JointId, Linkage, MAX_DYADS, Signs, Step};
+use crate::linkage::{Flat, JointId, LineIs, Linkage, MAX_DYADS, Signs, Step};
 
 /// Positions of all joints at all samples, joint by joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -144,13 +144,25 @@ pub(super) fn place_joints(
                 let line = (of(line[0]), of(line[1]));
                 slide(of(from), length, line, offset, modes.0[index], x, y);
             }
+            Step::Slot { base, offset: 0.0, .. } => {
+                let (px, py) = of(base[0]);
+                x.copy_from_slice(px);
+                y.copy_from_slice(py);
+            }
             Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
             Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
             Step::Yoke { from, line, offset, slot } => {
                 yoke(of(from), (of(line[0]), of(line[1])), offset, slot.x / slot.y, x, y);
             }
-            Step::Directed { from, line, offset, along, across } => {
-                directed(of(from), (of(line[0]), of(line[1])), offset, [along, across], x, y);
+            Step::Directed { from, line, offset, line_is, along, across } => {
+                let line = (of(line[0]), of(line[1]));
+                match line_is {
+                    LineIs::Towards => directed(of(from), line, (offset, None), [along, across], x, y),
+                    LineIs::Driven => directed(of(from), line, (offset, Some(inputs.at)), [along, across], x, y),
+                    LineIs::Turned(index) => {
+                        directed(of(from), line, (offset, None), [along, across].map(|c| c * -modes.0[index]), x, y);
+                    }
+                }
             }
         }
     }
@@ -273,11 +285,11 @@ fn yoke(
 }
 
 /// A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is that from p
-/// to q, turned to the right by the angle whose sine is offset / d.
+/// to q, turned to the right by the angle whose sine is offset / d. How far along it q is may be known.
 fn directed(
     (ax, ay): Column,
     ((px, py), (qx, qy)): (Column, Column),
-    offset: f64,
+    (offset, known): (f64, Option<&[f64]>),
     [along, across]: [f64; 2],
     x: &mut [f64],
     y: &mut [f64],
@@ -288,7 +300,7 @@ fn directed(
         let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
         let d2 = dx * dx + dy * dy;
         let d = d2.sqrt();
-        let s = ((d - offset) * (d + offset)).max(0.0).sqrt();
+        let s = known.map_or_else(|| ((d - offset) * (d + offset)).max(0.0).sqrt(), |s| s[i]);
         let (forward, left) = ((along * s + across * offset) / d2, (across * s - along * offset) / d2);
         x[i] = ax[i] + forward * dx - left * dy;
         y[i] = ay[i] + forward * dy + left * dx;

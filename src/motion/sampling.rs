@@ -179,7 +179,7 @@ impl Sampler {
             })),
             Sampling::Step(step) => {
                 let begin = out.len();
-                let apart = |deg: &f64| (deg - from).abs() > 1e-9 && (deg - to).abs() > 1e-9;
+                let apart = |at: &f64| (at - from).abs() > 1e-9 * step && (at - to).abs() > 1e-9 * step;
                 let inside = multiples(step, from.min(to), from.max(to)).filter(apart).take(MAX_SAMPLES);
                 out.extend(inside.map(|at| self.stop(input, at, step)));
                 if from > to {

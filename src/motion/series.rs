@@ -91,6 +91,13 @@ impl<T: Scalar, const N: usize> Series<T, N> {
     }
 }
 
+impl<T: Scalar, const N: usize> Neg for Series<T, N> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Series(self.0.map(|c| -c))
+    }
+}
+
 impl<T: Scalar, const N: usize> Add for Series<T, N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {

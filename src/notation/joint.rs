@@ -100,7 +100,9 @@ pub(super) fn joint<'t>(
         "slot" => {
             let base = fields.get("slot").and_then(|value| base(value, names, reader));
             let offset = offset(&fields, scope, reader);
-            let side = if fields.get("offset").is_some() { side(&fields, &SIDES, reader) } else { Some(Side::Left) };
+            // Without offset the line points from pivot to joint at the start, whatever the side.
+            let is_given = fields.get("offset").is_some() || fields.get("side").is_some();
+            let side = if is_given { side(&fields, &SIDES, reader) } else { Some(Side::Right) };
             Some(Placing::Slot { base: base?, offset: offset?, side: side? })
         }
         "distances" => {

@@ -162,9 +162,20 @@ impl<'t> Reader<'t> {
     /// A value of the input over the names of `scope`: an angle with its unit, or a length without.
     pub fn input(&mut self, value: &Value<'t>, is_length: bool, scope: &[(&str, Kind)]) -> Option<InputValue> {
         if is_length {
-            return Some(InputValue { value: self.bound(value, scope)?, unit: None });
+            return Some(InputValue { value: self.length(value, scope)?, unit: None });
         }
         self.angle(value, scope)
+    }
+
+    /// An input that is a length, in the manifest's unit: a number, or an expression without a unit.
+    pub fn length(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<Bound> {
+        let is_angle = |text: &str| Quantity::parse(text, Dimension::Angle).is_ok();
+        if value.get_ref().as_str().is_some_and(is_angle) {
+            let problem = Problem::error(value.span(), "the input is a length here, for an actuator drives");
+            self.note(problem.help("give a number in the unit of the other lengths"));
+            return None;
+        }
+        self.bound(value, scope)
     }
 
     /// An angle over the names of `scope`.

@@ -126,7 +126,11 @@ impl<'a> Figure<'a> {
     /// The curves as light unbroken lines: beside the linkage, and under the dashes to lead the eye over their gaps.
     fn trail(&self, area: &Area, plot: &Plot, weight: f64, theme: &Theme) {
         let mut items = Vec::new();
-        let whole = Dashes { period: 360.0, drawn: 360.0 };
+        // One stroke to a turn; of lengths, one to all there are.
+        let ends = self.solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
+        let furthest = ends.map(|pass| pass.from.stop.at.max(pass.to.stop.at)).fold(0.0, f64::max);
+        let whole = if self.solved.linkage.input() == Input::Length { 2.0 * furthest } else { 360.0 };
+        let whole = Dashes { period: whole, drawn: whole };
         for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, whole)) {
             let line = |points| Line { points, closed: false };
             let lines = strokes.into_iter().map(|stroke| line(stroke.points)).collect();

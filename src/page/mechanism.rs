@@ -131,9 +131,7 @@ impl<'a> Mechanism<'a> {
         joints.sort_unstable();
         joints.dedup();
         // The foot of a slot without offset is its pivot.
-        joints.retain(|&joint| {
-            !matches!(self.linkage.joints[joint].step, Step::Directed { along: 0.0, across: 0.0, .. })
-        });
+        joints.retain(|&joint| !matches!(self.linkage.joints[joint].step, Step::Slot { offset: 0.0, .. }));
         let circle = |centre, radius, color| {
             let stroke = Some(theme.stroke(color, theme.fine));
             Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
@@ -154,10 +152,6 @@ impl<'a> Mechanism<'a> {
 pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<[JointId; 2]> {
     match linkage.joints[joint].step {
         Step::Slot { base: [_, through], .. } => Some([joint, through]),
-        // A slot without offset has its foot at its pivot.
-        Step::Directed { from, line: [pivot, through], along: 0.0, across: 0.0, .. } if from == pivot => {
-            Some([joint, through])
-        }
         Step::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
         Step::Yoke { from, .. } => Some([joint, from]),
         _ => None,
@@ -198,10 +192,8 @@ fn slot(linkage: &Linkage, circuit: &Circuit, pose: &[Point], joint: JointId) ->
     // The line's direction follows the base: that of a slot its pivot and foot, that of a yoke its guide, that of a slot
     // without offset the line itself.
     let ([from, to], through) = match linkage.joints[joint].step {
+        Step::Slot { base: [pivot, through], offset: 0.0, .. } => ([pivot, through], through),
         Step::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
-        Step::Directed { from, line: [pivot, through], along: 0.0, across: 0.0, .. } if from == pivot => {
-            ([pivot, through], through)
-        }
         Step::Yoke { from, line, .. } => (line, from),
         _ => return None,
     };

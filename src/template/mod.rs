@@ -156,13 +156,18 @@ impl Template {
 
     /// What is wrong with the joints whatever the numbers: one joint given twice, a point on no link, too many dyads.
     pub fn structural_error(&self) -> Option<linkage::Error> {
-        // Any numbers will do; fixed joints in general position have distances to measure along.
+        // Any numbers will do; fixed joints and points in general position have distances to measure along.
         let place = |joint: usize| (joint * joint) as f64;
-        let numbers = |joint: usize, _: &Bound| {
-            if matches!(self.joints[joint].placing, Placing::Fixed(_)) { place(joint) } else { 1.0 }
+        let numbers = |joint: usize, _: &Bound| match self.joints[joint].placing {
+            Placing::Fixed(_) => place(joint),
+            Placing::Point { .. } => 1.0 + place(joint),
+            _ => 1.0,
         };
         match self.assemble(&vec![1.0; self.parameters.len()], numbers) {
-            Err(Error::Assembly(linkage::Error::Length { .. } | linkage::Error::NoTriangle { .. })) => None,
+            // These depend on the numbers after all: each cell is asked for them.
+            Err(Error::Assembly(
+                linkage::Error::Length { .. } | linkage::Error::NoTriangle { .. } | linkage::Error::NoDirection { .. },
+            )) => None,
             Err(Error::Assembly(error)) => Some(error),
             _ => None,
         }

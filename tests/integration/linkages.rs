@@ -310,3 +310,92 @@ fn an_actuator_drives_its_crank_from_limit_to_limit_and_back() {
         assert!(motion.is_assembled());
     }
 }
+
+/// A dyad on the coupler of a kite, whose own base vanishes on the way, never comes to a limit of its own.
+#[test]
+fn what_hangs_on_a_kite_goes_on_with_it() {
+    for direction in [0.0, 57.3] {
+        let (cos, sin) = trig::cos_sin_deg(direction);
+        let turned = |x: f64, y: f64| Point::new(cos * x - sin * y, sin * x + cos * y);
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", turned(0.0, 0.0));
+        let c = assembly.fixed("C", turned(2.0, 0.0));
+        let e = assembly.fixed("E", turned(4.0, 1.0));
+        let q = assembly.fixed("Q", turned(5.0, 1.0));
+        let a = assembly.crank("A", o, 2.0).unwrap();
+        let b = assembly.dyad("B", [a, c], [3.0, 3.0], Side::Left).unwrap();
+        let m = assembly.point("M", [a, b], 1.0, 0.5).unwrap();
+        let d = assembly.dyad("D", [m, e], [6.0, 5.0], Side::Left).unwrap();
+        let s = assembly.slide("S", (m, 9.0), ([e, q], 0.0), Side::Left).unwrap();
+        let linkage = assembly.finish(vec![d, s], None, all()).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(2.0)));
+        check_motion(&linkage, &motion).unwrap();
+        assert_eq!(motion.circuits.len(), 4, "each side of the two dyads that never lie flat");
+        for circuit in &motion.circuits {
+            let length: f64 = circuit.passes.iter().map(|pass| pass.length()).sum();
+            assert!(circuit.closed && (length - 720.0).abs() < 1e-9, "{length}");
+            for i in 0..circuit.len() {
+                let next = (i + 1) % circuit.len();
+                for joint in [d, s] {
+                    let moved = circuit.places.point(joint, next) - circuit.places.point(joint, i);
+                    assert!(moved.norm() < 1.0, "from {}: {moved}", circuit.input[i]);
+                }
+            }
+        }
+    }
+}
+
+/// A turning block whose crank is as long as the frame: its line turns half as fast as the crank, through the pivot.
+#[test]
+fn a_slot_without_offset_goes_on_through_its_pivot() {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [1.0, 0.0].into());
+    let a = assembly.crank("A", o, 1.0).unwrap();
+    assembly.slot("B", [c, a], 0.0, Side::Right).unwrap();
+    let m = assembly.point("M", [c, a], 2.0, 0.3).unwrap();
+    let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let circuit = &motion.circuits[0];
+    assert!(circuit.closed && circuit.len() == 72, "{}", circuit.len());
+    // At the start, half a turn round, it points from C to A. Circuits begin on branch 1, and so a turn before that.
+    let at_start = |k: &usize| circuit.input[*k] == 540.0 && circuit.signs(*k).get(0) == -1;
+    let start = (0..circuit.len()).find(at_start).unwrap();
+    for i in 0..circuit.len() {
+        let (cos, sin) = trig::cos_sin_deg(180.0 + (circuit.input[i] - circuit.input[start]) / 2.0);
+        let expected = Point::new(1.0 + 2.0 * cos - 0.3 * sin, 2.0 * sin + 0.3 * cos);
+        let found = circuit.places.point(m, i);
+        assert!((found - expected).norm() < 1e-12, "at {}: {found} {expected}", circuit.input[i]);
+    }
+}
+
+/// An actuator of any size has its limits, and its points their places where it has no length at all.
+#[test]
+fn actuators_are_the_same_at_every_size() {
+    for scale in [1e-13, 1e-6, 1.0, 1e9] {
+        let mut assembly = Assembly::default();
+        let c = assembly.fixed("C", [3.0 * scale, 0.0].into());
+        let o = assembly.fixed("O", [0.0, 0.0].into());
+        let a = assembly.piston("A", [c, o], (scale, 0.0), Side::Left).unwrap();
+        let linkage = assembly.finish(vec![a], None, Travel::default()).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(5)));
+        let pass = &motion.circuits[0].passes[0];
+        assert!((pass.from.stop.at / scale - 2.0).abs() < 1e-12 && (pass.to.stop.at / scale - 4.0).abs() < 1e-12);
+        check_motion(&linkage, &motion).unwrap();
+    }
+    let mut assembly = Assembly::default();
+    let c = assembly.fixed("C", [1.7493, -0.0615].into());
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let a = assembly.piston("A", [c, o], (2.1108, 0.4292), Side::Left).unwrap();
+    let m = assembly.point("M", [c, a], -1.8888, 0.7281).unwrap();
+    let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(9)));
+    let circuit = &motion.circuits[0];
+    let none = circuit.input.iter().position(|s| *s == 0.0).unwrap();
+    // From an evaluation in 40 digits.
+    let expected = Point::new(0.002_994_337_146_540, -1.085_273_208_228_237);
+    assert!((circuit.places.point(m, none) - expected).norm() < 1e-11, "{}", circuit.places.point(m, none));
+    let jets = circuit.jets(&linkage, none);
+    assert!((jets.velocity(m) - Vector::new(-2.385_31, 4.068_75)).norm() < 1e-5, "{}", jets.velocity(m));
+    assert!((jets.acceleration(m) - Vector::new(-0.3137, 22.263)).norm() < 1e-3, "{}", jets.acceleration(m));
+}

@@ -19,7 +19,10 @@ mod thesis;
 /// `PROPTEST_RNG_SEED=…` for others.
 fn random() -> proptest::test_runner::Config {
     use proptest::test_runner::{Config, RngSeed};
-    let default = Config { failure_persistence: None, ..Config::default() };
+    let default = Config::default();
+    // Of many cases as many more may be left out.
+    let max_global_rejects = default.cases.saturating_mul(4).max(1024);
+    let default = Config { failure_persistence: None, max_global_rejects, ..default };
     match default.rng_seed {
         RngSeed::Random => Config { rng_seed: RngSeed::Fixed(1951), ..default },
         RngSeed::Fixed(_) => default,

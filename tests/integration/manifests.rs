@@ -282,6 +282,38 @@ fn a_grid_of_points_traces_each_across_fastest() {
     assert_eq!(places, [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 1.0)]);
 }
 
+/// Two points given on the same joints are apart if their numbers are, and may carry others.
+#[test]
+fn points_of_one_link_carry_points() {
+    for third in [
+        "point = [\"M\", \"N\"], along = 1, across = 1",
+        "point = [\"M\", \"N\"], distances = [1, \"p\"], side = \"left\"",
+    ] {
+        let more = format!("N = {{ point = [\"A\", \"B\"], along = \"p\" }}\nX = {{ {third} }}\n[[family]]");
+        let text = OWN.replace("[[family]]", &more).replace("trace = [\"M\"]", "trace = [\"X\"]");
+        let family = &plan(&text).families[0].family;
+        assert_eq!(family.linkage(&family.cell(0)).unwrap().dyads(), 1);
+    }
+    let same = OWN.replace(
+        "[[family]]",
+        "N = { point = [\"A\", \"B\"], along = 1, across = 2 }\nX = { point = [\"M\", \"N\"], along = 1 }\n[[family]]",
+    );
+    assert!(problems(&same.replace("trace = [\"M\"]", "trace = [\"X\"]")).contains("`M` and `N` are one point"));
+}
+
+#[test]
+fn an_actuators_input_is_a_length() {
+    let text = OWN
+        .replace("A = { crank = \"O\", length = 1 }", "A = { piston = [\"C\", \"O\"], length = 1, side = \"left\" }")
+        .replace("B = { dyad = [\"A\", \"C\"], lengths = [3, 3.5], side = \"left\" }\n", "")
+        .replace("point = [\"A\", \"B\"]", "point = [\"O\", \"A\"]");
+    plan(&text.replace("{ samples = 60 }", "{ step = 0.1 }"));
+    let report = problems(&text.replace("{ samples = 60 }", "{ step = \"10 deg\" }"));
+    assert!(report.contains("the input is a length here, for an actuator drives"), "{report}");
+    let report = problems(&text.replace("trace =", "input = { from = \"2 deg\", to = 4 }\ntrace ="));
+    assert!(report.contains("the input is a length here, for an actuator drives"), "{report}");
+}
+
 #[test]
 fn a_family_may_be_placed_mirrored_and_turned() {
     use coupler_atlas::geometry::{Placement, Point};

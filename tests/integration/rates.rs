@@ -3,8 +3,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use coupler_atlas::geometry::{Point, trig};
-use coupler_atlas::linkage::{Assembly, Flat, JointId, Linkage, Placement, Side, Signs, Step, Travel};
+use coupler_atlas::geometry::{Point, Vector, trig};
+use coupler_atlas::linkage::{Assembly, Flat, JointId, LineIs, Linkage, Placement, Side, Signs, Step, Travel};
 use coupler_atlas::motion::{Jets, Motion, Sampler, Sampling, Stop};
 use proptest::prelude::*;
 
@@ -146,7 +146,9 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
                 let to = minus(at[from], start);
                 moved(start, u, (to[0] * w[1] - to[1] * w[0]) / (u[0] * w[1] - u[1] * w[0]), n(0.0))
             }
-            Step::Directed { from, line: [p, q], offset, along, across } => {
+            Step::Directed { from, line: [p, q], offset, line_is, along, across } => {
+                let sense = if let LineIs::Turned(index) = line_is { -side(index) } else { 1.0 };
+                let [along, across] = [along * sense, across * sense];
                 // The base's direction, turned to the right until the line through q runs beside p.
                 let base = minus(at[q], at[p]);
                 let sin = n(offset) / dot(base, base).sqrt();
@@ -292,4 +294,55 @@ fn points_of_an_actuator_go_with_its_line() {
             assert!((along.1 - (-0.7 * offset - 0.2 * s)).abs() < 1e-12, "{offset}: {along:?}");
         }
     }
+}
+
+/// The slide, its angles and their rates are McCarthy's without offset too, and of the actuator.
+#[test]
+fn columns_know_sliders_without_offset_and_actuators() {
+    use coupler_atlas::measure::{column, take_columns};
+    let columns = ["s", "b", "beta_deg", "psi_deg", "psi_ratio"].map(|name| column(name).unwrap());
+    let (g, r) = (2.0, 1.0);
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [g, 0.0].into());
+    let a = assembly.crank("A", o, r).unwrap();
+    let b = assembly.slot("B", [c, a], 0.0, Side::Right).unwrap();
+    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(30.0)));
+    for i in 0..motion.circuits[0].len() {
+        let [s, length, beta, psi, ratio] =
+            take_columns(&columns, &linkage, (&motion.circuits[0], b), i).try_into().unwrap();
+        let (cos, sin) = trig::cos_sin_deg(motion.circuits[0].input[i]);
+        let arm = Vector::new(r * cos - g, r * sin);
+        assert!((s - arm.norm()).abs() < 1e-14 && (length - s).abs() < 1e-14 && beta == 90.0);
+        let angle = trig::degrees(trig::atan2(arm.y, arm.x)) - 90.0;
+        assert!((psi - angle).abs() < 1e-12 || (psi - angle).abs() > 359.0, "{psi} {angle}");
+        let turning = (arm.x * r * cos + arm.y * r * sin) / arm.norm_squared();
+        assert!((ratio - turning).abs() < 1e-14);
+    }
+    // The other way round the same angles belong to the same slides.
+    let linkage = actuated(0.3);
+    let a = find(&linkage, "A");
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(12)));
+    for i in 0..motion.circuits[0].len() {
+        let circuit = &motion.circuits[0];
+        let [s, length, beta, _, _]: [f64; 5] = take_columns(&columns, &linkage, (circuit, a), i).try_into().unwrap();
+        assert!(s == circuit.input[i] && (length - (s * s + 0.09).sqrt()).abs() < 1e-13);
+        assert!((beta - trig::degrees(trig::atan2(s, 0.3))).abs() < 1e-12);
+    }
+}
+
+/// A slider on a fixed line has unbounded rates along it at its limit, and none across.
+#[test]
+fn rates_at_a_limit_are_bounded_across_a_fixed_line() {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let q = assembly.fixed("Q", [1.0, 0.0].into());
+    let a = assembly.crank("A", o, 2.0).unwrap();
+    let b = assembly.slide("B", (a, 1.0), ([o, q], 0.0), Side::Left).unwrap();
+    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(10)));
+    let jets = motion.circuits[0].jets(&linkage, 0);
+    assert_eq!(jets.velocity(b), Vector::new(f64::INFINITY, 0.0));
+    assert_eq!(jets.jerk(b), Vector::new(f64::INFINITY, 0.0));
 }

@@ -100,7 +100,7 @@ fn pose(report: &Report, pose: &Pose) -> Value {
                 "moving_pole": pair(instant.moving_pole),
                 "inflection_pole": point(instant.inflection_pole()),
                 "ball_point": instant.ball_point().map(point),
-                "cubic": instant.cubic().map(number),
+                "cubic": instant.cubic().map(|cubic| cubic.map(number)),
                 "curvature": number(instant.curvature(place)),
                 "curvature_rate": number(instant.curvature_rate(place)),
             }))

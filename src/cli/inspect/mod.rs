@@ -34,12 +34,12 @@ pub struct Arguments {
     /// A manifest whose own linkages can be named.
     #[arg(long, value_name = "FILE")]
     manifest: Option<PathBuf>,
-    /// Say where the joints are at this input, in degrees or as a length.
-    #[arg(long, value_name = "INPUT", allow_negative_numbers = true)]
-    at: Option<f64>,
+    /// Say where the joints are at this input, in degrees or as a length; a number or an expression.
+    #[arg(long, value_name = "INPUT", allow_hyphen_values = true)]
+    at: Option<String>,
     /// Of the poses at that input, only those with the first two-valued joint on this side: 1 left, -1 right.
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(i8).range(-1..=1))]
-    branch: Option<i8>,
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ["1", "-1"], requires = "at")]
+    branch: Option<String>,
     /// As JSON.
     #[arg(long)]
     json: bool,
@@ -64,16 +64,18 @@ struct Report<'a> {
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let template = template(arguments)?;
     let given = arguments.parameters.iter().map(|text| parameter(text)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(at) = arguments.at.filter(|at| !at.is_finite()) {
-        return Err(WrongInput(format!("--at {at}: give a finite number, as in --at 30")).into());
+    let at = arguments.at.as_deref().map(|text| number(text, "--at 30")).transpose()?;
+    if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
+        return Err(WrongInput(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
     }
+    let branch = arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 });
     let family = Family::single(template, &given, Sampling::Samples(360))
         .map_err(|wrong| WrongInput(format!("{}: {}", arguments.linkage, wrong.join("; "))))?;
     let Some(solved) = sweep::solve(&family, &Sampler::new(family.sampling), 0) else {
         return Err(WrongInput(format!("{}: its values make no linkage", arguments.linkage)).into());
     };
-    let poses: Vec<Pose> = arguments.at.map(|at| poses(&solved, at, arguments.branch)).unwrap_or_default();
-    let report = Report { family: &family, solved: &solved, at: arguments.at, poses };
+    let poses: Vec<Pose> = at.map(|at| poses(&solved, at, branch)).unwrap_or_default();
+    let report = Report { family: &family, solved: &solved, at, poses };
     if let Some(path) = &arguments.svg {
         build::write_file(path, &plate::plate(&report, arguments.animate))?;
     }
@@ -101,13 +103,20 @@ fn template(arguments: &Arguments) -> anyhow::Result<Arc<Template>> {
 
 /// `name=value`, the value a number or an expression without names.
 fn parameter(text: &str) -> Result<(String, f64), WrongInput> {
-    let wrong = |why: String| WrongInput(format!("`{text}`: {why}; write it like p=2 or \"a=sqrt(2)\""));
-    let (name, value) = text.split_once('=').ok_or_else(|| wrong("there is no `=`".to_owned()))?;
-    let expression = Expression::parse(value).map_err(|error| wrong(error.message))?;
-    if let Some(name) = expression.names().first() {
-        return Err(wrong(format!("`{name}` has no value here")));
+    const EXAMPLE: &str = "p=2 or \"a=sqrt(2)\"";
+    let none = || WrongInput(format!("`{text}`: there is no `=`; write it like {EXAMPLE}"));
+    let (name, value) = text.split_once('=').ok_or_else(none)?;
+    Ok((name.trim().to_owned(), number(value, EXAMPLE)?))
+}
+
+/// A number, or an expression without names.
+fn number(text: &str, example: &str) -> Result<f64, WrongInput> {
+    let wrong = |why: String| WrongInput(format!("`{text}`: {why}; write it like {example}"));
+    let expression = Expression::parse(text).map_err(|error| wrong(error.message))?;
+    match expression.names().first() {
+        Some(name) => Err(wrong(format!("`{name}` has no value here"))),
+        None => Ok(expression.evaluate(|_| f64::NAN)),
     }
-    Ok((name.trim().to_owned(), expression.evaluate(|_| f64::NAN)))
 }
 
 /// The linkage at one input, on one pass.

@@ -19,7 +19,8 @@ pub(super) fn text(report: &Report) -> String {
         let _ = writeln!(out, "class: {}", four_bar.class().name());
     }
     if let Some(reason) = &solved.motion.shortfall {
-        let _ = writeln!(out, "not assembled: {reason}");
+        let how = if solved.motion.is_assembled() { "assembled in part" } else { "not assembled" };
+        let _ = writeln!(out, "{how}: {reason}");
     }
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
         let _ = writeln!(out, "circuit {number}: {}", course(solved, circuit));
@@ -96,7 +97,7 @@ fn describe(solved: &Solved, pose: &Pose, out: &mut String) {
             continue;
         };
         let place = pose.jets.place(joint);
-        let [m, n] = instant.cubic().map(|x| short(x, 7));
+        let cubic = instant.cubic().map(|[m, n]| format!("M = {}, N = {}", short(m, 7), short(n, 7)));
         let _ = writeln!(
             out,
             "{name}: instant centre {}, inflection pole {}, path curved by {}, changing by {}",
@@ -106,6 +107,7 @@ fn describe(solved: &Solved, pose: &Pose, out: &mut String) {
             short(instant.curvature_rate(place), 7)
         );
         let ball = instant.ball_point().map_or("none".to_owned(), point);
-        let _ = writeln!(out, "{name}: cubic of stationary curvature M = {m}, N = {n}; Ball's point {ball}");
+        let cubic = cubic.unwrap_or("none".to_owned());
+        let _ = writeln!(out, "{name}: cubic of stationary curvature {cubic}; Ball's point {ball}");
     }
 }

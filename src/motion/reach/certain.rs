@@ -68,7 +68,7 @@ fn enclosed(linkage: &Linkage, dyad: &Dyad, signs: Signs, [from, middle, to]: [f
     let mode = |dyad: usize| f64::from(signs.get(dyad));
     let joints = dyad.joint;
     let centre: Vec<Planar<Enclosure, 1>> =
-        chain(linkage, joints, drive(Enclosure::from(middle)), mode, |_, place| place);
+        chain(linkage, joints, drive(Enclosure::from(middle)), mode, |_, place, _| place);
     let unit = match input {
         Input::Angle { .. } => Enclosure::from(std::f64::consts::PI) / Enclosure::from(180.0),
         Input::Length => Enclosure::from(1.0),
@@ -82,7 +82,7 @@ fn enclosed(linkage: &Linkage, dyad: &Dyad, signs: Signs, [from, middle, to]: [f
         x: mean(around.x, centre.x),
         y: mean(around.y, centre.y),
     };
-    let around = chain(linkage, joints, drive(Enclosure::between(from, to)), mode, |joint, place| {
+    let around = chain(linkage, joints, drive(Enclosure::between(from, to)), mode, |joint, place, _| {
         narrowed(place, centre[joint])
     });
     mean(dyad.extent(|joint| around[joint]), dyad.extent(|joint| centre[joint]))

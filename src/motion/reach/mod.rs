@@ -31,11 +31,11 @@ pub(super) fn cut(
 ) -> Result<Vec<Span>, String> {
     let dyad = Dyad::of(linkage, dyad);
     if let Step::Piston { .. } = dyad.step {
-        let spans = intersect(span, dyad.stroke(linkage, next_id).into_iter().collect(), 0);
+        let spans = intersect(span, dyad.stroke(linkage, next_id).into_iter().collect(), 0, Input::Length);
         return if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) };
     }
     let spans = match dyad.swing(linkage) {
-        Some(swing) => intersect(span, swing.spans(dyad.index, next_id), 3),
+        Some(swing) => intersect(span, swing.spans(dyad.index, next_id), 3, linkage.input()),
         None => Search { linkage, dyad: &dyad, span, signs }.spans(next_id),
     };
     if spans.is_empty() { Err(dyad.shortfall(linkage, span, signs)) } else { Ok(spans) }
@@ -67,6 +67,11 @@ impl Dyad {
             }
             _ => Series::constant(0.0),
         }
+    }
+
+    /// Whether its joint has no place of its own where its base vanishes: it goes on as it comes there.
+    fn vanishes(&self) -> bool {
+        matches!(self.step, Step::Dyad { .. } | Step::Slot { offset: 0.0, .. })
     }
 
     /// What a piston's length can be: from where crank and frame are folded, or from nothing, to where they are
@@ -188,13 +193,18 @@ fn short(x: f64) -> String {
 /// Ends closer than this, in degrees or in parts of a length, are at one input: the rounding of an angle near 360.
 const COINCIDENT: f64 = 1e-12;
 
+/// Whether two inputs are one but for rounding; of lengths there is no unit to compare them with.
+fn is_one(a: f64, b: f64, input: Input) -> bool {
+    let unit = if input == Input::Length { 0.0 } else { 1.0 };
+    (a - b).abs() <= COINCIDENT * a.abs().max(b.abs()).max(unit)
+}
+
 /// The end that comes later as the input rises (`way` 1) or falls (-1); both in one where they are at one input, with
 /// the number of the earlier dyad's.
-fn later(earlier_dyads: IntervalEnd, own: IntervalEnd, way: f64) -> IntervalEnd {
-    let over = (own.stop.at - earlier_dyads.stop.at) * way;
-    if over.abs() <= COINCIDENT * earlier_dyads.stop.at.abs().max(1.0) {
+fn later(earlier_dyads: IntervalEnd, own: IntervalEnd, way: f64, input: Input) -> IntervalEnd {
+    if is_one(earlier_dyads.stop.at, own.stop.at, input) {
         earlier_dyads.merged(own)
-    } else if over > 0.0 {
+    } else if (own.stop.at - earlier_dyads.stop.at) * way > 0.0 {
         own
     } else {
         earlier_dyads
@@ -202,7 +212,7 @@ fn later(earlier_dyads: IntervalEnd, own: IntervalEnd, way: f64) -> IntervalEnd 
 }
 
 /// The parts of `span` that are in one of `allowed`, which may be up to so many turns off.
-fn intersect(span: Span, allowed: Vec<Span>, turns: i32) -> Vec<Span> {
+fn intersect(span: Span, allowed: Vec<Span>, turns: i32, input: Input) -> Vec<Span> {
     let Span::Arc { lower, upper } = span else { return allowed };
     let mut out = Vec::new();
     for piece in allowed {
@@ -212,8 +222,8 @@ fn intersect(span: Span, allowed: Vec<Span>, turns: i32) -> Vec<Span> {
         };
         for turn in -turns..=turns {
             let (from, to) = (from.turned(360.0 * f64::from(turn)), to.turned(360.0 * f64::from(turn)));
-            let low = later(lower, from, 1.0);
-            let high = later(upper, to, -1.0);
+            let low = later(lower, from, 1.0, input);
+            let high = later(upper, to, -1.0, input);
             if low.stop.at < high.stop.at {
                 out.push(Span::Arc { lower: low, upper: high });
             }

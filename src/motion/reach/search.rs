@@ -2,10 +2,11 @@
 
 use super::Dyad;
 use super::certain::{Piece, pieces};
-use crate::linkage::{Flat, Input, Linkage, Signs, Step};
+use crate::linkage::{Flat, Input, Linkage, Signs};
 use crate::motion::chain::{Drive, chain};
 use crate::motion::circuit::Stop;
-use crate::motion::interval::{Cause, IntervalEnd, Span};
+use crate::motion::ends::place_end;
+use crate::motion::interval::{Cause, Interval, IntervalEnd, Span};
 use crate::motion::kernel::{Columns, Modes, OwnInputs, place};
 use crate::motion::series::{Planar, Series};
 
@@ -27,12 +28,12 @@ impl Search<'_> {
         let modes = Modes::new(self.signs, Flat::NONE);
         let inputs = OwnInputs::new(&stops);
         place(self.linkage, joints, inputs.all(), &modes, &mut out, 0..degs.len());
-        if let Span::Arc { lower, upper } = self.span {
-            for (i, deg) in degs.iter().enumerate() {
-                for end in [lower, upper].into_iter().filter(|end| end.stop.at == *deg) {
-                    let modes = Modes::new(self.signs, end.flat);
-                    let inputs = OwnInputs::new(&[end.stop]);
-                    place(self.linkage, joints, inputs.all(), &modes, &mut out, i..i + 1);
+        let pass = Interval { span: self.span, signs: self.signs }.pass(true, input.period());
+        for (i, deg) in degs.iter().enumerate() {
+            for (end, begins) in [(pass.from, true), (pass.to, false)] {
+                if end.stop.at == *deg && self.span != Span::Turn {
+                    // Where the base of an earlier dyad vanishes, this one hangs on what goes on there.
+                    place_end(self.linkage, &pass, begins, &mut out, i);
                 }
             }
         }
@@ -80,14 +81,18 @@ impl Search<'_> {
     pub fn spans(&self, next_id: &mut usize) -> Vec<Span> {
         let survey = self.survey();
         let tolerance = self.tolerance(&survey);
-        let is_dyad = matches!(self.dyad.step, Step::Dyad { .. });
-        if is_dyad && survey.iter().all(|extent| *extent <= tolerance) {
+        let may_vanish = self.dyad.vanishes();
+        if may_vanish && survey.iter().all(|extent| *extent <= tolerance) {
             // Two joints that are one point throughout leave their dyad free to turn: it has no place.
             return Vec::new();
         }
         let (degs, touched) = self.inputs(tolerance);
         let is_open = |extent: f64| self.room_of(extent) >= -tolerance;
-        let open: Vec<bool> = self.extents(&degs).into_iter().map(is_open).collect();
+        let extents = self.extents(&degs);
+        // Where an earlier joint has no place, at an end, this dyad is as it is beside that.
+        let beside = |i: usize| if i == 0 { 1 } else { i - 1 };
+        let known = |i: usize| if extents[i].is_nan() { extents[beside(i)] } else { extents[i] };
+        let open: Vec<bool> = (0..degs.len()).map(|i| is_open(known(i))).collect();
         let mut end = |inside: f64, outside: f64| {
             *next_id += 1;
             let stop = Stop::of(self.linkage.input(), self.refine(inside, outside));
@@ -108,7 +113,7 @@ impl Search<'_> {
             *next_id += 1;
             let stop = Stop::of(self.linkage.input(), at);
             let end = IntervalEnd::flat(stop, Cause::Change, self.dyad.index, *next_id);
-            let vanishes = is_dyad && self.extents(&[at])[0] <= tolerance;
+            let vanishes = may_vanish && self.extents(&[at])[0] <= tolerance;
             parted(spans, end.with(self.dyad.index, vanishes), self.linkage.input())
         })
     }
@@ -169,7 +174,7 @@ impl Search<'_> {
         if end.cause == Cause::Asked || self.room_of(extent).abs() > tolerance {
             return end;
         }
-        end.with(self.dyad.index, matches!(self.dyad.step, Step::Dyad { .. }) && extent <= tolerance)
+        end.with(self.dyad.index, self.dyad.vanishes() && extent <= tolerance)
     }
 
     /// Gives the arcs that reach the ends of the span those ends; on a whole turn, joins them over input 0.
@@ -205,7 +210,7 @@ impl Search<'_> {
             let Stop { at, cos, sin } = Stop::of(self.linkage.input(), at);
             let mode = |dyad: usize| f64::from(self.signs.get(dyad));
             let drive = Drive { at, direction: [cos, sin] };
-            let places: Vec<Planar<f64, 2>> = chain(self.linkage, self.dyad.joint, drive, mode, |_, place| place);
+            let places: Vec<Planar<f64, 2>> = chain(self.linkage, self.dyad.joint, drive, mode, |_, place, _| place);
             let Series([_, rate]) = self.dyad.extent(|joint| places[joint]);
             rate
         };
