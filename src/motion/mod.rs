@@ -59,6 +59,9 @@ impl Motion {
     /// Finds and samples the circuits of a linkage.
     pub fn of(linkage: &Linkage, sampler: &Sampler) -> Motion {
         let found = circuit::find(linkage);
+        if let Some(reason) = found.circuits.iter().find_map(|route| sampler.excess(route)) {
+            return Motion { circuits: Vec::new(), shortfall: Some(reason) };
+        }
         let circuits: Vec<Circuit> = found.circuits.into_iter().map(|route| sampler.sample(linkage, route)).collect();
         let is_lost = |circuit: &Circuit| {
             linkage.traced.iter().any(|&joint| circuit.points(joint).all(|p| !p.x.is_finite() || !p.y.is_finite()))

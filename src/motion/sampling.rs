@@ -111,6 +111,15 @@ impl Sampler {
         &self.turn
     }
 
+    /// Why a route is not sampled by so short a step.
+    pub(super) fn excess(&self, route: &Route) -> Option<String> {
+        let Sampling::Step(step) = self.sampling else { return None };
+        // A full turn may have them all, and rounding one more.
+        let is_long = |pass: &Pass| pass.length() / step > MAX_SAMPLES as f64 + 1.0;
+        let reason = || format!("a step of {step} makes more than {MAX_SAMPLES} samples from one end to the other");
+        route.passes.iter().any(is_long).then(reason)
+    }
+
     pub(super) fn sample(&self, linkage: &Linkage, route: Route) -> Circuit {
         let mut plan = self.plan(&route, linkage);
         let mut places = Columns::new(linkage.joints.len(), plan.stops.len());
