@@ -1,7 +1,7 @@
 //! Velocity, acceleration and jerk of every joint with respect to the input, by Taylor series to the third order.
 
 use super::chain::{Drive, chain};
-use super::circuit::Stop;
+use super::circuit::{Pass, Stop};
 use super::series::{Planar, Series};
 use crate::geometry::{Placement, Point, Vector};
 use crate::linkage::{Flat, JointId, Linkage, Signs, Step};
@@ -11,12 +11,12 @@ type Jet = Planar<f64, 4>;
 
 /// Places and rates of all joints at one input, to a radian of it or to a unit of its length, in the frame the linkage is seen from.
 ///
-/// At a limit the rates of the joints that turn round there are infinite.
+/// At a limit the rates of the joints that turn round there are infinite, but across a line they keep to.
 #[derive(Clone, Debug)]
 pub struct Jets(Vec<Jet>);
 
 impl Jets {
-    /// The rates at an input in an assembly; `flat` are the dyads that lie flat there.
+    /// The rates at an input in an assembly; of the dyads in `flat`, which lie flat there, they are unbounded.
     ///
     /// # Source
     /// The constraints of each dyad, differentiated as series.
@@ -25,29 +25,20 @@ impl Jets {
         Jets(seen(linkage, at))
     }
 
-    /// The same in the frame of the fixed joints.
-    pub(super) fn in_fixed_frame(linkage: &Linkage, stop: Stop, signs: Signs, flat: Flat) -> Jets {
-        let drive = Drive { at: stop.at, direction: [stop.cos, stop.sin] };
-        let mode = |dyad: usize| if flat.has(dyad) { 0.0 } else { f64::from(signs.get(dyad)) };
-        let settle = |joint: JointId, place: Jet, at: &[Jet]| {
-            let between = |p: JointId, q: JointId| at[q].minus(at[p]);
-            // Where it goes to and fro at its limit: along its line, or square to its base.
-            match linkage.joints[joint].step {
-                // The foot of a slot without offset is its pivot.
-                Step::Slot { offset: 0.0, .. } => place,
-                Step::Slide { line: [p, q], index, .. } if flat.has(index) => unbounded(place, between(p, q)),
-                Step::Dyad { base: [p, q], index, .. }
-                | Step::Slot { base: [p, q], index, .. }
-                | Step::Piston { base: [p, q], index, .. }
-                    if flat.has(index) =>
-                {
-                    let base = between(p, q);
-                    unbounded(place, Planar { x: -base.y, y: base.x })
-                }
-                _ => place,
+    /// The rates at an input of a pass. At its ends they are those of the pass: at a limit unbounded, at a change point,
+    /// through which the motion goes on smoothly, as they are beside it.
+    pub fn on(linkage: &Linkage, pass: &Pass, input: f64) -> Jets {
+        for (end, inwards) in [(pass.to, -pass.heading()), (pass.from, pass.heading())] {
+            if end.stop.at == input && !end.flat.is_none() {
+                return Jets(seen(linkage, jets::<AT_AN_END>(linkage, end.stop, pass.signs, (end.flat, inwards))));
             }
-        };
-        Jets(chain(linkage, linkage.joints.len(), drive, mode, settle))
+        }
+        Jets::of(linkage, Stop::of(linkage.input(), input), pass.signs, Flat::NONE)
+    }
+
+    /// The same as [`Jets::of`] in the frame of the fixed joints.
+    pub(super) fn in_fixed_frame(linkage: &Linkage, stop: Stop, signs: Signs, flat: Flat) -> Jets {
+        Jets(jets::<4>(linkage, stop, signs, (flat, 0.0)))
     }
 
     /// Where a joint is.
@@ -80,14 +71,88 @@ impl Jets {
     }
 }
 
+/// Terms of a series at an end of a pass: each dyad that touches its flat pose there takes one of them.
+const AT_AN_END: usize = 8;
+
+/// Places and rates in the frame of the fixed joints, by series of `N` terms; `inwards` is 1 where the motion is at greater
+/// inputs than this, -1 where it is at smaller ones, and 0 where that is not known.
+fn jets<const N: usize>(linkage: &Linkage, stop: Stop, signs: Signs, (flat, inwards): (Flat, f64)) -> Vec<Jet> {
+    let drive = Drive { at: stop.at, direction: [stop.cos, stop.sin] };
+    let mode = |dyad: usize| if flat.has(dyad) { 0.0 } else { f64::from(signs.get(dyad)) };
+    let settle = |joint: JointId, place: Planar<f64, N>, at: &[Planar<f64, N>]| {
+        let step = linkage.joints[joint].step;
+        let Some(index) = step.index().filter(|index| flat.has(*index)) else { return place };
+        let Some(Rise { direction, height2, size }) = rise(step, at) else { return place };
+        let way = f64::from(signs.get(index)) * inwards;
+        match height2.touching_root(size).filter(|_| way != 0.0) {
+            Some(height) => place.moved(direction, height.scaled(way), Series::constant(0.0)),
+            None => unbounded(place, direction),
+        }
+    };
+    let all = chain(linkage, linkage.joints.len(), drive, mode, settle);
+    let first = |place: Series<f64, N>| Series(std::array::from_fn(|n| place.0[n]));
+    all.into_iter().map(|at: Planar<f64, N>| Planar { x: first(at.x), y: first(at.y) }).collect()
+}
+
+/// How a dyad's joint stands off from where it is when the dyad lies flat.
+struct Rise<const N: usize> {
+    /// Where to: along a slider's line, or square to a base, of any length.
+    direction: Planar<f64, N>,
+    /// The square of how far, in lengths of the direction.
+    height2: Series<f64, N>,
+    /// The size of the terms that the square is made of.
+    size: f64,
+}
+
+fn rise<const N: usize>(step: Step, at: &[Planar<f64, N>]) -> Option<Rise<N>> {
+    let between = |[p, q]: [JointId; 2]| at[q].minus(at[p]);
+    let square_to = |base: Planar<f64, N>| Planar { x: -base.y, y: base.x };
+    let number = |value: f64| Series::constant(value);
+    match step {
+        // The foot of a slot without offset is its pivot.
+        Step::Slot { offset: 0.0, .. } => None,
+        Step::Slot { base, offset, .. } => {
+            let base = between(base);
+            let d2 = base.norm_squared();
+            let height2 = ((d2 - number(offset * offset)) / d2.square()).scaled(offset * offset);
+            // The foot is to the left of the base for a positive offset.
+            let direction = square_to(base);
+            let sense = offset.signum();
+            let direction = Planar { x: direction.x.scaled(sense), y: direction.y.scaled(sense) };
+            Some(Rise { direction, height2, size: 1.0 })
+        }
+        Step::Slide { from, length, line, offset, .. } => {
+            let unit = between(line).unit();
+            let h = number(offset) - unit.cross(at[from].minus(at[line[0]]));
+            let height2 = (number(length) - h) * (number(length) + h);
+            Some(Rise { direction: unit, height2, size: length * length })
+        }
+        Step::Dyad { base, lengths: [l0, l1], .. } => {
+            let base = between(base);
+            let (sum, difference) = (number(l0 + l1), number(l0 - l1));
+            let d2 = base.norm_squared();
+            let d = d2.sqrt();
+            let product = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
+            Some(Rise { direction: square_to(base), height2: product.scaled(0.25) / d2.square(), size: 1.0 })
+        }
+        Step::Piston { base, .. } => {
+            let none = Series([f64::NAN; N]);
+            Some(Rise { direction: square_to(between(base)), height2: none, size: 1.0 })
+        }
+        _ => None,
+    }
+}
+
 /// The same place with rates that have no bound, but across the direction they have none in: there the velocity has one,
 /// and all rates where the direction stays.
-fn unbounded(at: Jet, direction: Jet) -> Jet {
-    let none = f64::INFINITY;
-    let rates = |place: Series<f64, 4>, along: Series<f64, 4>, across: Series<f64, 4>| match along.0 {
-        [0.0, 0.0, 0.0, 0.0] if across.0[0] != 0.0 => place,
-        [0.0, ..] if across.0[0] != 0.0 => Series([place.0[0], place.0[1], none, none]),
-        _ => Series([place.0[0], none, none, none]),
+fn unbounded<const N: usize>(at: Planar<f64, N>, direction: Planar<f64, N>) -> Planar<f64, N> {
+    let rates = |place: Series<f64, N>, along: Series<f64, N>, across: Series<f64, N>| {
+        let bounded = match along.0 {
+            _ if along.0[0] != 0.0 || across.0[0] == 0.0 => 1,
+            along if along.iter().any(|c| *c != 0.0) => 2,
+            _ => N,
+        };
+        Series(std::array::from_fn(|n| if n < bounded { place.0[n] } else { f64::INFINITY }))
     };
     Planar { x: rates(at.x, direction.x, direction.y), y: rates(at.y, direction.y, direction.x) }
 }

@@ -72,10 +72,14 @@ impl Circuit {
     /// Places and rates of all joints at a sample.
     pub fn jets(&self, linkage: &Linkage, sample: usize) -> Jets {
         let (at, signs) = (self.input[sample], self.signs[sample]);
-        // At the end of a pass the input's direction is known more exactly than its angle, and dyads lie flat.
-        let ends = self.passes.iter().filter(|pass| pass.signs == signs).flat_map(|pass| [pass.to, pass.from]);
-        match ends.into_iter().find(|end| end.stop.at == at) {
-            Some(end) => Jets::of(linkage, end.stop, signs, end.flat),
+        // A closed circuit begins where its last pass ends, perhaps a few turns on.
+        if let (0, true, Some(last)) = (sample, self.closed, self.passes.last().filter(|last| !last.to.flat.is_none()))
+        {
+            return Jets::on(linkage, last, last.to.stop.at);
+        }
+        let here = |pass: &&Pass| pass.signs == signs && [pass.to, pass.from].iter().any(|end| end.stop.at == at);
+        match self.passes.iter().find(here) {
+            Some(pass) => Jets::on(linkage, pass, at),
             None => Jets::of(linkage, Stop::of(linkage.input(), at), signs, Flat::NONE),
         }
     }

@@ -131,6 +131,19 @@ impl<T: Scalar, const N: usize> Div for Series<T, N> {
     }
 }
 
+impl<const N: usize> Series<f64, N> {
+    /// The root of a square that touches zero where the series begins, with the sign it has beyond; `None` where it goes
+    /// through zero. One term fewer is known of it than of the square: that one is not a number.
+    pub fn touching_root(self, size: f64) -> Option<Self> {
+        // A touch has no first term but rounding; at a limit that is as near one as 1e-12 it is 1e-6.
+        if !(self.0[1].abs() <= 1e-9 * size && self.0[2] > 0.0) {
+            return None;
+        }
+        let root: Series<f64, N> = Series(from_fn(|n| self.0.get(n + 2).copied().unwrap_or(f64::NAN))).sqrt();
+        Some(Series(from_fn(|n| if n == 0 { 0.0 } else { root.0[n - 1] })))
+    }
+}
+
 /// A place, or a difference of places, as it changes with the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Planar<T, const N: usize> {

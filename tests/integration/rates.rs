@@ -4,7 +4,9 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use coupler_atlas::geometry::{Point, Vector, trig};
-use coupler_atlas::linkage::{Assembly, Flat, JointId, LineIs, Linkage, Placement, Side, Signs, Step, Travel};
+use coupler_atlas::linkage::{
+    Assembly, Circuits, Flat, JointId, LineIs, Linkage, Placement, Side, Signs, Step, Travel,
+};
 use coupler_atlas::motion::{Jets, Motion, Sampler, Sampling, Stop};
 use proptest::prelude::*;
 
@@ -345,4 +347,55 @@ fn rates_at_a_limit_are_bounded_across_a_fixed_line() {
     let jets = motion.circuits[0].jets(&linkage, 0);
     assert_eq!(jets.velocity(b), Vector::new(f64::INFINITY, 0.0));
     assert_eq!(jets.jerk(b), Vector::new(f64::INFINITY, 0.0));
+}
+
+/// Through a change point the motion goes on smoothly, and so do its rates: of wheels on parallel rods, whose dyads all lie
+/// flat at once, and of Cardan's trammel, crank and link of one length.
+#[test]
+fn rates_go_on_through_change_points() {
+    let mut wheels = Assembly::default();
+    let o = wheels.fixed("O", [0.0, 0.0].into());
+    let c = wheels.fixed("C", [3.0, 0.0].into());
+    let d = wheels.fixed("D", [5.0, 0.0].into());
+    let a = wheels.crank("A", o, 1.0).unwrap();
+    let b = wheels.dyad("B", [a, c], [3.0, 1.0], Side::Left).unwrap();
+    let e = wheels.dyad("E", [b, d], [2.0, 1.0], Side::Left).unwrap();
+    // Of their circuits the first keeps the rods parallel.
+    let all = Travel { circuits: Circuits::All, ..Travel::default() };
+    let wheels = wheels.finish(vec![b, e], None, all).unwrap();
+    let mut trammel = Assembly::default();
+    let o = trammel.fixed("O", [0.0, 0.0].into());
+    let q = trammel.fixed("Q", [1.0, 0.0].into());
+    let pin = trammel.crank("A", o, 1.0).unwrap();
+    let slide = trammel.slide("B", (pin, 1.0), ([o, q], 0.0), Side::Right).unwrap();
+    let trammel = trammel.finish(vec![slide], None, Travel::default()).unwrap();
+    let mut flat = 0;
+    for (linkage, joints) in [(&wheels, vec![a, b, e]), (&trammel, vec![slide])] {
+        let motion = Motion::of(linkage, &Sampler::new(Sampling::Step(15.0)));
+        for i in 0..motion.circuits[0].len() {
+            let circuit = &motion.circuits[0];
+            let jets = circuit.jets(linkage, i);
+            let (cos, sin) = trig::cos_sin_deg(circuit.input[i]);
+            flat += usize::from(circuit.passes.iter().any(|pass| pass.to.stop.at == circuit.input[i]));
+            for &joint in &joints {
+                let found = [jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
+                let slides = joint == slide && linkage.joints.len() == 4;
+                // The trammel's slider stands still on one of its circuits' halves, and goes twice the cosine on the other.
+                let size = if slides { jets.place(joint).x / if cos.abs() > 1e-9 { cos } else { 1.0 } } else { 1.0 };
+                if slides && cos.abs() < 1e-9 {
+                    assert!(found[0].x.abs() < 1e-12 || (found[0].x.abs() - 2.0).abs() < 1e-12, "{}", found[0]);
+                    continue;
+                }
+                let expected = if slides {
+                    [-sin, -cos, sin].map(|rate| Vector::new(size * rate, 0.0))
+                } else {
+                    [Vector::new(-sin, cos), Vector::new(-cos, -sin), Vector::new(sin, -cos)]
+                };
+                for (found, expected) in found.iter().zip(expected) {
+                    assert!((found - expected).norm() < 1e-9, "at {}: {found} {expected}", circuit.input[i]);
+                }
+            }
+        }
+    }
+    assert!(flat >= 3, "change points were met: {flat}");
 }

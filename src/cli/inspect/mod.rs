@@ -12,7 +12,7 @@ use coupler_atlas::expression::Expression;
 use coupler_atlas::family::{Family, Sampling};
 use coupler_atlas::geometry::{Vector, cross};
 use coupler_atlas::linkage::{Flat, Input, JointId};
-use coupler_atlas::motion::{Instant, Jets, Pass, Sampler, Stop};
+use coupler_atlas::motion::{Instant, Jets, Pass, Sampler};
 use coupler_atlas::problem::nearest_or_all;
 use coupler_atlas::sweep::{self, Solved};
 use coupler_atlas::template::Template;
@@ -141,10 +141,8 @@ fn poses(solved: &Solved, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
             // The end of a whole turn is its beginning.
             let is_seam = motion.closed && motion.passes.len() == 1 && low + over == high;
             if low + over <= high && is_branch && !is_seam {
-                let end = [pass.from, pass.to].into_iter().find(|end| end.stop.at == low + over);
-                let (stop, flat) = end.map_or((Stop::of(input, low + over), Flat::NONE), |end| (end.stop, end.flat));
-                let jets = Jets::of(&solved.linkage, stop, pass.signs, flat);
-                found.push(Pose { circuit, pass, input: stop.at, jets });
+                let jets = Jets::on(&solved.linkage, pass, low + over);
+                found.push(Pose { circuit, pass, input: low + over, jets });
             }
         }
     }
