@@ -101,6 +101,13 @@ impl Pose<'_> {
                 let mode = f64::from(self.signs.get(index));
                 factor.is_finite().then(|| left_normal(base) * (mode * factor / d))
             }
+            Step::Slot { base: [p, q], offset, index } if self.flat.has(index) && offset != 0.0 => {
+                // The square of the slide is d^2 - e^2, and at the limit the foot goes as the slide does.
+                let base = point(q) - point(p);
+                let rate = base.dot(&(jets.velocity(q) - jets.velocity(p)));
+                let factor = (2.0 * rate).abs().sqrt() * f64::from(self.signs.get(index)) * offset.signum();
+                factor.is_finite().then(|| left_normal(base) * (factor / base.norm()))
+            }
             Step::Dyad { base: [p, q], .. } => {
                 // Both links keep their lengths: u . v = u . vp and w . v = w . vq.
                 let (u, w) = (point(joint) - point(p), point(joint) - point(q));

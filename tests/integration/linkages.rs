@@ -399,3 +399,27 @@ fn actuators_are_the_same_at_every_size() {
     assert!((jets.velocity(m) - Vector::new(-2.385_31, 4.068_75)).norm() < 1e-5, "{}", jets.velocity(m));
     assert!((jets.acceleration(m) - Vector::new(-0.3137, 22.263)).norm() < 1e-3, "{}", jets.acceleration(m));
 }
+
+/// A slot through the foot of another, which comes to its pin at its limit: the line's direction there is that in which
+/// it comes.
+#[test]
+fn a_slot_on_a_foot_keeps_its_direction_at_the_limit() {
+    use coupler_atlas::motion::pose;
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [2.0771, -0.2512].into());
+    let a = assembly.crank("A", o, 1.9228).unwrap();
+    let foot = assembly.slot("B", [a, c], 0.3218, Side::Left).unwrap();
+    assembly.slot("D", [foot, c], 0.0, Side::Right).unwrap();
+    let p = assembly.point("P", [foot, c], 1.0913, -0.6834).unwrap();
+    let linkage = assembly.finish(vec![p], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    for pass in &motion.circuits[0].passes {
+        for (end, inwards) in [(pass.from, pass.heading()), (pass.to, -pass.heading())] {
+            let at = |input: f64| pose(&linkage, pass, input)[p];
+            // It comes there with the root of the input: over 1e-10 degrees, by some 1e-5.
+            let off = (at(end.stop.at) - at(end.stop.at + inwards * 1e-10)).norm();
+            assert!(off < 1e-4, "at {}: {off}", end.stop.at);
+        }
+    }
+}
