@@ -2,7 +2,7 @@
 
 use super::mechanism::{drawn_links, ground, sliding_line};
 use crate::geometry::{Point, cross, distance_to_segment};
-use crate::linkage::Linkage;
+use crate::linkage::{Linkage, Step};
 use crate::motion::Circuit;
 
 /// The places of all joints in the clearest pose of a circuit.
@@ -17,9 +17,12 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     // The frame is a link like the others here: a crank that lies on it cannot be seen.
     let mut links = drawn_links(linkage);
     links.push(ground(linkage));
-    for [foot, through] in (0..linkage.joints.len()).filter_map(|joint| sliding_line(linkage, joint)) {
-        // The link that carries a line goes on to what slides on it.
-        match links.iter_mut().find_map(|link| Some((link.iter().position(|joint| *joint == foot)?, link))) {
+    for joint in 0..linkage.joints.len() {
+        let Some([foot, through]) = sliding_line(linkage, joint) else { continue };
+        // The link with a slot goes on to what slides in it; the line of an actuator is a link of its own.
+        let is_slot = matches!(linkage.joints[joint].step, Step::Slot { .. } | Step::Yoke { .. });
+        let carrier = links.iter_mut().filter(|_| is_slot);
+        match carrier.into_iter().find_map(|link| Some((link.iter().position(|joint| *joint == foot)?, link))) {
             Some((at, carrier)) if !carrier.contains(&through) => carrier.insert(at + 1, through),
             Some(_) => {}
             None => links.push(vec![foot, through]),
