@@ -11,7 +11,7 @@ use crate::measure;
 use crate::problem::nearest_or_all;
 use crate::template::{self, Linkage, Template, dependency_order};
 
-pub use crate::measure::{COLUMNS, Column, column};
+pub use crate::measure::{COLUMNS, Column, Straight, column};
 pub use crate::motion::{MAX_SAMPLES, Sampling};
 
 /// A linkage over a grid or a list of cases.
@@ -33,6 +33,8 @@ pub struct Family {
     pub sampling: Sampling,
     /// The further columns of `points.csv`.
     pub columns: Vec<Column>,
+    /// What is asked of the straight portion of each curve.
+    pub straight: Straight,
     /// Which curves are kept, over [`Family::scope`].
     pub filter: Option<Bound>,
 }
@@ -109,8 +111,8 @@ impl Family {
         })?;
         let (id, title) = (template.id.clone(), template.id.clone());
         let space = Space::Cases(vec![case]);
-        let columns = Vec::new();
-        let family = Family { id, title, template, names, space, derived, sampling, columns, filter: None };
+        let (columns, straight) = (Vec::new(), Straight::default());
+        let family = Family { id, title, template, names, space, derived, sampling, columns, straight, filter: None };
         if wrong.is_empty() {
             wrong.extend(family.objections(&family.cell(0)).iter().map(ToString::to_string));
         }

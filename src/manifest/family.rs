@@ -5,14 +5,14 @@ use std::sync::Arc;
 use super::names::{given, names, read_expressions};
 use super::{PlannedFamily, Templates, settings};
 use crate::expression::Dimension;
-use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, column};
+use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
 use crate::notation::{self, Fields, Reader, Value};
 use crate::page::{Layout, Paper};
 use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::{Placement, Template};
 
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 19] = [
     "id",
     "linkage",
     "title",
@@ -31,6 +31,7 @@ const KEYS: [&str; 18] = [
     "coincident",
     "place",
     "columns",
+    "straight",
 ];
 
 /// The id of a table and its place, if it has one.
@@ -60,6 +61,10 @@ pub(super) fn read<'t>(
         .required("sampling", "sampling = { step = \"2 deg\" }", reader)
         .and_then(|value| sampling(value, template.as_deref(), reader));
     let columns = fields.get("columns").map_or(Some(Vec::new()), |value| columns(value, reader));
+    let straight = match fields.get("straight") {
+        None => Some(Straight::default()),
+        Some(value) => straight(value, template.as_deref(), reader),
+    };
     let layout = layout(&fields, paper, reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
@@ -69,7 +74,7 @@ pub(super) fn read<'t>(
             None
         }
     };
-    let (id, template, names, sampling, columns) = (id?, template?, names?, sampling?, columns?);
+    let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let family = Family {
         title: title.unwrap_or_else(|| id.clone()),
         id,
@@ -79,6 +84,7 @@ pub(super) fn read<'t>(
         derived: names.derived,
         sampling,
         columns,
+        straight,
         filter: names.filter,
     };
     check_cells(&family, &fields, &names.spans, reader);
@@ -174,6 +180,45 @@ fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
             None
         }
     }
+}
+
+/// What is asked of the straight portion.
+fn straight<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Reader<'t>) -> Option<Straight> {
+    const KEYS: [&str; 3] = ["tolerance", "input", "length"];
+    let fields = Fields::of(value, "`straight`", &KEYS, reader)?;
+    let given: Vec<&str> = KEYS.into_iter().filter(|key| fields.get(key).is_some()).collect();
+    let [key] = given[..] else {
+        let problem =
+            Problem::error(value.span(), "a straight portion is asked for by one of tolerance, input and length");
+        reader.note(problem.help("write { tolerance = 0.001 }, { input = \"120 deg\" } or { length = 2 }"));
+        return None;
+    };
+    let value = fields.get(key)?;
+    let is_driven_by_length = template.is_some_and(Template::is_driven_by_length);
+    let number = match key {
+        // Of a linkage that cannot be read it is not known what drives it.
+        "input" if template.is_none() => return None,
+        "input" if is_driven_by_length => {
+            let length = reader.length(value, &[])?.evaluate(|_| f64::NAN);
+            reader.finite(value, length)?
+        }
+        "input" => reader.measure(value, Dimension::Angle)?,
+        _ => reader.constant(value)?,
+    };
+    let (most, straight) = match key {
+        "tolerance" => (1.0, Straight::Tolerance(number)),
+        "input" if !is_driven_by_length => (720.0, Straight::Input(number)),
+        "input" => (f64::INFINITY, Straight::Input(number)),
+        _ => (f64::INFINITY, Straight::Length(number)),
+    };
+    if number > 0.0 && number <= most {
+        return Some(straight);
+    }
+    let problem = Problem::error(value.span(), format!("`{key}` is {number}, which is out of range"));
+    let range =
+        if most.is_finite() { format!("give more than 0, and {most} at most") } else { "give more than 0".to_owned() };
+    reader.note(problem.help(range));
+    None
 }
 
 /// The further columns of `points.csv`.

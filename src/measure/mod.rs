@@ -8,12 +8,14 @@ mod kind;
 mod path;
 mod shape;
 mod speed_ratio;
+mod straight;
 mod swing;
 mod time_ratio;
 mod trail;
 mod transmission;
 
 pub use column::{COLUMNS, Column, column, take_columns};
+pub use straight::{Portion, Straight};
 
 use std::cell::OnceCell;
 
@@ -32,13 +34,32 @@ pub struct Subject<'a> {
     pub circuit: &'a Circuit,
     /// The traced joint.
     pub joint: JointId,
+    /// What is asked of its straight portion.
+    pub asked: Straight,
     trail: OnceCell<Trail>,
+    straight: OnceCell<Option<Portion>>,
 }
 
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
-        Subject { linkage, motion, circuit, joint, trail: OnceCell::new() }
+        let asked = Straight::default();
+        Subject { linkage, motion, circuit, joint, asked, trail: OnceCell::new(), straight: OnceCell::new() }
+    }
+
+    /// The same, of which another straight portion is wanted.
+    pub fn asking(self, asked: Straight) -> Subject<'a> {
+        Subject { asked, straight: OnceCell::new(), ..self }
+    }
+
+    /// The straight portion asked for.
+    pub fn straight(&self) -> Option<&Portion> {
+        let find = || {
+            let trail = self.trail();
+            let inputs: Vec<f64> = trail.samples.iter().map(|&sample| self.circuit.input[sample]).collect();
+            straight::portion(trail, &inputs, self.asked)
+        };
+        self.straight.get_or_init(find).as_ref()
     }
 
     /// The curve, made once for all measures.
@@ -74,7 +95,7 @@ pub struct Measure {
 }
 
 /// Every measure, in the order of the columns.
-pub const ALL: [Measure; 20] = [
+pub const ALL: [Measure; 24] = [
     class::CLASS,
     kind::TYPE,
     kind::SHORTEST,
@@ -95,6 +116,10 @@ pub const ALL: [Measure; 20] = [
     shape::INFLECTIONS,
     shape::CURVATURE_MAX,
     speed_ratio::SPEED_RATIO,
+    straight::LENGTH,
+    straight::DEVIATION,
+    straight::START,
+    straight::INPUT,
 ];
 
 /// A name that is true or false of a curve: `is_crank_rocker` and its like, by the word it asks for.

@@ -153,6 +153,16 @@ impl Trail {
         self.near(i).map_or(self.bends[i].abs(), |near| near.most(curvature))
     }
 
+    /// The point a part of the way from a sample to the next.
+    pub fn between(&self, i: usize, part: f64) -> Point {
+        let next = self.at(i, 1).unwrap_or(i);
+        // About the sample that is nearer, by the length of the chords.
+        let near = |k: usize, u: f64| self.near(k).map(|near| self.points[k] + near.at(u)[0]);
+        let chord = (self.points[next] - self.points[i]).norm();
+        let found = if part < 0.5 { near(i, part * chord) } else { near(next, (part - 1.0) * chord) };
+        found.unwrap_or_else(|| self.points[i] + (self.points[next] - self.points[i]) * part)
+    }
+
     /// The curve about a sample; none near the end of an open curve.
     fn near(&self, i: usize) -> Option<Near> {
         let around: Vec<usize> = [-2, -1, 0, 1, 2].iter().map(|&off| self.at(i, off)).collect::<Option<_>>()?;

@@ -88,7 +88,7 @@ pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
     let mut curves = Vec::new();
     for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
         for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-            let subject = Subject::new(&solved.linkage, &solved.motion, circuit, joint);
+            let subject = Subject::new(&solved.linkage, &solved.motion, circuit, joint).asking(family.straight);
             let measures = measure::take(&subject);
             if family.keeps(&solved.cell, &measures) {
                 curves.push(Curve { trace, circuit: number, joint, measures });

@@ -174,7 +174,9 @@ proptest! {
             let (before, after) = (measured(&plain, 2, circuit, 60), measured(&moved, 2, circuit, 60));
             for m in measure::ALL {
                 let power = match m.name {
-                    "length" => scale,
+                    "length" | "straight_length" | "straight_deviation" => scale,
+                    // Of a symmetrical curve two portions are equally long.
+                    "straight_start_deg" => continue,
                     "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
                     "curvature_max" => 1.0 / scale,
                     name if name.starts_with("bbox") => continue,
@@ -195,5 +197,75 @@ proptest! {
                 }
             }
         }
+    }
+}
+
+/// An arc of angle phi lies in a strip r (1 - cos phi/2) wide over 2 r sin phi/2: their quotient is tan(phi/4) / 2.
+#[test]
+fn the_straight_portion_of_a_circle_is_that_of_its_strip() {
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    for samples in [36, 360] {
+        let value = measured(&linkage, 0, 0, samples);
+        let angle = 4.0 * trig::atan2(0.002, 1.0);
+        let length = 2.5 * trig::sin(angle / 2.0);
+        let found = ["straight_length", "straight_deviation", "straight_input_deg"].map(|name| number(value(name)));
+        assert!((found[0] - length).abs() < 2e-3 * length, "{samples}: {found:?} {length}");
+        assert!((found[1] - 0.0005 * length).abs() < 1e-2 * 0.0005 * length, "{samples}: {found:?}");
+        assert!((found[2] - trig::degrees(angle)).abs() < 2e-3 * trig::degrees(angle), "{samples}: {found:?}");
+    }
+}
+
+/// Peaucellier's line is straight from end to end, and spans the input from limit to limit.
+#[test]
+fn a_straight_line_is_straight_from_end_to_end() {
+    let linkage = defaults("peaucellier-lipkin");
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(120)));
+    let limit = motion.circuits[0].passes[0].to.stop.at;
+    let ends = motion.circuits[0].points(linkage.traced[0]).map(|p| p.y.abs()).fold(0.0, f64::max);
+    let value = measured(&linkage, 0, 0, 120);
+    assert!((number(value("straight_length")) - 2.0 * ends).abs() < 1e-9);
+    assert!(number(value("straight_deviation")) < 1e-12);
+    assert!((number(value("straight_input_deg")) - 2.0 * limit).abs() < 1e-6, "{:?}", value("straight_input_deg"));
+}
+
+/// Against every portion from sample to sample.
+#[test]
+fn no_portion_is_longer_than_the_one_found() {
+    for (id, samples) in [("hoeken", 180), ("jansen", 180), ("klann", 360)] {
+        let linkage = defaults(id);
+        let value = measured(&linkage, 0, 0, samples);
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
+        // Every portion from sample to sample, its strip by the chord's own and all other directions.
+        let mut longest: f64 = 0.0;
+        for from in 0..samples {
+            for span in 3..samples / 2 {
+                let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
+                let chord = part[span] - part[0];
+                let strip = |turn: f64| {
+                    let (cos, sin) = (trig::cos(turn), trig::sin(turn));
+                    let along =
+                        [cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y].map(|c| c / chord.norm());
+                    let extent = |of: &dyn Fn(&Point) -> f64| {
+                        part.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)])
+                    };
+                    let width = extent(&|p| along[0] * p.y - along[1] * p.x);
+                    let length = extent(&|p| along[0] * p.x + along[1] * p.y);
+                    (width[1] - width[0], length[1] - length[0])
+                };
+                // The best strip is within a few widths' slope of the chord.
+                let best = (-20..=20).map(|k| strip(f64::from(k) * 1e-4)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                if best.0 <= 0.001 * best.1 {
+                    longest = longest.max(best.1);
+                }
+                if strip(0.0).0 > 0.02 * chord.norm() {
+                    break;
+                }
+            }
+        }
+        let found = number(value("straight_length"));
+        // Between samples it is longer by less than two of them.
+        assert!(found >= longest * 0.999 && found < 1.2 * longest, "{id}: {found} {longest}");
+        assert!(number(value("straight_deviation")) <= 0.000_51 * found, "{id}");
     }
 }
