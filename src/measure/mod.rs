@@ -1,7 +1,10 @@
 //! Numbers read off a motion, one measure a file; each is a column of `cells.csv` and a name in `where`.
 
+mod annulus;
 mod class;
 mod column;
+mod course;
+mod dwell;
 mod extreme;
 mod input_range;
 mod kind;
@@ -9,12 +12,14 @@ mod path;
 mod shape;
 mod speed_ratio;
 mod straight;
+mod strip;
 mod swing;
 mod time_ratio;
 mod trail;
 mod transmission;
 
 pub use column::{COLUMNS, Column, column, take_columns};
+pub use dwell::Dwell;
 pub use straight::{Portion, Straight};
 
 use std::cell::OnceCell;
@@ -38,13 +43,23 @@ pub struct Subject<'a> {
     pub asked: Straight,
     trail: OnceCell<Trail>,
     straight: OnceCell<Option<Portion>>,
+    dwell: OnceCell<Option<Dwell>>,
 }
 
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
         let asked = Straight::default();
-        Subject { linkage, motion, circuit, joint, asked, trail: OnceCell::new(), straight: OnceCell::new() }
+        Subject {
+            linkage,
+            motion,
+            circuit,
+            joint,
+            asked,
+            trail: OnceCell::new(),
+            straight: OnceCell::new(),
+            dwell: OnceCell::new(),
+        }
     }
 
     /// The same, of which another straight portion is wanted.
@@ -54,17 +69,17 @@ impl<'a> Subject<'a> {
 
     /// The straight portion asked for.
     pub fn straight(&self) -> Option<&Portion> {
-        let find = || {
-            let trail = self.trail();
-            let inputs: Vec<f64> = trail.samples.iter().map(|&sample| self.circuit.input[sample]).collect();
-            straight::portion(trail, &inputs, self.asked)
-        };
-        self.straight.get_or_init(find).as_ref()
+        self.straight.get_or_init(|| straight::portion(self.trail(), self.asked)).as_ref()
+    }
+
+    /// The best circular portion.
+    pub fn dwell(&self) -> Option<&Dwell> {
+        self.dwell.get_or_init(|| dwell::dwell(self.trail())).as_ref()
     }
 
     /// The curve, made once for all measures.
     fn trail(&self) -> &Trail {
-        self.trail.get_or_init(|| Trail::of(self.circuit, self.joint))
+        self.trail.get_or_init(|| Trail::of(self.circuit, self.joint, self.linkage.input()))
     }
 }
 
@@ -95,7 +110,7 @@ pub struct Measure {
 }
 
 /// Every measure, in the order of the columns.
-pub const ALL: [Measure; 24] = [
+pub const ALL: [Measure; 30] = [
     class::CLASS,
     kind::TYPE,
     kind::SHORTEST,
@@ -120,6 +135,12 @@ pub const ALL: [Measure; 24] = [
     straight::DEVIATION,
     straight::START,
     straight::INPUT,
+    dwell::MEASURES[0],
+    dwell::MEASURES[1],
+    dwell::MEASURES[2],
+    dwell::MEASURES[3],
+    dwell::MEASURES[4],
+    dwell::MEASURES[5],
 ];
 
 /// A name that is true or false of a curve: `is_crank_rocker` and its like, by the word it asks for.

@@ -1,4 +1,5 @@
 use crate::geometry::{Point, Vector, cross, trig};
+use crate::linkage::Input;
 use crate::motion::Circuit;
 
 /// A curve as the row of its samples, and what is known of it between them.
@@ -12,8 +13,14 @@ pub(super) struct Trail {
     pub points: Vec<Point>,
     /// The number of each in its circuit.
     pub samples: Vec<usize>,
+    /// The input at each.
+    pub inputs: Vec<f64>,
     /// Whether the last is followed by the first.
     pub closed: bool,
+    /// How much the input has changed after once round a closed curve: whole turns, or nothing.
+    pub turn: f64,
+    /// How far the input has gone, there and back, up to each sample and then to the first again.
+    travel: Vec<f64>,
     /// The signed curvature at each sample, of the circle through it and its neighbours.
     bends: Vec<f64>,
 }
@@ -26,20 +33,36 @@ struct Arc {
 }
 
 impl Trail {
-    pub fn of(circuit: &Circuit, joint: usize) -> Trail {
+    pub fn of(circuit: &Circuit, joint: usize, input: Input) -> Trail {
         let kept = |(p, _): &(Point, usize)| p.x.is_finite() && p.y.is_finite();
         let (points, samples): (Vec<Point>, Vec<usize>) = circuit.points(joint).zip(0..).filter(kept).unzip();
-        Trail::new(points, samples, circuit.closed)
+        let inputs: Vec<f64> = samples.iter().map(|&sample| circuit.input[sample]).collect();
+        let round = if input == Input::Length { f64::INFINITY } else { 360.0 };
+        Trail::new((points, samples), inputs, circuit.closed.then_some(round))
     }
 
     /// An open curve through points.
     pub fn through(points: Vec<Point>) -> Trail {
         let samples = (0..points.len()).collect();
-        Trail::new(points, samples, false)
+        let inputs = (0..points.len()).map(|k| k as f64).collect();
+        Trail::new((points, samples), inputs, None)
     }
 
-    fn new(points: Vec<Point>, samples: Vec<usize>, closed: bool) -> Trail {
-        let mut trail = Trail { points, samples, closed, bends: Vec::new() };
+    /// A curve; a closed one is driven by an input of some period.
+    fn new((points, samples): (Vec<Point>, Vec<usize>), inputs: Vec<f64>, period: Option<f64>) -> Trail {
+        let turn = match (period, &inputs[..]) {
+            // The last step is less than half a turn.
+            (Some(period), [first, .., last]) if period.is_finite() => ((last - first) / period).round() * period,
+            _ => 0.0,
+        };
+        let mut travel = vec![0.0];
+        let next = inputs.iter().skip(1).copied().chain(period.and(inputs.first()).map(|first| first + turn));
+        for (from, to) in inputs.iter().zip(next) {
+            travel.push(travel[travel.len() - 1] + (to - from).abs());
+        }
+        // An open curve goes no further than its last sample.
+        travel.resize(inputs.len() + 1, travel[travel.len() - 1]);
+        let mut trail = Trail { points, samples, inputs, closed: period.is_some(), turn, travel, bends: Vec::new() };
         trail.bends = (0..trail.points.len()).map(|i| trail.bend(i)).collect();
         trail
     }
@@ -153,36 +176,88 @@ impl Trail {
         self.near(i).map_or(self.bends[i].abs(), |near| near.most(curvature))
     }
 
-    /// The point a part of the way from a sample to the next.
-    pub fn between(&self, i: usize, part: f64) -> Point {
+    /// The point a part of the way along, in samples from the first, and the input there; round a closed curve.
+    pub fn place(&self, place: f64) -> (Point, f64) {
+        let n = self.points.len();
+        let (whole, part) = (place.floor(), place.fract());
+        let (i, rounds) = (whole as usize % n, (whole as usize / n) as f64 * self.turn);
+        if part == 0.0 {
+            return (self.points[i], self.inputs[i] + rounds);
+        }
         let next = self.at(i, 1).unwrap_or(i);
+        let step = self.points[next] - self.points[i];
+        let input = self.inputs[next] + if next < i { self.turn } else { 0.0 };
         // About the sample that is nearer, by the length of the chords.
-        let near = |k: usize, u: f64| self.near(k).map(|near| self.points[k] + near.at(u)[0]);
-        let chord = (self.points[next] - self.points[i]).norm();
-        let found = if part < 0.5 { near(i, part * chord) } else { near(next, (part - 1.0) * chord) };
-        found.unwrap_or_else(|| self.points[i] + (self.points[next] - self.points[i]) * part)
+        let (about, u) = if part < 0.5 { (i, part * step.norm()) } else { (next, (part - 1.0) * step.norm()) };
+        if let Some(near) = self.near(about) {
+            let (by, from) = (near.at(u)[0], if about == i { self.inputs[i] } else { input });
+            let [low, high] = [self.inputs[i].min(input), self.inputs[i].max(input)];
+            let found = (self.points[about] + by, (from + near.input(u)).clamp(low, high));
+            if found.0.x.is_finite() && found.0.y.is_finite() && found.1.is_finite() {
+                return (found.0, found.1 + rounds);
+            }
+        }
+        (self.points[i] + step * part, self.inputs[i] + (input - self.inputs[i]) * part + rounds)
     }
 
-    /// The curve about a sample; none near the end of an open curve.
+    /// How far the input has gone, there and back, from the first sample to a place.
+    pub fn travelled(&self, place: f64) -> f64 {
+        let n = self.points.len();
+        let (i, rounds) = (place.floor() as usize % n, (place.floor() as usize / n) as f64);
+        let (from, to) = (self.travel[i], self.travel[i + 1]);
+        let part =
+            if place.fract() > 0.0 { (self.place(i as f64 + place.fract()).1 - self.inputs[i]).abs() } else { 0.0 };
+        rounds * self.travel[n] + from + part.min(to - from)
+    }
+
+    /// The curve about a sample that two others stand on either side of.
     fn near(&self, i: usize) -> Option<Near> {
-        let around: Vec<usize> = [-2, -1, 0, 1, 2].iter().map(|&off| self.at(i, off)).collect::<Option<_>>()?;
-        let chord = |k: usize| (self.points[around[k + 1]] - self.points[around[k]]).norm();
-        let s = [-chord(1) - chord(0), -chord(1), 0.0, chord(2), chord(2) + chord(3)];
-        let mut divided: [Vector; 5] = std::array::from_fn(|k| self.points[around[k]] - self.points[i]);
+        let n = self.points.len() as isize;
+        if n < 5 {
+            return None;
+        }
+        // Near the end of an open curve the five are those next to the end.
+        let shift = if self.closed { 0 } else { (2 - i as isize).max(0) + (n - 3 - i as isize).min(0) };
+        let offs: [isize; 5] = std::array::from_fn(|k| k as isize - 2 + shift);
+        let around: [usize; 5] = offs.map(|off| (i as isize + off).rem_euclid(n) as usize);
+        let mut s = [0.0; 5];
+        for k in 1..5 {
+            s[k] = s[k - 1] + (self.points[around[k]] - self.points[around[k - 1]]).norm();
+        }
+        let own = s[(2 - shift) as usize];
+        let s = s.map(|s| s - own);
+        let over = |k: usize| {
+            let at = i as isize + offs[k];
+            if at < 0 {
+                -self.turn
+            } else if at >= n {
+                self.turn
+            } else {
+                0.0
+            }
+        };
+        let mut divided: [(Vector, f64); 5] = std::array::from_fn(|k| {
+            (self.points[around[k]] - self.points[i], self.inputs[around[k]] + over(k) - self.inputs[i])
+        });
         for order in 1..5 {
             for k in (order..5).rev() {
-                divided[k] = (divided[k] - divided[k - 1]) / (s[k] - s[k - order]);
+                let by = 1.0 / (s[k] - s[k - order]);
+                let (here, before) = (divided[k], divided[k - 1]);
+                divided[k] = ((here.0 - before.0) * by, (here.1 - before.1) * by);
             }
         }
         // From products of (u - s) to powers of u.
-        let mut powers = [Vector::zeros(); 5];
+        let (mut powers, mut inputs) = ([Vector::zeros(); 5], [0.0; 5]);
         for k in (0..5).rev() {
             for n in (1..5).rev() {
                 powers[n] = powers[n - 1] - powers[n] * s[k];
+                inputs[n] = inputs[n - 1] - inputs[n] * s[k];
             }
-            powers[0] = divided[k] - powers[0] * s[k];
+            powers[0] = divided[k].0 - powers[0] * s[k];
+            inputs[0] = divided[k].1 - inputs[0] * s[k];
         }
-        Some(Near { powers, ends: [s[1], s[3]] })
+        let beside = [1, 3].map(|k| (k - shift).clamp(0, 4) as usize);
+        Some(Near { powers, inputs, ends: beside.map(|k| s[k]) })
     }
 
     /// The places where the curve crosses itself, in the order of the first time it goes there.
@@ -237,6 +312,8 @@ impl Trail {
 struct Near {
     /// From the sample, by powers.
     powers: [Vector; 5],
+    /// How the input goes on from there, by powers too.
+    inputs: [f64; 5],
     /// At the samples before and after.
     ends: [f64; 2],
 }
@@ -245,6 +322,11 @@ impl Near {
     /// The place, from the sample, and its first two derivatives.
     fn at(&self, u: f64) -> [Vector; 3] {
         self.powers.iter().rev().fold([Vector::zeros(); 3], |[p, v, a], c| [p * u + c, v * u + p, a * u + v * 2.0])
+    }
+
+    /// The input, from that of the sample.
+    fn input(&self, u: f64) -> f64 {
+        self.inputs.iter().rev().fold(0.0, |input, c| input * u + c)
     }
 
     /// The greatest value between the samples before and after.

@@ -174,9 +174,9 @@ proptest! {
             let (before, after) = (measured(&plain, 2, circuit, 60), measured(&moved, 2, circuit, 60));
             for m in measure::ALL {
                 let power = match m.name {
-                    "length" | "straight_length" | "straight_deviation" => scale,
-                    // Of a symmetrical curve two portions are equally long.
-                    "straight_start_deg" => continue,
+                    "length" | "straight_length" | "straight_deviation" | "dwell_radius" | "dwell_deviation" => scale,
+                    // Of a symmetrical curve two portions are equally long; and a centre is a place.
+                    "straight_start_deg" | "dwell_start_deg" | "dwell_x" | "dwell_y" => continue,
                     "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
                     "curvature_max" => 1.0 / scale,
                     name if name.starts_with("bbox") => continue,
@@ -190,7 +190,16 @@ proptest! {
                         if m.name == "curvature_max" && (a * number(before("length")) > 60.0 || *rocks) {
                             continue;
                         }
-                        let is_same = a * power == b || (a * power - b).abs() <= 1e-5 * b.abs().max(scale.min(1.0) * 1e-3);
+                        // Where a portion ends is sought to a hundredth of the way between samples, of which it has dozens.
+                        let is_sought = m.name.starts_with("straight") || m.name.starts_with("dwell");
+                        // Its length hardly changes with where it lies, but the input it spans there does, and so does
+                        // the circle of a short arc.
+                        let near = match m.name {
+                            "straight_input_deg" | "dwell_radius" => 5e-2,
+                            _ if is_sought => 2e-3,
+                            _ => 1e-5,
+                        };
+                        let is_same = a * power == b || (a * power - b).abs() <= near * b.abs().max(scale.min(1.0) * 1e-3);
                         prop_assert!(is_same, "{} {:?}: {} {}", m.name, lengths, a * power, b);
                     }
                     (a, b) => prop_assert_eq!(a, b, "{}", m.name),
@@ -267,5 +276,94 @@ fn no_portion_is_longer_than_the_one_found() {
         // Between samples it is longer by less than two of them.
         assert!(found >= longest * 0.999 && found < 1.2 * longest, "{id}: {found} {longest}");
         assert!(number(value("straight_deviation")) <= 0.000_51 * found, "{id}");
+    }
+}
+
+/// The pins go on circles: the crank's round its own, the rocker's there and back on its arc.
+#[test]
+fn pins_dwell_all_the_time() {
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    for (trace, radius, centre) in [(0, 1.25, [0.0, 0.0]), (1, 3.5, [4.0, 0.0])] {
+        let value = measured(&linkage, trace, 0, 120);
+        let found = ["dwell_input_deg", "dwell_radius", "dwell_x", "dwell_y"].map(|name| number(value(name)));
+        for (found, expected) in found.into_iter().zip([360.0, radius, centre[0], centre[1]]) {
+            // Where the rocker turns back its pin's samples do not tell of a smooth curve.
+            let near = if trace == 0 { 1e-9 } else { 1e-5 };
+            assert!((found - expected).abs() < near, "{trace}: {found} {expected}");
+        }
+        assert!(number(value("dwell_deviation")) < 1e-5, "{:?}", value("dwell_deviation"));
+    }
+}
+
+/// Against every portion from sample to sample, by circles whose centres are moved about to where the ring is narrowest.
+#[test]
+fn no_circular_portion_spans_more_than_the_one_found() {
+    let ring = |points: &[Point], centre: Point| {
+        let far = points.iter().map(|p| (p - centre).norm());
+        let [low, high] = far.fold([f64::INFINITY, 0.0f64], |[low, high], r| [low.min(r), high.max(r)]);
+        high - low
+    };
+    for id in ["hoeken", "jansen", "hrones-nelson"] {
+        let linkage = defaults(id);
+        let samples = 90;
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let subject = Subject::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+        let dwell = subject.dwell().expect("a dwell");
+        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
+        let extent = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
+        let length = number(measured(&linkage, 0, 0, samples)("length"));
+        // What is found is what it is said to be, and no wider than is allowed but for the curve between its points.
+        assert!((ring(&dwell.points, dwell.centre) - 2.0 * dwell.deviation).abs() < 1e-9 * extent, "{id}");
+        assert!(dwell.deviation <= 0.000_505 * extent, "{id}: {} {extent}", dwell.deviation);
+        // No portion one sample longer fits: from the centre found, a pattern search for a narrower ring ends above.
+        let span = (dwell.input / 360.0 * samples as f64).floor() as usize + 1;
+        for from in 0..samples {
+            let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
+            let circle = {
+                // Through the ends and the middle, to begin with.
+                let [a, b, c] = [part[0], part[span / 2], part[span]];
+                let (u, v) = (b - a, c - a);
+                let d = 2.0 * (u.x * v.y - u.y * v.x);
+                let (uu, vv) = (u.norm_squared(), v.norm_squared());
+                a + nalgebra::Vector2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / d
+            };
+            let (mut centre, mut step) = (circle, extent * 0.1);
+            while step > 1e-7 * extent {
+                let around = (0..16).map(|k| {
+                    let (cos, sin) = trig::cos_sin_deg(22.5 * f64::from(k));
+                    centre + nalgebra::Vector2::new(cos, sin) * step
+                });
+                let best = around.min_by(|a, b| ring(&part, *a).total_cmp(&ring(&part, *b))).unwrap();
+                if ring(&part, best) < ring(&part, centre) { centre = best } else { step /= 2.0 }
+            }
+            let radius = (part[0] - centre).norm();
+            let is_straight = radius > length;
+            assert!(is_straight || ring(&part, centre) > 0.001 * extent * 0.999, "{id} from {from}: {span} samples");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    /// Whatever the lengths, also of linkages that hardly move or not at all: no value is no number.
+    #[test]
+    fn every_four_bar_is_measured(
+        lengths in prop::array::uniform4(prop_oneof![0.1f64..4.0, (1u8..9).prop_map(|k| f64::from(k) / 2.0)]),
+        (along, across) in (-4.0f64..4.0, prop_oneof![Just(0.0), -4.0f64..4.0]), samples in 2usize..400,
+    ) {
+        let linkage = four_bar(lengths, (along, across));
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        for circuit in &motion.circuits {
+            for &joint in &linkage.traced {
+                for (measure, value) in measure::ALL.iter().zip(measure::take(&Subject::new(&linkage, &motion, circuit, joint))) {
+                    if let Value::Number(value) = value {
+                        prop_assert!(!value.is_nan(), "{}", measure.name);
+                        let may_be_unbounded = matches!(measure.name, "curvature_max" | "speed_ratio");
+                        prop_assert!(value.is_finite() || may_be_unbounded, "{} is {value}", measure.name);
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,0 +1,170 @@
+//! The best circular arc of a curve: where a link from the coupler point to the arc's centre would let its far end dwell.
+//!
+//! A portion is such an arc if it lies in an *annulus*, the ring between two circles about one centre, no wider than 0.001
+//! of the curve's greatest extent, about a circle of a radius no larger than the curve is long: a straight portion is none,
+//! or a little of it. Of all the one that spans the most input is the best. What fits an annulus fits with any part of it, so that it is found by moving both
+//! ends along the curve once, and then between samples.
+
+use super::annulus::Annulus;
+use super::course::{Course, Fit};
+use super::strip::{diameter, hull};
+use super::trail::Trail;
+use super::{Measure, Subject, Value};
+use crate::geometry::Point;
+
+/// How wide the annulus may be, by the curve's greatest extent.
+const TOLERANCE: f64 = 0.001;
+
+/// A circular portion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dwell {
+    /// The centre of its circle.
+    pub centre: Point,
+    /// The radius of its circle.
+    pub radius: f64,
+    /// The greatest distance of its points from that circle.
+    pub deviation: f64,
+    /// The input at which it begins.
+    pub start: f64,
+    /// How much input it spans, there and back over limits.
+    pub input: f64,
+    /// Its points: the samples, and between them its ends.
+    pub points: Vec<Point>,
+}
+
+const fn number(
+    name: &'static str,
+    unit: &'static str,
+    definition: &'static str,
+    take: fn(&Subject) -> Value,
+) -> Measure {
+    Measure { name, unit, is_word: false, definition, take }
+}
+
+/// What is told of it.
+pub const MEASURES: [Measure; 6] = [
+    number(
+        "dwell_input_deg",
+        "deg",
+        "input that the best circular portion spans: the most within 0.0005 of the curve's greatest extent of a circle; of an actuator a length",
+        |subject| of(subject, |dwell| dwell.input),
+    ),
+    number(
+        "dwell_radius",
+        "",
+        "radius of that circle, no more than the curve's length, in the manifest's unit",
+        |subject| of(subject, |dwell| dwell.radius),
+    ),
+    number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |subject| {
+        of(subject, |dwell| dwell.deviation)
+    }),
+    number(
+        "dwell_start_deg",
+        "deg",
+        "input at which the circular portion begins; of an actuator a length",
+        |subject| of(subject, |dwell| dwell.start),
+    ),
+    number("dwell_x", "", "x of the circle's centre", |subject| of(subject, |dwell| dwell.centre.x)),
+    number("dwell_y", "", "y of the circle's centre", |subject| of(subject, |dwell| dwell.centre.y)),
+];
+
+fn of(subject: &Subject, value: fn(&Dwell) -> f64) -> Value {
+    subject.dwell().map_or(Value::Missing, |dwell| Value::Number(value(dwell)))
+}
+
+/// The best circular portion of a curve; `None` of a point or a straight line.
+pub(super) fn dwell(trail: &Trail) -> Option<Dwell> {
+    if trail.points.len() < 5 {
+        return None;
+    }
+    let course = Course::of(trail);
+    let extent = diameter(&hull(course.points[..=course.starts].to_vec()));
+    let search = Search { course: &course, width: TOLERANCE * extent, largest: course.way[course.starts] };
+    let ends = search.longest()?;
+    let points = course.portion(ends);
+    let Annulus { centre, radius, width } = Annulus::within(&points, f64::INFINITY, search.largest)?;
+    let (start, input) = (course.input(ends[0]), course.spanned(ends));
+    Some(Dwell { centre, radius, deviation: width / 2.0, start, input, points })
+}
+
+/// For the portion that spans the most input in an annulus of some width.
+struct Search<'a> {
+    course: &'a Course<'a>,
+    width: f64,
+    largest: f64,
+}
+
+impl Search<'_> {
+    fn longest(&self) -> Option<[f64; 2]> {
+        let course = self.course;
+        let [from, to] = self.longest_by_points()?;
+        // All of a closed curve is a portion that ends where it begins.
+        if course.is_closed && to == course.last(from) {
+            return Some([0.0, course.starts as f64]);
+        }
+        let longer = self.nearest_to_longer(course.travel[to] - course.travel[from]);
+        let found = [from as f64, to as f64];
+        longer.and_then(|ends| self.drawn_out(ends)).or_else(|| self.drawn_out(found)).or(Some(found))
+    }
+
+    /// The ends of a portion drawn out between points.
+    fn drawn_out(&self, ends: [f64; 2]) -> Option<[f64; 2]> {
+        let course = self.course;
+        let [from, to] = course.clamp(ends);
+        let core = course.portion([from + 1.0, to - 1.0]);
+        let fit = |[start, end]: [f64; 2]| {
+            let size = course.spanned([start, end]);
+            let between = |outer: f64, inner: f64| [0.0, 0.5].map(|part| course.point(outer + part * (inner - outer)));
+            let [before, mut after] = [between(start, from + 1.0), between(end, to - 1.0)];
+            after.reverse();
+            let points = [&before[..], &core, &after[..]].concat();
+            let ring = Annulus::within(&points, f64::INFINITY, self.largest);
+            Fit { size, excess: ring.map_or(f64::INFINITY, |ring| ring.width) - self.width }
+        };
+        Some(course.drawn_out([from, to], fit)?.1)
+    }
+
+    /// The points at the ends of the portion that spans the most input.
+    fn longest_by_points(&self) -> Option<[usize; 2]> {
+        let course = self.course;
+        let mut best: Option<(f64, [usize; 2])> = None;
+        for from in 0..course.starts {
+            let Some(mut to) = self.end_beyond(from, best.map_or(0.0, |(span, _)| span)) else { continue };
+            while to <= course.last(from) && self.ring([from, to], self.width).is_some() {
+                best = Some((course.travel[to] - course.travel[from], [from, to]));
+                to += 1;
+            }
+        }
+        best.map(|(_, ends)| ends)
+    }
+
+    /// The ends, between points, of a portion that spans a little more than `span` and lies in the narrowest annulus of
+    /// those: as every portion from point to point that fits spans no more, this one comes nearest to it.
+    fn nearest_to_longer(&self, span: f64) -> Option<[f64; 2]> {
+        let mut narrowest = f64::INFINITY;
+        let mut found = None;
+        for from in 0..self.course.starts {
+            if let Some(to) = self.end_beyond(from, span)
+                && let Some(ring) = self.ring([from, to], narrowest)
+            {
+                narrowest = ring.width;
+                found = Some([from as f64 + 0.5, to as f64 - 0.5]);
+            }
+        }
+        found
+    }
+
+    /// The first point that portions from another may end at which span more than some input.
+    fn end_beyond(&self, from: usize, span: f64) -> Option<usize> {
+        /// Fewer points lie on a circle, or nearly so, whatever the curve does between them.
+        const FEW: usize = 5;
+        let travel = &self.course.travel;
+        let (first, last) = (from + FEW, self.course.last(from));
+        let beyond = first + travel.get(first..=last)?.partition_point(|at| at - travel[from] <= span * (1.0 + 1e-9));
+        (beyond <= last).then_some(beyond)
+    }
+
+    fn ring(&self, [from, to]: [usize; 2], most: f64) -> Option<Annulus> {
+        Annulus::within(&self.course.points[from..=to], most, self.largest)
+    }
+}

@@ -1,0 +1,136 @@
+use crate::geometry::{Point, Vector, cross};
+
+/// The narrowest band between two parallel lines that holds some points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Strip {
+    /// Across.
+    pub width: f64,
+    /// How far the points reach along it.
+    pub length: f64,
+    /// The direction it runs in.
+    pub along: Vector,
+}
+
+impl Strip {
+    /// Of at least one point.
+    pub fn of(points: Vec<Point>) -> Strip {
+        Strip::of_corners(&hull(points))
+    }
+
+    /// Of a convex polygon: one of its sides lies on an edge of the strip.
+    pub fn of_corners(corners: &[Point]) -> Strip {
+        let n = corners.len();
+        let first = corners.first().copied().unwrap_or_default();
+        let direct = corners.last().copied().unwrap_or_default() - first;
+        if n <= 2 {
+            // A line, or a point.
+            let along = direct.try_normalize(0.0).unwrap_or_else(Vector::x);
+            return Strip { width: 0.0, length: direct.norm(), along };
+        }
+        let next = |i: usize| if i + 1 < n { i + 1 } else { 0 };
+        let mut best = Strip { width: f64::INFINITY, length: 0.0, along: Vector::x() };
+        let mut far = 1;
+        for k in 0..n {
+            let (a, side) = (corners[k], corners[next(k)] - corners[k]);
+            let height = |i: usize| cross(side, corners[i] - a);
+            if far == k {
+                far = next(k);
+            }
+            while height(next(far)) > height(far) {
+                far = next(far);
+            }
+            let length = side.norm();
+            let width = height(far).max(0.0) / length;
+            // Sides of a hull have a length.
+            if width < best.width {
+                best = Strip { width, along: side / length, ..best };
+            }
+        }
+        let reach = corners.iter().map(|p| best.along.dot(&(p - first)));
+        let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
+        Strip { length: high - low, ..best }
+    }
+}
+
+/// The corners of the convex hull of some points, counter-clockwise.
+pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
+    // Points of a nearly straight portion are in order along x or y already, and sorting them again costs little.
+    let ends = points.last().zip(points.first()).map_or(Vector::zeros(), |(last, first)| last - first);
+    if ends.x.abs() >= ends.y.abs() {
+        points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    } else {
+        points.sort_unstable_by(|a, b| a.y.total_cmp(&b.y).then(b.x.total_cmp(&a.x)));
+    }
+    let mut corners: Vec<Point> = Vec::with_capacity(points.len() + 1);
+    let mut half = |points: &mut dyn Iterator<Item = &Point>| {
+        let start = corners.len();
+        for p in points {
+            while corners.len() >= start + 2
+                && let [.., a, b] = corners[..]
+                && cross(b - a, p - b) <= 0.0
+            {
+                corners.pop();
+            }
+            corners.push(*p);
+        }
+        corners.pop();
+    };
+    half(&mut points.iter());
+    half(&mut points.iter().rev());
+    if corners.is_empty() { points.into_iter().take(1).collect() } else { corners }
+}
+
+/// The greatest distance between two corners of a convex polygon.
+pub(super) fn diameter(corners: &[Point]) -> f64 {
+    let n = corners.len();
+    let next = |i: usize| if i + 1 < n { i + 1 } else { 0 };
+    let mut far = next(0);
+    let mut most = 0.0f64;
+    for k in 0..n {
+        let (a, side) = (corners[k], corners[next(k)] - corners[k]);
+        // The corners that are furthest from a side are those that may be furthest from its ends.
+        for _ in 0..n {
+            most = most.max((corners[far] - a).norm_squared()).max((corners[far] - a - side).norm_squared());
+            if cross(side, corners[next(far)] - corners[far]) <= 0.0 {
+                break;
+            }
+            far = next(far);
+        }
+    }
+    most.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_is_as_wide_as_its_least_height() {
+        let points = [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0), (1.0, 1.0)].map(|(x, y)| Point::new(x, y));
+        let strip = Strip::of(points.to_vec());
+        assert!((strip.width - 2.4).abs() < 1e-15 && (strip.length - 5.0).abs() < 1e-15, "{strip:?}");
+    }
+
+    #[test]
+    fn the_diameter_is_that_of_the_furthest_pair() {
+        let mut state = 1_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        for n in 1..40 {
+            let points: Vec<Point> = (0..n).map(|_| Point::new(random(), random() * random())).collect();
+            let furthest = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
+            assert!((diameter(&hull(points)) - furthest).abs() < 1e-15, "{n}");
+        }
+    }
+
+    #[test]
+    fn few_points_and_equal_points_have_no_width() {
+        let p = Point::new(1.0, 2.0);
+        for points in [vec![p], vec![p; 5], vec![p, Point::new(2.0, 2.0), p, Point::new(1.5, 2.0)]] {
+            let strip = Strip::of(points.clone());
+            assert!(strip.width == 0.0 && (0.0..=1.0).contains(&strip.length), "{points:?} {strip:?}");
+        }
+    }
+}
