@@ -89,6 +89,14 @@ impl FourBar {
         }
     }
 
+    /// The pins of the four-bar in a linkage whose coupler a joint is on, as [`FourBar::pins`] has them.
+    pub fn coupler_pins(linkage: &Linkage, joint: JointId) -> Option<[JointId; 4]> {
+        let pins = FourBar::pins(linkage)?;
+        let [_, a, b, _] = pins;
+        let is_coupler = |link: &super::Link| [joint, a, b].iter().all(|&j| link.place(j).is_some());
+        linkage.links.iter().any(is_coupler).then_some(pins)
+    }
+
     /// McCarthy's type: by the signs of `g - a + h - b`, `g - a - h + b` and `h + b - g - a`, which say whether the limits
     /// of input and output exist; of a rocker with one limit, whether its range is about 0 or about pi.
     ///

@@ -128,7 +128,7 @@ impl<'a> Course<'a> {
     /// How far the input goes, there and back, from one place to another.
     pub fn spanned(&self, ends: [f64; 2]) -> f64 {
         let [from, to] = ends.map(|place| self.trail.travelled(self.first + place * self.apart));
-        to - from
+        (to - from).max(0.0)
     }
 
     /// The place a span of input after another.

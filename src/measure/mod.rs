@@ -8,19 +8,23 @@ mod dwell;
 mod extreme;
 mod input_range;
 mod kind;
+mod mirror;
 mod path;
 mod shape;
 mod speed_ratio;
 mod straight;
 mod strip;
 mod swing;
+mod symmetry;
 mod time_ratio;
 mod trail;
 mod transmission;
 
 pub use column::{COLUMNS, Column, column, take_columns};
 pub use dwell::Dwell;
+pub use mirror::Axis;
 pub use straight::{Portion, Straight};
+pub use symmetry::Symmetry;
 
 use std::cell::OnceCell;
 
@@ -44,22 +48,14 @@ pub struct Subject<'a> {
     trail: OnceCell<Trail>,
     straight: OnceCell<Option<Portion>>,
     dwell: OnceCell<Option<Dwell>>,
+    symmetry: OnceCell<Option<Symmetry>>,
 }
 
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
-        let asked = Straight::default();
-        Subject {
-            linkage,
-            motion,
-            circuit,
-            joint,
-            asked,
-            trail: OnceCell::new(),
-            straight: OnceCell::new(),
-            dwell: OnceCell::new(),
-        }
+        let (trail, straight, dwell, symmetry) = Default::default();
+        Subject { linkage, motion, circuit, joint, asked: Straight::default(), trail, straight, dwell, symmetry }
     }
 
     /// The same, of which another straight portion is wanted.
@@ -70,6 +66,11 @@ impl<'a> Subject<'a> {
     /// The straight portion asked for.
     pub fn straight(&self) -> Option<&Portion> {
         self.straight.get_or_init(|| straight::portion(self.trail(), self.asked)).as_ref()
+    }
+
+    /// Whether it is symmetrical, and about which line; `None` of a point.
+    pub fn symmetry(&self) -> Option<&Symmetry> {
+        self.symmetry.get_or_init(|| symmetry::symmetry(self)).as_ref()
     }
 
     /// The best circular portion.
@@ -110,7 +111,7 @@ pub struct Measure {
 }
 
 /// Every measure, in the order of the columns.
-pub const ALL: [Measure; 30] = [
+pub const ALL: [Measure; 33] = [
     class::CLASS,
     kind::TYPE,
     kind::SHORTEST,
@@ -129,6 +130,9 @@ pub const ALL: [Measure; 30] = [
     shape::CUSPS,
     shape::CRUNODES,
     shape::INFLECTIONS,
+    symmetry::SYMMETRY,
+    symmetry::AXIS,
+    symmetry::RESIDUAL,
     shape::CURVATURE_MAX,
     speed_ratio::SPEED_RATIO,
     straight::LENGTH,

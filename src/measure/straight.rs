@@ -127,7 +127,9 @@ impl Search<'_> {
             let each = about.filter_map(|ends| self.finely(ends, DEPTH));
             return each.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
         };
-        let mut best = self.refined(found, DEPTH)?;
+        // Where not even a part of it is straight between its points, those are all that is known.
+        let by_points = || (self.course.distance(found), found.map(|k| k as f64));
+        let mut best = self.refined(found, DEPTH).unwrap_or_else(by_points);
         for rival in self.rivals(width, best.0, found).into_iter().take(RIVALS) {
             if let Some(other) = self.refined(rival, DEPTH)
                 && other.0 > best.0
@@ -261,7 +263,8 @@ impl Search<'_> {
         let whole = ends.map(|k| k as f64);
         if ends[1] - ends[0] >= FEW || depth == 0 {
             // Where it does not fit between points, a part of it does.
-            let shorter = (0..8).map(|k| [whole[0] + f64::from(k), whole[1] - f64::from(k)]);
+            let step = ((whole[1] - whole[0]) / 32.0).max(1.0);
+            let shorter = (0..16).map(|k| [whole[0] + f64::from(k) * step, whole[1] - f64::from(k) * step]);
             return shorter.take_while(|[from, to]| to - from >= 3.0).find_map(|ends| self.drawn_out(ends));
         }
         self.finely([whole[0] - 1.0, whole[1] + 1.0], depth)

@@ -1,4 +1,4 @@
-use crate::geometry::{Point, Vector, cross, trig};
+use crate::geometry::{Point, Vector, cross, distance_to_segment, trig};
 use crate::linkage::Input;
 use crate::motion::Circuit;
 
@@ -187,17 +187,64 @@ impl Trail {
         let next = self.at(i, 1).unwrap_or(i);
         let step = self.points[next] - self.points[i];
         let input = self.inputs[next] + if next < i { self.turn } else { 0.0 };
-        // About the sample that is nearer, by the length of the chords.
-        let (about, u) = if part < 0.5 { (i, part * step.norm()) } else { (next, (part - 1.0) * step.norm()) };
-        if let Some(near) = self.near(about) {
-            let (by, from) = (near.at(u)[0], if about == i { self.inputs[i] } else { input });
-            let [low, high] = [self.inputs[i].min(input), self.inputs[i].max(input)];
-            let found = (self.points[about] + by, (from + near.input(u)).clamp(low, high));
-            if found.0.x.is_finite() && found.0.y.is_finite() && found.1.is_finite() {
-                return (found.0, found.1 + rounds);
+        let straight = (self.points[i] + step * part, self.inputs[i] + (input - self.inputs[i]) * part);
+        let about = |k: usize, u: f64, from: f64| {
+            let near = self.near(k)?;
+            let found = (self.points[k] + near.at(u)[0], from + near.input(u));
+            (found.0.x.is_finite() && found.0.y.is_finite() && found.1.is_finite()).then_some(found)
+        };
+        // About the sample that is nearer, by the length of the chords; halfway the one goes over into the other.
+        let over = ((part - 0.25) * 2.0).clamp(0.0, 1.0);
+        let chord = step.norm();
+        let before = || about(i, part * chord, self.inputs[i]).unwrap_or(straight);
+        let after = || about(next, (part - 1.0) * chord, input).unwrap_or(straight);
+        let (point, at) = match over {
+            0.0 => before(),
+            1.0 => after(),
+            _ => {
+                let (a, b) = (before(), after());
+                (a.0 + (b.0 - a.0) * over, a.1 + (b.1 - a.1) * over)
             }
+        };
+        let [low, high] = [self.inputs[i].min(input), self.inputs[i].max(input)];
+        (point, at.clamp(low, high) + rounds)
+    }
+
+    /// How much of the length each sample stands for: half the way to either neighbour.
+    pub fn weights(&self) -> Vec<f64> {
+        let chord = |i: usize| self.at(i, 1).map_or(0.0, |next| (self.points[next] - self.points[i]).norm());
+        let before = |i: usize| self.at(i, -1).map_or(0.0, chord);
+        (0..self.points.len()).map(|i| (before(i) + chord(i)) / 2.0).collect()
+    }
+
+    /// How far a point is from the lines to the neighbours of a sample.
+    pub fn distance(&self, point: Point, i: usize) -> f64 {
+        let to = |way| {
+            let next = self.at(i, way).unwrap_or(i);
+            distance_to_segment(point, self.points[i], self.points[next])
+        };
+        to(-1).min(to(1))
+    }
+
+    /// How far a point near the curve is from it, positive to the left, and the curve's normal there.
+    pub fn offset(&self, point: Point) -> Option<(f64, Vector)> {
+        let square = |i: usize| (self.points[i] - point).norm_squared();
+        let i = (0..self.points.len()).min_by(|&a, &b| square(a).total_cmp(&square(b)))?;
+        let near = self.near(i)?;
+        let mut u = 0.0;
+        // Newton's steps to where the way from the curve is square to it.
+        for _ in 0..4 {
+            let [p, v, a] = near.at(u);
+            let by = self.points[i] + p - point;
+            let step = by.dot(&v) / (v.norm_squared() + by.dot(&a));
+            if !step.is_finite() {
+                return None;
+            }
+            u = (u - step).clamp(near.ends[0], near.ends[1]);
         }
-        (self.points[i] + step * part, self.inputs[i] + (input - self.inputs[i]) * part + rounds)
+        let [p, v, _] = near.at(u);
+        let normal = Vector::new(-v.y, v.x).try_normalize(0.0)?;
+        Some((normal.dot(&(point - self.points[i] - p)), normal))
     }
 
     /// How far the input has gone, there and back, from the first sample to a place.

@@ -161,19 +161,11 @@ impl Instant {
     }
 }
 
-/// The pins of the four-bar whose coupler a joint is on, if it is on one.
-fn coupler_of(linkage: &Linkage, joint: JointId) -> Option<[JointId; 4]> {
-    let pins = FourBar::pins(linkage)?;
-    let [_, a, b, _] = pins;
-    let has = |j: JointId| linkage.links.iter().any(|link| [j, a, b].iter().all(|&j| link.place(j).is_some()));
-    has(joint).then_some(pins)
-}
-
 impl Instant {
     /// Of the link that a joint is on, and turns with; of several, the one that is placed first. `None` where it does not
     /// turn, and, but for the coupler of a four-bar, at a limit.
     pub fn of_joint(linkage: &Linkage, jets: &Jets, joint: JointId) -> Option<Instant> {
-        if let Some(pins) = coupler_of(linkage, joint) {
+        if let Some(pins) = FourBar::coupler_pins(linkage, joint) {
             let [_, a, b, _] = pins;
             let arm = jets.place(b) - jets.place(a);
             let turning = cross(arm, jets.velocity(b) - jets.velocity(a));

@@ -176,7 +176,7 @@ proptest! {
                 let power = match m.name {
                     "length" | "straight_length" | "straight_deviation" | "dwell_radius" | "dwell_deviation" => scale,
                     // Of a symmetrical curve two portions are equally long; and a centre is a place.
-                    "straight_start_deg" | "dwell_start_deg" | "dwell_x" | "dwell_y" => continue,
+                    "straight_start_deg" | "dwell_start_deg" | "dwell_x" | "dwell_y" | "symmetry_deg" => continue,
                     "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
                     "curvature_max" => 1.0 / scale,
                     name if name.starts_with("bbox") => continue,
@@ -366,4 +366,60 @@ proptest! {
             }
         }
     }
+}
+
+/// Theorem 1: the perpendicular bisector of the frame. Theorem 2: through the rocker's pivot, half the angle at its pin.
+#[test]
+fn the_theorems_of_chapter_7_are_recognised() {
+    let axis = |linkage: &Linkage, circuit: usize| {
+        let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(180)));
+        let subject = Subject::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
+        let symmetry = *subject.symmetry().expect("a curve");
+        (symmetry.theorem, symmetry.axis.expect("an axis"), symmetry.residual)
+    };
+    for height in [0.0, 0.7, -1.3] {
+        let (theorem, axis, residual) = axis(&four_bar([2.0, 2.5, 1.0, 2.5], (0.5, height)), 0);
+        assert_eq!(theorem, Some("theorem 1"), "{height} {axis:?} {residual}");
+        assert!((axis.deg() - 90.0).abs() < 1e-12 && (axis.through.x - 1.0).abs() < 1e-15, "{axis:?}");
+        assert!(residual < 1e-6, "{residual}");
+    }
+    for beta in [40.0, 100.0, 180.0, -75.0] {
+        // M at beta from A about B, B at distance 2.5 along the coupler.
+        let (cos, sin) = trig::cos_sin_deg(180.0 - beta);
+        let (theorem, axis, residual) = axis(&four_bar([2.0, 1.0, 2.5, 2.5], (2.5 + 2.5 * cos, -2.5 * sin)), 0);
+        assert_eq!(theorem, Some("theorem 2"), "{beta}");
+        assert!((axis.through - Point::new(2.0, 0.0)).norm() < 1e-12);
+        // (7.8) and (7.12): the axis is turned from the frame by half of beta.
+        let off = [-0.5, 0.5].map(|part| (axis.deg() + part * beta + 1.0).rem_euclid(180.0) - 1.0);
+        assert!(off.iter().any(|off| off.abs() < 1e-9), "{beta}: {}", axis.deg());
+        assert!(residual < 1e-6, "{beta}: {residual}");
+    }
+}
+
+/// Without a theorem the axis is found: of a slider-crank's point on the line, and of none elsewhere.
+#[test]
+fn other_symmetrical_curves_are_found_by_their_shape() {
+    let measured = |across: f64, turn: f64| {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", Point::new(0.0, 0.0));
+        let p = assembly.fixed("P", Point::new(1.0, 0.0));
+        let a = assembly.crank("A", o, 1.0).unwrap();
+        let b = assembly.slide("B", (a, 2.5), ([o, p], 0.0), Side::Left).unwrap();
+        let m = assembly.point("M", [a, b], 1.0, across).unwrap();
+        let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
+        let linkage = Linkage { placement: Placement::new(false, turn), ..linkage };
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(180)));
+        *Subject::new(&linkage, &motion, &motion.circuits[0], m).symmetry().expect("a curve")
+    };
+    for turn in [0.0, 33.0] {
+        let found = measured(0.0, turn);
+        assert!(found.residual < 1e-7 && found.theorem.is_none(), "{found:?}");
+        assert!((found.axis.expect("an axis").deg() - turn).abs() < 1e-5, "{found:?}");
+        assert!(measured(0.5, turn).residual > 0.002);
+    }
+    // A circle has no axis of its own.
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(180)));
+    let circle = *Subject::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
+    assert_eq!((circle.axis, circle.residual), (None, 0.0));
 }

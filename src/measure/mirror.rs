@@ -1,0 +1,146 @@
+use super::trail::Trail;
+use crate::geometry::{Point, Vector, cross, trig};
+
+/// A line that a curve may be symmetrical about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// A point of it.
+    pub through: Point,
+    /// Its direction, of length 1.
+    pub along: Vector,
+}
+
+impl Axis {
+    /// The line through a point in a direction; `None` where that is none.
+    pub fn new(through: Point, direction: Vector) -> Option<Axis> {
+        let along = direction.try_normalize(0.0).filter(|along| along.x.is_finite() && along.y.is_finite())?;
+        Some(Axis { through, along })
+    }
+
+    /// The mirror image of a point.
+    pub fn mirror(&self, point: Point) -> Point {
+        let by = point - self.through;
+        self.through + self.along * (2.0 * self.along.dot(&by)) - by
+    }
+
+    /// Its direction from the x-axis, in degrees, from 0 up to 180.
+    pub fn deg(&self) -> f64 {
+        let deg = trig::degrees(trig::atan2(self.along.y, self.along.x)).rem_euclid(180.0);
+        if deg == 180.0 { 0.0 } else { deg }
+    }
+}
+
+/// The product of complex numbers.
+fn times(a: Vector, b: Vector) -> Vector {
+    Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
+}
+
+/// The axis that a curve is symmetrical about if it is about any, by the moments of its length; `None` where moments of
+/// up to the third order tell of none, as of a circle.
+///
+/// An axis of symmetry is a principal axis of the second moments, and moments of an odd order across it vanish. Where the
+/// second moments are the same every way, those of the third order tell the axis.
+pub(super) fn by_moments(trail: &Trail) -> Option<Axis> {
+    /// What is less than this part of what it might be is taken for nothing.
+    const NONE: f64 = 1e-3;
+    let weights = trail.weights();
+    let total: f64 = weights.iter().sum();
+    let centre = trail.points.iter().zip(&weights).map(|(p, w)| p.coords * *w).sum::<Vector>() / total;
+    let (mut all, mut cubes) = (0.0, 0.0);
+    let (mut second, mut third, mut threefold) = (Vector::zeros(), Vector::zeros(), Vector::zeros());
+    for (p, w) in trail.points.iter().zip(&weights) {
+        let z = p.coords - centre;
+        let (square, norm2) = (times(z, z), z.norm_squared());
+        all += w * norm2;
+        cubes += w * norm2 * norm2.sqrt();
+        second += square * *w;
+        third += z * (w * norm2);
+        threefold += times(square, z) * *w;
+    }
+    let axis = |deg: f64| {
+        let (cos, sin) = trig::cos_sin_deg(deg);
+        Axis::new(Point::from(centre), Vector::new(cos, sin))
+    };
+    let direction = |moment: Vector, fold: f64| trig::degrees(trig::atan2(moment.y, moment.x)) / fold;
+    // How far the odd moments are from vanishing across a line.
+    let oddness = |deg: f64| {
+        let across = |moment: Vector, deg: f64| {
+            let (cos, sin) = trig::cos_sin_deg(deg);
+            (moment.y * cos - moment.x * sin).abs()
+        };
+        across(third, deg) + across(threefold, 3.0 * deg)
+    };
+    if second.norm() > NONE * all {
+        let long = direction(second, 2.0);
+        return axis(if oddness(long) <= oddness(long + 90.0) + 1e-9 * cubes { long } else { long + 90.0 });
+    }
+    match () {
+        () if third.norm() > NONE * cubes => axis(direction(third, 1.0)),
+        () if threefold.norm() > NONE * cubes => axis(direction(threefold, 3.0)),
+        () => None,
+    }
+}
+
+/// How far the mirror image of a curve is from it: the greatest distance of its mirrored samples from the lines between
+/// its samples.
+pub(super) fn roughly(trail: &Trail, axis: Axis) -> f64 {
+    let n = trail.points.len();
+    let mirrored: Vec<Point> = trail.points.iter().map(|p| axis.mirror(*p)).collect();
+    let square = |i: usize, j: usize| (trail.points[j] - mirrored[i]).norm_squared();
+    let nearest = |i: usize| (0..n).min_by(|&a, &b| square(i, a).total_cmp(&square(i, b))).unwrap_or(0);
+    // The image goes along the curve the other way, and so does the sample that is nearest.
+    let mut at = nearest(0);
+    let mut far: Vec<f64> = Vec::with_capacity(n);
+    for i in 0..n {
+        for way in [-1, 1] {
+            while let Some(next) = trail.at(at, way)
+                && square(i, next) < square(i, at)
+            {
+                at = next;
+            }
+        }
+        far.push(trail.distance(mirrored[i], at));
+    }
+    // That may have lost the curve where it crosses itself: the furthest is looked for among all samples.
+    let mut is_sure = vec![false; n];
+    loop {
+        let Some(most) = (0..n).max_by(|&a, &b| far[a].total_cmp(&far[b])) else { return 0.0 };
+        if is_sure[most] {
+            return far[most];
+        }
+        far[most] = trail.distance(mirrored[most], nearest(most)).min(far[most]);
+        is_sure[most] = true;
+    }
+}
+
+/// The axis about which a nearly symmetrical curve is most nearly so, in the mean of the squares, and how far the image is
+/// from the curve there at most; of a given axis only the latter.
+pub(super) fn finely(trail: &Trail, mut axis: Axis, is_given: bool) -> (Axis, f64) {
+    const ROUNDS: usize = 4;
+    for round in 0.. {
+        let mut most = 0.0f64;
+        let across = Vector::new(-axis.along.y, axis.along.x);
+        // The normal equations of an offset and a turn.
+        let (mut a, mut b, mut c, mut u, mut v) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for p in &trail.points {
+            let image = axis.mirror(*p);
+            let Some((off, normal)) = trail.offset(image) else { continue };
+            most = most.max(off.abs());
+            let by = image - axis.through;
+            let (shift, turn) = (2.0 * normal.dot(&across), 2.0 * cross(by, normal));
+            a += shift * shift;
+            b += shift * turn;
+            c += turn * turn;
+            u += shift * off;
+            v += turn * off;
+        }
+        let det = a * c - b * b;
+        if is_given || round == ROUNDS || det <= 1e-12 * a * c {
+            return (axis, most);
+        }
+        let (shift, turn) = ((b * v - c * u) / det, (b * u - a * v) / det);
+        let along = axis.along + across * turn;
+        axis = Axis::new(axis.through + across * shift, along).unwrap_or(axis);
+    }
+    (axis, f64::INFINITY)
+}
