@@ -15,6 +15,7 @@ mod trail;
 mod transmission;
 
 pub use column::{COLUMNS, Column, column, take_columns};
+pub use path::lengths_from_start;
 pub use straight::{Portion, Straight};
 
 use std::cell::OnceCell;
