@@ -7,7 +7,7 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use super::number::{decimal, exponent, power_label, written};
 use crate::geometry::trig;
 
-/// Values further from zero than this are as good as infinite.
+/// Values further from zero than this are as good as infinite, and its inverse as good as zero.
 const MOST: f64 = 1e300;
 
 /// What differs by less than this part of itself is one value and rounding.
@@ -53,7 +53,7 @@ pub(super) struct Scale {
 
 /// Whether a value can be drawn.
 pub(super) fn is_drawn(value: f64, is_log: bool) -> bool {
-    value.abs() <= MOST && (value > 0.0 || !is_log)
+    value.abs() <= MOST && (value >= 1.0 / MOST || !is_log)
 }
 
 impl Scale {
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_written_as_a_reader_expects() {
-        assert_eq!(labels(&[1.2, 3.9], ROUND), ["1", "2", "3", "4"]);
+        assert_eq!(labels(&[1.2, 3.9], ROUND), ["1.0", "1.5", "2.0", "2.5", "3.0", "3.5", "4.0"]);
         assert_eq!(labels(&[0.1, 3.9], ROUND), ["0", "1", "2", "3", "4"]);
         assert_eq!(labels(&[-0.031, 0.02], ROUND), ["−0.04", "−0.03", "−0.02", "−0.01", "0.00", "0.01", "0.02"]);
         assert_eq!(labels(&[2.0e-12, 9.7e-12], ROUND), ["0", "2×10⁻¹²", "4×10⁻¹²", "6×10⁻¹²", "8×10⁻¹²", "10×10⁻¹²"]);
