@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use coupler_atlas::chart::{Gathering, MOST_NUMBERS, Over, Series};
+use coupler_atlas::geometry::trig;
 use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::problem::report;
 use coupler_atlas::sweep;
@@ -175,7 +176,7 @@ fn lines_over_samples_are_the_rows_of_points() {
             assert_eq!(series.y[2][k], number(row, "input_deg"));
             if k > 0 {
                 let step = |name: &str| number(row, name) - number(ours[k - 1], name);
-                chords += f64::hypot(step("x"), step("y"));
+                chords += trig::hypot(step("x"), step("y"));
             }
             // An arc is longer than its chord, over ten degrees by a few parts in a thousand, at the sharp ends more.
             assert!((chords..=1.05 * chords).contains(&series.x[k]), "{} {chords}", series.x[k]);
@@ -267,7 +268,7 @@ fn points_stand_at_their_places_on_the_page() {
             let right = (cx[point] - frame[0]) / (frame[2] - frame[0]);
             let up = (frame[3] - cy[point]) / (frame[3] - frame[1]);
             let across = x[0] + right * (x[1] - x[0]);
-            let high = if is_log { y[0] * (y[1] / y[0]).powf(up) } else { y[0] + up * (y[1] - y[0]) };
+            let high = if is_log { y[0] * trig::pow(y[1] / y[0], up) } else { y[0] + up * (y[1] - y[0]) };
             // The page is written to a micrometre.
             assert!((across / found.x[point] - 1.0).abs() < 1e-4, "{across}");
             assert!((high / found.y[k][point] - 1.0).abs() < 1e-4, "{high} {:?}", found.y[k]);

@@ -10,7 +10,7 @@ use super::super::element::{Area, Drawing, Tagged, Words, draw, size};
 use super::super::theme::Theme;
 use super::keys::{self, Key};
 use super::line::{Manner, Trace};
-use super::scale::{Ends, Scale, Wish};
+use super::scale::{Ends, Scale, Wish, is_drawn};
 use crate::chart::{Over, Quantity, Series};
 use crate::geometry::{Point, Vector};
 use crate::scene::{Anchor, Canvas, Color, Face, Group, Item};
@@ -47,14 +47,15 @@ impl<'a> Figure<'a> {
             wish(&chart.x, ends, room(area.x - right, 7.0 * theme.note, 12)),
             wish(&chart.y[place], Ends::Round, room(area.y - 7.0 * theme.caption, 4.5 * theme.note, 8)),
         ];
-        // What has no place on one axis does not count on the other.
-        let drawn = |&(a, b): &(f64, f64)| {
-            a.is_finite() && b.is_finite() && !(wishes[0].is_log && a <= 0.0) && !(wishes[1].is_log && b <= 0.0)
+        // What has no place on one axis does not count on the other; to the right, what any chart of the page has.
+        let drawn = |place: usize| {
+            let is_log = [chart.x.is_log, chart.y[place].is_log];
+            let is_drawn = move |&(x, y): &(f64, f64)| is_drawn(x, is_log[0]) && is_drawn(y, is_log[1]);
+            sheet.series.iter().flat_map(move |series| points(series, place)).filter(is_drawn)
         };
-        let points = || sheet.series.iter().flat_map(|series| points(series, place)).filter(drawn);
-        let scales =
-            Scale::of(points().map(|(x, _)| x), &wishes[0]).zip(Scale::of(points().map(|(_, y)| y), &wishes[1]));
-        let scales = scales.map(|(x, y)| [x, y]);
+        let x = Scale::of(sheet.shown.clone().flat_map(drawn).map(|(x, _)| x), &wishes[0]);
+        let y = Scale::of(drawn(place).map(|(_, y)| y), &wishes[1]);
+        let scales = x.zip(y).map(|(x, y)| [x, y]);
         let labels = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.label(*tick)));
         let left = labels.map(|label| Face::Regular.width(&label, theme.note)).fold(0.0, f64::max);
         let left = left + 2.0 * tick(theme) + 0.2 * theme.note;
@@ -162,8 +163,8 @@ impl<'a> Figure<'a> {
     fn lines(&self, frame: &Area, theme: &Theme) {
         let traces = self.traces(frame);
         let span = span(frame);
-        // Marks are for points that stand apart.
-        let most = traces.iter().map(|trace| trace.points.len()).max().unwrap_or(0);
+        // Marks are for points that stand apart, on one chart of a page as on another.
+        let most = self.sheet.series.iter().map(|series| series.x.len()).max().unwrap_or(0);
         let with_marks = self.sheet.chart.over == Over::Curves && most as f64 * 4.0 * theme.joint < span.x;
         let mut keys = Vec::new();
         for (k, (trace, series)) in traces.iter().zip(self.sheet.series).enumerate() {
