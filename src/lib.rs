@@ -46,6 +46,8 @@ pub mod notation;
 
 pub mod sweep;
 
+pub mod chart;
+
 pub mod page;
 pub mod render;
 pub mod scene;

@@ -1,20 +1,21 @@
 //! Runs a [`Plan`]: names the files, and writes each whole or not at all.
 
 mod files;
+mod pages;
 
 pub use files::{Error, read_manifest, write as write_file, write_new};
 
 use std::path::Path;
 
-use crate::expression::Caption;
+use crate::chart::{Gathering, Taken};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::{self, Panel, Sheet, View};
 use crate::problem::Problem;
-use crate::record::{Cells, FamilyRecord, FileRecord, Points, Run};
-use crate::render::{self, Format};
+use crate::record::{Cells, FamilyRecord, Points, Run};
+use crate::render::Format;
 use crate::sweep::{self, Solved, Status};
 use files::{Growing, write};
+use pages::{Printer, Rendered};
 
 /// What is to be built of a plan.
 #[derive(Clone, Debug, Default)]
@@ -91,16 +92,21 @@ pub fn empty_families(plan: &Plan, built: Option<&Run>) -> Vec<Problem> {
     plan.families.iter().filter_map(warning).collect()
 }
 
-/// A page and the rows that go with it, ready to be written.
+/// The cells of a page and the rows that go with them, ready to be written.
 struct Made {
-    pages: Vec<(String, Vec<u8>)>,
-    records: Vec<FileRecord>,
+    /// The page, if they are drawn on one of their own.
+    page: Option<Rendered>,
+    /// What charts take of them.
+    taken: Vec<Taken>,
     points: String,
     cells: String,
     curves: usize,
     left_out: usize,
     shortfalls: Vec<(usize, String)>,
 }
+
+/// How many cells charts take in at a time.
+const CELLS_TO_A_GROUP: usize = 16;
 
 fn build_family(
     plan: &Plan,
@@ -113,8 +119,14 @@ fn build_family(
     let folder = output.join(&family.id);
     files::create_folder(&folder)?;
     let kept = sweep::select(family);
-    let (group, formats) = (planned.layout.cells(), options.formats.as_ref().unwrap_or(&planned.formats));
-    let pages = kept.len().div_ceil(group);
+    let cells_to_a_page = planned.layout.cells();
+    let (group, pages) = match &planned.chart {
+        None => (cells_to_a_page, kept.len().div_ceil(cells_to_a_page)),
+        Some(_) if kept.is_empty() => (CELLS_TO_A_GROUP, 0),
+        Some(chart) => (CELLS_TO_A_GROUP, chart.y.len().div_ceil(cells_to_a_page)),
+    };
+    let formats = options.formats.as_ref().unwrap_or(&planned.formats);
+    let printer = Printer { plan, planned, formats, of: pages };
     tell(Event::Begin { family: &family.id, pages });
 
     let points_table = Points::new(family, dyads(family));
@@ -144,93 +156,54 @@ fn build_family(
         let curves = solved.iter().map(|s| s.curves.len()).sum();
         let left_out = solved.iter().map(|s| s.left_out).sum();
         let shortfalls = solved.iter().filter_map(shortfall).collect();
-        let (pages, records) = draw_page(plan, planned, formats, (page + 1, pages), &solved)?;
-        Ok(Made { pages, records, points, cells, curves, left_out, shortfalls })
+        let page = planned.chart.is_none().then(|| printer.panels(page + 1, &solved)).transpose()?;
+        let taken =
+            planned.chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.take(solved))).collect();
+        Ok(Made { page, taken, points, cells, curves, left_out, shortfalls })
     };
+    let mut gathering = planned.chart.as_ref().map(|chart| Gathering::new(chart, family));
     sweep::run(family, (&kept, group), make, |made| -> Result<(), Error> {
         let made = made?;
-        for (name, bytes) in &made.pages {
-            write(&folder.join(name), bytes)?;
-        }
         points.append(&made.points)?;
         cells.append(&made.cells)?;
-        record.files.extend(made.records);
+        if let Some(gathering) = &mut gathering {
+            made.taken.into_iter().for_each(|taken| gathering.add(taken));
+        }
         record.curves += made.curves;
         record.curves_left_out += made.left_out;
         record.not_assembled += made.shortfalls.len();
         for (cell, reason) in &made.shortfalls {
             tell(Event::Shortfall { family: &family.id, cell: *cell, reason });
         }
-        tell(Event::Page);
+        if let Some(page) = made.page {
+            keep(page, &folder, &mut record)?;
+            tell(Event::Page);
+        }
         Ok(())
     })?;
+    if let (Some(chart), Some(gathering)) = (&planned.chart, gathering) {
+        let gathered = gathering.finish();
+        for page in 1..=pages {
+            keep(printer.charts(page, chart, &gathered)?, &folder, &mut record)?;
+            tell(Event::Page);
+        }
+    }
     record.files.insert(0, points.finish()?);
     record.files.insert(0, cells.finish()?);
     tell(Event::End { record: &record });
     Ok(record)
 }
 
+/// Writes a page and records it.
+fn keep(page: Rendered, folder: &Path, record: &mut FamilyRecord) -> Result<(), Error> {
+    for (name, bytes) in &page.files {
+        write(&folder.join(name), bytes)?;
+    }
+    record.files.extend(page.records);
+    Ok(())
+}
+
 /// How many two-valued joints the linkages of a family have.
 fn dyads(family: &Family) -> usize {
     family.linkage(&family.cell(0)).map_or(0, |linkage| linkage.dyads())
-}
-
-/// Where the linkage comes from, and how a page is to be read.
-fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
-    let dashes = match planned.family.template.is_driven_by_length() {
-        true => "a dash and its gap span equal lengths of the actuator".to_owned(),
-        false => format!("one dash and its gap = {dash_deg}° of input"),
-    };
-    let key = format!("{dashes} · scale bars in units of length");
-    if planned.source.is_empty() { key } else { format!("{} · {key}", planned.source) }
-}
-
-type Pages = (Vec<(String, Vec<u8>)>, Vec<FileRecord>);
-
-/// Composes a page and renders it in each format.
-fn draw_page(
-    plan: &Plan,
-    planned: &PlannedFamily,
-    formats: &[Format],
-    (page, of): (usize, usize),
-    solved: &[Solved],
-) -> Result<Pages, Error> {
-    let family = &planned.family;
-    let template = &family.template;
-    let line = |caption: &Option<Caption>, solved: &Solved| family.describe(caption.as_ref(), &solved.cell);
-    let panel = |solved| Panel {
-        caption: line(&template.caption, solved),
-        note: line(&template.note, solved),
-        solved,
-        view: View::Clearest,
-    };
-    let sheet = Sheet {
-        atlas: &plan.title,
-        family: &family.id,
-        title: &family.title,
-        symbols: &family.names,
-        source: source_line(planned, plan.page.dash_deg),
-        page,
-        of,
-        layout: planned.layout,
-        panels: solved.iter().map(panel).collect(),
-    };
-    let scene = page::compose(&sheet, &plan.page);
-    let (mut pages, mut records) = (Vec::new(), Vec::new());
-    let svg = render::svg(&scene, plan.text);
-    for format in formats {
-        let name = format!("{}-{page:03}.{}", family.id, format.name());
-        match format {
-            Format::Svg => {
-                records.push(FileRecord::of_bytes(&name, &svg));
-                pages.push((name, svg.clone()));
-            }
-            Format::Png => {
-                records.push(FileRecord::of_drawing(&name, &svg, plan.dpi));
-                let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name: name.clone(), error })?;
-                pages.push((name, png));
-            }
-        }
-    }
-    Ok((pages, records))
 }

@@ -204,16 +204,22 @@ impl Family {
     /// Whether a curve of a cell with these measures is kept.
     pub fn keeps(&self, cell: &Cell, measures: &[measure::Value]) -> bool {
         let Some(filter) = &self.filter else { return true };
+        filter.evaluate(|slot| Family::load(cell, measures, slot)) == 1.0
+    }
+
+    /// The value of the name at a place of [`Family::scope`]; not a number where it has none, or the scope no such place.
+    pub fn load(cell: &Cell, measures: &[measure::Value], slot: usize) -> f64 {
         let numbers = || measure::ALL.iter().zip(measures).filter(|(measure, _)| !measure.is_word);
         let count = measure::ALL.iter().filter(|measure| !measure.is_word).count();
-        let load = |slot: usize| match slot.checked_sub(cell.values.len()) {
+        match slot.checked_sub(cell.values.len()) {
             None => cell.values[slot],
             Some(slot) if slot < count => match numbers().nth(slot) {
                 Some((_, measure::Value::Number(value))) => *value,
                 _ => f64::NAN,
             },
-            Some(slot) => measure::truth(measure::TRUTHS[slot - count].1, measures),
-        };
-        filter.evaluate(load) == 1.0
+            Some(slot) => {
+                measure::TRUTHS.get(slot - count).map_or(f64::NAN, |(_, word)| measure::truth(word, measures))
+            }
+        }
     }
 }

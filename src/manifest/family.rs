@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::names::{given, names, read_expressions};
-use super::{PlannedFamily, Templates, settings};
+use super::{PlannedFamily, Templates, chart, settings};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
 use crate::notation::{self, Fields, Reader, Value};
@@ -12,12 +12,13 @@ use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::{Placement, Template};
 
-const KEYS: [&str; 19] = [
+const KEYS: [&str; 20] = [
     "id",
     "linkage",
     "title",
     "source",
     "layout",
+    "chart",
     "panels",
     "sampling",
     "grid",
@@ -65,7 +66,6 @@ pub(super) fn read<'t>(
         None => Some(Straight::default()),
         Some(value) => straight(value, template.as_deref(), reader),
     };
-    let layout = layout(&fields, paper, reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
         None => {
@@ -74,6 +74,16 @@ pub(super) fn read<'t>(
             None
         }
     };
+    let chart = match (fields.get("chart"), &template, &names) {
+        (None, ..) => Some(None),
+        (Some(value), Some(template), Some(names)) => chart::read(value, template, names, reader).map(Some),
+        (Some(_), ..) => {
+            chart::read_expressions(&fields, reader);
+            None
+        }
+    };
+    let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
+    let layout = layout(&fields, paper, charts, reader);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let family = Family {
         title: title.unwrap_or_else(|| id.clone()),
@@ -92,7 +102,7 @@ pub(super) fn read<'t>(
     let source =
         source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
     let filter_span = fields.get("where").map(Value::span);
-    Some(PlannedFamily { family, layout: layout?, formats: formats?, source, filter_span })
+    Some(PlannedFamily { family, layout: layout?, chart: chart?, formats: formats?, source, filter_span })
 }
 
 /// The template with what the family says otherwise.
@@ -246,19 +256,27 @@ fn columns<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Column>
     all_read.then_some(out)
 }
 
-fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, reader: &mut Reader<'t>) -> Option<Layout> {
-    if let Some(value) = fields.get("layout") {
-        let words = Layout::ALL.map(|(name, _)| (name, ()));
-        reader.word(value, &words)?;
-    }
+/// The layout; of charts, of which there are that many, one in which they show well where no panels are given.
+fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, charts: usize, reader: &mut Reader<'t>) -> Option<Layout> {
+    let words = Layout::ALL.map(|(name, _)| (name, name == "chart"));
+    let is_chart = match fields.get("layout") {
+        Some(value) => reader.word(value, &words)?,
+        None => false,
+    };
+    chart::check_layout(fields, is_chart, reader);
     // Of a paper that could not be read nothing is asked.
-    let [most_columns, most_rows] = paper.map_or([100, 100], Layout::most_panels);
+    let most = if is_chart { Layout::most_charts } else { Layout::most_panels };
+    let [most_columns, most_rows] = paper.map_or([100, 100], most);
     let Some(value) = fields.get("panels") else {
-        return Some(Layout::Panels { columns: most_columns.min(5), rows: most_rows.min(3) });
+        return Some(match paper.filter(|_| is_chart) {
+            Some(paper) => Layout::of_charts(paper, charts),
+            None => Layout::Panels { columns: most_columns.min(5), rows: most_rows.min(3) },
+        });
     };
     let [columns, rows] = reader.pair(value)?;
     let (columns, rows) = (reader.count(columns, 1, most_columns), reader.count(rows, 1, most_rows));
-    Some(Layout::Panels { columns: columns?, rows: rows? })
+    let (columns, rows) = (columns?, rows?);
+    Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })
 }
 
 /// Every cell's values and linkage; the first cell of each kind of problem is named, and the others counted.

@@ -1,5 +1,6 @@
 //! TOML text -> a validated [`Plan`], or every problem in it.
 
+mod chart;
 mod family;
 mod grid;
 mod names;
@@ -8,6 +9,7 @@ mod settings;
 use std::sync::Arc;
 
 use crate::catalogue;
+use crate::chart::Chart;
 use crate::family::Family;
 use crate::notation::{self, Fields, Reader, Value};
 use crate::page;
@@ -39,6 +41,8 @@ pub struct PlannedFamily {
     pub family: Family,
     /// How pages are laid out.
     pub layout: page::Layout,
+    /// What its charts show, where it is laid out as charts.
+    pub chart: Option<Chart>,
     /// The formats of its pages.
     pub formats: Vec<Format>,
     /// What stands under the title of its pages.

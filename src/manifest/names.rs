@@ -1,6 +1,6 @@
 //! The names of a family: what `grid`, `cases`, `let` and the linkage's defaults give them.
 
-use super::grid;
+use super::{chart, grid};
 use crate::expression::{Bound, Expression, Kind};
 use crate::family::{Axis, Case, Family, MAX_CELLS, Space, derivation};
 use crate::notation::{self, Fields, Reader, Value};
@@ -77,11 +77,13 @@ pub(super) fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &m
     }
     let filter = fields.get("where").and_then(|value| filter(value, &all, reader));
     read_all &= filter.is_some() == fields.get("where").is_some();
+    let in_chart = chart::used_names(fields);
     let derived = in_order(sources, &all, &scope, reader)?;
     for (slot, name) in all.iter().enumerate().skip(template.parameters.len()) {
         let in_filter = filter.as_ref().is_some_and(|filter| filter.slots().contains(&slot));
         // Where an expression could not be read, it may have been the one that uses the name.
-        if read_all && !in_filter && !derived.iter().any(|(_, bound)| bound.slots().contains(&slot)) {
+        let in_chart = in_chart.as_ref().is_none_or(|used| used.contains(name));
+        if read_all && !in_filter && !in_chart && !derived.iter().any(|(_, bound)| bound.slots().contains(&slot)) {
             unused(name, spans[slot].clone().unwrap_or_default(), template, reader);
         }
     }

@@ -23,6 +23,7 @@ mod transmission;
 pub use column::{COLUMNS, Column, column, take_columns};
 pub use dwell::Dwell;
 pub use mirror::Axis;
+pub use path::lengths_from_start;
 pub use straight::{Portion, Straight};
 pub use symmetry::Symmetry;
 

@@ -1,5 +1,8 @@
+use super::trail::Trail;
 use super::{Measure, Subject, Value};
 use crate::geometry::Vector;
+use crate::linkage::JointId;
+use crate::motion::Circuit;
 
 /// The length of the path.
 pub const LENGTH: Measure = Measure {
@@ -55,4 +58,21 @@ fn reach(subject: &Subject, direction: Vector) -> Value {
     let reach = subject.trail().reach(direction);
     // The least is the furthest the other way.
     Value::Number(if direction.x + direction.y < 0.0 { -reach } else { reach })
+}
+
+/// The length of a joint's path from its first sample to each sample, and, where it closes, to the first again at the
+/// end; not a number where the joint has no place. The last of them is the measure `length`.
+pub fn lengths_from_start(circuit: &Circuit, joint: JointId) -> Vec<f64> {
+    let trail = Trail::of(circuit, joint);
+    let mut out = vec![f64::NAN; circuit.len() + usize::from(trail.closed)];
+    let mut length = 0.0;
+    let lengths = trail.lengths();
+    for (k, &sample) in trail.samples.iter().enumerate() {
+        out[sample] = length;
+        length += lengths.get(k).copied().unwrap_or(0.0);
+    }
+    if let (true, Some(last)) = (trail.closed && !trail.samples.is_empty(), out.last_mut()) {
+        *last = length;
+    }
+    out
 }

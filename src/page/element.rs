@@ -60,6 +60,7 @@ macro_rules! anchored_at_origin {
 
 anchored_at_origin!(CouplerCurve);
 anchored_at_origin!(Drawing);
+anchored_at_origin!(Tagged);
 anchored_at_origin!(Words);
 
 /// A coupler curve: a group of its own, with an id, a title and the facts about it.
@@ -111,6 +112,17 @@ impl Drawing {
     fn item(&self, origin: Vector) -> Item {
         let items = self.items.iter().map(|item| moved(item, origin)).collect();
         Item::Group(Group { class: self.class, title: self.title.clone(), items, ..Group::default() })
+    }
+}
+
+/// A group with an id and facts of its own.
+pub(super) struct Tagged {
+    pub group: Group,
+}
+
+impl Tagged {
+    fn item(&self, origin: Vector) -> Item {
+        moved(&Item::Group(self.group.clone()), origin)
     }
 }
 

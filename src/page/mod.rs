@@ -1,8 +1,10 @@
 //! What stands where on a page: paper, theme and layouts, drawn through plotters onto a [`Scene`].
 
 mod arrangement;
+mod chart;
 mod element;
 mod figure;
+mod heading;
 mod mechanism;
 mod panels;
 mod plot;
@@ -11,9 +13,11 @@ mod theme;
 
 pub use theme::Theme;
 
+use crate::chart::{Chart, Series};
 use crate::geometry::Point;
 use crate::scene::Scene;
 use crate::sweep::Solved;
+use heading::Heading;
 
 /// The size of the paper, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,23 +51,49 @@ pub enum Layout {
         /// Rows.
         rows: usize,
     },
+    /// A grid of charts, each of one quantity over all curves.
+    Chart {
+        /// Charts in a row.
+        columns: usize,
+        /// Rows.
+        rows: usize,
+    },
 }
 
 impl Layout {
     /// Every layout's name and what it shows.
-    pub const ALL: [(&'static str, &'static str); 1] =
-        [("panels", "a grid of panels, each with a cell's linkage, its curves and its caption")];
+    pub const ALL: [(&'static str, &'static str); 2] = [
+        ("panels", "a grid of panels, each with a cell's linkage, its curves and its caption"),
+        ("chart", "a grid of charts, each with one of the quantities that the family's `chart` names over another"),
+    ];
 
     /// The most columns and rows of panels that a paper has room for.
     pub fn most_panels(paper: Paper) -> [usize; 2] {
         panels::most(paper, &Theme::for_paper(paper))
     }
 
-    /// How many cells a page holds.
-    pub fn cells(self) -> usize {
+    /// The most columns and rows of charts that a paper has room for.
+    pub fn most_charts(paper: Paper) -> [usize; 2] {
+        chart::most(paper, &Theme::for_paper(paper))
+    }
+
+    /// The layout in which that many charts show best on a paper: as many to a page as can well be read.
+    pub fn of_charts(paper: Paper, count: usize) -> Layout {
+        let [columns, rows] = chart::balanced(paper, &Theme::for_paper(paper), count);
+        Layout::Chart { columns, rows }
+    }
+
+    /// How many columns and rows a page has.
+    pub fn grid(self) -> [usize; 2] {
         match self {
-            Layout::Panels { columns, rows } => columns * rows,
+            Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
         }
+    }
+
+    /// How many panels or charts a page holds.
+    pub fn cells(self) -> usize {
+        let [columns, rows] = self.grid();
+        columns * rows
     }
 }
 
@@ -129,14 +159,65 @@ pub enum View {
     },
 }
 
-/// Draws a page.
+/// A page of charts to be composed.
+#[derive(Clone, Debug)]
+pub struct ChartSheet<'a> {
+    /// The atlas's title.
+    pub atlas: &'a str,
+    /// The family's id.
+    pub family: &'a str,
+    /// The family's title.
+    pub title: &'a str,
+    /// Where the linkage comes from and what its letters mean.
+    pub source: String,
+    /// Words that stand for values, set in italics.
+    pub symbols: &'a [String],
+    /// The page's number in the family, from 1.
+    pub page: usize,
+    /// How many pages the family has.
+    pub of: usize,
+    /// How the charts are laid out.
+    pub layout: Layout,
+    /// What the charts show.
+    pub chart: &'a Chart,
+    /// Which of its quantities are on this page, by their places.
+    pub shown: std::ops::Range<usize>,
+    /// The lines of all charts.
+    pub series: &'a [Series],
+}
+
+impl Sheet<'_> {
+    fn heading(&self) -> Heading<'_> {
+        let Sheet { atlas, title, symbols, page, of, .. } = *self;
+        Heading { atlas, title, source: &self.source, symbols, page, of }
+    }
+}
+
+impl ChartSheet<'_> {
+    fn heading(&self) -> Heading<'_> {
+        let ChartSheet { atlas, title, symbols, page, of, .. } = *self;
+        Heading { atlas, title, source: &self.source, symbols, page, of }
+    }
+}
+
+/// Draws a page of panels.
 pub fn compose(sheet: &Sheet, options: &Options) -> Scene {
     let theme = Theme::for_paper(options.paper);
-    let title = format!("{}, page {} of {}: {}", sheet.title, sheet.page, sheet.of, sheet.atlas);
-    let Paper { width, height } = options.paper;
-    let mut scene = Scene { width, height, paper: theme.paper, title, items: Vec::new() };
-    match sheet.layout {
-        Layout::Panels { columns, rows } => panels::compose(&mut scene, sheet, (columns, rows), options, &theme),
-    }
+    let mut scene = blank(&sheet.heading(), options, &theme);
+    let [columns, rows] = sheet.layout.grid();
+    panels::compose(&mut scene, sheet, (columns, rows), options, &theme);
     scene
+}
+
+/// Draws a page of charts.
+pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
+    let theme = Theme::for_paper(options.paper);
+    let mut scene = blank(&sheet.heading(), options, &theme);
+    chart::compose(&mut scene, sheet, &theme);
+    scene
+}
+
+fn blank(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
+    let Paper { width, height } = options.paper;
+    Scene { width, height, paper: theme.paper, title: heading.name(), items: Vec::new() }
 }

@@ -1,12 +1,11 @@
 //! The `panels` layout: a grid of cells, each with its figure, its number and its caption.
 
 use plotters::drawing::IntoDrawingArea;
-use plotters::element::Rectangle;
-use plotters::style::{RGBColor, ShapeStyle};
 
 use super::arrangement::{Arrangement, Extents, Frame};
 use super::element::{Area, Drawing, Words, draw, size};
 use super::figure::Figure;
+use super::heading::margins;
 use super::theme::Theme;
 use super::{Options, Panel, Paper, Sheet};
 use crate::geometry::{Point, Vector};
@@ -14,45 +13,8 @@ use crate::scene::{Anchor, Canvas, Color, Item, Scene};
 
 pub(super) fn compose(scene: &mut Scene, sheet: &Sheet, grid: (usize, usize), options: &Options, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
-    furniture(&root, sheet, theme);
+    sheet.heading().draw(&root, theme);
     panels(&root, sheet, grid, options, theme);
-}
-
-/// Border, title, source line and folio.
-fn furniture(root: &Area, sheet: &Sheet, theme: &Theme) {
-    let page = size(root);
-    let Color(r, g, b) = theme.ink;
-    let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
-    let border = [corner(theme.border, theme.border), corner(page.x - theme.border, page.y - theme.border)];
-    let style =
-        ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width: Canvas::pixels(theme.fine) as u32 };
-    draw(root, &Rectangle::new(border, style));
-    let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
-    let top = theme.border + theme.title;
-    let title =
-        Words::new(sheet.title, Point::new(left, top + 0.9 * theme.title), Anchor::Start, theme.title, theme.ink);
-    draw(root, &title.fitted(right - left));
-    let mut at = Point::new(left, top + 0.9 * theme.title + 1.85 * theme.source);
-    let words = |text: &str, at| Words::new(text, at, Anchor::Start, theme.source, theme.grey).italic(sheet.symbols);
-    // What is too long for one line is parted between two of its parts; there is no room for a third line.
-    let (first, second) = parted(&sheet.source, |text| words(text, at).text.width() <= right - left);
-    for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
-        draw(root, &words(line, at).fitted(right - left));
-        at.y += 1.35 * theme.source;
-    }
-    let folio = format!("{} · page {} of {}", sheet.atlas, sheet.page, sheet.of);
-    let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
-    draw(root, &Words::new(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
-}
-
-/// A text in two, parted at the last ` · ` before which it fits; if it does not fit whole.
-fn parted(text: &str, fits: impl Fn(&str) -> bool) -> (&str, &str) {
-    const SEPARATOR: &str = " · ";
-    if fits(text) {
-        return (text, "");
-    }
-    let at = text.rmatch_indices(SEPARATOR).map(|(at, _)| at).find(|&at| fits(&text[..at]));
-    at.map_or((text, ""), |at| (&text[..at], &text[at + SEPARATOR.len()..]))
 }
 
 fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
@@ -78,13 +40,6 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
         }
         caption(area, foot, panel, sheet.symbols, theme);
     }
-}
-
-/// What is left free above, below and beside the panels.
-fn margins(theme: &Theme) -> [f64; 3] {
-    let top = theme.border + 2.3 * theme.title + 3.2 * theme.source;
-    let bottom = theme.border + theme.margin + theme.source;
-    [top, bottom, theme.border + 0.5 * theme.margin]
 }
 
 /// The most columns and rows: set as small as it may be, a panel has four lines under a figure of five.

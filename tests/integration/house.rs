@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const HOUSE: [(&str, &str); 18] = [
+const HOUSE: [(&str, &str); 19] = [
     ("geometry", ""),
     ("problem", ""),
     ("expression", "geometry problem"),
@@ -20,15 +20,16 @@ const HOUSE: [(&str, &str); 18] = [
     ("catalogue", "notation template problem"),
     ("family", "template expression measure problem motion"),
     ("sweep", "family linkage motion measure"),
+    ("chart", "expression family linkage measure motion sweep"),
     ("scene", "geometry"),
-    ("page", "geometry expression linkage motion measure sweep scene"),
+    ("page", "geometry expression linkage motion measure sweep scene chart"),
     ("render", "geometry scene"),
-    ("manifest", "problem expression notation catalogue family page render template"),
+    ("manifest", "problem expression notation catalogue family page render template chart"),
     ("record", "family sweep measure"),
     (
         "build",
-        "geometry problem expression linkage motion measure template notation catalogue family sweep scene page render \
-         manifest record",
+        "geometry problem expression linkage motion measure template notation catalogue family sweep chart scene page \
+         render manifest record",
     ),
     (
         "cli",

@@ -2,6 +2,7 @@
 
 mod atlas;
 mod catalogue;
+mod charts;
 mod circuits;
 mod house;
 mod instant;

@@ -1,0 +1,117 @@
+//! The pages of a family, composed and rendered.
+
+use super::Error;
+use crate::chart::{Chart, Gathered};
+use crate::expression::Caption;
+use crate::manifest::{Plan, PlannedFamily};
+use crate::page::{self, ChartSheet, Panel, Sheet, View};
+use crate::record::FileRecord;
+use crate::render::{self, Format};
+use crate::scene::Scene;
+use crate::sweep::Solved;
+
+/// A page in each format.
+pub(super) struct Rendered {
+    /// The files' names and bytes.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What is recorded of them.
+    pub records: Vec<FileRecord>,
+}
+
+/// How the pages of a family are made.
+#[derive(Clone, Copy)]
+pub(super) struct Printer<'a> {
+    pub plan: &'a Plan,
+    pub planned: &'a PlannedFamily,
+    pub formats: &'a [Format],
+    /// How many pages there are.
+    pub of: usize,
+}
+
+impl Printer<'_> {
+    /// A page of panels; pages are counted from 1.
+    pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Rendered, Error> {
+        let Printer { plan, planned, of, .. } = *self;
+        let family = &planned.family;
+        let template = &family.template;
+        let line = |caption: &Option<Caption>, solved: &Solved| family.describe(caption.as_ref(), &solved.cell);
+        let panel = |solved| Panel {
+            caption: line(&template.caption, solved),
+            note: line(&template.note, solved),
+            solved,
+            view: View::Clearest,
+        };
+        let sheet = Sheet {
+            atlas: &plan.title,
+            family: &family.id,
+            title: &family.title,
+            symbols: &family.names,
+            source: source_line(planned, plan.page.dash_deg),
+            page,
+            of,
+            layout: planned.layout,
+            panels: solved.iter().map(panel).collect(),
+        };
+        self.render(page, &page::compose(&sheet, &plan.page))
+    }
+
+    /// A page of charts.
+    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Rendered, Error> {
+        let Printer { plan, planned, of, .. } = *self;
+        let family = &planned.family;
+        let first = (page - 1) * planned.layout.cells();
+        let mut source = vec![planned.source.clone()];
+        if gathered.left_out > 0 {
+            let Gathered { curves, left_out, .. } = gathered;
+            source.push(format!("only the first {} of {curves} curves are drawn", curves - left_out));
+        }
+        source.retain(|part| !part.is_empty());
+        let sheet = ChartSheet {
+            atlas: &plan.title,
+            family: &family.id,
+            title: &family.title,
+            symbols: &family.names,
+            source: source.join(" · "),
+            page,
+            of,
+            layout: planned.layout,
+            chart,
+            shown: first..(first + planned.layout.cells()).min(chart.y.len()),
+            series: &gathered.series,
+        };
+        self.render(page, &page::compose_charts(&sheet, &plan.page))
+    }
+
+    /// A page in each format.
+    fn render(&self, page: usize, scene: &Scene) -> Result<Rendered, Error> {
+        let Printer { plan, planned, formats, .. } = *self;
+        let (mut files, mut records) = (Vec::new(), Vec::new());
+        let svg = render::svg(scene, plan.text);
+        for format in formats {
+            let name = format!("{}-{page:03}.{}", planned.family.id, format.name());
+            match format {
+                Format::Svg => {
+                    records.push(FileRecord::of_bytes(&name, &svg));
+                    files.push((name, svg.clone()));
+                }
+                Format::Png => {
+                    records.push(FileRecord::of_drawing(&name, &svg, plan.dpi));
+                    let png =
+                        render::png(scene, plan.dpi).map_err(|error| Error::Image { name: name.clone(), error })?;
+                    files.push((name, png));
+                }
+            }
+        }
+        Ok(Rendered { files, records })
+    }
+}
+
+/// Where the linkage comes from, and how a page is to be read.
+fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
+    let dashes = match planned.family.template.is_driven_by_length() {
+        true => "a dash and its gap span equal lengths of the actuator".to_owned(),
+        false => format!("one dash and its gap = {dash_deg}° of input"),
+    };
+    let key = format!("{dashes} · scale bars in units of length");
+    if planned.source.is_empty() { key } else { format!("{} · {key}", planned.source) }
+}

@@ -1,0 +1,61 @@
+//! Decimal numbers as they are written on axes.
+
+/// The decimal `digits` times a power of ten, correctly rounded; `digits` is a whole number.
+pub(super) fn decimal(digits: f64, power: i32) -> f64 {
+    // A text has the value its decimals say, to the last bit.
+    format!("{digits:.0}e{power}").parse().unwrap_or(f64::NAN)
+}
+
+/// The power of ten of the first digit of a positive number; 0 for what is none.
+pub(super) fn exponent(value: f64) -> i32 {
+    format!("{:e}", value.abs()).split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
+}
+
+/// A number with that many decimals, none where negative, and a true minus sign.
+pub(super) fn written(value: f64, decimals: i32) -> String {
+    let decimals = decimals.clamp(0, 17) as usize;
+    // Adding 0 makes a negative zero positive.
+    format!("{:.decimals$}", value + 0.0).replace('-', "−")
+}
+
+/// A number as a multiple of a power of ten, with that many decimals: `2.5×10⁻⁷`; zero is `0`.
+pub(super) fn power_label(value: f64, power: i32, decimals: i32) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = |digit: char| match digit {
+        '-' => '⁻',
+        digit => digit.to_digit(10).and_then(|k| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(k as usize)).unwrap_or(digit),
+    };
+    let power_of_ten: String = format!("10{}", power.to_string().chars().map(digits).collect::<String>());
+    // The decimal point moves in the text of the number, where nothing is rounded but what is not shown.
+    let (mantissa, own) = split(value);
+    let mantissa = written(decimal_of(&mantissa, own - power), decimals);
+    if mantissa == "1" { power_of_ten } else { format!("{mantissa}×{power_of_ten}") }
+}
+
+fn split(value: f64) -> (String, i32) {
+    let text = format!("{value:e}");
+    let (mantissa, power) = text.split_once('e').unwrap_or((&text, "0"));
+    (mantissa.to_owned(), power.parse().unwrap_or(0))
+}
+
+fn decimal_of(mantissa: &str, power: i32) -> f64 {
+    format!("{mantissa}e{power}").parse().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_in_print() {
+        assert_eq!(written(-0.25, 2), "−0.25");
+        assert_eq!(written(-0.0, 1), "0.0");
+        assert_eq!(power_label(1e-6, -6, 0), "10⁻⁶");
+        assert_eq!(power_label(2.5e12, 12, 1), "2.5×10¹²");
+        assert_eq!(power_label(-5e-7, -6, 1), "−0.5×10⁻⁶");
+        assert_eq!([exponent(1.0), exponent(0.0999), exponent(1e300), exponent(0.0)], [0, -2, 300, 0]);
+        assert_eq!(decimal(3.0, -1), 0.3);
+    }
+}

@@ -1,0 +1,71 @@
+//! What every page has round its contents: border, title, source line and folio.
+
+use plotters::element::Rectangle;
+use plotters::style::{RGBColor, ShapeStyle};
+
+use super::element::{Area, Words, draw, size};
+use super::theme::Theme;
+use crate::geometry::Point;
+use crate::scene::{Anchor, Canvas, Color};
+
+/// What is said round the contents of a page.
+pub(super) struct Heading<'a> {
+    pub atlas: &'a str,
+    pub title: &'a str,
+    pub source: &'a str,
+    /// Words that stand for values, set in italics.
+    pub symbols: &'a [String],
+    pub page: usize,
+    pub of: usize,
+}
+
+impl Heading<'_> {
+    /// The name of the whole page.
+    pub fn name(&self) -> String {
+        format!("{}, page {} of {}: {}", self.title, self.page, self.of, self.atlas)
+    }
+
+    /// Draws border, title, source line and folio.
+    pub fn draw(&self, root: &Area, theme: &Theme) {
+        let page = size(root);
+        let Color(r, g, b) = theme.ink;
+        let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
+        let border = [corner(theme.border, theme.border), corner(page.x - theme.border, page.y - theme.border)];
+        let stroke_width = Canvas::pixels(theme.fine) as u32;
+        let style = ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width };
+        draw(root, &Rectangle::new(border, style));
+        let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
+        let top = theme.border + theme.title;
+        let at = Point::new(left, top + 0.9 * theme.title);
+        let title = Words::new(self.title, at, Anchor::Start, theme.title, theme.ink);
+        draw(root, &title.fitted(right - left));
+        let mut at = Point::new(left, at.y + 1.85 * theme.source);
+        let words = |text: &str, at| Words::new(text, at, Anchor::Start, theme.source, theme.grey).italic(self.symbols);
+        // What is too long for one line is parted between two of its parts; there is no room for a third line.
+        let (first, second) = parted(self.source, |text| words(text, at).text.width() <= right - left);
+        for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
+            draw(root, &words(line, at).fitted(right - left));
+            at.y += 1.35 * theme.source;
+        }
+        let folio = format!("{} · page {} of {}", self.atlas, self.page, self.of);
+        let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
+        draw(root, &Words::new(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
+    }
+}
+
+/// What is left free above, below and beside the contents.
+pub(super) fn margins(theme: &Theme) -> [f64; 3] {
+    let top = theme.border + 2.3 * theme.title + 3.2 * theme.source;
+    let bottom = theme.border + theme.margin + theme.source;
+    [top, bottom, theme.border + 0.5 * theme.margin]
+}
+
+/// A text in two, parted at the last ` · ` before which it fits; if it does not fit whole.
+fn parted(text: &str, fits: impl Fn(&str) -> bool) -> (&str, &str) {
+    const SEPARATOR: &str = " · ";
+    if fits(text) {
+        return (text, "");
+    }
+    let at = text.rmatch_indices(SEPARATOR).map(|(at, _)| at).find(|&at| fits(&text[..at]));
+    at.map_or((text, ""), |at| (&text[..at], &text[at + SEPARATOR.len()..]))
+}

@@ -1,0 +1,416 @@
+//! Charts: what their manifests may say, what they show against the tables, and where it stands on the page.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use coupler_atlas::chart::{Gathering, MOST_NUMBERS, Over, Series};
+use coupler_atlas::geometry::trig;
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::problem::report;
+use coupler_atlas::sweep;
+use tempfile::TempDir;
+
+const GOOD: &str = r#"[atlas]
+title = "T"
+formats = ["svg"]
+output = "out"
+[[family]]
+id = "evans"
+linkage = "evans"
+layout = "chart"
+chart = { x = "p", y = ["length", "mu_min_deg"] }
+sampling = { step = "10 deg" }
+grid = { p = [2, 3, 4], k = [1.5, 2] }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+
+fn plan(text: &str) -> Plan {
+    let loaded = manifest::load(text);
+    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
+}
+
+/// What the first family's chart comes to.
+fn series(text: &str) -> Vec<Series> {
+    let plan = plan(text);
+    let planned = &plan.families[0];
+    let chart = planned.chart.as_ref().unwrap();
+    let mut gathering = Gathering::new(chart, &planned.family);
+    let kept = sweep::select(&planned.family);
+    let take = |_, solved: Vec<sweep::Solved>| solved.iter().flat_map(|solved| chart.take(solved)).collect::<Vec<_>>();
+    sweep::run(&planned.family, (&kept, 4), take, |taken| -> Result<(), ()> {
+        taken.into_iter().for_each(|taken| gathering.add(taken));
+        Ok(())
+    })
+    .unwrap();
+    gathering.finish().series
+}
+
+/// A family's folder after `render`.
+fn rendered(text: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), text).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    folder
+}
+
+fn page(folder: &TempDir, number: usize) -> String {
+    fs::read_to_string(folder.path().join(format!("out/evans/evans-{number:03}.svg"))).unwrap()
+}
+
+/// The rows of a table, each by its columns.
+fn rows(path: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader.deserialize().map(|row| row.unwrap()).collect()
+}
+
+#[test]
+fn each_mistake_has_its_message() {
+    let chart = "chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }";
+    let with = |chart: &str| format!("chart = {{ {chart} }}");
+    let cases = [
+        (chart, String::new(), "the layout is chart, and there is no `chart`", "8:10"),
+        ("layout = \"chart\"\n", String::new(), "there is a `chart`, and the layout is panels", "8:9"),
+        ("\"chart\"", "\"charts\"".into(), "`charts` is not one of the words allowed here", "8:10"),
+        (chart, with("x = \"p\""), "`chart` has no `y`", "9:9"),
+        (chart, with("y = \"length\""), "`chart` has no `x`", "9:9"),
+        (chart, with("x = \"p\", y = []"), "there is nothing to draw", "9:24"),
+        (chart, with("x = \"p\", y = 3"), "text is wanted here", "9:24"),
+        (chart, with("x = \"q\", y = \"length\""), "there is no `q`", "9:16"),
+        (chart, with("x = \"p\", y = \"lenght\""), "there is no `lenght`", "9:25"),
+        (chart, with("x = \"p\", y = \"length +\""), "the expression ends too soon", "9:33"),
+        (chart, with("x = \"p\", y = \"is_crank_rocker\""), "a truth where a number is wanted", "9:25"),
+        (chart, with("x = \"p\", y = [\"length\", \"length\"]"), "`length` is named twice", "9:35"),
+        (
+            chart,
+            with("x = \"p\", y = [\"length\", \"speed\"]"),
+            "`speed` has a value for each sample, and `p` one for each curve",
+            "9:35",
+        ),
+        (chart, with("x = \"p\", y = \"length\", by = [\"h\"]"), "there is no `h`", "9:40"),
+        (chart, with("x = \"p\", y = \"length\", log = \"area\""), "the chart draws no `area`", "9:40"),
+        (chart, with("x = \"p\", y = \"length\", range = { area = [0, 1] }"), "the chart draws no `area`", "9:44"),
+        (chart, with("x = \"p\", y = \"length\", range = { p = [3, 1] }"), "from 3 to 1 is no range", "9:48"),
+        (chart, with("x = \"p\", y = \"length\", range = { p = [3] }"), "two values are wanted here", "9:48"),
+        (
+            chart,
+            with("x = \"p\", y = \"length\", log = \"p\", range = { p = [0, 1] }"),
+            "a logarithmic axis cannot begin at 0",
+            "9:59",
+        ),
+        (chart, with("x = \"p\", y = \"length\", title = \"T\""), "`chart` has no key `title`", "9:34"),
+        ("sampling", "panels = [40, 1]\nsampling".into(), "40 will not do here", "10:11"),
+        ("k = [1.5, 2]", "h = [1.5, 2]".into(), "`h` is no parameter of `evans`, and nothing uses it", "11:25"),
+        (
+            "k = [1.5, 2] }",
+            "k = { from = 1, to = 2, count = 50000 } }\nlimit = 1000000".into(),
+            "a chart is drawn of 100000 cells at most",
+            "9:9",
+        ),
+        ("linkage = \"evans\"", "linkage = \"evens\"".into(), "there is no linkage `evens`", "7:11"),
+    ];
+    for (from, to, message, place) in cases {
+        let text = GOOD.replacen(from, &to, 1);
+        assert_ne!(text, GOOD, "{from}");
+        let loaded = manifest::load(&text);
+        let said = report(&loaded.problems, "atlas.toml", &text, false);
+        assert!(loaded.plan.is_none() && loaded.problems.len() == 1, "{message}:\n{said}");
+        assert!(
+            said.contains(message) && said.contains(&format!("atlas.toml:{place}\n")),
+            "{message}, {place}:\n{said}"
+        );
+        assert!(!loaded.problems[0].help.is_empty());
+    }
+    // Of a linkage that is not known, it is still seen that an expression cannot be read.
+    let text = GOOD.replace("linkage = \"evans\"", "linkage = \"evens\"").replace("\"length\"", "\"length +\"");
+    assert!(report(&manifest::load(&text).problems, "m", &text, false).contains("ends too soon"));
+}
+
+#[test]
+fn a_chart_may_use_helpers_and_expressions() {
+    let text = GOOD.replace("k = [1.5, 2]", "h = [1.5, 2]").replace("\"length\"", "\"length / h\"");
+    assert_eq!(series(&text).len(), 2);
+}
+
+/// By the grid's other axes, in order of x; each point a row of `cells.csv`.
+#[test]
+fn lines_over_curves_are_the_rows_of_cells() {
+    let text = GOOD.replace("[2, 3, 4]", "[4, 2, 3]").replace("\"length\"", "\"length / area\"");
+    let found = series(&text);
+    assert_eq!(found.iter().map(|series| series.label.as_str()).collect::<Vec<_>>(), ["k = 1.5", "k = 2"]);
+    let folder = rendered(&text);
+    let rows = rows(&folder.path().join("out/evans/cells.csv"));
+    for (series, k) in found.iter().zip(["1.5", "2"]) {
+        assert_eq!(series.x, [2.0, 3.0, 4.0]);
+        for (point, p) in ["2", "3", "4"].iter().enumerate() {
+            let row = rows.iter().find(|row| row["p"] == *p && row["k"] == k).unwrap();
+            let number = |name: &str| row[name].parse::<f64>().unwrap();
+            assert_eq!(series.y[0][point], number("length") / number("area"));
+            assert_eq!(series.y[1][point], number("mu_min_deg"));
+        }
+    }
+}
+
+/// Every sample, and the first again where the curve closes.
+#[test]
+fn lines_over_samples_are_the_rows_of_points() {
+    let chart = "chart = { x = \"arc\", y = [\"speed\", \"x + y\", \"input_deg\", \"length\"] }\ncolumns = [\"speed\"]";
+    let text = GOOD.replace("chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }", chart);
+    assert_eq!(plan(&text).families[0].chart.as_ref().unwrap().over, Over::Samples);
+    let found = series(&text);
+    assert_eq!(found.len(), 6);
+    assert_eq!(found[1].label, "p = 2, k = 2");
+    let folder = rendered(&text);
+    let rows = rows(&folder.path().join("out/evans/points.csv"));
+    for series in &found {
+        let cell = series.cell.unwrap().to_string();
+        let ours: Vec<_> = rows.iter().filter(|row| row["cell"] == cell).collect();
+        assert_eq!(series.x.len(), ours.len() + 1);
+        let mut chords = 0.0;
+        for (k, row) in ours.iter().enumerate() {
+            let number =
+                |row: &std::collections::BTreeMap<String, String>, name: &str| row[name].parse::<f64>().unwrap();
+            assert_eq!(series.y[0][k], number(row, "speed"));
+            assert_eq!(series.y[1][k], number(row, "x") + number(row, "y"));
+            assert_eq!(series.y[2][k], number(row, "input_deg"));
+            if k > 0 {
+                let step = |name: &str| number(row, name) - number(ours[k - 1], name);
+                chords += trig::hypot(step("x"), step("y"));
+            }
+            // An arc is longer than its chord, over ten degrees by a few parts in a thousand, at the sharp ends more.
+            assert!((chords..=1.05 * chords).contains(&series.x[k]), "{} {chords}", series.x[k]);
+        }
+        let last = series.x.len() - 1;
+        assert_eq!((series.y[0][last], series.y[2][last]), (series.y[0][0], 360.0));
+        // The whole way is the measure, but for the order in which it is added up.
+        assert!((series.x[last] / series.y[3][0] - 1.0).abs() < 1e-14);
+    }
+}
+
+/// A rocker's circuit goes there and back: the input ends where it began.
+#[test]
+fn a_rocking_circuit_comes_back() {
+    let text = GOOD
+        .replace("linkage = \"evans\"", "linkage = \"watt\"")
+        .replace("chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }", "chart = { x = \"input_deg\", y = \"y\" }")
+        .replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "cases = [{ p = 4, r = 2, s = 2, a = 1 }]")
+        .replace("let = { a = \"(1 + p)^1.5 / 2\" }\n", "");
+    let [series] = &series(&text)[..] else { panic!("one line") };
+    let last = series.x.len() - 1;
+    assert!((series.x[0] - series.x[last]).abs() < 1e-12 && series.y[0][0] == series.y[0][last]);
+    assert!(series.label.is_empty());
+}
+
+#[test]
+fn what_is_left_out_or_missing_is_a_gap() {
+    let five = GOOD.replace("[2, 3, 4], k = [1.5, 2]", "[2, 3, 4, 5, 6]");
+    let xs = |text: &str| series(text).into_iter().map(|series| series.x).collect::<Vec<_>>();
+    assert_eq!(xs(&five), [[2.0, 3.0, 4.0, 5.0, 6.0]]);
+    let gap = &xs(&(five.clone() + "where = \"p != 4\"\n"))[0];
+    assert_eq!(gap[..2], [2.0, 3.0]);
+    assert!(gap[2].is_nan() && gap[3..] == [5.0, 6.0]);
+    // What is left out at the ends is no gap.
+    assert_eq!(xs(&(five.clone() + "where = \"3 <= p and p <= 5\"\n")), [[3.0, 4.0, 5.0]]);
+    // A measure that does not apply: the least input of a full turn.
+    let missing = five.replace("\"length\"", "\"input_min_deg\"");
+    assert!(series(&missing)[0].y[0].iter().all(|y| y.is_nan()));
+    // A case that cannot be assembled.
+    let cases = five
+        .replace("grid = { p = [2, 3, 4, 5, 6] }", "cases = [{ p = 2, s = 2 }, { p = 20, s = 1 }, { p = 3, s = 3 }]");
+    let cases = cases.replace("x = \"p\"", "x = \"s\"");
+    let gap = &xs(&cases)[0];
+    assert_eq!(gap[..], [2.0, 3.0], "the one that is missing is the first in order");
+}
+
+#[test]
+fn lines_are_told_apart_as_asked() {
+    let labels = |text: &str| series(text).into_iter().map(|series| series.label).collect::<Vec<_>>();
+    let by = |by: &str| GOOD.replace("\"mu_min_deg\"] }", &format!("\"mu_min_deg\"], by = {by} }}"));
+    assert_eq!(labels(&by("[]")), [""]);
+    assert_eq!(labels(&by("[\"p\"]")), ["p = 2", "p = 3", "p = 4"]);
+    // `a` is derived from p, which is then no name of its own on the lines.
+    assert_eq!(labels(&GOOD.replace("x = \"p\"", "x = \"a\"")), ["k = 1.5", "k = 2"]);
+    // Over a measure lines go along the last axis.
+    let over_measure = GOOD.replace("x = \"p\"", "x = \"area\"");
+    assert_eq!(labels(&over_measure), ["p = 2", "p = 3", "p = 4"]);
+    let circuits = GOOD.replace("sampling", "circuits = \"all\"\nsampling").replace(", k = [1.5, 2]", "");
+    assert_eq!(labels(&circuits), ["circuit 1", "circuit 2"]);
+}
+
+/// Numbers of an attribute.
+fn attribute(text: &str, name: &str) -> Vec<f64> {
+    let value = text.split(&format!("data-{name}=\"")).nth(1).unwrap().split('"').next().unwrap();
+    value.split(' ').map(|number| number.parse().unwrap()).collect()
+}
+
+/// The numbers after `name="` in each element.
+fn values(text: &str, name: &str) -> Vec<f64> {
+    let start = format!(" {name}=\"");
+    text.split(&start).skip(1).map(|part| part.split('"').next().unwrap().parse().unwrap()).collect()
+}
+
+/// Marks and line stand where the ticks and the group's own facts say they should.
+#[test]
+fn points_stand_at_their_places_on_the_page() {
+    let text = GOOD.replace(", k = [1.5, 2]", "").replace("\"mu_min_deg\"]", "\"mu_min_deg\"], log = \"mu_min_deg\"");
+    let found = &series(&text)[0];
+    let svg = page(&rendered(&text), 1);
+    for (k, chart) in svg.split("class=\"chart\"").skip(1).enumerate() {
+        let frame = attribute(chart, "frame");
+        let (x, y) = (attribute(chart, "x-range"), attribute(chart, "y-range"));
+        let is_log = chart.contains("data-y-scale=\"log\"");
+        assert_eq!(is_log, k == 1);
+        let line = chart.split("class=\"series\"").nth(1).unwrap().split("</g>").next().unwrap();
+        let (cx, cy) = (values(line, "cx"), values(line, "cy"));
+        assert_eq!(cx.len(), 3);
+        for point in 0..3 {
+            let right = (cx[point] - frame[0]) / (frame[2] - frame[0]);
+            let up = (frame[3] - cy[point]) / (frame[3] - frame[1]);
+            let across = x[0] + right * (x[1] - x[0]);
+            let high = if is_log { y[0] * trig::pow(y[1] / y[0], up) } else { y[0] + up * (y[1] - y[0]) };
+            // The page is written to a micrometre.
+            assert!((across / found.x[point] - 1.0).abs() < 1e-4, "{across}");
+            assert!((high / found.y[k][point] - 1.0).abs() < 1e-4, "{high} {:?}", found.y[k]);
+        }
+        // The tick of 3 stands under the mark of 3, to the hundredth of a millimetre that plotters has.
+        let tick = chart.split("<text ").find(|text| text.contains(">3.0</text>") && text.contains("middle")).unwrap();
+        let at: f64 = tick.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+        assert!((at - cx[1]).abs() < 0.011, "{at} {}", cx[1]);
+    }
+}
+
+#[test]
+fn charts_have_ids_titles_and_escaped_names() {
+    let text = GOOD.replace("\"length\"", "\"length * (p > 2 and p < 9)\"");
+    assert!(manifest::load(&text).plan.is_none(), "a truth is no number");
+    let text = GOOD.replace("title = \"T\"", "title = \"A & <B>\"").replace("\"length\"", "\"max(length, 1)\"");
+    let svg = page(&rendered(&text), 1);
+    for part in [
+        "<g id=\"evans-chart-1\" class=\"chart\" data-frame=",
+        "<title>max(length, 1) over p</title>",
+        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: mu_min_deg over p, k = 1.5</title>",
+        ">mu_min_deg, °</text>",
+        "page 1 of 1",
+        "A &amp; &lt;B&gt;",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
+    let ids: Vec<&str> = svg.split(" id=\"").skip(1).map(|part| part.split('"').next().unwrap()).collect();
+    let mut unique = ids.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    assert_eq!((ids.len(), unique.len()), (6, 6));
+}
+
+#[test]
+fn more_charts_than_a_page_holds_go_on() {
+    let text =
+        GOOD.replace("\"mu_min_deg\"]", "\"mu_min_deg\", \"area\"]").replace("sampling", "panels = [2, 1]\nsampling");
+    let folder = rendered(&text);
+    assert!(page(&folder, 1).contains("page 1 of 2"));
+    let second = page(&folder, 2);
+    assert!(second.contains("id=\"evans-chart-3\"") && !second.contains("id=\"evans-chart-2\""));
+    let record = fs::read_to_string(folder.path().join("out/run.json")).unwrap();
+    assert!(record.contains("\"pages\": 2") && record.contains("evans-002.svg"));
+}
+
+#[test]
+fn an_empty_chart_says_so() {
+    let nothing = page(&rendered(&GOOD.replace("\"length\"", "\"input_min_deg\"")), 1);
+    assert!(nothing.contains(">no finite value</text>") && nothing.contains("id=\"evans-chart-2-2\""));
+    let low = GOOD.replace("\"mu_min_deg\"]", "\"-length\"], log = [\"-length\"]");
+    assert!(page(&rendered(&low), 1).contains("no value that a logarithmic axis has a place for"));
+    let some = GOOD.replace("\"mu_min_deg\"]", "\"p - 3\"], log = [\"p - 3\"]");
+    assert!(page(&rendered(&some), 1).contains(">4 values of 0 or less are left out</text>"));
+    // Nothing at all can be assembled, or is kept.
+    let far = GOOD.replace("let = { a = \"(1 + p)^1.5 / 2\" }", "let = { a = 0.1 }");
+    assert!(page(&rendered(&far), 1).contains("no finite value"));
+    let folder = rendered(&(GOOD.to_owned() + "where = \"p > 9\"\n"));
+    assert!(!folder.path().join("out/evans/evans-001.svg").exists());
+}
+
+#[test]
+fn no_values_make_a_chart_panic() {
+    for y in
+        ["p * 0", "1e-12 * p", "1e12 + p", "1e300 * p", "1e-320 * p", "1 / (p - 3)", "sqrt(p - 3)", "p * 0 + 1e-300"]
+    {
+        for log in ["", ", log = [\"y\"]"] {
+            let chart = format!("chart = {{ x = \"p\", y = \"{y}\"{} }}", log.replace('y', y));
+            let text = GOOD.replace("chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }", &chart);
+            let svg = page(&rendered(&text), 1);
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{y}{log}");
+        }
+    }
+    // A single cell is a single mark.
+    let one = page(&rendered(&GOOD.replace("p = [2, 3, 4], k = [1.5, 2]", "p = 2")), 1);
+    assert_eq!(one.matches("class=\"series\"").count(), 2);
+    assert_eq!(one.matches("<circle").count(), 2);
+}
+
+#[test]
+fn the_same_chart_with_any_number_of_jobs() {
+    let text = GOOD.replace("[2, 3, 4]", "{ from = 2, to = 6, count = 60 }");
+    let folder = rendered(&text);
+    let run = |jobs: &str| {
+        let status = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
+            .current_dir(&folder)
+            .args(["render", "-q", "--jobs", jobs])
+            .status()
+            .unwrap();
+        assert!(status.success());
+        page(&folder, 1)
+    };
+    assert!(run("1") == run("8"));
+}
+
+/// Ten thousand cells: a line of a hundred points for each of a hundred names, of which some are named on the page.
+#[test]
+fn ten_thousand_cells_make_a_chart() {
+    let grid = "p = { from = 2, to = 6, count = 100 }, k = { from = 1, to = 3, count = 100 }";
+    let text = GOOD.replace("p = [2, 3, 4], k = [1.5, 2]", grid).replace("\"10 deg\"", "\"60 deg\"");
+    // No curve has so long a straight portion: that it is soon known is all that this is here for.
+    let text = text + "straight = { length = 1000 }\n";
+    let svg = page(&rendered(&text), 1);
+    assert_eq!(svg.matches("class=\"series\"").count(), 200);
+    assert!(svg.contains(">and ") && svg.contains(" more</text>"));
+}
+
+/// What is more than can be kept is counted, and nothing of it is held.
+#[test]
+fn too_many_numbers_are_counted_and_not_kept() {
+    let text = GOOD.replace("x = \"p\"", "x = \"input_deg\"").replace("\"length\"", "\"speed\"");
+    let plan = plan(&text);
+    let planned = &plan.families[0];
+    let mut gathering = Gathering::new(planned.chart.as_ref().unwrap(), &planned.family);
+    let numbers = vec![1.0; MOST_NUMBERS / 3];
+    for cell in 1..=6 {
+        let numbers = numbers.clone();
+        gathering.add(coupler_atlas::chart::Taken { cell, trace: 1, circuit: 1, numbers });
+    }
+    let gathered = gathering.finish();
+    assert_eq!((gathered.series.len(), gathered.curves, gathered.left_out), (3, 6, 3));
+}
+
+/// Chebyshev's curve is that of an Evans linkage at half size (Roberts and Chebyshev), for the thesis's proportions; and
+/// the ratio of its width to its height, which the thesis (10.1.2) has fall, rises with p.
+#[test]
+fn the_range_of_x_to_that_of_y_rises_with_p() {
+    let ratio = "(bbox_x_max - bbox_x_min) / (bbox_y_max - bbox_y_min)";
+    let evans = GOOD
+        .replace(
+            "chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }",
+            &format!("chart = {{ x = \"p\", y = [\"{ratio}\", \"length\"] }}"),
+        )
+        .replace("p = [2, 3, 4], k = [1.5, 2]", "p = { from = 1.75, to = 6, step = 0.25 }")
+        .replace("10 deg", "0.5 deg");
+    let chebyshev = evans.replace("\"evans\"", "\"chebyshev\"").replace("let = { a", "let = { r");
+    let (evans, chebyshev) = (&series(&evans)[0], &series(&chebyshev)[0]);
+    assert!(evans.y[0].windows(2).all(|pair| pair[0] < pair[1]), "{:?}", evans.y[0]);
+    for k in 0..evans.x.len() {
+        // The input turns otherwise, and the samples are others: so is what is read between them,
+        // a fourth-order error of the half degree.
+        assert!((evans.y[0][k] / chebyshev.y[0][k] - 1.0).abs() < 1e-6, "{k}: {} {}", evans.y[0][k], chebyshev.y[0][k]);
+        assert!((evans.y[1][k] / chebyshev.y[1][k] / 2.0 - 1.0).abs() < 1e-6, "{k}");
+    }
+}
