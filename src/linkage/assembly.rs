@@ -135,6 +135,22 @@ impl Assembly {
         Ok(id)
     }
 
+    /// The fourth corner of a parallelogram, `corners[0] + corners[2] - corners[1]`, by a link on the first of them and a
+    /// link on the last. It stays a parallelogram where it lies flat, and so is not two-valued.
+    ///
+    /// # Errors
+    /// One joint given twice, neighbours on no common link, or that coincide.
+    pub fn parallelogram(&mut self, name: &str, corners: [JointId; 3]) -> Result<JointId, Error> {
+        let [first, second, third] = corners;
+        self.two(name, [first, third])?;
+        let side = |base| self.directed_link(name, base).map(|(_, from, to)| (to - from).norm());
+        let (near, far) = (side([first, second])?, side([second, third])?);
+        let id = self.add(name, Step::Parallelogram { corners });
+        self.bar(first, id, far);
+        self.bar(third, id, near);
+        Ok(id)
+    }
+
     /// The end of a link that hangs on a joint and slides on a line through two others, or `offset` to the left of it;
     /// ahead of the joint the link hangs on, or behind it.
     ///

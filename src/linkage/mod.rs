@@ -5,12 +5,14 @@
 //! circuits) is its [`Travel`].
 
 mod assembly;
+mod cognate;
 mod error;
 mod four_bar;
 mod mccarthy;
 mod sextic;
 
 pub use assembly::Assembly;
+pub use cognate::{Bar, Cognate, Cognates, NoCognates, PlacedFourBar};
 pub use error::Error;
 pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
@@ -148,6 +150,11 @@ pub enum Step {
         /// To the left of the line.
         across: f64,
     },
+    /// At the fourth corner of a parallelogram: `corners[0] + corners[2] - corners[1]`.
+    Parallelogram {
+        /// The other corners, in order round it; each two neighbours are on one link.
+        corners: [JointId; 3],
+    },
     /// On a link: `base[0] + along (base[1] - base[0]) + across n`, with `n` that vector turned to the left.
     Rigid {
         /// Two joints of the link.
@@ -182,6 +189,7 @@ impl Step {
             | Step::Crank { .. }
             | Step::Gear { .. }
             | Step::Yoke { .. }
+            | Step::Parallelogram { .. }
             | Step::Directed { .. }
             | Step::Rigid { .. } => None,
         }

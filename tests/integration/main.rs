@@ -3,6 +3,7 @@
 mod atlas;
 mod catalogue;
 mod circuits;
+mod cognates;
 mod house;
 mod instant;
 mod linkages;
