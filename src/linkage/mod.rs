@@ -152,7 +152,7 @@ pub enum Step {
     },
     /// At the fourth corner of a parallelogram: `corners[0] + corners[2] - corners[1]`.
     Parallelogram {
-        /// The other corners, in order round it; each two neighbours are on one link.
+        /// The other corners, in order round it; the last two are on one link.
         corners: [JointId; 3],
     },
     /// On a link: `base[0] + along (base[1] - base[0]) + across n`, with `n` that vector turned to the left.

@@ -194,6 +194,54 @@ fn cognates_go_through_change_points() {
     }
 }
 
+/// In Cayley's diagram the links on the third pivot, each parallel to a link of the others, end where the others' triangles
+/// have their corners: of any four-bar, on every circuit.
+#[test]
+fn cayleys_diagram_closes() {
+    let template = catalogue::find("cognates").unwrap();
+    for values in [
+        [4.0, 1.5, 3.0, 3.5, 1.8, 1.3],
+        [4.0, 3.0, 1.5, 3.5, 0.6, 1.2],
+        [1.5, 3.0, 3.5, 4.0, 2.0, -1.5],
+        [4.0, 2.5, 2.0, 2.5, 1.0, -1.7],
+        [2.0, 1.0, 2.6, 2.6, 5.2, 0.0],
+        [3.0, 2.0, 1.0, 2.0, -0.4, 0.3],
+    ] {
+        let linkage = template.linkage(&values).unwrap();
+        let linkage = Linkage { travel: Travel { circuits: Circuits::All, ..linkage.travel.clone() }, ..linkage };
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(90)));
+        let joint = |name: &str| linkage.joints.iter().position(|joint| joint.name == name).unwrap();
+        let pairs = [["H", "E"], ["I", "G"]].map(|pair| pair.map(joint));
+        assert!(motion.is_assembled());
+        for circuit in &motion.circuits {
+            for (i, [one, other]) in (0..circuit.len()).flat_map(|i| pairs.map(|pair| (i, pair))) {
+                let [one, other] = [one, other].map(|joint| circuit.places.point(joint, i));
+                // Six sums of places of the size of ten.
+                assert!((one - other).norm() < 5e-14, "{values:?} at {}: {one} {other}", circuit.input[i]);
+            }
+        }
+        // The diagram's own four-bars are those found from the first.
+        let cognates = Cognates::of(PlacedFourBar::of(&linkage, linkage.traced[0]).unwrap()).unwrap();
+        let length = |name: &str, other: &str| {
+            let [from, to] = [name, other].map(joint);
+            let places = linkage.links.iter().find_map(|link| Some((link.place(from)?, link.place(to)?)));
+            places.map(|(from, to)| (to - from).norm()).unwrap()
+        };
+        for (cognate, [pivot, own, shared, end]) in
+            cognates.others.iter().zip([["O", "D", "E", "H"], ["C", "F", "G", "I"]])
+        {
+            let FourBar { frame, crank, coupler, rocker } = cognate.four_bar.lengths;
+            let own = [length(pivot, "Q"), length(pivot, own), length(own, shared), length("Q", end)];
+            let found = if cognate.turns_as[0] == Bar::Coupler {
+                [frame, crank, coupler, rocker]
+            } else {
+                [frame, rocker, coupler, crank]
+            };
+            assert!(own.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-14 * (a + b)), "{own:?} {found:?}");
+        }
+    }
+}
+
 #[test]
 fn what_has_no_cognates_says_why() {
     let bars = |along, across| PlacedFourBar {
