@@ -51,6 +51,8 @@ fn powers(degree: usize) -> impl Iterator<Item = (usize, usize)> {
 pub struct Sextic {
     equation: Polynomial,
     parts: Parts,
+    /// Where the coupler point is when all links lie on one line.
+    changes: Vec<Point>,
 }
 
 /// What the equation is made of: with u and v from the pins to the coupler point, `|u|^2` and `|v|^2`, their products
@@ -82,8 +84,19 @@ pub enum Node {
     Crunode,
     /// The branches touch, or form a cusp.
     Cusp,
-    /// An isolated point.
+    /// An isolated point: the equation holds there, and no pose of the linkage has its coupler point there.
     Acnode,
+}
+
+impl Node {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Node::Crunode => "crunode",
+            Node::Cusp => "cusp",
+            Node::Acnode => "acnode",
+        }
+    }
 }
 
 impl Sextic {
@@ -117,7 +130,8 @@ impl Sextic {
         let squares = first.times(&first).plus(&second.times(&second));
         let equation = squares.plus(&right.times(&right).scaled(-4.0 * u2));
         // Divided by what stands before (x^2 + y^2)^3: the square of the coupler's length, times |u|^2.
-        Some(Sextic { equation: equation.scaled(1.0 / equation.0[6][0]), parts })
+        let equation = equation.scaled(1.0 / equation.0[6][0]);
+        Some(Sextic { equation, parts, changes: changes(four_bar, point) })
     }
 
     /// The coefficient of `x^i y^j`; that of `x^6` is 1.
@@ -176,7 +190,7 @@ impl Sextic {
         real_roots(&along).into_iter().map(|t| point + direction * t).collect()
     }
 
-    /// The real double points: at most three. They lie on the circle through both pivots and the third singular focus,
+    /// The real double points: at most three, and one for each change point of the linkage. The three lie on the circle through both pivots and the third singular focus,
     /// and on the line of pivots where the coupler point is on the line of pins.
     ///
     /// # Source
@@ -209,7 +223,7 @@ impl Sextic {
             }
         };
         let mut found: Vec<DoublePoint> = Vec::new();
-        for point in zeros(|t| agreement(at(t))).into_iter().map(at) {
+        for point in zeros(|t| agreement(at(t))).into_iter().map(at).chain(self.changes.iter().copied()) {
             let [determinant, size] = self.hessian(point);
             let kind = match determinant / size {
                 d if d.abs() < 1e-7 => Node::Cusp,
@@ -237,6 +251,15 @@ impl Sextic {
     fn form(&self, degree: usize) -> Vec<f64> {
         (0..=degree).map(|j| self.equation.0[degree - j][j]).collect()
     }
+}
+
+/// Where the coupler point of a four-bar is at its change points: there the linkage may go on in two ways.
+fn changes(four_bar: FourBar, point: Vector) -> Vec<Point> {
+    let FourBar { frame, crank, coupler, rocker } = four_bar;
+    let tolerance = super::four_bar_tolerance(frame + crank + coupler + rocker);
+    let lines = (0..8).map(|k| [1, 2, 4].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 }));
+    let flat = lines.filter(|[a, b, c]| (a * crank + b * coupler - c * rocker - frame).abs() <= tolerance);
+    flat.map(|[a, b, _]| Point::new(a * crank, 0.0) + point * b).collect()
 }
 
 /// Whether a form, by the powers of y, has the factor x^2 + y^2 so many times.

@@ -314,6 +314,42 @@ fn inspect_tells_class_circuits_and_poses() {
     assert_eq!(run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "--animate"]).0, 2, "it needs a file");
 }
 
+/// Bernoulli's lemniscate as Watt's curve: (8.11) with p = 2, r = sqrt 2 and its a = 1, a node in the middle.
+#[test]
+fn inspect_tells_the_equation() {
+    let here = Path::new(".");
+    let arguments = ["inspect", "watt", "p=2", "r=sqrt(2)", "a=2"];
+    let (code, text, err) = run(here, &[&arguments[..], &["--sextic"]].concat());
+    assert_eq!(code, 0, "{err}");
+    assert!(text.contains("M: on a sextic, three times through the circular points"), "{text}");
+    assert!(text.contains("crunode (1, 0)") && text.contains("\nx^6"), "{text}");
+    let plain = run(here, &arguments).1;
+    assert!(plain.contains("crunode (1, 0)") && !plain.contains("x^6"));
+    let json: serde_json::Value = serde_json::from_str(&run(here, &[&arguments[..], &["--json"]].concat()).1).unwrap();
+    let equation = &json["equations"][0];
+    assert_eq!(equation["circular_points"], 3);
+    let c = |i: usize, j: usize| equation["coefficients"][i][j].as_f64().unwrap();
+    let count: usize = (0..=6).map(|i| equation["coefficients"][i].as_array().unwrap().len()).sum();
+    assert_eq!(count, 28);
+    // The lemniscate times its circle, about (1, 0), with X = x - 1: ((X^2 + y^2)^2 - 2 (X^2 - y^2)) (X^2 + y^2 - 2).
+    let expected = [(6, 0, 1.0), (4, 2, 3.0), (0, 6, 1.0), (5, 0, -6.0), (1, 4, -6.0)];
+    let product = |x: f64, y: f64| {
+        let (x2, y2) = ((x - 1.0) * (x - 1.0), y * y);
+        ((x2 + y2) * (x2 + y2) - 2.0 * (x2 - y2)) * (x2 + y2 - 2.0)
+    };
+    for (i, j, value) in expected {
+        assert!((c(i, j) - value).abs() < 1e-13, "x^{i} y^{j}: {}", c(i, j));
+    }
+    for (x, y) in [(0.3, 0.7), (-1.0, 2.0), (2.5, -0.4)] {
+        let power = |x: f64, n: usize| (0..n).fold(1.0, |p, _| p * x);
+        let all = (0..=6).flat_map(|i| (0..=6 - i).map(move |j| (i, j)));
+        let sum: f64 = all.map(|(i, j)| c(i, j) * power(x, i) * power(y, j)).sum();
+        assert!((sum - product(x, y)).abs() < 1e-12 * (1.0 + sum.abs()), "{sum} {}", product(x, y));
+    }
+    assert!(!run(here, &["inspect", "klann"]).1.contains("sextic"), "no four-bar");
+    assert!(!run(here, &["inspect", "evans", "p=2", "a=2.5", "k=1"]).1.contains("sextic"), "a circle");
+}
+
 /// Every key that the JSON has is described, and nothing is described that it has not.
 #[test]
 fn the_json_of_inspect_is_the_one_described() {

@@ -5,6 +5,7 @@ use coupler_atlas::motion::{Circuit, End, Pass};
 use serde_json::{Map, Value, json};
 
 use super::cognates::{Found, Member};
+use super::equation;
 use super::{Pose, Report, flat_joints, instants, turnings};
 
 /// The version of the format; docs/inspect.md describes it.
@@ -30,6 +31,7 @@ pub(super) fn json(report: &Report) -> String {
         "reason": solved.motion.shortfall,
         "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect::<Vec<_>>(),
         "curves": curves,
+        "equations": equation::json(&report.equations.0),
         "cognates": report.cognates.as_ref().map(cognates),
         "poses": report.poses.iter().map(|pose| self::pose(report, pose)).collect::<Vec<_>>(),
     });

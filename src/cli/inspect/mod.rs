@@ -1,6 +1,7 @@
 //! One linkage, as text for people, as JSON for programs, and as a plate.
 
 mod cognates;
+mod equation;
 mod json;
 mod plate;
 mod text;
@@ -41,6 +42,10 @@ pub struct Arguments {
     /// Of the poses at that input, only those with the first two-valued joint on this side: 1 left, -1 right.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ["1", "-1"], requires = "at")]
     branch: Option<String>,
+    /// Print the coefficients of the equations of its coupler curves, with the crank's pivot at the origin and x towards the
+    /// rocker's.
+    #[arg(long, conflicts_with = "toml")]
+    sextic: bool,
     /// Tell of the two other four-bars that draw its curve, the Roberts-Chebyshev cognates; a plate shows all three.
     #[arg(long)]
     cognates: bool,
@@ -69,6 +74,8 @@ struct Report<'a> {
     at: Option<f64>,
     /// Its poses there.
     poses: Vec<Pose<'a>>,
+    /// The equations of its coupler curves, and whether they are wanted in full.
+    equations: (Vec<equation::Equation>, bool),
     /// The cognates, if they are asked for.
     cognates: Option<cognates::Found>,
 }
@@ -88,7 +95,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     let poses: Vec<Pose> = at.map(|at| poses(&solved, at, branch)).unwrap_or_default();
     let cognates = arguments.cognates.then(|| cognates::find(&family.id, &solved, arguments.trace)).transpose()?;
-    let report = Report { family: &family, solved: &solved, at, poses, cognates };
+    let equations = (equation::all(&solved), arguments.sextic);
+    let report = Report { family: &family, solved: &solved, at, poses, equations, cognates };
     if let Some(path) = &arguments.svg {
         build::write_file(path, &plate::plate(&report, arguments.animate))?;
     }

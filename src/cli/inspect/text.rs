@@ -9,7 +9,7 @@ use super::{Pose, Report, flat_joints, instants, turnings, unit};
 
 /// For people.
 pub(super) fn text(report: &Report) -> String {
-    let Report { family, solved, at, poses, cognates } = report;
+    let Report { family, solved, at, poses, equations, cognates } = report;
     let mut out = String::new();
     let values =
         family.names.iter().zip(&solved.cell.values).map(|(name, value)| format!("{name} = {}", short(*value, 10)));
@@ -25,6 +25,7 @@ pub(super) fn text(report: &Report) -> String {
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
         let _ = writeln!(out, "circuit {number}: {}", course(&solved.linkage, circuit));
     }
+    super::equation::text(&equations.0, equations.1, &mut out);
     if let (Some(at), true) = (at, poses.is_empty()) {
         let _ = writeln!(out, "at {}{}: no circuit comes there", short(*at, 10), unit(&solved.linkage));
     }
