@@ -10,6 +10,7 @@ mod error;
 mod four_bar;
 mod mccarthy;
 mod sextic;
+mod straight_line;
 
 pub use assembly::Assembly;
 pub use cognate::{Bar, Cognate, Cognates, NoCognates, PlacedFourBar};
@@ -18,6 +19,7 @@ pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
 pub use mccarthy::InvertedSliderCrank;
 pub use sextic::{DoublePoint, Node, Sextic};
+pub use straight_line::Symmetrical;
 
 use std::cmp::Ordering;
 

@@ -163,15 +163,32 @@ impl Sextic {
         })
     }
 
-    /// The determinant of its second derivatives at a point, and the size of its terms.
-    fn hessian(&self, point: Point) -> [f64; 2] {
+    /// Its second derivatives at a point: by x twice, by x and y, by y twice.
+    pub fn second_derivatives(&self, point: Point) -> [f64; 3] {
         let (xs, ys) = (ladder(point.x), ladder(point.y));
         let second = |n: usize, powers: &[f64; 7]| if n > 1 { (n * (n - 1)) as f64 * powers[n - 2] } else { 0.0 };
         let first = |n: usize, powers: &[f64; 7]| if n > 0 { n as f64 * powers[n - 1] } else { 0.0 };
-        let [xx, xy, yy] = powers(6).fold([0.0; 3], |[xx, xy, yy], (i, j)| {
+        powers(6).fold([0.0; 3], |[xx, xy, yy], (i, j)| {
             let c = self.equation.0[i][j];
             [xx + c * second(i, &xs) * ys[j], xy + c * first(i, &xs) * first(j, &ys), yy + c * xs[i] * second(j, &ys)]
-        });
+        })
+    }
+
+    /// The slope dy/dx of the curve at one of its points, and d2y/dx2 there; not numbers where it goes along y, or at a
+    /// double point.
+    ///
+    /// # Source
+    /// Natesan (8.4) and (8.7): the equation differentiated by x once and twice.
+    pub fn course(&self, point: Point) -> [f64; 2] {
+        let [by_x, by_y] = [self.gradient(point).x, self.gradient(point).y];
+        let [xx, xy, yy] = self.second_derivatives(point);
+        let slope = -by_x / by_y;
+        [slope, -(xx + slope * (2.0 * xy + slope * yy)) / by_y]
+    }
+
+    /// The determinant of its second derivatives at a point, and the size of its terms.
+    fn hessian(&self, point: Point) -> [f64; 2] {
+        let [xx, xy, yy] = self.second_derivatives(point);
         [xx * yy - xy * xy, (xx * yy).abs() + xy * xy]
     }
 
@@ -339,7 +356,7 @@ fn real_roots(coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The zero of a function between two places at which its signs differ.
-fn bisected(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+pub(super) fn bisected(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let rises = f(b) > 0.0;
     loop {
         let middle = a + (b - a) / 2.0;

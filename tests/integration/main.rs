@@ -14,6 +14,7 @@ mod program;
 mod rates;
 mod readme;
 mod sextic;
+mod straight_line;
 mod thesis;
 
 /// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and
