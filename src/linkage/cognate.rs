@@ -217,7 +217,7 @@ impl Cognates {
 
     /// A linkage with its cognates hung on, by parallelograms and by triangles similar to the coupler's: it moves as
     /// before, and all three carry its coupler point `joint`. The new joints are Q, D, E, F and G, as in the catalogue's
-    /// `cognates`; with the links they make.
+    /// `cognates`; with the links they make. If it is one of a grid of points, the others are taken off their link.
     ///
     /// Returns it with the links of the two cognates.
     ///
@@ -233,6 +233,7 @@ impl Cognates {
             return Err(NoCognates::NoFourBar);
         };
         let rest = Vector::new(1.0, 0.0) - lambda;
+        alone(&mut drawn, joint);
         let mut add = |name: &str, step| {
             drawn.joints.push(super::Joint { name: name.to_owned(), step });
             drawn.joints.len() - 1
@@ -355,6 +356,18 @@ fn times(a: Vector, b: Vector) -> Vector {
 
 fn conjugate(a: Vector) -> Vector {
     Vector::new(a.x, -a.y)
+}
+
+/// Takes the other points of a grid off their link, and gives this one a name of its own.
+fn alone(linkage: &mut Linkage, joint: JointId) {
+    let name = linkage.joints[joint].name.clone();
+    let grid: Vec<JointId> = (0..linkage.joints.len()).filter(|&other| linkage.joints[other].name == name).collect();
+    if let ([_, _, ..], Some(place)) = (&grid[..], grid.iter().position(|&other| other == joint)) {
+        for link in &mut linkage.links {
+            link.joints.retain(|(other, _)| *other == joint || !grid.contains(other));
+        }
+        linkage.joints[joint].name = format!("{name}{}", place + 1);
+    }
 }
 
 /// The places of two joints and a third on the link that has the first two.

@@ -242,6 +242,20 @@ fn cayleys_diagram_closes() {
     }
 }
 
+/// One of a grid of points stands alone on the coupler, so that it can be seen to carry all three.
+#[test]
+fn a_point_of_a_grid_carries_the_cognates_alone() {
+    let linkage = crate::catalogue::defaults("hrones-nelson");
+    let joint = linkage.traced[2];
+    let (hung, links) = Cognates::hung(&linkage, joint).unwrap();
+    let carriers = hung.links.iter().filter(|link| link.place(joint).is_some()).count();
+    assert_eq!((carriers, links.concat().len()), (3, 6));
+    assert!(
+        linkage.traced.iter().all(|&other| hung.links.iter().all(|link| other == joint || link.place(other).is_none()))
+    );
+    assert_eq!(hung.joints[joint].name, "M3");
+}
+
 #[test]
 fn what_has_no_cognates_says_why() {
     let bars = |along, across| PlacedFourBar {
