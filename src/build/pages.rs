@@ -36,6 +36,7 @@ impl Printer<'_> {
         let template = &family.template;
         let line = |caption: &Option<Caption>, solved: &Solved| family.describe(caption.as_ref(), &solved.cell);
         let panel = |solved| Panel {
+            inks: Vec::new(),
             caption: line(&template.caption, solved),
             note: line(&template.note, solved),
             solved,

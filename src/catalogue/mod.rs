@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::notation;
 use crate::template::Template;
 
-const FILES: [&str; 19] = [
+const FILES: [&str; 20] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -15,6 +15,7 @@ const FILES: [&str; 19] = [
     include_str!("roberts.toml"),
     include_str!("hoeken.toml"),
     include_str!("hrones-nelson.toml"),
+    include_str!("cognates.toml"),
     include_str!("slider-crank.toml"),
     include_str!("inverted-slider-crank.toml"),
     include_str!("scotch-yoke.toml"),

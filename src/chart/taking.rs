@@ -53,7 +53,11 @@ impl Chart {
         let of_curves = Family::scope(&vec![String::new(); solved.cell.values.len()]).len();
         let used = self.used(of_curves);
         let columns: Vec<Column> = used.iter().map(|&k| COLUMNS[k]).collect();
-        let arcs = if self.uses(of_curves + 3) { lengths_from_start(circuit, curve.joint) } else { Vec::new() };
+        let arcs = if self.uses(of_curves + 3) {
+            lengths_from_start(&solved.linkage, circuit, curve.joint)
+        } else {
+            Vec::new()
+        };
         // The measures are the same at every sample.
         let fixed: Vec<f64> = (0..of_curves).map(|slot| Family::load(&solved.cell, &curve.measures, slot)).collect();
         let mut numbers = Vec::with_capacity((circuit.len() + 1) * self.width());

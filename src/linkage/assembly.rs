@@ -135,6 +135,30 @@ impl Assembly {
         Ok(id)
     }
 
+    /// The fourth corner of a parallelogram, `corners[0] + corners[2] - corners[1]`: the end of a link on the first of them,
+    /// parallel to the link with the other two; where the first two are on one link, by a link on the last as well.
+    ///
+    /// It stays a parallelogram where it lies flat, and so is not two-valued.
+    ///
+    /// # Errors
+    /// One joint given twice, the last two on no common link, neighbours that coincide.
+    pub fn parallelogram(&mut self, name: &str, corners: [JointId; 3]) -> Result<JointId, Error> {
+        let [first, second, third] = corners;
+        self.two(name, [first, second])?;
+        self.two(name, [first, third])?;
+        let (_, from, to) = self.directed_link(name, [second, third])?;
+        let other = match self.common_link([first, second]) {
+            Some(_) => Some(self.directed_link(name, [first, second])?),
+            None => None,
+        };
+        let id = self.add(name, Step::Parallelogram { corners });
+        self.bar(first, id, (to - from).norm());
+        if let Some((_, from, to)) = other {
+            self.bar(third, id, (to - from).norm());
+        }
+        Ok(id)
+    }
+
     /// The end of a link that hangs on a joint and slides on a line through two others, or `offset` to the left of it;
     /// ahead of the joint the link hangs on, or behind it.
     ///

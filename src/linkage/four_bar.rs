@@ -46,7 +46,8 @@ impl Class {
 }
 
 impl FourBar {
-    /// The four-bar in a linkage, if its moving joints are a crank, one dyad on crank pin and frame, and rigid points.
+    /// The four-bar in a linkage, if its moving joints are a crank, one dyad on crank pin and frame, rigid points, and
+    /// parallelograms hung on them.
     ///
     /// Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and the
     /// crank the link at the origin of the view.
@@ -67,7 +68,7 @@ impl FourBar {
             match joint.step {
                 Step::Crank { pivot, .. } if crank.is_none() => crank = Some((id, pivot)),
                 Step::Dyad { base, .. } if dyad.is_none() => dyad = Some((id, base)),
-                Step::Fixed(_) | Step::Rigid { .. } => {}
+                Step::Fixed(_) | Step::Rigid { .. } | Step::Parallelogram { .. } => {}
                 _ => return None,
             }
         }

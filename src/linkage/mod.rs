@@ -5,17 +5,21 @@
 //! circuits) is its [`Travel`].
 
 mod assembly;
+mod cognate;
 mod error;
 mod four_bar;
 mod mccarthy;
 mod sextic;
+mod straight_line;
 
 pub use assembly::Assembly;
+pub use cognate::{Bar, Cognate, Cognates, NoCognates, PlacedFourBar};
 pub use error::Error;
 pub(crate) use four_bar::tolerance as four_bar_tolerance;
 pub use four_bar::{Class, FourBar};
 pub use mccarthy::InvertedSliderCrank;
 pub use sextic::{DoublePoint, Node, Sextic};
+pub use straight_line::Symmetrical;
 
 use std::cmp::Ordering;
 
@@ -148,6 +152,11 @@ pub enum Step {
         /// To the left of the line.
         across: f64,
     },
+    /// At the fourth corner of a parallelogram: `corners[0] + corners[2] - corners[1]`.
+    Parallelogram {
+        /// The other corners, in order round it; the last two are on one link.
+        corners: [JointId; 3],
+    },
     /// On a link: `base[0] + along (base[1] - base[0]) + across n`, with `n` that vector turned to the left.
     Rigid {
         /// Two joints of the link.
@@ -182,6 +191,7 @@ impl Step {
             | Step::Crank { .. }
             | Step::Gear { .. }
             | Step::Yoke { .. }
+            | Step::Parallelogram { .. }
             | Step::Directed { .. }
             | Step::Rigid { .. } => None,
         }

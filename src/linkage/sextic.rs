@@ -51,6 +51,8 @@ fn powers(degree: usize) -> impl Iterator<Item = (usize, usize)> {
 pub struct Sextic {
     equation: Polynomial,
     parts: Parts,
+    /// Where the coupler point is when all links lie on one line.
+    changes: Vec<Point>,
 }
 
 /// What the equation is made of: with u and v from the pins to the coupler point, `|u|^2` and `|v|^2`, their products
@@ -82,8 +84,19 @@ pub enum Node {
     Crunode,
     /// The branches touch, or form a cusp.
     Cusp,
-    /// An isolated point.
+    /// An isolated point: the equation holds there, and no pose of the linkage has its coupler point there.
     Acnode,
+}
+
+impl Node {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Node::Crunode => "crunode",
+            Node::Cusp => "cusp",
+            Node::Acnode => "acnode",
+        }
+    }
 }
 
 impl Sextic {
@@ -117,7 +130,8 @@ impl Sextic {
         let squares = first.times(&first).plus(&second.times(&second));
         let equation = squares.plus(&right.times(&right).scaled(-4.0 * u2));
         // Divided by what stands before (x^2 + y^2)^3: the square of the coupler's length, times |u|^2.
-        Some(Sextic { equation: equation.scaled(1.0 / equation.0[6][0]), parts })
+        let equation = equation.scaled(1.0 / equation.0[6][0]);
+        Some(Sextic { equation, parts, changes: changes(four_bar, point) })
     }
 
     /// The coefficient of `x^i y^j`; that of `x^6` is 1.
@@ -149,15 +163,32 @@ impl Sextic {
         })
     }
 
-    /// The determinant of its second derivatives at a point, and the size of its terms.
-    fn hessian(&self, point: Point) -> [f64; 2] {
+    /// Its second derivatives at a point: by x twice, by x and y, by y twice.
+    pub fn second_derivatives(&self, point: Point) -> [f64; 3] {
         let (xs, ys) = (ladder(point.x), ladder(point.y));
         let second = |n: usize, powers: &[f64; 7]| if n > 1 { (n * (n - 1)) as f64 * powers[n - 2] } else { 0.0 };
         let first = |n: usize, powers: &[f64; 7]| if n > 0 { n as f64 * powers[n - 1] } else { 0.0 };
-        let [xx, xy, yy] = powers(6).fold([0.0; 3], |[xx, xy, yy], (i, j)| {
+        powers(6).fold([0.0; 3], |[xx, xy, yy], (i, j)| {
             let c = self.equation.0[i][j];
             [xx + c * second(i, &xs) * ys[j], xy + c * first(i, &xs) * first(j, &ys), yy + c * xs[i] * second(j, &ys)]
-        });
+        })
+    }
+
+    /// The slope dy/dx of the curve at one of its points, and d2y/dx2 there; not numbers where it goes along y, or at a
+    /// double point.
+    ///
+    /// # Source
+    /// Natesan (8.4) and (8.7): the equation differentiated by x once and twice.
+    pub fn course(&self, point: Point) -> [f64; 2] {
+        let [by_x, by_y] = [self.gradient(point).x, self.gradient(point).y];
+        let [xx, xy, yy] = self.second_derivatives(point);
+        let slope = -by_x / by_y;
+        [slope, -(xx + slope * (2.0 * xy + slope * yy)) / by_y]
+    }
+
+    /// The determinant of its second derivatives at a point, and the size of its terms.
+    fn hessian(&self, point: Point) -> [f64; 2] {
+        let [xx, xy, yy] = self.second_derivatives(point);
         [xx * yy - xy * xy, (xx * yy).abs() + xy * xy]
     }
 
@@ -176,7 +207,7 @@ impl Sextic {
         real_roots(&along).into_iter().map(|t| point + direction * t).collect()
     }
 
-    /// The real double points: at most three. They lie on the circle through both pivots and the third singular focus,
+    /// The real double points: at most three, and one for each change point of the linkage. The three lie on the circle through both pivots and the third singular focus,
     /// and on the line of pivots where the coupler point is on the line of pins.
     ///
     /// # Source
@@ -209,7 +240,7 @@ impl Sextic {
             }
         };
         let mut found: Vec<DoublePoint> = Vec::new();
-        for point in zeros(|t| agreement(at(t))).into_iter().map(at) {
+        for point in zeros(|t| agreement(at(t))).into_iter().map(at).chain(self.changes.iter().copied()) {
             let [determinant, size] = self.hessian(point);
             let kind = match determinant / size {
                 d if d.abs() < 1e-7 => Node::Cusp,
@@ -237,6 +268,15 @@ impl Sextic {
     fn form(&self, degree: usize) -> Vec<f64> {
         (0..=degree).map(|j| self.equation.0[degree - j][j]).collect()
     }
+}
+
+/// Where the coupler point of a four-bar is at its change points: there the linkage may go on in two ways.
+fn changes(four_bar: FourBar, point: Vector) -> Vec<Point> {
+    let FourBar { frame, crank, coupler, rocker } = four_bar;
+    let tolerance = super::four_bar_tolerance(frame + crank + coupler + rocker);
+    let lines = (0..8).map(|k| [1, 2, 4].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 }));
+    let flat = lines.filter(|[a, b, c]| (a * crank + b * coupler - c * rocker - frame).abs() <= tolerance);
+    flat.map(|[a, b, _]| Point::new(a * crank, 0.0) + point * b).collect()
 }
 
 /// Whether a form, by the powers of y, has the factor x^2 + y^2 so many times.
@@ -316,7 +356,7 @@ fn real_roots(coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The zero of a function between two places at which its signs differ.
-fn bisected(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+pub(super) fn bisected(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let rises = f(b) > 0.0;
     loop {
         let middle = a + (b - a) / 2.0;

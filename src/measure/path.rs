@@ -1,7 +1,7 @@
 use super::trail::Trail;
 use super::{Measure, Subject, Value};
 use crate::geometry::Vector;
-use crate::linkage::JointId;
+use crate::linkage::{JointId, Linkage};
 use crate::motion::Circuit;
 
 /// The length of the path.
@@ -62,8 +62,8 @@ fn reach(subject: &Subject, direction: Vector) -> Value {
 
 /// The length of a joint's path from its first sample to each sample, and, where it closes, to the first again at the
 /// end; not a number where the joint has no place. The last of them is the measure `length`.
-pub fn lengths_from_start(circuit: &Circuit, joint: JointId) -> Vec<f64> {
-    let trail = Trail::of(circuit, joint);
+pub fn lengths_from_start(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<f64> {
+    let trail = Trail::of(circuit, joint, linkage.input());
     let mut out = vec![f64::NAN; circuit.len() + usize::from(trail.closed)];
     let mut length = 0.0;
     let lengths = trail.lengths();

@@ -64,6 +64,7 @@ pub(super) fn chain<T: Scalar, const N: usize>(
             Step::Rigid { base: [p, q], along, across } => {
                 at[p].moved(at[q].minus(at[p]), constant(along), constant(across))
             }
+            Step::Parallelogram { corners: [p, q, r] } => at[p].moved(at[r].minus(at[q]), constant(1.0), none),
             Step::Yoke { from, line: [p, q], offset, slot } => {
                 let unit = at[q].minus(at[p]).unit();
                 let pin = at[from].minus(at[p]);

@@ -91,6 +91,9 @@ impl Pose<'_> {
                 let (p, q) = (self.surge(p, jets)?, self.surge(q, jets)?);
                 Some(p + (q - p) * along + left_normal(q - p) * across)
             }
+            Step::Parallelogram { corners: [p, q, r] } => {
+                Some(self.surge(p, jets)? + self.surge(r, jets)? - self.surge(q, jets)?)
+            }
             Step::Dyad { base: [p, q], lengths: [l0, l1], index } if self.flat.has(index) => {
                 // The square of the height is l0^2 - foot^2, with foot = (d^2 + l0^2 - l1^2) / 2d: its rate is finite.
                 let base = point(q) - point(p);

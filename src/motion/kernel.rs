@@ -151,6 +151,7 @@ pub(super) fn place_joints(
             }
             Step::Slot { base, offset, index } => slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y),
             Step::Rigid { base, along, across } => rigid(of(base[0]), of(base[1]), along, across, x, y),
+            Step::Parallelogram { corners: [p, q, r] } => parallelogram(of(p), of(q), of(r), x, y),
             Step::Yoke { from, line, offset, slot } => {
                 yoke(of(from), (of(line[0]), of(line[1])), offset, slot.x / slot.y, x, y);
             }
@@ -304,6 +305,15 @@ fn directed(
         let (forward, left) = ((along * s + across * offset) / d2, (across * s - along * offset) / d2);
         x[i] = ax[i] + forward * dx - left * dy;
         y[i] = ay[i] + forward * dy + left * dx;
+    }
+}
+
+fn parallelogram((px, py): Column, (qx, qy): Column, (rx, ry): Column, x: &mut [f64], y: &mut [f64]) {
+    let n = x.len();
+    let (px, py, qx, qy, rx, ry, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &rx[..n], &ry[..n], &mut y[..n]);
+    for i in 0..n {
+        x[i] = px[i] + (rx[i] - qx[i]);
+        y[i] = py[i] + (ry[i] - qy[i]);
     }
 }
 

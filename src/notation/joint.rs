@@ -6,7 +6,7 @@ use crate::problem::{Problem, nearest_or_all};
 use crate::template::{Coordinate, InputValue, Placing, Side};
 
 /// A way to place a joint: the key it is known by, and the keys that go with it.
-const KINDS: [(&str, &[&str]); 10] = [
+const KINDS: [(&str, &[&str]); 11] = [
     ("fixed", &["fixed"]),
     ("crank", &["crank", "length"]),
     ("gear", &["gear", "about", "length", "ratio", "phase"]),
@@ -15,6 +15,7 @@ const KINDS: [(&str, &[&str]); 10] = [
     ("slide", &["slide", "length", "line", "offset", "side"]),
     ("yoke", &["yoke", "line", "offset", "angle"]),
     ("slot", &["slot", "offset", "side"]),
+    ("parallelogram", &["parallelogram"]),
     ("distances", &["point", "distances", "side"]),
     ("point", &["point", "along", "across"]),
 ];
@@ -34,7 +35,7 @@ pub(super) fn joint<'t>(
     let given = |key: &&(&str, &[&str])| open.get(key.0).is_some();
     let Some((kind, keys)) = KINDS.iter().find(given) else {
         let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
-        reader.note(problem.help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+        reader.note(problem.help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot`, `parallelogram` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
     let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
@@ -104,6 +105,10 @@ pub(super) fn joint<'t>(
             let is_given = fields.get("offset").is_some() || fields.get("side").is_some();
             let side = if is_given { side(&fields, &SIDES, reader) } else { Some(Side::Right) };
             Some(Placing::Slot { base: base?, offset: offset?, side: side? })
+        }
+        "parallelogram" => {
+            let corners = fields.get("parallelogram").and_then(|value| corners(value, names, reader));
+            Some(Placing::Parallelogram { corners: corners? })
         }
         "distances" => {
             let base = fields.required("point", "point = [\"A\", \"B\"]", reader).and_then(|v| base(v, names, reader));
@@ -201,6 +206,26 @@ pub(super) fn reference<'t>(value: &Value<'t>, names: &[&str], reader: &mut Read
         reader.note(problem.help(nearest_or_all(&name, names)));
     }
     found
+}
+
+/// Three different joints by their names.
+fn corners<'t>(value: &Value<'t>, names: &[&str], reader: &mut Reader<'t>) -> Option<[usize; 3]> {
+    let list = reader.list(value)?;
+    let [a, b, c] = list else {
+        let problem =
+            Problem::error(value.span(), format!("a parallelogram is placed from 3 joints, not {}", list.len()));
+        reader.note(problem.help("name its other corners in order, as in parallelogram = [\"C\", \"O\", \"A\"]"));
+        return None;
+    };
+    let [a, b, c] = [a, b, c].map(|value| reference(value, names, reader));
+    let corners = [a?, b?, c?];
+    let twice = (0..3).find(|&k| corners[..k].contains(&corners[k]));
+    if let Some(k) = twice {
+        let problem = Problem::error(list[k].span(), format!("`{}` is named twice", names[corners[k]]));
+        reader.note(problem.help("name three different joints"));
+        return None;
+    }
+    Some(corners)
 }
 
 /// Two different joints by their names.

@@ -159,7 +159,7 @@ fn order(entries: &[(&str, Span, &Value)], placings: &[Placing], reader: &mut Re
     }
 }
 
-/// Every joint is traced, seen from, or carries another.
+/// Every joint is traced, seen from, or carries another; a parallelogram may be there for its links.
 fn unused(
     entries: &[(&str, Span, &Value)],
     placings: &[Placing],
@@ -170,8 +170,9 @@ fn unused(
     for (k, (name, span, _)) in entries.iter().enumerate() {
         let carries = (0..placings.len()).any(|other| needs(placings, other).contains(&k));
         let is_seen = seen_from.is_some_and(|joints| joints.contains(&k));
-        let is_driven = matches!(placings[k], Placing::Crank { .. } | Placing::Piston { .. });
-        if !carries && !is_seen && !is_driven && !traced.contains(&k) {
+        let has_links =
+            matches!(placings[k], Placing::Crank { .. } | Placing::Piston { .. } | Placing::Parallelogram { .. });
+        if !carries && !is_seen && !has_links && !traced.contains(&k) {
             let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
             reader.note(problem.help(format!("trace it, hang another joint on it, or take `{name}` away")));
         }

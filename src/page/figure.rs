@@ -38,7 +38,7 @@ impl<'a> Figure<'a> {
             View::At(pose) => (vec![pose.clone()], 0.0),
             View::Moving { poses, seconds } => (poses.clone(), *seconds),
         };
-        let mechanism = |pose| Mechanism::new(&solved.linkage, circuit, pose);
+        let mechanism = |pose| Mechanism::new(&solved.linkage, circuit, pose, &panel.inks);
         let mechanisms: Vec<Mechanism> = poses.into_iter().map(mechanism).collect();
         let curve = Bounds::of(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
         let key = mechanisms.iter().fold(curve, |key, mechanism| key.union(mechanism.bounds()));

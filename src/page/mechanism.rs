@@ -15,6 +15,8 @@ pub(super) struct Mechanism<'a> {
     /// The guides of sliders that slide on the frame, each from end to end of what is used of it.
     guides: Vec<[Point; 2]>,
     slots: Vec<Slot>,
+    /// The links that have an ink of their own, and which.
+    inks: &'a [(usize, usize)],
 }
 
 /// A slot: what a joint uses of the line it slides along, on a link that moves.
@@ -28,11 +30,16 @@ struct Slot {
 }
 
 impl<'a> Mechanism<'a> {
-    /// A linkage in one pose of a circuit.
-    pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>) -> Mechanism<'a> {
+    /// A linkage in one pose of a circuit, some of its links in inks of their own.
+    pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>, inks: &'a [(usize, usize)]) -> Mechanism<'a> {
         let guides = (0..linkage.joints.len()).filter_map(|joint| guide(linkage, circuit, joint)).collect();
         let slots = (0..linkage.joints.len()).filter_map(|joint| slot(linkage, circuit, &pose, joint)).collect();
-        Mechanism { linkage, pose, guides, slots }
+        Mechanism { linkage, pose, guides, slots, inks }
+    }
+
+    /// The ink of a link, if it has one of its own.
+    fn ink(&self, link: usize, theme: &Theme) -> Option<Color> {
+        self.inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
     }
 
     /// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
@@ -73,16 +80,20 @@ impl<'a> Mechanism<'a> {
     pub fn underlay(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
         let at = |joint: &JointId| plot.page_from_plane.apply(self.pose[*joint]);
         let mut items = Vec::new();
-        for link in drawn_links(self.linkage) {
-            let points: Vec<Point> = link.iter().map(at).collect();
+        for (link, joints) in numbered_links(self.linkage) {
+            let points: Vec<Point> = joints.iter().map(at).collect();
             if is_plate(&points) {
-                let fill = Some(theme.faded(theme.faded(theme.hairline)));
+                let body = self.ink(link, theme).map_or(theme.hairline, |ink| theme.faded(ink));
+                let fill = Some(theme.faded(theme.faded(body)));
                 items.push(Item::Path(Path { lines: vec![Line { points, closed: true }], stroke: None, fill }));
             }
         }
         let points: Vec<Point> = ground(self.linkage).iter().map(at).collect();
         if points.len() > 1 {
-            items.push(Item::Path(Path::stroked(points, theme.stroke(theme.hairline, theme.hair))));
+            let stroke = Some(theme.stroke(theme.hairline, theme.hair));
+            // Three pivots are on a frame that is a plate like any other.
+            let closed = is_plate(&points);
+            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
         }
         for (centre, radius) in self.pitch_circles() {
             let (centre, radius) = (plot.page_from_plane.apply(centre), radius * plot.page_from_plane.scale);
@@ -103,7 +114,7 @@ impl<'a> Mechanism<'a> {
         let at = |joint: JointId| page(self.pose[joint]);
         let ground = ground(self.linkage);
         let mut items = Vec::new();
-        let links = drawn_links(self.linkage);
+        let links = numbered_links(self.linkage);
         let heavy = Stroke { round: true, ..theme.stroke(theme.ink, theme.link) };
         let mut blocks = Vec::new();
         for (id, joint) in self.linkage.joints.iter().enumerate() {
@@ -114,10 +125,11 @@ impl<'a> Mechanism<'a> {
                 _ => {}
             }
         }
-        for link in &links {
-            let points: Vec<Point> = link.iter().map(|&joint| at(joint)).collect();
+        for (link, joints) in &links {
+            let points: Vec<Point> = joints.iter().map(|&joint| at(joint)).collect();
             let closed = is_plate(&points);
-            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke: Some(heavy), fill: None }));
+            let stroke = Some(Stroke { color: self.ink(*link, theme).unwrap_or(theme.ink), ..heavy });
+            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
         }
         for Slot { ends, foot, block } in &self.slots {
             let ends = ends.map(page);
@@ -126,7 +138,7 @@ impl<'a> Mechanism<'a> {
             blocks.push((page(*block), ends[1] - ends[0]));
         }
         items.extend(blocks.into_iter().map(|(centre, along)| block(centre, along, theme)));
-        let mut joints: Vec<JointId> = links.concat();
+        let mut joints: Vec<JointId> = links.iter().flat_map(|(_, joints)| joints.iter().copied()).collect();
         joints.extend(&ground);
         joints.sort_unstable();
         joints.dedup();
@@ -245,9 +257,14 @@ pub(super) fn ground(linkage: &Linkage) -> Vec<JointId> {
 
 /// The moving links as they are drawn, each by its joints in order: along a bar, or round a plate.
 pub(super) fn drawn_links(linkage: &Linkage) -> Vec<Vec<JointId>> {
+    numbered_links(linkage).into_iter().map(|(_, joints)| joints).collect()
+}
+
+/// The same, each with its place in the linkage.
+fn numbered_links(linkage: &Linkage) -> Vec<(usize, Vec<JointId>)> {
     let ground = linkage.ground();
-    let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, ground));
-    moving.map(|link| outline(linkage, link)).filter(|joints| joints.len() > 1).collect()
+    let moving = linkage.links.iter().enumerate().filter(|(_, link)| !std::ptr::eq(*link, ground));
+    moving.map(|(k, link)| (k, outline(linkage, link))).filter(|(_, joints)| joints.len() > 1).collect()
 }
 
 /// The joints of a link round its hull; the points of a grid are left out.

@@ -140,6 +140,8 @@ pub struct Panel<'a> {
     pub solved: &'a Solved,
     /// The pose its linkage is drawn in.
     pub view: View,
+    /// The links that are drawn in the ink of a curve, by their places in the linkage, and which; the others in black.
+    pub inks: Vec<(usize, usize)>,
 }
 
 /// The pose a linkage is drawn in; a pose is the places of all its joints.

@@ -28,6 +28,7 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
             None => links.push(vec![foot, through]),
         }
     }
+    joined(&mut links, circuit);
     let pose = |sample: usize| -> Vec<Point> {
         (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
     };
@@ -39,6 +40,23 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
         (0..circuit.len()).step_by(stride).map(|sample| (sample, clarity(&pose(sample)))).collect();
     let best = all.iter().map(|(_, clarity)| *clarity).fold(0.0, f64::max);
     pose(all.iter().find(|(_, clarity)| *clarity >= 0.99 * best).map_or(0, |(sample, _)| *sample))
+}
+
+/// Gives joints that are one point all the way one number: their distance tells nothing of the pose.
+fn joined(links: &mut [Vec<usize>], circuit: &Circuit) {
+    let samples = [0, circuit.len() / 3, circuit.len() / 2];
+    let is_one = |a: usize, b: usize| {
+        samples.iter().all(|&sample| {
+            let (a, b) = (circuit.places.point(a, sample), circuit.places.point(b, sample));
+            (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
+        })
+    };
+    for joint in links.iter_mut().flatten() {
+        *joint = (0..*joint).find(|&earlier| is_one(earlier, *joint)).unwrap_or(*joint);
+    }
+    for link in links {
+        link.dedup();
+    }
 }
 
 /// The least distance of two joints on no common link, or of a joint and a link it is not on.

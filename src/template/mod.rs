@@ -218,6 +218,9 @@ impl Template {
                 Placing::Slot { base, offset, side } => {
                     vec![assembly.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
                 }
+                Placing::Parallelogram { corners } => {
+                    vec![assembly.parallelogram(name, corners.map(|j| made[j][0]))?]
+                }
                 Placing::Distances { base, distances: [d0, d1], side } => {
                     vec![assembly.distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
                 }

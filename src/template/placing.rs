@@ -79,6 +79,11 @@ pub enum Placing {
         /// The side of the base at the start.
         side: Side,
     },
+    /// At the fourth corner of a parallelogram.
+    Parallelogram {
+        /// The other corners, in order round it.
+        corners: [usize; 3],
+    },
     /// On a link, by coordinates; ranges make a grid of points, `across` fastest.
     Point {
         /// Two joints of the link.
@@ -106,6 +111,7 @@ impl Placing {
             Placing::Fixed(_) => Vec::new(),
             Placing::Crank { pivot, .. } => vec![*pivot],
             Placing::Gear { crank, pivot, .. } => vec![*crank, *pivot],
+            Placing::Parallelogram { corners } => corners.to_vec(),
             Placing::Slide { from, line, .. } | Placing::Yoke { from, line, .. } => vec![*from, line[0], line[1]],
             Placing::Dyad { base, .. }
             | Placing::Piston { base, .. }
@@ -122,6 +128,7 @@ impl Placing {
             Placing::Fixed(_) => {}
             Placing::Crank { pivot, .. } => *pivot = now(*pivot),
             Placing::Gear { crank, pivot, .. } => (*crank, *pivot) = (now(*crank), now(*pivot)),
+            Placing::Parallelogram { corners } => *corners = corners.map(now),
             Placing::Slide { from, line, .. } | Placing::Yoke { from, line, .. } => {
                 (*from, *line) = (now(*from), line.map(now));
             }

@@ -4,6 +4,7 @@ mod atlas;
 mod catalogue;
 mod charts;
 mod circuits;
+mod cognates;
 mod house;
 mod instant;
 mod linkages;
@@ -14,6 +15,7 @@ mod program;
 mod rates;
 mod readme;
 mod sextic;
+mod straight_line;
 mod thesis;
 
 /// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and

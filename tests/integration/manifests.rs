@@ -241,6 +241,13 @@ fn each_mistake_in_a_linkage_has_its_message() {
             "G = { gear = \"A\", about = \"C\", length = 1, ratio = [1, 0.5] }\nM = {",
             "0.5 makes no gear ratio",
         ),
+        ("M = {", "D = { parallelogram = [\"O\", \"A\"] }\nM = {", "a parallelogram is placed from 3 joints, not 2"),
+        ("M = {", "D = { parallelogram = [\"O\", \"A\", \"O\"] }\nM = {", "`O` is named twice"),
+        (
+            "M = {",
+            "D = { parallelogram = [\"A\", \"O\", \"B\"] }\nM = {",
+            "`D` needs a link with both `O` and `B`, and no link has both",
+        ),
         ("trace =", "coincident = \"last one\"\ntrace =", "`last one` is not one of the words allowed here"),
         ("length = 1", "length = \"p - 4\"", "the length 0 of `A` is not positive"),
         ("length = 1", "length = \"q\"", "there is no `q`"),

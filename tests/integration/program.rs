@@ -314,6 +314,42 @@ fn inspect_tells_class_circuits_and_poses() {
     assert_eq!(run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "--animate"]).0, 2, "it needs a file");
 }
 
+/// Bernoulli's lemniscate as Watt's curve: (8.11) with p = 2, r = sqrt 2 and its a = 1, a node in the middle.
+#[test]
+fn inspect_tells_the_equation() {
+    let here = Path::new(".");
+    let arguments = ["inspect", "watt", "p=2", "r=sqrt(2)", "a=2"];
+    let (code, text, err) = run(here, &[&arguments[..], &["--sextic"]].concat());
+    assert_eq!(code, 0, "{err}");
+    assert!(text.contains("M: on a sextic, three times through the circular points"), "{text}");
+    assert!(text.contains("crunode (1, 0)") && text.contains("\nx^6"), "{text}");
+    let plain = run(here, &arguments).1;
+    assert!(plain.contains("crunode (1, 0)") && !plain.contains("x^6"));
+    let json: serde_json::Value = serde_json::from_str(&run(here, &[&arguments[..], &["--json"]].concat()).1).unwrap();
+    let equation = &json["equations"][0];
+    assert_eq!(equation["circular_points"], 3);
+    let c = |i: usize, j: usize| equation["coefficients"][i][j].as_f64().unwrap();
+    let count: usize = (0..=6).map(|i| equation["coefficients"][i].as_array().unwrap().len()).sum();
+    assert_eq!(count, 28);
+    // The lemniscate times its circle, about (1, 0), with X = x - 1: ((X^2 + y^2)^2 - 2 (X^2 - y^2)) (X^2 + y^2 - 2).
+    let expected = [(6, 0, 1.0), (4, 2, 3.0), (0, 6, 1.0), (5, 0, -6.0), (1, 4, -6.0)];
+    let product = |x: f64, y: f64| {
+        let (x2, y2) = ((x - 1.0) * (x - 1.0), y * y);
+        ((x2 + y2) * (x2 + y2) - 2.0 * (x2 - y2)) * (x2 + y2 - 2.0)
+    };
+    for (i, j, value) in expected {
+        assert!((c(i, j) - value).abs() < 1e-13, "x^{i} y^{j}: {}", c(i, j));
+    }
+    for (x, y) in [(0.3, 0.7), (-1.0, 2.0), (2.5, -0.4)] {
+        let power = |x: f64, n: usize| (0..n).fold(1.0, |p, _| p * x);
+        let all = (0..=6).flat_map(|i| (0..=6 - i).map(move |j| (i, j)));
+        let sum: f64 = all.map(|(i, j)| c(i, j) * power(x, i) * power(y, j)).sum();
+        assert!((sum - product(x, y)).abs() < 1e-12 * (1.0 + sum.abs()), "{sum} {}", product(x, y));
+    }
+    assert!(!run(here, &["inspect", "klann"]).1.contains("sextic"), "no four-bar");
+    assert!(!run(here, &["inspect", "evans", "p=2", "a=2.5", "k=1"]).1.contains("sextic"), "a circle");
+}
+
 /// Every key that the JSON has is described, and nothing is described that it has not.
 #[test]
 fn the_json_of_inspect_is_the_one_described() {
@@ -332,7 +368,8 @@ fn the_json_of_inspect_is_the_one_described() {
             _ => {}
         }
     }
-    let (_, out, _) = run(Path::new("."), &["inspect", "watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--json"]);
+    let (_, out, _) =
+        run(Path::new("."), &["inspect", "watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates", "--json"]);
     let mut printed = std::collections::BTreeSet::new();
     keys(&serde_json::from_str(&out).unwrap(), &mut printed);
     let text = include_str!("../../docs/inspect.md");
@@ -348,6 +385,76 @@ fn the_json_of_inspect_is_the_one_described() {
         assert!(text.contains(&format!("`{key}`")), "{key}");
     }
     assert_eq!(printed, described.into_iter().chain(inner).collect());
+}
+
+/// The manifest of the three is one, and each of its families draws the original's curve.
+#[test]
+fn cognates_make_a_manifest_that_draws_one_curve() {
+    for arguments in [
+        &["four-bar", "frame=4", "crank=1.5", "coupler=3", "rocker=3.5", "along=1.8", "across=1.3"][..],
+        &["chebyshev", "p=3", "r=4"],
+        &["roberts", "p=4", "r=2", "a=2", "b=3"],
+        &["watt", "p=4", "r=2", "a=1"],
+        &["evans", "p=2", "a=2.5"],
+    ] {
+        let folder = TempDir::new().unwrap();
+        let inspect = |more: &[&str]| run(folder.path(), &[&["inspect"], arguments, &["--cognates"], more].concat());
+        let (code, text, err) = inspect(&["--toml"]);
+        assert_eq!(code, 0, "{err}");
+        fs::write(folder.path().join("three.toml"), &text).unwrap();
+        let (code, _, err) = run(folder.path(), &["validate", "three.toml"]);
+        assert_eq!(code, 0, "{err}\n{text}");
+        // Evenly along the path: samples by input lie far apart where a limit is near.
+        let even = text.replace("{ step = \"2 deg\" }", "{ samples = 1000, spacing = \"arc\" }");
+        fs::write(folder.path().join("three.toml"), even).unwrap();
+        let (code, out, err) = run(folder.path(), &["render", "three.toml", "--strict", "-q", "--format", "svg"]);
+        assert_eq!(code, 0, "{out}{err}");
+        let points = |name: &str| -> Vec<[f64; 2]> {
+            let path = format!("output/{}-{name}/points.csv", arguments[0]);
+            let table = fs::read_to_string(folder.path().join(path)).unwrap();
+            let rows = table.lines().skip(1).map(|row| row.split(',').collect::<Vec<_>>());
+            rows.map(|row| [row[6].parse().unwrap(), row[7].parse().unwrap()]).collect()
+        };
+        let original = points("original");
+        for name in ["cognate-1", "cognate-2"] {
+            let far = |from: &[[f64; 2]], to: &[[f64; 2]]| {
+                let near = |p: &[f64; 2]| to.iter().map(|q| distance(*p, *q)).fold(f64::INFINITY, f64::min);
+                from.iter().map(near).fold(0.0, f64::max)
+            };
+            let cognate = points(name);
+            let far = far(&original, &cognate).max(far(&cognate, &original));
+            // Curves of some 15 units and less, by thousands: the nearest sample is half a step away at most.
+            assert!(far < 0.0125, "{} {name}: {far}", arguments[0]);
+        }
+        let (_, json, _) = inspect(&["--json"]);
+        let value: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(value["cognates"]["linkages"].as_array().unwrap().len(), 3);
+        assert!(inspect(&[]).1.contains("cognate 2: "));
+        assert_eq!(inspect(&["--svg", "three.svg"]).0, 0);
+        let plate = fs::read_to_string(folder.path().join("three.svg")).unwrap();
+        assert!(plate.contains("and its cognates") && plate.matches("class=\"curve\"").count() >= 1);
+    }
+}
+
+fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    ((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])).sqrt()
+}
+
+#[test]
+fn what_has_no_cognates_is_wrong_input() {
+    let here = Path::new(".");
+    for (arguments, message) in [
+        (&["klann"][..], "it is no four-bar"),
+        (&["slider-crank", "crank=1", "coupler=2"], "it is no four-bar"),
+        (&["evans", "p=2", "a=2.5", "k=1"], "its coupler point is the rocker pin"),
+        (&["hoeken", "--trace", "2"], "give --trace 1 to 1"),
+        (&["hoeken", "--trace", "0"], "give --trace 1 to 1"),
+    ] {
+        let (code, out, err) = run(here, &[&["inspect"], arguments, &["--cognates"]].concat());
+        assert!(code == 2 && out.is_empty() && err.contains(message), "{arguments:?}: {err}");
+    }
+    assert_eq!(run(here, &["inspect", "hoeken", "--toml"]).0, 2, "it is of cognates");
+    assert_eq!(run(here, &["inspect", "hrones-nelson", "--cognates", "--trace", "10"]).0, 0);
 }
 
 #[test]

@@ -157,6 +157,7 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
                 let direction = moved([n(0.0); 2], unit(base), (n(1.0) - sin * sin).sqrt(), -sin);
                 moved(at[from], direction, n(along), n(across))
             }
+            Step::Parallelogram { corners: [p, q, r] } => std::array::from_fn(|k| at[p][k] + at[r][k] - at[q][k]),
             Step::Rigid { base: [p, q], along, across } => moved(at[p], minus(at[q], at[p]), n(along), n(across)),
         };
         at.push(place);
@@ -182,6 +183,8 @@ fn everything([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
     let arm = assembly.point("N", [yoke, pin], 0.6, -0.2).unwrap();
     let plain = assembly.slot("U", [c, arm], 0.0, Side::Left).unwrap();
     let end = assembly.point("E", [c, arm], 2.0, 0.3).unwrap();
+    let corner = assembly.parallelogram("R", [o, pin, dyad]).unwrap();
+    assembly.point("W", [corner, dyad], 0.5, 0.4).unwrap();
     assembly.finish(vec![slot, plain, end], None, Travel::default()).unwrap()
 }
 

@@ -17,7 +17,7 @@ fn the_readmes_further_joints_can_be_read() {
     let readme = include_str!("../../README.md");
     let joints: Vec<&str> =
         readme.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
-    assert_eq!(joints.len(), 5);
+    assert_eq!(joints.len(), 6);
     for joint in joints {
         let is_input = joint.contains("piston");
         let a = if is_input { "A = { fixed = [1, 2] }" } else { "A = { crank = \"O\", length = 1 }" };

@@ -223,6 +223,19 @@ fn a_lemniscate_crosses_itself_in_its_middle() {
     }
 }
 
+/// Where all links lie on one line the linkage goes on in two ways, and the curve crosses itself.
+#[test]
+fn a_change_point_is_a_double_point() {
+    let bar = FourBar { frame: 4.0, crank: 1.5, coupler: 2.5, rocker: 3.0 };
+    let sextic = Sextic::of(bar, Vector::new(-1.0, 1.0)).unwrap();
+    let at = Point::new(-2.5, 1.0);
+    let doubles = sextic.double_points();
+    assert_eq!(doubles.len(), 4);
+    assert!(doubles.iter().any(|double| double.at == at && double.kind == Node::Crunode), "{doubles:?}");
+    // The terms of the gradient are of the size of 1e4 there.
+    assert!(sextic.gradient(at).norm() < 1e-9, "{}", sextic.gradient(at));
+}
+
 #[test]
 fn pins_have_no_sextic() {
     let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };

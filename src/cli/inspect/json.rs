@@ -1,9 +1,11 @@
 use coupler_atlas::geometry::{Point, Vector};
-use coupler_atlas::linkage::{FourBar, Input};
+use coupler_atlas::linkage::{Bar, FourBar, Input, Linkage, PlacedFourBar};
 use coupler_atlas::measure;
 use coupler_atlas::motion::{Circuit, End, Pass};
 use serde_json::{Map, Value, json};
 
+use super::cognates::{Found, Member};
+use super::equation;
 use super::{Pose, Report, flat_joints, instants, turnings};
 
 /// The version of the format; docs/inspect.md describes it.
@@ -27,8 +29,10 @@ pub(super) fn json(report: &Report) -> String {
         "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
         "status": solved.status().name(),
         "reason": solved.motion.shortfall,
-        "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(report, circuit)).collect::<Vec<_>>(),
+        "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect::<Vec<_>>(),
         "curves": curves,
+        "equations": equation::json(&report.equations.0),
+        "cognates": report.cognates.as_ref().map(cognates),
         "poses": report.poses.iter().map(|pose| self::pose(report, pose)).collect::<Vec<_>>(),
     });
     format!("{whole:#}\n")
@@ -47,15 +51,40 @@ fn point(p: Point) -> Value {
     pair(p.coords)
 }
 
-fn circuit(report: &Report, circuit: &Circuit) -> Value {
-    let solved = report.solved;
-    let end = |end: End| json!({ "input": end.stop.at, "flat": flat_joints(solved, end.flat) });
+fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
+    let end = |end: End| json!({ "input": end.stop.at, "flat": flat_joints(linkage, end.flat) });
     let pass = |(k, pass): (usize, &Pass)| {
-        let signs: Vec<i8> = (0..solved.linkage.dyads()).map(|dyad| pass.signs.get(dyad)).collect();
+        let signs: Vec<i8> = (0..linkage.dyads()).map(|dyad| pass.signs.get(dyad)).collect();
         json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.turns_after(k) })
     };
     let passes: Vec<Value> = circuit.passes.iter().enumerate().map(pass).collect();
     json!({ "closed": circuit.closed, "passes": passes })
+}
+
+fn cognates(found: &Found) -> Value {
+    let member = |Member { cognate, class, linkage, motion, .. }: &Member| {
+        let PlacedFourBar { pivots, lengths, point: coupler_point } = cognate.four_bar;
+        let circuits: Vec<Value> = motion.circuits.iter().map(|circuit| self::circuit(linkage, circuit)).collect();
+        json!({
+            "class": class.name(),
+            "pivots": pivots.map(point),
+            "frame": number(lengths.frame),
+            "crank": number(lengths.crank),
+            "coupler": number(lengths.coupler),
+            "rocker": number(lengths.rocker),
+            "along": number(coupler_point.x),
+            "across": number(coupler_point.y),
+            "turns_as": cognate.turns_as.map(Bar::name),
+            "start": linkage.travel.start,
+            "side": linkage.travel.signs.get(0),
+            "circuits": circuits,
+        })
+    };
+    json!({
+        "trace": found.trace,
+        "third_pivot": point(found.cognates.third_pivot),
+        "linkages": found.linkages.iter().map(member).collect::<Vec<_>>(),
+    })
 }
 
 fn measures(values: &[measure::Value]) -> Value {

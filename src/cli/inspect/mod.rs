@@ -1,5 +1,7 @@
 //! One linkage, as text for people, as JSON for programs, and as a plate.
 
+mod cognates;
+mod equation;
 mod json;
 mod plate;
 mod text;
@@ -11,7 +13,7 @@ use clap::Args;
 use coupler_atlas::expression::Expression;
 use coupler_atlas::family::{Family, Sampling};
 use coupler_atlas::geometry::{Vector, cross};
-use coupler_atlas::linkage::{Flat, Input, JointId};
+use coupler_atlas::linkage::{Flat, Input, JointId, Linkage};
 use coupler_atlas::motion::{Instant, Jets, Pass, Sampler};
 use coupler_atlas::problem::nearest_or_all;
 use coupler_atlas::sweep::{self, Solved};
@@ -40,6 +42,19 @@ pub struct Arguments {
     /// Of the poses at that input, only those with the first two-valued joint on this side: 1 left, -1 right.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ["1", "-1"], requires = "at")]
     branch: Option<String>,
+    /// Print the coefficients of the equations of its coupler curves, with the crank's pivot at the origin and x towards the
+    /// rocker's.
+    #[arg(long, conflicts_with = "toml")]
+    sextic: bool,
+    /// Tell of the two other four-bars that draw its curve, the Roberts-Chebyshev cognates; a plate shows all three.
+    #[arg(long)]
+    cognates: bool,
+    /// Of several traced joints, the one they are cognates for, from 1.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "cognates")]
+    trace: usize,
+    /// Print a manifest of all three instead.
+    #[arg(long, requires = "cognates", conflicts_with = "json")]
+    toml: bool,
     /// As JSON.
     #[arg(long)]
     json: bool,
@@ -59,6 +74,10 @@ struct Report<'a> {
     at: Option<f64>,
     /// Its poses there.
     poses: Vec<Pose<'a>>,
+    /// The equations of its coupler curves, and whether they are wanted in full.
+    equations: (Vec<equation::Equation>, bool),
+    /// The cognates, if they are asked for.
+    cognates: Option<cognates::Found>,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
@@ -75,11 +94,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         return Err(WrongInput(format!("{}: its values make no linkage", arguments.linkage)).into());
     };
     let poses: Vec<Pose> = at.map(|at| poses(&solved, at, branch)).unwrap_or_default();
-    let report = Report { family: &family, solved: &solved, at, poses };
+    let cognates = arguments.cognates.then(|| cognates::find(&family.id, &solved, arguments.trace)).transpose()?;
+    let equations = (equation::all(&solved), arguments.sextic);
+    let report = Report { family: &family, solved: &solved, at, poses, equations, cognates };
     if let Some(path) = &arguments.svg {
         build::write_file(path, &plate::plate(&report, arguments.animate))?;
     }
-    print(&if arguments.json { json::json(&report) } else { text::text(&report) })?;
+    let told = match &report.cognates {
+        Some(found) if arguments.toml => cognates::manifest(&report, found),
+        _ if arguments.json => json::json(&report),
+        _ => text::text(&report),
+    };
+    print(&told)?;
     Ok(Outcome::Done)
 }
 
@@ -185,11 +211,11 @@ fn instants<'a>(solved: &'a Solved, pose: &'a Pose) -> impl Iterator<Item = (Joi
 }
 
 /// The names of the joints whose dyads lie flat at an end.
-fn flat_joints(solved: &Solved, flat: Flat) -> Vec<&str> {
+fn flat_joints(linkage: &Linkage, flat: Flat) -> Vec<&str> {
     let is_flat = |joint: &&coupler_atlas::linkage::Joint| joint.step.index().is_some_and(|index| flat.has(index));
-    solved.linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
+    linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
 }
 
-fn unit(solved: &Solved) -> &'static str {
-    if solved.linkage.input() == Input::Length { "" } else { "°" }
+fn unit(linkage: &Linkage) -> &'static str {
+    if linkage.input() == Input::Length { "" } else { "°" }
 }

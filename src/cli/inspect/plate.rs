@@ -6,23 +6,32 @@ use coupler_atlas::page::{self, Layout, Options, Panel, Paper, Sheet, View};
 use coupler_atlas::render::{self, TextMode};
 use coupler_atlas::sweep::Solved;
 
-use super::Report;
+use super::{Report, cognates};
 
 /// One plate of the linkage, as SVG: in the pose asked for, moving, or where it can be seen best.
 pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
-    let Report { family, solved, poses, .. } = report;
+    let Report { family, solved, poses, cognates, .. } = report;
     let template = &family.template;
     let line = |caption: &Option<Caption>| family.describe(caption.as_ref(), &solved.cell);
+    let own = || Panel {
+        caption: line(&template.caption),
+        note: line(&template.note),
+        solved,
+        view: View::Clearest,
+        inks: Vec::new(),
+    };
+    let panel = cognates.as_ref().map_or_else(own, |found| cognates::panel(report, found));
     let view = match poses.first() {
-        _ if animate => moving(solved),
-        Some(pose) => View::At(motion::pose(&solved.linkage, pose.pass, pose.input)),
+        _ if animate => moving(panel.solved),
+        Some(pose) => View::At(motion::pose(&panel.solved.linkage, pose.pass, pose.input)),
         None => View::Clearest,
     };
-    let panel = Panel { caption: line(&template.caption), note: line(&template.note), solved, view };
+    let panel = Panel { view, ..panel };
+    let title = if cognates.is_some() { format!("{} and its cognates", family.title) } else { family.title.clone() };
     let sheet = Sheet {
         atlas: "coupler-atlas",
         family: &family.id,
-        title: &family.title,
+        title: &title,
         source: template.source.clone(),
         symbols: &family.names,
         page: 1,

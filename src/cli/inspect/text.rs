@@ -1,7 +1,7 @@
 use std::fmt::Write;
 
 use coupler_atlas::geometry::Point;
-use coupler_atlas::linkage::FourBar;
+use coupler_atlas::linkage::{FourBar, Linkage};
 use coupler_atlas::motion::{Circuit, Pass};
 use coupler_atlas::sweep::Solved;
 
@@ -9,7 +9,7 @@ use super::{Pose, Report, flat_joints, instants, turnings, unit};
 
 /// For people.
 pub(super) fn text(report: &Report) -> String {
-    let Report { family, solved, at, poses } = report;
+    let Report { family, solved, at, poses, equations, cognates } = report;
     let mut out = String::new();
     let values =
         family.names.iter().zip(&solved.cell.values).map(|(name, value)| format!("{name} = {}", short(*value, 10)));
@@ -23,19 +23,23 @@ pub(super) fn text(report: &Report) -> String {
         let _ = writeln!(out, "{how}: {reason}");
     }
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-        let _ = writeln!(out, "circuit {number}: {}", course(solved, circuit));
+        let _ = writeln!(out, "circuit {number}: {}", course(&solved.linkage, circuit));
     }
+    super::equation::text(&equations.0, equations.1, &mut out);
     if let (Some(at), true) = (at, poses.is_empty()) {
-        let _ = writeln!(out, "at {}{}: no circuit comes there", short(*at, 10), unit(solved));
+        let _ = writeln!(out, "at {}{}: no circuit comes there", short(*at, 10), unit(&solved.linkage));
     }
     for pose in poses {
         describe(solved, pose, &mut out);
+    }
+    if let Some(found) = cognates {
+        super::cognates::text(found, &mut out);
     }
     out
 }
 
 /// A number to read, with so many significant digits and no zeros after them.
-fn short(value: f64, digits: usize) -> String {
+pub(super) fn short(value: f64, digits: usize) -> String {
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     match rounded {
         0.0 => "0".to_owned(),
@@ -44,14 +48,14 @@ fn short(value: f64, digits: usize) -> String {
     }
 }
 
-fn point(p: Point) -> String {
+pub(super) fn point(p: Point) -> String {
     format!("({}, {})", short(p.x, 7), short(p.y, 7))
 }
 
 /// How the input goes on a circuit: "a full turn on branch 1", "from 28.96° on branch 1 to 97.18° (B flat), on branch -1
 /// to 28.96° (B flat)".
-fn course(solved: &Solved, circuit: &Circuit) -> String {
-    let unit = unit(solved);
+pub(super) fn course(linkage: &Linkage, circuit: &Circuit) -> String {
+    let unit = unit(linkage);
     let first = &circuit.passes[0];
     if let [pass] = circuit.passes[..]
         && circuit.closed
@@ -60,7 +64,7 @@ fn course(solved: &Solved, circuit: &Circuit) -> String {
         let length = if turns == 1.0 { "a full turn".to_owned() } else { format!("{turns} turns") };
         return format!("{length} on branch {}", pass.signs.get(0));
     }
-    let flat = |pass: &Pass| match &flat_joints(solved, pass.to.flat)[..] {
+    let flat = |pass: &Pass| match &flat_joints(linkage, pass.to.flat)[..] {
         [] => String::new(),
         joints => format!(" ({} flat)", joints.join(", ")),
     };
@@ -73,7 +77,7 @@ fn course(solved: &Solved, circuit: &Circuit) -> String {
 /// A table of the joints, one of the links, and the instant geometry of the traced joints' links.
 fn describe(solved: &Solved, pose: &Pose, out: &mut String) {
     let (at, branch) = (short(pose.input, 10), pose.pass.signs.get(0));
-    let _ = writeln!(out, "\nat {at}{}, circuit {}, branch {branch}", unit(solved), pose.circuit);
+    let _ = writeln!(out, "\nat {at}{}, circuit {}, branch {branch}", unit(&solved.linkage), pose.circuit);
     let width = solved.linkage.joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0).max(5);
     let row = |out: &mut String, name: &str, cells: &[String]| {
         let cells: String = cells.iter().map(|cell| format!("{cell:>13}")).collect();
