@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const HOUSE: [(&str, &str); 18] = [
+const HOUSE: [(&str, &str); 19] = [
     ("geometry", ""),
     ("problem", ""),
     ("expression", "geometry problem"),
@@ -20,6 +20,7 @@ const HOUSE: [(&str, &str); 18] = [
     ("catalogue", "notation template problem"),
     ("family", "template expression measure problem motion"),
     ("sweep", "family linkage motion measure"),
+    ("design", "geometry linkage motion measure template catalogue family sweep"),
     ("scene", "geometry"),
     ("page", "geometry expression linkage motion measure sweep scene"),
     ("render", "geometry scene"),
@@ -32,7 +33,7 @@ const HOUSE: [(&str, &str); 18] = [
     ),
     (
         "cli",
-        "build catalogue expression family geometry linkage manifest measure motion page problem record render sweep template",
+        "build catalogue design expression family geometry linkage manifest measure motion page problem record render sweep template",
     ),
 ];
 
