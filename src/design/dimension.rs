@@ -4,6 +4,7 @@ use super::stroke::Stroke;
 use super::trial::{Figures, Trial, figures, number, subject};
 use super::wishes::Wishes;
 use crate::family::{Family, Straight};
+use crate::geometry::Point;
 use crate::linkage::FourBar;
 use crate::measure::Portion;
 use crate::motion::{Sampler, Sampling};
@@ -40,6 +41,9 @@ pub struct Design {
     pub swing: f64,
     /// The coupler point's greatest speed over its least in the straight stroke, the driven link turning evenly.
     pub unevenness: f64,
+    /// Where all joints are a third into the straight stroke, where none of a symmetric linkage's hides another; `None` where
+    /// the stroke is too short to have a sample in it.
+    pub pose: Option<Vec<Point>>,
     /// How often its curve crosses itself.
     pub double_points: usize,
     /// Grashof's class.
@@ -66,6 +70,9 @@ impl Design {
         let straight = measured.straight()?.clone();
         let figures = figures(trial.arrangement, &measured, &straight)?;
         let stroke = Stroke::of(&measured, &straight)?;
+        let third = stroke.samples.get(stroke.samples.len() / 3);
+        let joints = 0..solved.linkage.joints.len();
+        let pose = third.map(|&k| joints.map(|joint| measured.circuit.places.point(joint, k)).collect());
         let double_points = number(&measured, "crunodes").unwrap_or(0.0) as usize;
         let class = FourBar::of(&solved.linkage)?.class().name();
         Some(Design {
@@ -75,6 +82,7 @@ impl Design {
             swing: stroke.swing(figures.driven),
             unevenness: stroke.unevenness(figures.driven),
             straight,
+            pose,
             figures,
             double_points,
             class,

@@ -209,8 +209,13 @@ fn closed(question: &Question, samplers: &Samplers) -> Option<Result<Trial, Stri
 /// As many as are wanted, in order: the best of each arrangement before the second of any. What the closed conditions give
 /// for these is shown beside them.
 fn ranked(mut all: Vec<(Origin, Trial)>, wishes: &Wishes) -> Vec<(Origin, Trial)> {
-    let merit = |trial: &Trial| if wishes.part().is_some() { trial.tolerance } else { -trial.part() };
-    all.sort_by(|a, b| merit(&a.1).total_cmp(&merit(&b.1)));
+    // Of equally straight ones the smaller.
+    let merit = |trial: &Trial| [if wishes.part().is_some() { trial.tolerance } else { 0.0 }, -trial.part()];
+    let order = |a: &(Origin, Trial), b: &(Origin, Trial)| {
+        let ([a, smaller_a], [b, smaller_b]) = (merit(&a.1), merit(&b.1));
+        a.total_cmp(&b).then(smaller_a.total_cmp(&smaller_b))
+    };
+    all.sort_by(order);
     let by_search = |arrangement| all.iter().any(|(o, t)| *o == Origin::Search && t.arrangement == arrangement);
     // Where no search found another, the closed condition's is what was found.
     let (beside, found): (Vec<_>, Vec<_>) =
@@ -225,6 +230,6 @@ fn ranked(mut all: Vec<(Origin, Trial)>, wishes: &Wishes) -> Vec<(Origin, Trial)
     let is_shown = |trial: &Trial| firsts.iter().any(|(_, shown)| shown.arrangement == trial.arrangement);
     let beside: Vec<_> = beside.into_iter().filter(|(_, trial)| is_shown(trial)).collect();
     firsts.extend(beside);
-    firsts.sort_by(|a, b| merit(&a.1).total_cmp(&merit(&b.1)));
+    firsts.sort_by(order);
     firsts
 }

@@ -11,6 +11,8 @@ pub(super) struct Stroke {
     pub poses: Vec<[Point; 5]>,
     /// The input at each, there and back on one scale.
     inputs: Vec<f64>,
+    /// The samples among them, by their places in the circuit.
+    pub samples: Vec<usize>,
 }
 
 /// The link that is driven.
@@ -70,12 +72,13 @@ impl Stroke {
         let intervals = if circuit.closed { n } else { n.saturating_sub(1) };
         let all = (0..intervals).filter_map(|k| Some((k, part(k)?)));
         let (first, part) = all.min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        let mut stroke = Stroke { poses: vec![between(first, part)], inputs: vec![0.0] };
+        let mut stroke = Stroke { poses: vec![between(first, part)], inputs: vec![0.0], samples: Vec::new() };
         let mut gone = (1.0 - part) * step(first).abs();
         let mut k = first + 1;
         while gone < portion.input && k < first + n && (circuit.closed || k + 1 < n) {
             stroke.poses.push(pose(k));
             stroke.inputs.push(gone);
+            stroke.samples.push(k % n);
             gone += step(k % n).abs();
             k += 1;
         }

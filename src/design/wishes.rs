@@ -67,9 +67,9 @@ pub enum Wish {
     Kinds,
 }
 
-/// The least and the greatest of a tolerance: finer than the first a sampled curve is not measured, and above the second
-/// nothing is straight.
-pub const TOLERANCES: [f64; 2] = [1e-6, 0.1];
+/// The least and the greatest of a tolerance. The first is a thousandth of a millimetre to either side of a line of 100 mm:
+/// what is finer the samples of a curve do not tell; above the second nothing is straight.
+pub const TOLERANCES: [f64; 2] = [2e-5, 0.1];
 
 /// The least and the greatest of `p`.
 pub const FRAMES: [f64; 2] = [1.02, 12.0];

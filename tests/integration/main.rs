@@ -3,6 +3,7 @@
 mod atlas;
 mod catalogue;
 mod circuits;
+mod design;
 mod house;
 mod instant;
 mod linkages;

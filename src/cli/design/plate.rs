@@ -18,7 +18,11 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
     let solved: Vec<Solved> = designs.iter().enumerate().map(ranked).collect();
     let columns = [1, 2, 3, 2, 3, 3].get(designs.len() - 1).copied().unwrap_or(4);
     let rows = designs.len().div_ceil(columns);
-    let panel = |(design, solved)| Panel { caption: caption(design), note: note(design), solved, view: View::Clearest };
+    let panel = |(design, solved)| {
+        let design: &Design = design;
+        let view = design.pose.clone().map_or(View::Clearest, View::At);
+        Panel { caption: caption(design), note: note(design), solved, view }
+    };
     let mut symbols: Vec<String> = designs.iter().flat_map(|design| design.family.names.clone()).collect();
     symbols.sort();
     symbols.dedup();
@@ -44,7 +48,7 @@ fn caption(design: &Design) -> String {
 fn note(design: &Design) -> String {
     let (straight, figures) = (&design.straight, &design.figures);
     format!(
-        "straight {} ± {} over {:.1}° of the {}; transmission angle {:.1}° or more; size {}",
+        "straight {} ± {} over {:.1}° of the {}; μ ≥ {:.1}°; size {}",
         short(straight.length, 5),
         short(straight.deviation, 3),
         design.swing,
@@ -63,7 +67,7 @@ fn wished(report: &Report) -> String {
         number("strip's width over length at most", Some(wishes.tolerance)),
         number("size at most", wishes.size),
         number("frame p =", wishes.p),
-        Some(wishes.mu_min).filter(|&mu| mu > 0.0).map(|mu| format!("transmission angle {}° or more", short(mu, 4))),
+        Some(wishes.mu_min).filter(|&mu| mu > 0.0).map(|mu| format!("transmission angle μ ≥ {}°", short(mu, 4))),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }
