@@ -84,7 +84,9 @@ fn meeting(wishes: &Wishes, samplers: &Samplers) -> (Found, Vec<Trial>) {
         kept.extend(of_kind.met);
         short.extend(of_kind.short);
     }
-    kept = ranked(kept, wishes);
+    let (kept, twins) = without_twins(kept);
+    found.left_out.extend(twins);
+    let kept = ranked(kept, wishes);
     found.designs =
         kept.iter().filter_map(|(origin, trial)| Design::of(*origin, trial, wishes, &samplers.fine)).collect();
     (found, short)
@@ -204,6 +206,37 @@ fn closed(question: &Question, samplers: &Samplers) -> Option<Result<Trial, Stri
         }
         Some(_) => "it does not meet the wish for the return or the double point".to_owned(),
     }))
+}
+
+/// Hoeken's linkage is Evans's with `s = a` and `k = 2`: where both are found to be one linkage, only the better is kept.
+fn without_twins(all: Vec<(Origin, Trial)>) -> (Vec<(Origin, Trial)>, Vec<LeftOut>) {
+    const ONE: f64 = 0.02;
+    let as_evans = |trial: &Trial| match trial.arrangement.kind {
+        Kind::Evans => Some(trial.of.clone()),
+        Kind::Hoeken => Some([trial.of.as_slice(), &[2.0]].concat()),
+        _ => None,
+    };
+    let are_twins = |a: &(Origin, Trial), b: &(Origin, Trial)| {
+        let is_other = a.0 == b.0 && a.1.arrangement != b.1.arrangement;
+        is_other && as_evans(&a.1).zip(as_evans(&b.1)).is_some_and(|(a, b)| trial::apart(&a, &b) < ONE)
+    };
+    let is_better = |a: &Trial, b: &Trial| {
+        let order = a.tolerance.total_cmp(&b.tolerance).then(b.part().total_cmp(&a.part()));
+        order.then(a.arrangement.cmp(&b.arrangement)).is_lt()
+    };
+    let mut left_out = Vec::new();
+    let mut kept = Vec::new();
+    for one in &all {
+        match all.iter().find(|other| are_twins(one, other) && is_better(&other.1, &one.1)) {
+            None => kept.push(one.clone()),
+            Some((origin, better)) => left_out.push(LeftOut {
+                arrangement: one.1.arrangement,
+                is_closed: *origin == Origin::Condition,
+                why: format!("it comes to the same as {}: s = a and k = 2", better.arrangement.kind.id()),
+            }),
+        }
+    }
+    (kept, left_out)
 }
 
 /// As many as are wanted, in order: the best of each arrangement before the second of any. What the closed conditions give
