@@ -79,17 +79,26 @@ fn measures(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("measures");
     group.throughput(Throughput::Elements(linkages.len() as u64));
     group.sample_size(20);
-    group.bench_function("cells of a random four-bar", |bencher| {
-        bencher.iter(|| {
-            for linkage in &linkages {
-                let motion = Motion::of(linkage, &sampler);
-                for circuit in &motion.circuits {
-                    let subject = Subject::new(linkage, &motion, circuit, linkage.traced[0]);
-                    black_box(measure::take(&subject));
+    let is_portion = |name: &str| name.starts_with("straight") || name.starts_with("dwell");
+    let mut bench = |title: &str, wanted: &dyn Fn(&str) -> bool| {
+        let wanted: Vec<_> = measure::ALL.iter().filter(|measure| wanted(measure.name)).collect();
+        group.bench_function(title, |bencher| {
+            bencher.iter(|| {
+                for linkage in &linkages {
+                    let motion = Motion::of(linkage, &sampler);
+                    for circuit in &motion.circuits {
+                        let subject = Subject::new(linkage, &motion, circuit, linkage.traced[0]);
+                        for measure in &wanted {
+                            black_box((measure.take)(&subject));
+                        }
+                    }
                 }
-            }
+            });
         });
-    });
+    };
+    bench("all, of a random four-bar", &|_| true);
+    bench("without straightness and dwell", &|name| !is_portion(name));
+    bench("without these and symmetry", &|name| !is_portion(name) && !name.starts_with("symmetry"));
     group.finish();
 }
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The modules stand here in reading order; none imports one that comes after it. Each stage is one public function:
-//! [`manifest::load`], [`sweep::run`], [`page::compose`], [`render::svg`], [`render::png`], [`build::run`].
+//! [`manifest::load`], [`sweep::run`], [`design::straight_line`], [`page::compose`], [`render::svg`], [`render::png`], [`build::run`].
 //!
 //! A four-bar and its coupler curve, without a manifest:
 //!
@@ -47,6 +47,8 @@ pub mod notation;
 pub mod sweep;
 
 pub mod chart;
+
+pub mod design;
 
 pub mod page;
 pub mod render;

@@ -1,5 +1,6 @@
 //! Arguments, one file a subcommand, progress and exit codes. Every print is here.
 
+mod design;
 mod init;
 mod inspect;
 mod list;
@@ -30,6 +31,7 @@ enum Command {
     Render(render::Arguments),
     Validate(validate::Arguments),
     Inspect(inspect::Arguments),
+    Design(Box<design::Arguments>),
     List(list::Arguments),
     Init(init::Arguments),
     Completions(manual::Completions),
@@ -59,6 +61,7 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Design(arguments) => design::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::Completions(arguments) => manual::completions(&arguments),

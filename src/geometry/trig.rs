@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-pub use libm::{acos, asin, atan2, cos, hypot, log10, pow, sin, tan};
+pub use libm::{acos, asin, atan2, cos, exp, hypot, log as ln, log10, pow, sin, tan};
 
 /// Degrees to radians.
 pub fn radians(deg: f64) -> f64 {

@@ -1,5 +1,8 @@
 use crate::geometry::{Point, Vector, cross};
 
+/// The golden section.
+pub(super) const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
 /// The narrowest ring between two circles about one centre that holds a row of points, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Annulus {
@@ -55,19 +58,34 @@ impl Annulus {
         }
         // The row is flatter than the largest circle, which touches it best somewhere between its ends. About a point in
         // the middle the centre is turned to where the ring is narrowest.
-        let middle = points[points.len() / 2];
-        let arm = (free.centre - middle).normalize() * largest;
-        let reach = (points[points.len() - 1] - points[0]).norm() / largest;
+        let (middle, chord) = (points[points.len() / 2], points[points.len() - 1] - points[0]);
+        let side = if cross(chord, free.centre - middle) < 0.0 { -1.0 } else { 1.0 };
+        let arm = Vector::new(-chord.y, chord.x).try_normalize(0.0)? * (side * largest);
         let turned = |slope: f64| {
             let centre = middle + (arm + Vector::new(-arm.y, arm.x) * slope) / (1.0 + slope * slope).sqrt();
             let ring = Annulus { centre, radius: largest, width: 0.0 };
             let [(low, _), (high, _)] = ring.extremes(points);
             Annulus { width: high - low, ..ring }
         };
+        let straight = turned(0.0);
+        if most.is_finite() && straight.width <= most {
+            return Some(straight);
+        }
+        // The ends go as far with it as it is wide, at most. To half a hundredth of that, by golden sections.
+        let reach = 2.0 * straight.width / chord.norm();
         let [mut low, mut high] = [-reach, reach];
-        for _ in 0..40 {
-            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-            if turned(a).width < turned(b).width { high = b } else { low = a }
+        let [mut a, mut b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let [mut at_a, mut at_b] = [turned(a).width, turned(b).width];
+        for _ in 0..12 {
+            if at_a < at_b {
+                (high, b, at_b) = (b, a, at_a);
+                a = high - GOLDEN * (high - low);
+                at_a = turned(a).width;
+            } else {
+                (low, a, at_a) = (a, b, at_b);
+                b = low + GOLDEN * (high - low);
+                at_b = turned(b).width;
+            }
         }
         Some(turned((low + high) / 2.0)).filter(|ring| ring.width <= most)
     }

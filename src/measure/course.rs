@@ -1,3 +1,4 @@
+use super::annulus::GOLDEN;
 use super::trail::Trail;
 use crate::geometry::{Point, cross};
 
@@ -175,7 +176,7 @@ impl<'a> Course<'a> {
 
     /// The points of a portion, its ends among them; more between them where they are few.
     pub fn portion(&self, [from, to]: [f64; 2]) -> Vec<Point> {
-        const POINTS: f64 = 64.0;
+        const POINTS: f64 = 48.0;
         if to <= from {
             return vec![self.point(from)];
         }
@@ -214,7 +215,6 @@ impl<'a> Course<'a> {
         /// Golden sections of the two points between which it begins: to a tenth of the way between points. About the
         /// largest the size changes by the square of that.
         const ROUNDS: usize = 6;
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
         /// How near to its furthest its end is taken, by the way between points, on the way and at last.
         const NEAR: [f64; 2] = [1e-2, 1e-5];
         let whole = fit(ends);

@@ -84,47 +84,73 @@ pub(super) fn by_moments(trail: &Trail) -> Option<Axis> {
 /// How far the mirror image of a curve is from it: the greatest distance of its mirrored samples from the lines between
 /// its samples.
 pub(super) fn roughly(trail: &Trail, axis: Axis) -> f64 {
-    let n = trail.points.len();
-    let mirrored: Vec<Point> = trail.points.iter().map(|p| axis.mirror(*p)).collect();
-    let square = |i: usize, j: usize| (trail.points[j] - mirrored[i]).norm_squared();
-    let nearest = |i: usize| (0..n).min_by(|&a, &b| square(i, a).total_cmp(&square(i, b))).unwrap_or(0);
-    // The image goes along the curve the other way, and so does the sample that is nearest.
-    let mut at = nearest(0);
-    let mut far: Vec<f64> = Vec::with_capacity(n);
-    for i in 0..n {
-        for way in [-1, 1] {
-            while let Some(next) = trail.at(at, way)
-                && square(i, next) < square(i, at)
-            {
-                at = next;
+    let samples = Samples::of(&trail.points);
+    let mut near = 0;
+    let mut most = 0.0f64;
+    for p in &trail.points {
+        let image = axis.mirror(*p);
+        near = samples.nearest(image, near);
+        // No line to a neighbour is further than the sample itself.
+        if (trail.points[near] - image).norm_squared() > most * most {
+            most = most.max(trail.distance(image, near));
+        }
+    }
+    most
+}
+
+/// Samples, with boxes round those that follow one another, by which it is seen that they are not the nearest.
+struct Samples<'a> {
+    points: &'a [Point],
+    boxes: Vec<[Point; 2]>,
+}
+
+impl Samples<'_> {
+    const IN_BOX: usize = 16;
+
+    fn of(points: &[Point]) -> Samples<'_> {
+        let corners = |points: &[Point]| points.iter().fold([points[0]; 2], |[low, high], p| [low.inf(p), high.sup(p)]);
+        Samples { points, boxes: points.chunks(Self::IN_BOX).map(corners).collect() }
+    }
+
+    /// The sample that is nearest to a point, looked for beyond `guess`.
+    fn nearest(&self, point: Point, guess: usize) -> usize {
+        let mut near = guess;
+        let mut best = (self.points[near] - point).norm_squared();
+        for (k, [low, high]) in self.boxes.iter().enumerate() {
+            let off = |low: f64, at: f64, high: f64| (low - at).max(at - high).max(0.0);
+            let (x, y) = (off(low.x, point.x, high.x), off(low.y, point.y, high.y));
+            if x * x + y * y < best {
+                let first = k * Self::IN_BOX;
+                for (j, q) in self.points[first..].iter().take(Self::IN_BOX).enumerate() {
+                    let square = (q - point).norm_squared();
+                    if square < best {
+                        (best, near) = (square, first + j);
+                    }
+                }
             }
         }
-        far.push(trail.distance(mirrored[i], at));
-    }
-    // That may have lost the curve where it crosses itself: the furthest is looked for among all samples.
-    let mut is_sure = vec![false; n];
-    loop {
-        let Some(most) = (0..n).max_by(|&a, &b| far[a].total_cmp(&far[b])) else { return 0.0 };
-        if is_sure[most] {
-            return far[most];
-        }
-        far[most] = trail.distance(mirrored[most], nearest(most)).min(far[most]);
-        is_sure[most] = true;
+        near
     }
 }
 
 /// The axis about which a nearly symmetrical curve is most nearly so, in the mean of the squares, and how far the image is
 /// from the curve there at most; of a given axis only the latter.
 pub(super) fn finely(trail: &Trail, mut axis: Axis, is_given: bool) -> (Axis, f64) {
-    const ROUNDS: usize = 4;
+    const ROUNDS: usize = 3;
+    /// Of so many samples one is enough to find the axis by.
+    const STRIDE: usize = 4;
+    let samples = Samples::of(&trail.points);
+    let mut near = 0;
     for round in 0.. {
         let mut most = 0.0f64;
         let across = Vector::new(-axis.along.y, axis.along.x);
         // The normal equations of an offset and a turn.
         let (mut a, mut b, mut c, mut u, mut v) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        for p in &trail.points {
+        let is_last = is_given || round == ROUNDS;
+        for p in trail.points.iter().step_by(if is_last { 1 } else { STRIDE }) {
             let image = axis.mirror(*p);
-            let Some((off, normal)) = trail.offset(image) else { continue };
+            near = samples.nearest(image, near);
+            let Some((off, normal)) = trail.offset(image, near) else { continue };
             most = most.max(off.abs());
             let by = image - axis.through;
             let (shift, turn) = (2.0 * normal.dot(&across), 2.0 * cross(by, normal));
@@ -135,8 +161,11 @@ pub(super) fn finely(trail: &Trail, mut axis: Axis, is_given: bool) -> (Axis, f6
             v += turn * off;
         }
         let det = a * c - b * b;
-        if is_given || round == ROUNDS || det <= 1e-12 * a * c {
+        if is_last {
             return (axis, most);
+        }
+        if det <= 1e-12 * a * c {
+            continue;
         }
         let (shift, turn) = ((b * v - c * u) / det, (b * u - a * v) / det);
         let along = axis.along + across * turn;

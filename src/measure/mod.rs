@@ -50,13 +50,15 @@ pub struct Subject<'a> {
     straight: OnceCell<Option<Portion>>,
     dwell: OnceCell<Option<Dwell>>,
     symmetry: OnceCell<Option<Symmetry>>,
+    transmission: OnceCell<Option<[f64; 2]>>,
 }
 
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
-        let (trail, straight, dwell, symmetry) = Default::default();
-        Subject { linkage, motion, circuit, joint, asked: Straight::default(), trail, straight, dwell, symmetry }
+        let (trail, straight, dwell, symmetry, transmission) = Default::default();
+        let asked = Straight::default();
+        Subject { linkage, motion, circuit, joint, asked, trail, straight, dwell, symmetry, transmission }
     }
 
     /// The same, of which another straight portion is wanted.
@@ -67,6 +69,11 @@ impl<'a> Subject<'a> {
     /// The straight portion asked for.
     pub fn straight(&self) -> Option<&Portion> {
         self.straight.get_or_init(|| straight::portion(self.trail(), self.asked)).as_ref()
+    }
+
+    /// The least and the greatest transmission angle, in degrees.
+    fn transmission(&self) -> Option<[f64; 2]> {
+        *self.transmission.get_or_init(|| transmission::least_and_greatest(self))
     }
 
     /// Whether it is symmetrical, and about which line; `None` of a point.

@@ -16,7 +16,7 @@ use super::course::{Course, Fit};
 use super::strip::{Strip, hull};
 use super::trail::Trail;
 use super::{Measure, Subject, Value};
-use crate::geometry::{Point, cross};
+use crate::geometry::{Point, Vector, cross};
 
 /// What is asked of the straight portion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -246,14 +246,21 @@ impl Search<'_> {
         if [[0, 2, 4], [0, 1, 3], [1, 3, 4]].iter().any(|corners| height(corners.map(|k| quarters[k])) > width) {
             return false;
         }
-        let (start, chord) = (points[0], points[last] - points[0]);
-        let [mut low, mut high] = [0.0f64; 2];
-        for p in points {
-            let area = chord.x * (p.y - start.y) - chord.y * (p.x - start.x);
-            low = if area < low { area } else { low };
-            high = if area > high { area } else { high };
-        }
-        high - low <= width * chord.norm() || Strip::of(points.to_vec()).width <= width
+        let is_within = |along: Vector| {
+            let [mut low, mut high] = [0.0f64; 2];
+            for p in points {
+                let area = along.x * (p.y - points[0].y) - along.y * (p.x - points[0].x);
+                low = if area < low { area } else { low };
+                high = if area > high { area } else { high };
+            }
+            high - low <= width * along.norm()
+        };
+        // Then along the chord, and along what is the best line of an inflection: of s^3 from -1 to 1 it is 3/4 s, which is
+        // two thirds of the chord and one of the line through the quarters.
+        let chord = points[last] - points[0];
+        is_within(chord)
+            || is_within(chord * 2.0 + (quarters[3] - quarters[1]) * 2.0)
+            || Strip::of(points.to_vec()).width <= width
     }
 
     /// The length and the ends of a portion drawn out between points.

@@ -69,8 +69,8 @@ pub const RESIDUAL: Measure = Measure {
 
 /// Of a curve that is no point.
 pub(super) fn symmetry(subject: &Subject) -> Option<Symmetry> {
-    /// Nearer than this to symmetrical, by its extent, the curve between its samples is looked at.
-    const ROUGHLY: f64 = 2e-3;
+    /// A theorem's curve that is no nearer to its image than this, by its extent, is the image of another circuit's.
+    const APART: f64 = 2e-2;
     let trail = subject.trail();
     let extent = diameter(&hull(trail.points.clone()));
     if trail.points.len() < 3 || extent <= 0.0 {
@@ -78,14 +78,15 @@ pub(super) fn symmetry(subject: &Subject) -> Option<Symmetry> {
     }
     // Of a linkage with two circuits each may be the mirror image of the other: not so where it is roughly its own.
     if let Some((axis, theorem)) = theorem(subject)
-        && roughly(trail, axis) <= 10.0 * ROUGHLY * extent
+        && roughly(trail, axis) <= APART * extent
     {
         let residual = by_equation(subject, axis).unwrap_or_else(|| finely(trail, axis, true).1) / extent;
         return Some(Symmetry { axis: Some(axis), residual, theorem: Some(theorem) });
     }
     let Some(axis) = by_moments(trail) else { return Some(Symmetry { axis: None, residual: 0.0, theorem: None }) };
     let rough = roughly(trail, axis);
-    if rough > ROUGHLY * extent {
+    // Nearer than that, the curve between its samples is looked at.
+    if rough > 4.0 * trail.sagitta() {
         return Some(Symmetry { axis: Some(axis), residual: rough / extent, theorem: None });
     }
     let (axis, most) = finely(trail, axis, false);

@@ -210,6 +210,15 @@ impl Trail {
         (point, at.clamp(low, high) + rounds)
     }
 
+    /// How far the curve is from the lines between its samples at most, but for cusps.
+    pub fn sagitta(&self) -> f64 {
+        let height = |i: usize| {
+            let chord = (self.points[self.at(i, 1).unwrap_or(i)] - self.points[i]).norm();
+            (chord * chord * self.bends[i].abs() / 8.0).min(chord / 2.0)
+        };
+        (0..self.points.len()).map(height).fold(0.0, f64::max)
+    }
+
     /// How much of the length each sample stands for: half the way to either neighbour.
     pub fn weights(&self) -> Vec<f64> {
         let chord = |i: usize| self.at(i, 1).map_or(0.0, |next| (self.points[next] - self.points[i]).norm());
@@ -226,10 +235,8 @@ impl Trail {
         to(-1).min(to(1))
     }
 
-    /// How far a point near the curve is from it, positive to the left, and the curve's normal there.
-    pub fn offset(&self, point: Point) -> Option<(f64, Vector)> {
-        let square = |i: usize| (self.points[i] - point).norm_squared();
-        let i = (0..self.points.len()).min_by(|&a, &b| square(a).total_cmp(&square(b)))?;
+    /// How far a point near a sample is from the curve there, positive to the left, and the curve's normal.
+    pub fn offset(&self, point: Point, i: usize) -> Option<(f64, Vector)> {
         let near = self.near(i)?;
         let mut u = 0.0;
         // Newton's steps to where the way from the curve is square to it.

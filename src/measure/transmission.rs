@@ -9,7 +9,7 @@ pub const MU_MIN: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "least transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins (McCarthy 2.3.3)",
-    take: |subject: &Subject| least_and_greatest(subject).map_or(Value::Missing, |[least, _]| Value::Number(least)),
+    take: |subject: &Subject| subject.transmission().map_or(Value::Missing, |[least, _]| Value::Number(least)),
 };
 
 /// The greatest transmission angle.
@@ -18,7 +18,7 @@ pub const MU_MAX: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins",
-    take: |subject: &Subject| least_and_greatest(subject).map_or(Value::Missing, |[_, most]| Value::Number(most)),
+    take: |subject: &Subject| subject.transmission().map_or(Value::Missing, |[_, most]| Value::Number(most)),
 };
 
 /// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 where it is flat.
@@ -32,7 +32,8 @@ fn opposite(side: f64, [x, y]: [f64; 2]) -> f64 {
     2.0 * trig::degrees(trig::atan2(sine.max(0.0).sqrt(), cosine.max(0.0).sqrt()))
 }
 
-fn least_and_greatest(subject: &Subject) -> Option<[f64; 2]> {
+/// The least and the greatest over the circuit, in degrees.
+pub(super) fn least_and_greatest(subject: &Subject) -> Option<[f64; 2]> {
     let linkage = subject.linkage;
     let FourBar { frame, crank, coupler, rocker } = FourBar::of(linkage)?;
     if linkage.seen_from.is_none() {

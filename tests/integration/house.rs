@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const HOUSE: [(&str, &str); 19] = [
+const HOUSE: [(&str, &str); 20] = [
     ("geometry", ""),
     ("problem", ""),
     ("expression", "geometry problem"),
@@ -21,6 +21,7 @@ const HOUSE: [(&str, &str); 19] = [
     ("family", "template expression measure problem motion"),
     ("sweep", "family linkage motion measure"),
     ("chart", "expression family linkage measure motion sweep"),
+    ("design", "geometry linkage motion measure template catalogue family sweep"),
     ("scene", "geometry"),
     ("page", "geometry expression linkage motion measure sweep scene chart"),
     ("render", "geometry scene"),
@@ -33,7 +34,7 @@ const HOUSE: [(&str, &str); 19] = [
     ),
     (
         "cli",
-        "build catalogue expression family geometry linkage manifest measure motion page problem record render sweep template",
+        "build catalogue design expression family geometry linkage manifest measure motion page problem record render sweep template",
     ),
 ];
 

@@ -5,6 +5,7 @@ mod catalogue;
 mod charts;
 mod circuits;
 mod cognates;
+mod design;
 mod house;
 mod instant;
 mod linkages;

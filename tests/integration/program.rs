@@ -91,9 +91,12 @@ fn render_writes_pages_points_cells_and_a_record() {
     assert!(lines.next().unwrap().starts_with("1,1,1,1,0,0,2,"));
     assert_eq!(lines.count(), 3 * 36 - 1);
     let cells = fs::read_to_string(pages.join("far/cells.csv")).unwrap();
-    assert!(cells.starts_with("cell,trace,circuit,p,r,s,a,status,reason,class,"), "{cells}");
-    assert!(cells.contains("\n1,1,1,4,2,2,1,ok,,triple-rocker,"), "{cells}");
-    assert!(cells.contains("\n2,,,90,2,2,1,none,\"B cannot be placed: A and C are 88 or more apart, links"), "{cells}");
+    assert!(cells.starts_with("cell,trace,circuit,p,r,s,a,k,status,reason,class,"), "{cells}");
+    assert!(cells.contains("\n1,1,1,4,2,2,1,0.5,ok,,triple-rocker,"), "{cells}");
+    assert!(
+        cells.contains("\n2,,,90,2,2,1,0.5,none,\"B cannot be placed: A and C are 88 or more apart, links"),
+        "{cells}"
+    );
     let page = fs::read_to_string(pages.join("evans/evans-001.svg")).unwrap();
     assert!(page.contains("Evans &lt;linkage&gt; &amp; &quot;co&quot;"));
     assert!(

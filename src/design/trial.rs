@@ -1,0 +1,184 @@
+use std::sync::Arc;
+
+use super::extent::extent;
+use super::kind::{Arrangement, Input, Kind};
+use super::stroke::{Driven, Stroke};
+use super::wishes::Wishes;
+use crate::geometry::{Point, trig};
+use crate::linkage::{FourBar, Linkage};
+use crate::measure::{self, Portion, Straight, Subject, Value};
+use crate::motion::{Motion, Sampler};
+use crate::template::Template;
+
+/// A linkage tried out, its unit link 1.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Trial {
+    pub arrangement: Arrangement,
+    /// Its free proportions.
+    pub of: Vec<f64>,
+    /// The tolerance its straight portion has been measured at.
+    pub tolerance: f64,
+    /// The length of that portion.
+    pub length: f64,
+    pub figures: Figures,
+}
+
+/// What a designer asks of a linkage, beside the straight line itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// The link that is driven: of two rockers that can be, the one with the better transmission angle.
+    pub driven: Driven,
+    /// The greatest distance of two places of its joints: over a whole turn where a motor drives, over the straight stroke
+    /// where a rocker does.
+    pub size: f64,
+    /// The least transmission angle in degrees over the same motion, an angle over 90 as its supplement.
+    pub mu_min: f64,
+    /// The part of a turn the straight stroke takes; `None` where a rocker drives.
+    pub turn: Option<f64>,
+}
+
+impl Trial {
+    /// The straight length as a part of the size.
+    pub fn part(&self) -> f64 {
+        self.length / self.figures.size
+    }
+}
+
+/// What a search is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Goal {
+    /// The longest straight portion for the size.
+    Longest,
+    /// The greatest transmission angle, the straight portion being such a part of the size.
+    Transmission { part: f64 },
+    /// The `p` nearest to this one, the straight portion being such a part of the size.
+    Frame { p: f64, part: f64 },
+}
+
+/// What is asked of trials.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Question<'a> {
+    pub arrangement: Arrangement,
+    pub template: &'a Arc<Template>,
+    pub wishes: &'a Wishes,
+    pub tolerance: f64,
+    pub goal: Goal,
+}
+
+/// From this value on something that was wished is not met: what is missing is counted from here.
+pub(super) const UNMET: f64 = 10.0;
+/// What is no linkage of the kind at all.
+const IMPOSSIBLE: f64 = 1e4;
+
+impl Question<'_> {
+    /// How far a trial is from the goal, the less the better, and the trial; of what makes no linkage, only that.
+    pub fn ask(&self, of: &[f64], sampler: &Sampler) -> (f64, Option<Trial>) {
+        let ranges = self.arrangement.kind.proportions(self.tolerance);
+        let outside =
+            of.iter().zip(&ranges).map(|(&x, free)| (free.range[0] / x).max(x / free.range[1]).max(1.0) - 1.0);
+        let outside: f64 = outside.sum();
+        if outside > 1e-12 {
+            return (IMPOSSIBLE * (1.0 + outside), None);
+        }
+        match self.try_out(of, sampler) {
+            Err(value) => (value, None),
+            Ok((value, trial)) => (value, Some(trial)),
+        }
+    }
+
+    fn try_out(&self, of: &[f64], sampler: &Sampler) -> Result<(f64, Trial), f64> {
+        let linkage = self.template.linkage(&self.arrangement.kind.values(of)).map_err(|_| IMPOSSIBLE)?;
+        let class = FourBar::of(&linkage).map(FourBar::class).ok_or(IMPOSSIBLE)?;
+        if !self.arrangement.kind.is_of(class) {
+            return Err(IMPOSSIBLE);
+        }
+        let motion = Motion::of(&linkage, sampler);
+        let subject = subject(&linkage, &motion, self.tolerance).ok_or(IMPOSSIBLE)?;
+        let wishes = self.wishes;
+        // What is known before the straight portion, which takes longest.
+        let lacks_angle = |mu: f64| if mu < wishes.mu_min { 1.0 - mu / wishes.mu_min } else { 0.0 };
+        let asks_angle = !matches!(self.goal, Goal::Transmission { .. });
+        if self.arrangement.input == Input::Motor && asks_angle {
+            let lacks = lacks_angle(over_a_turn(&subject).ok_or(IMPOSSIBLE)?);
+            if lacks > 0.0 {
+                return Err(100.0 * UNMET * (1.0 + lacks));
+            }
+        }
+        if wishes.double_point.is_some_and(|wanted| wanted != (number(&subject, "crunodes") > Some(0.0))) {
+            return Err(100.0 * UNMET);
+        }
+        let portion = subject.straight().ok_or(IMPOSSIBLE)?;
+        let figures = figures(self.arrangement, &subject, portion).ok_or(IMPOSSIBLE)?;
+        let (arrangement, tolerance, length) = (self.arrangement, self.tolerance, portion.length);
+        let trial = Trial { arrangement, of: of.to_vec(), tolerance, length, figures };
+        let mut lacks = if asks_angle { lacks_angle(figures.mu_min) } else { 0.0 };
+        if wishes.quick_return {
+            lacks += figures.turn.map_or(1.0, |turn| (1.0 - 2.0 * turn).max(0.0));
+        }
+        if let Goal::Transmission { part } | Goal::Frame { part, .. } = self.goal {
+            lacks += (1.0 - trial.part() / part).max(0.0);
+        }
+        let value = match self.goal {
+            _ if lacks > 0.0 => UNMET * (1.0 + lacks),
+            Goal::Longest => -trial.part(),
+            Goal::Transmission { .. } => -figures.mu_min,
+            Goal::Frame { p, .. } => (of[0] / p).max(p / of[0]),
+        };
+        Ok((value, trial))
+    }
+}
+
+/// What is measured of a linkage: its first traced joint on its first circuit.
+pub(super) fn subject<'a>(linkage: &'a Linkage, motion: &'a Motion, tolerance: f64) -> Option<Subject<'a>> {
+    let (circuit, joint) = (motion.circuits.first()?, *linkage.traced.first()?);
+    Some(Subject::new(linkage, motion, circuit, joint).asking(Straight::Tolerance(tolerance)))
+}
+
+/// A measure that is a number.
+pub(super) fn number(subject: &Subject, name: &str) -> Option<f64> {
+    let measure = measure::ALL.iter().find(|measure| measure.name == name)?;
+    match (measure.take)(subject) {
+        Value::Number(number) => Some(number),
+        _ => None,
+    }
+}
+
+/// The least transmission angle over the circuit, an angle over 90 as its supplement.
+fn over_a_turn(subject: &Subject) -> Option<f64> {
+    let turns = subject.circuit.closed && subject.circuit.passes.len() == 1;
+    let [least, most] = [number(subject, "mu_min_deg")?, number(subject, "mu_max_deg")?];
+    turns.then(|| least.min(180.0 - most))
+}
+
+/// What a designer asks of a straight portion's linkage; `None` where a motor cannot turn it.
+pub(super) fn figures(arrangement: Arrangement, subject: &Subject, portion: &Portion) -> Option<Figures> {
+    if arrangement.input == Input::Motor {
+        let circuit = subject.circuit;
+        let joints = 0..subject.linkage.joints.len();
+        let places: Vec<Point> = joints.flat_map(|joint| circuit.points(joint)).collect();
+        let driven = if arrangement.kind == Kind::Chebyshev { Driven::Coupler } else { Driven::Crank };
+        let (mu_min, turn) = (over_a_turn(subject)?, Some(portion.input / 360.0));
+        return Some(Figures { driven, size: extent(&places), mu_min, turn });
+    }
+    let stroke = Stroke::of(subject, portion)?;
+    let size = extent(&stroke.poses.concat());
+    let [by_crank, by_rocker] = [Driven::Crank, Driven::Rocker].map(|driven| stroke.transmission(driven));
+    // Alike but for rounding, the crank is driven.
+    let is_rocker = by_rocker > by_crank + 1e-6;
+    let (driven, mu_min) = if is_rocker { (Driven::Rocker, by_rocker) } else { (Driven::Crank, by_crank) };
+    Some(Figures { driven, size, mu_min, turn: None })
+}
+
+/// How far two trials of a kind are apart, in parts of their proportions.
+pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a / b).max(b / a) - 1.0).fold(0.0, f64::max)
+}
+
+/// The tolerance at which a portion is to be measured next, to be a given part of the size: by the power law through two
+/// measurements, or where a path is straight to the fourth power, through one.
+pub(super) fn next_tolerance(wanted: f64, [t0, part0]: [f64; 2], last: Option<[f64; 2]>) -> f64 {
+    let ln = |x: f64| trig::ln(x);
+    let slope = last.map(|[t1, part1]| (ln(part1) - ln(part0)) / (ln(t1) - ln(t0)));
+    let slope = slope.filter(|slope| slope.is_finite()).unwrap_or(0.2).clamp(0.1, 1.0);
+    t0 * trig::pow(wanted / part0, 1.0 / slope)
+}
