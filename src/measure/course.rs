@@ -247,19 +247,29 @@ impl<'a> Course<'a> {
             }
         }
         let (end, size) = end_of(best.1, NEAR[1]);
-        let found = size.is_finite().then_some((size, [best.1, end].map(|place| place - shift)));
+        let found = (size > 0.0).then_some((size, [best.1, end].map(|place| place - shift)));
         if found.is_some_and(|found| whole.is_none_or(|whole| found.0 > whole.0)) { found } else { whole }
     }
 }
 
-/// The furthest end, of those between two, up to which a portion fits, and its size there; no size where none does.
+/// The furthest end, of those between two, up to which a portion fits, and its size there; where none does, the end at
+/// which it fits best, and for its size by how much it does not, less than nothing.
 fn furthest(near: f64, [mut low, mut high]: [f64; 2], fit: impl Fn(f64) -> Fit) -> (f64, f64) {
-    let (first, last) = (fit(low), fit(high));
-    if first.excess > 0.0 {
-        return (low, f64::NEG_INFINITY);
-    }
+    let (mut first, last) = (fit(low), fit(high));
     if last.excess <= 0.0 {
         return (high, last.size);
+    }
+    if first.excess > 0.0 {
+        // What is too wide for its length may not be when it is longer.
+        for end in [0.25, 0.5, 0.75].map(|part| low + (high - low) * part) {
+            let other = fit(end);
+            if other.excess < first.excess {
+                (low, first) = (end, other);
+            }
+        }
+        if first.excess > 0.0 {
+            return (low, -first.excess);
+        }
     }
     let (mut below, mut above, mut size) = (first.excess, last.excess, first.size);
     // By secants, and halves where those are slow.

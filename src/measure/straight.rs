@@ -110,6 +110,9 @@ pub(super) fn portion(trail: &Trail, asked: Straight) -> Option<Portion> {
 /// How often a portion of few points is looked for again among many: each time shows what is some thirty times as short.
 const DEPTH: usize = 4;
 
+/// What fits only between two points is found by asking the points for a little less.
+const LOOSER: f64 = 1.02;
+
 /// For the longest portion in a strip no wider than a part of its length.
 struct Search<'a> {
     course: &'a Course<'a>,
@@ -121,15 +124,15 @@ impl Search<'_> {
     fn longest_of_all(&self) -> Option<[f64; 2]> {
         /// So many portions are drawn out that might come to be the longest.
         const RIVALS: usize = 3;
-        let Some((found, width)) = self.longest_by_points() else {
+        let Some((found, width)) = self.by_points(LOOSER) else {
             // Every portion is shorter than the way from a point to the next: it bends least where it is flattest.
             let about = self.course.flattest().into_iter().take(RIVALS).map(|k| [k as f64 - 1.0, k as f64 + 1.0]);
             let each = about.filter_map(|ends| self.finely(ends, DEPTH));
             return each.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
         };
-        // Where not even a part of it is straight between its points, those are all that is known.
-        let by_points = || (self.course.distance(found), found.map(|k| k as f64));
-        let mut best = self.refined(found, DEPTH).unwrap_or_else(by_points);
+        let longest = self.refined(found, DEPTH).or_else(|| self.stricter(DEPTH));
+        // Where nothing is straight between points, those are all that is known.
+        let mut best = longest.unwrap_or_else(|| (self.course.distance(found), found.map(|k| k as f64)));
         for rival in self.rivals(width, best.0, found).into_iter().take(RIVALS) {
             if let Some(other) = self.refined(rival, DEPTH)
                 && other.0 > best.0
@@ -138,6 +141,16 @@ impl Search<'_> {
             }
         }
         Some(best.1)
+    }
+
+    /// The longest portion by points, for a part of the tolerance.
+    fn by_points(&self, part: f64) -> Option<([usize; 2], f64)> {
+        Search { tolerance: self.tolerance * part, ..*self }.longest_by_points()
+    }
+
+    /// The length and the ends of a portion that leaves something of the tolerance to the curve between its points.
+    fn stricter(&self, depth: usize) -> Option<(f64, [f64; 2])> {
+        [1.0, 0.99, 0.95, 0.85, 0.7].into_iter().find_map(|part| self.refined(self.by_points(part)?.0, depth))
     }
 
     /// The points at the ends of the longest portion, and the width no portion may have more of.
@@ -150,9 +163,7 @@ impl Search<'_> {
             let longest = self.longest_within(width, found)?;
             let own = Strip::of(points[longest[0]..=longest[1]].to_vec());
             let allowed = self.tolerance * own.length;
-            // What it is too wide by, it loses with a part of the way to the next point at either end.
-            let spare = 1.0 + 1.5 / (longest[1] - longest[0]) as f64;
-            if allowed >= width || own.width <= allowed * spare {
+            if allowed >= width || own.width <= allowed {
                 // Between points it may be longer by the way to the next at either end.
                 return Some((longest, width.min(self.tolerance * (own.length + 2.0 * longest_chord))));
             }
@@ -269,10 +280,7 @@ impl Search<'_> {
         const FEW: usize = 16;
         let whole = ends.map(|k| k as f64);
         if ends[1] - ends[0] >= FEW || depth == 0 {
-            // Where it does not fit between points, a part of it does.
-            let step = ((whole[1] - whole[0]) / 32.0).max(1.0);
-            let shorter = (0..16).map(|k| [whole[0] + f64::from(k) * step, whole[1] - f64::from(k) * step]);
-            return shorter.take_while(|[from, to]| to - from >= 3.0).find_map(|ends| self.drawn_out(ends));
+            return self.drawn_out(whole);
         }
         self.finely([whole[0] - 1.0, whole[1] + 1.0], depth)
     }
@@ -284,8 +292,8 @@ impl Search<'_> {
         let part = (to - from) / (piece.points.len() - 1) as f64;
         let depth = depth.checked_sub(1)?;
         let search = Search { course: &piece, tolerance: self.tolerance };
-        let (length, ends) = match search.longest_by_points() {
-            Some((found, _)) => search.refined(found, depth)?,
+        let (length, ends) = match search.by_points(LOOSER) {
+            Some((found, _)) => search.refined(found, depth).or_else(|| search.stricter(depth))?,
             None => {
                 let k = *piece.flattest().first()? as f64;
                 search.finely([k - 1.0, k + 1.0], depth)?

@@ -282,7 +282,7 @@ fn chebyshevs_cognate_is_evanss_at_half_size() {
         let p = 1.1 + 0.1 * f64::from(k);
         let a = trig::pow(1.0 + p, 1.5) / 2.0;
         // p, r, s, a and p, r, a, s, k.
-        let chebyshev = chebyshev.linkage(&[p, a, a, 1.0]).unwrap();
+        let chebyshev = chebyshev.linkage(&[p, a, a, 1.0, 0.5]).unwrap();
         let evans = evans.linkage(&[p, 1.0, a, a, 2.0]).unwrap();
         let [of_chebyshev, of_evans] =
             [&chebyshev, &evans].map(|linkage| PlacedFourBar::of(linkage, linkage.traced[0]).unwrap());

