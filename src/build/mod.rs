@@ -156,7 +156,8 @@ fn build_family(
         let curves = solved.iter().map(|s| s.curves.len()).sum();
         let left_out = solved.iter().map(|s| s.left_out).sum();
         let shortfalls = solved.iter().filter_map(shortfall).collect();
-        let page = planned.chart.is_none().then(|| printer.panels(page + 1, &solved)).transpose()?;
+        let is_drawn = planned.chart.is_none() && family.sort.is_none();
+        let page = is_drawn.then(|| printer.panels(page + 1, &solved)).transpose()?;
         let taken =
             planned.chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.take(solved))).collect();
         Ok(Made { page, taken, points, cells, curves, left_out, shortfalls })
@@ -181,6 +182,16 @@ fn build_family(
         }
         Ok(())
     })?;
+    if planned.chart.is_none() && family.sort.is_some() {
+        // Tables are in the order of the cells, pages in one of their own.
+        let order = sweep::order(family, &kept);
+        let draw = |page: usize, solved: Vec<Solved>| printer.panels(page + 1, &solved);
+        sweep::run(family, (&order, group), draw, |page| -> Result<(), Error> {
+            keep(page?, &folder, &mut record)?;
+            tell(Event::Page);
+            Ok(())
+        })?;
+    }
     if let (Some(chart), Some(gathering)) = (&planned.chart, gathering) {
         let gathered = gathering.finish();
         for page in 1..=pages {

@@ -2,7 +2,7 @@
 
 use super::Error;
 use crate::chart::{Chart, Gathered};
-use crate::expression::Caption;
+use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::page::{self, ChartSheet, Panel, Sheet, View};
 use crate::record::FileRecord;
@@ -28,20 +28,17 @@ pub(super) struct Printer<'a> {
     pub of: usize,
 }
 
+/// A cell with its lines.
+fn panel<'s>(family: &Family, solved: &'s Solved) -> Panel<'s> {
+    let [caption, note] = family.describe(&solved.cell, solved.measures());
+    Panel { inks: Vec::new(), caption, note, facts: page::facts(solved), solved, view: View::Clearest }
+}
+
 impl Printer<'_> {
     /// A page of panels; pages are counted from 1.
     pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Rendered, Error> {
         let Printer { plan, planned, of, .. } = *self;
         let family = &planned.family;
-        let template = &family.template;
-        let line = |caption: &Option<Caption>, solved: &Solved| family.describe(caption.as_ref(), &solved.cell);
-        let panel = |solved| Panel {
-            inks: Vec::new(),
-            caption: line(&template.caption, solved),
-            note: line(&template.note, solved),
-            solved,
-            view: View::Clearest,
-        };
         let sheet = Sheet {
             atlas: &plan.title,
             family: &family.id,
@@ -51,7 +48,7 @@ impl Printer<'_> {
             page,
             of,
             layout: planned.layout,
-            panels: solved.iter().map(panel).collect(),
+            panels: solved.iter().map(|solved| panel(family, solved)).collect(),
         };
         self.render(page, &page::compose(&sheet, &plan.page))
     }

@@ -61,6 +61,11 @@ impl Caption {
         })
     }
 
+    /// Whether one of its values rests on a name.
+    pub fn uses(&self, name: &str) -> bool {
+        self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
+    }
+
     /// The text, where `load(name)` is the value of a name.
     pub fn format(&self, load: impl Fn(&str) -> f64) -> String {
         let mut out = String::new();

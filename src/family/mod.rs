@@ -37,6 +37,10 @@ pub struct Family {
     pub straight: Straight,
     /// Which curves are kept, over [`Family::scope`].
     pub filter: Option<Bound>,
+    /// What the cells on pages are sorted by, least first, over [`Family::scope`]; by their numbers where there is none.
+    pub sort: Option<Bound>,
+    /// The lines under a cell on pages: the linkage's own, or the family's over [`Family::scope`].
+    pub captions: [Option<Caption>; 2],
 }
 
 /// One parameter set of a family.
@@ -112,7 +116,21 @@ impl Family {
         let (id, title) = (template.id.clone(), template.id.clone());
         let space = Space::Cases(vec![case]);
         let (columns, straight) = (Vec::new(), Straight::default());
-        let family = Family { id, title, template, names, space, derived, sampling, columns, straight, filter: None };
+        let captions = [template.caption.clone(), template.note.clone()];
+        let family = Family {
+            id,
+            title,
+            template,
+            names,
+            space,
+            derived,
+            sampling,
+            columns,
+            straight,
+            filter: None,
+            sort: None,
+            captions,
+        };
         if wrong.is_empty() {
             wrong.extend(family.objections(&family.cell(0)).iter().map(ToString::to_string));
         }
@@ -175,9 +193,14 @@ impl Family {
         self.linkage(cell).err().map(CellError::Template).into_iter().collect()
     }
 
-    /// A line of text with a cell's values in it; empty where there is none.
-    pub fn describe(&self, caption: Option<&Caption>, cell: &Cell) -> String {
-        caption.map(|caption| caption.format(|name| self.value(name, cell))).unwrap_or_default()
+    /// The lines under a cell with its values, and what was measured of its first curve, in them; empty where there is none.
+    pub fn describe(&self, cell: &Cell, measures: &[measure::Value]) -> [String; 2] {
+        let scope = Family::scope(&self.names);
+        let load = |name: &str| match scope.iter().position(|(known, _)| *known == name) {
+            Some(slot) => Family::load(cell, measures, slot),
+            None => f64::NAN,
+        };
+        self.captions.each_ref().map(|line| line.as_ref().map(|line| line.format(load)).unwrap_or_default())
     }
 
     /// The value of a name in a cell; not a number where there is none.
@@ -205,6 +228,11 @@ impl Family {
     pub fn keeps(&self, cell: &Cell, measures: &[measure::Value]) -> bool {
         let Some(filter) = &self.filter else { return true };
         filter.evaluate(|slot| Family::load(cell, measures, slot)) == 1.0
+    }
+
+    /// Where a curve of a cell with these measures comes in the order of pages; not a number where it cannot be told.
+    pub fn rank(&self, cell: &Cell, measures: &[measure::Value]) -> f64 {
+        self.sort.as_ref().map_or(cell.number as f64, |sort| sort.evaluate(|slot| Family::load(cell, measures, slot)))
     }
 
     /// The value of the name at a place of [`Family::scope`]; not a number where it has none, or the scope no such place.

@@ -12,7 +12,7 @@ use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::{Placement, Template};
 
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 23] = [
     "id",
     "linkage",
     "title",
@@ -25,6 +25,9 @@ const KEYS: [&str; 20] = [
     "cases",
     "let",
     "where",
+    "sort",
+    "caption",
+    "note",
     "formats",
     "limit",
     "circuits",
@@ -96,6 +99,8 @@ pub(super) fn read<'t>(
         columns,
         straight,
         filter: names.filter,
+        sort: names.sort,
+        captions: names.captions,
     };
     check_cells(&family, &fields, &names.spans, reader);
     let legend = [&family.template.source, &family.template.legend].map(String::as_str);

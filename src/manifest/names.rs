@@ -1,7 +1,7 @@
 //! The names of a family: what `grid`, `cases`, `let` and the linkage's defaults give them.
 
 use super::{chart, grid};
-use crate::expression::{Bound, Expression, Kind};
+use crate::expression::{Bound, Caption, Expression, Kind};
 use crate::family::{Axis, Case, Family, MAX_CELLS, Space, derivation};
 use crate::notation::{self, Fields, Reader, Value};
 use crate::problem::{Problem, Span, nearest};
@@ -13,6 +13,8 @@ pub(super) struct Names {
     pub space: Space,
     pub derived: Vec<(usize, Bound)>,
     pub filter: Option<Bound>,
+    pub sort: Option<Bound>,
+    pub captions: [Option<Caption>; 2],
     /// Where each name is given a value.
     pub spans: Vec<Option<Span>>,
 }
@@ -77,10 +79,18 @@ pub(super) fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &m
     }
     let filter = fields.get("where").and_then(|value| filter(value, &all, reader));
     read_all &= filter.is_some() == fields.get("where").is_some();
+    let sort = fields.get("sort").and_then(|value| reader.bound(value, &Family::scope(&all)));
+    read_all &= sort.is_some() == fields.get("sort").is_some();
+    let line = |key: &str, own: &Option<Caption>, reader: &mut Reader<'t>| match fields.get(key) {
+        None => own.clone(),
+        Some(value) => reader.caption(value, &Family::scope(&all)),
+    };
+    let captions = [line("caption", &template.caption, reader), line("note", &template.note, reader)];
     let in_chart = chart::used_names(fields);
     let derived = in_order(sources, &all, &scope, reader)?;
     for (slot, name) in all.iter().enumerate().skip(template.parameters.len()) {
-        let in_filter = filter.as_ref().is_some_and(|filter| filter.slots().contains(&slot));
+        let in_filter = filter.iter().chain(&sort).any(|bound| bound.slots().contains(&slot));
+        let in_filter = in_filter || captions.iter().flatten().any(|caption| caption.uses(name));
         // Where an expression could not be read, it may have been the one that uses the name.
         let in_chart = in_chart.as_ref().is_none_or(|used| used.contains(name));
         if read_all && !in_filter && !in_chart && !derived.iter().any(|(_, bound)| bound.slots().contains(&slot)) {
@@ -88,7 +98,7 @@ pub(super) fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &m
         }
     }
     read_all.then_some(())?;
-    Some(Names { all, space, derived, filter, spans })
+    Some(Names { all, space, derived, filter, sort, captions, spans })
 }
 
 /// What can be said of `let` and `where` when the names they may use are not known: whether they can be read.
@@ -99,7 +109,7 @@ pub(super) fn read_expressions<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<
             reader.expression(value);
         }
     }
-    if let Some(value) = fields.get("where") {
+    for value in ["where", "sort"].into_iter().filter_map(|key| fields.get(key)) {
         reader.expression(value);
     }
 }

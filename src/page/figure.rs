@@ -2,6 +2,7 @@
 
 use super::arrangement::{Arrangement, Extents, Frame};
 use super::element::{Area, CouplerCurve, Drawing, draw};
+use super::marks;
 use super::mechanism::Mechanism;
 use super::plot::{Plot, round_number};
 use super::pose;
@@ -68,6 +69,7 @@ impl<'a> Figure<'a> {
         let dashes = Dashes { period, drawn: 0.6 * period };
         let in_dashes = |plot: &Plot| {
             self.trail(area, plot, theme.hair, theme);
+            self.marks(area, plot, theme);
             self.curves(area, plot, sheet, dashes, theme);
         };
         let key = key.of(self.extents.key);
@@ -138,6 +140,15 @@ impl<'a> Figure<'a> {
             items.push(Item::Path(Path { lines, stroke: Some(theme.stroke(ink, weight)), fill: None }));
         }
         draw(area, &Drawing { class: "trail", title: String::new(), items });
+    }
+
+    /// What is marked of the curves: axes of symmetry, straight portions.
+    fn marks(&self, area: &Area, plot: &Plot, theme: &Theme) {
+        let axes = marks::axes(self.solved, plot, theme);
+        draw(area, &Drawing { class: "axis", title: String::new(), items: axes });
+        let portion = |curve| marks::portion(self.solved, curve, self.ink(curve, theme), plot, theme);
+        let items = self.solved.curves.iter().filter_map(portion).collect();
+        draw(area, &Drawing { class: "straight", title: String::new(), items });
     }
 
     /// The strokes of every curve, in the order of the curves; those of one circuit are found together.

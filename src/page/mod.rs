@@ -5,12 +5,14 @@ mod chart;
 mod element;
 mod figure;
 mod heading;
+mod marks;
 mod mechanism;
 mod panels;
 mod plot;
 mod pose;
 mod theme;
 
+pub use marks::facts;
 pub use theme::Theme;
 
 use crate::chart::{Chart, Series};
@@ -136,6 +138,8 @@ pub struct Panel<'a> {
     pub caption: String,
     /// A smaller line under that; may be empty.
     pub note: String,
+    /// What is known of the cell, as [`facts`] has it; may be empty.
+    pub facts: String,
     /// The cell.
     pub solved: &'a Solved,
     /// The pose its linkage is drawn in.

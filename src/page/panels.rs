@@ -22,8 +22,10 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
     let theme = &theme.for_panels(size(&areas[0]));
     let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
+    let has_facts = sheet.panels.iter().any(|panel| !panel.facts.is_empty());
     let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
-    let foot = theme.caption * 1.5 + if has_notes { theme.note * 1.5 } else { 0.0 } + 2.2 * theme.caption;
+    let lines = f64::from(u8::from(has_notes) + u8::from(has_facts));
+    let foot = theme.caption * 1.5 + lines * theme.note * 1.5 + 2.2 * theme.caption;
     // The figure's frame is that of any panel: plotters splits a page to within a hundredth of a millimetre.
     let room = |area: &Area| {
         let gap = 1.2 * theme.caption;
@@ -66,6 +68,9 @@ fn caption(area: &Area, foot: f64, panel: &Panel, symbols: &[String], theme: &Th
     line(&panel.caption, theme.caption, theme.ink, symbols);
     if !panel.note.is_empty() {
         line(&panel.note, theme.note, theme.grey, symbols);
+    }
+    if !panel.facts.is_empty() {
+        line(&panel.facts, theme.note, theme.grey, &[]);
     }
     if let (Some(reason), true) = (&panel.solved.motion.shortfall, panel.solved.motion.is_assembled()) {
         line(reason, theme.note, theme.curve_ink(0), &[]);

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};
-use crate::measure::{self, Subject, Value};
+use crate::measure::{self, Portion, Subject, Symmetry, Value};
 use crate::motion::{Circuit, Motion, Sampler};
 
 /// A solved and measured cell.
@@ -33,6 +33,18 @@ pub struct Curve {
     pub joint: JointId,
     /// The values of [`measure::ALL`].
     pub measures: Vec<Value>,
+    /// Its straight portion.
+    pub straight: Option<Portion>,
+    /// Its symmetry.
+    pub symmetry: Option<Symmetry>,
+}
+
+impl Curve {
+    /// What was measured of it under a name.
+    pub fn measure(&self, name: &str) -> Value {
+        let at = measure::ALL.iter().position(|measure| measure.name == name);
+        at.and_then(|at| self.measures.get(at)).copied().unwrap_or(Value::Missing)
+    }
 }
 
 /// How far a cell was assembled.
@@ -72,6 +84,11 @@ impl Solved {
         &self.motion.circuits[curve.circuit - 1]
     }
 
+    /// What was measured of the first curve; nothing where there is none.
+    pub fn measures(&self) -> &[Value] {
+        self.curves.first().map_or(&[], |curve| &curve.measures)
+    }
+
     /// Whether nothing of the cell is kept.
     pub fn is_left_out(&self) -> bool {
         self.curves.is_empty() && self.left_out > 0
@@ -91,7 +108,8 @@ pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
             let subject = Subject::new(&solved.linkage, &solved.motion, circuit, joint).asking(family.straight);
             let measures = measure::take(&subject);
             if family.keeps(&solved.cell, &measures) {
-                curves.push(Curve { trace, circuit: number, joint, measures });
+                let (straight, symmetry) = (subject.straight().cloned(), subject.symmetry().copied());
+                curves.push(Curve { trace, circuit: number, joint, measures, straight, symmetry });
             } else {
                 solved.left_out += 1;
             }
@@ -114,6 +132,25 @@ pub fn select(family: &Family) -> Vec<usize> {
     }
     let is_kept = |&k: &usize| solve(family, &sampler, k).is_some_and(|solved| !solved.is_left_out());
     all.into_par_iter().filter(is_kept).collect()
+}
+
+/// The places of cells in the order of pages: those of [`select`], sorted by the least rank of a cell's curves, the cells
+/// without a rank last.
+pub fn order(family: &Family, kept: &[usize]) -> Vec<usize> {
+    if family.sort.is_none() {
+        return kept.to_vec();
+    }
+    let sampler = Sampler::new(family.sampling);
+    let rank = |&k: &usize| {
+        let ranks = |solved: Solved| {
+            let of = |curve: &Curve| family.rank(&solved.cell, &curve.measures);
+            solved.curves.iter().map(of).fold(f64::NAN, f64::min)
+        };
+        (solve(family, &sampler, k).map_or(f64::NAN, ranks), k)
+    };
+    let mut ranked: Vec<(f64, usize)> = kept.par_iter().map(rank).collect();
+    ranked.sort_by(|a, b| a.0.is_nan().cmp(&b.0.is_nan()).then(a.0.total_cmp(&b.0)).then(a.1.cmp(&b.1)));
+    ranked.into_iter().map(|(_, k)| k).collect()
 }
 
 /// About how many places of curves are held at once: 2^21 of them, and their rows, are some 200 MB.

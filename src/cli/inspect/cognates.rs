@@ -7,7 +7,7 @@ use coupler_atlas::linkage::{
     Circuits, Class, Cognate, Cognates, FourBar, JointId, Linkage, NoCognates, PlacedFourBar, Travel,
 };
 use coupler_atlas::motion::{Motion, Sampler, Sampling};
-use coupler_atlas::page::{Panel, View};
+use coupler_atlas::page::{self, Panel, View};
 use coupler_atlas::sweep::{Curve, Solved};
 
 use super::text::{course, point, short};
@@ -87,7 +87,8 @@ pub(super) fn panel<'a>(report: &'a Report, found: &'a Found) -> Panel<'a> {
         format!("{ink}, {}: frame {frame}, crank {crank}, coupler {coupler}, rocker {rocker}", member.class.name())
     });
     Panel {
-        caption: report.family.describe(report.family.template.caption.as_ref(), &report.solved.cell),
+        caption: report.family.describe(&report.solved.cell, report.solved.measures())[0].clone(),
+        facts: page::facts(report.solved),
         note: note.join(" · "),
         solved: hung,
         view: View::Clearest,

@@ -1,4 +1,3 @@
-use coupler_atlas::expression::Caption;
 use coupler_atlas::geometry::Point;
 use coupler_atlas::linkage::Input;
 use coupler_atlas::motion::{self, Motion, Sampler, Sampling};
@@ -12,14 +11,9 @@ use super::{Report, cognates};
 pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
     let Report { family, solved, poses, cognates, .. } = report;
     let template = &family.template;
-    let line = |caption: &Option<Caption>| family.describe(caption.as_ref(), &solved.cell);
-    let own = || Panel {
-        caption: line(&template.caption),
-        note: line(&template.note),
-        solved,
-        view: View::Clearest,
-        inks: Vec::new(),
-    };
+    let [caption, note] = family.describe(&solved.cell, solved.measures());
+    let facts = page::facts(solved);
+    let own = || Panel { caption, note, facts, solved, view: View::Clearest, inks: Vec::new() };
     let panel = cognates.as_ref().map_or_else(own, |found| cognates::panel(report, found));
     let view = match poses.first() {
         _ if animate => moving(panel.solved),
