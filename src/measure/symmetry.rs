@@ -70,7 +70,7 @@ pub const RESIDUAL: Measure = Measure {
 /// Of a curve that is no point.
 pub(super) fn symmetry(subject: &Subject) -> Option<Symmetry> {
     /// A theorem's curve that is no nearer to its image than this, by its extent, is the image of another circuit's.
-    const APART: f64 = 2e-2;
+    const APART: f64 = 0.1;
     let trail = subject.trail();
     let extent = diameter(&hull(trail.points.clone()));
     if trail.points.len() < 3 || extent <= 0.0 {
@@ -106,9 +106,10 @@ fn by_equation(subject: &Subject, axis: Axis) -> Option<f64> {
     let distance = |point: &Point| {
         let by = axis.mirror(*point) - origin;
         let own = Point::new(frame.dot(&by), cross(frame, by) * linkage.placement.handedness());
-        // To the first order; at a double point both vanish.
-        let off = sextic.at(own)[0].abs() / sextic.gradient(own).norm();
-        if off.is_finite() { off } else { 0.0 }
+        // To the first order. At a double point both vanish, and what is left of the one is rounding.
+        let [value, terms] = sextic.at(own);
+        let off = value.abs() / sextic.gradient(own).norm();
+        if value.abs() > 1e-13 * terms && off.is_finite() { off } else { 0.0 }
     };
     Some(subject.trail().points.iter().map(distance).fold(0.0, f64::max))
 }
