@@ -50,7 +50,7 @@ impl<'a> Course<'a> {
 
     /// A piece of it, by many points.
     pub fn piece(&self, [from, to]: [f64; 2]) -> Course<'a> {
-        const INTERVALS: usize = 192;
+        const INTERVALS: usize = 96;
         let apart = (to - from) * self.apart / INTERVALS as f64;
         Course::sampled(self.trail, [self.first + from * self.apart, apart], INTERVALS + 1, None)
     }

@@ -51,14 +51,15 @@ pub struct Subject<'a> {
     dwell: OnceCell<Option<Dwell>>,
     symmetry: OnceCell<Option<Symmetry>>,
     transmission: OnceCell<Option<[f64; 2]>>,
+    cusps: OnceCell<usize>,
 }
 
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
-        let (trail, straight, dwell, symmetry, transmission) = Default::default();
+        let (trail, straight, dwell, symmetry, transmission, cusps) = Default::default();
         let asked = Straight::default();
-        Subject { linkage, motion, circuit, joint, asked, trail, straight, dwell, symmetry, transmission }
+        Subject { linkage, motion, circuit, joint, asked, trail, straight, dwell, symmetry, transmission, cusps }
     }
 
     /// The same, of which another straight portion is wanted.
@@ -74,6 +75,11 @@ impl<'a> Subject<'a> {
     /// The least and the greatest transmission angle, in degrees.
     fn transmission(&self) -> Option<[f64; 2]> {
         *self.transmission.get_or_init(|| transmission::least_and_greatest(self))
+    }
+
+    /// How often the path stands still and turns back.
+    fn cusps(&self) -> usize {
+        *self.cusps.get_or_init(|| shape::cusps(self))
     }
 
     /// Whether it is symmetrical, and about which line; `None` of a point.

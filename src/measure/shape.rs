@@ -27,7 +27,7 @@ pub const CUSPS: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "points at which the path stands still and turns back: slower than a millionth of its fastest",
-    take: |subject: &Subject| Value::Number(cusps(subject) as f64),
+    take: |subject: &Subject| Value::Number(subject.cusps() as f64),
 };
 
 /// Its sharpest bend.
@@ -57,7 +57,8 @@ fn beside(subject: &Subject, sample: usize) -> [f64; 2] {
     [here - before.map_or(step, |b| (here - b).abs()), here + after.map_or(step, |a| (a - here).abs())]
 }
 
-fn cusps(subject: &Subject) -> usize {
+/// How often a path stands still and turns back.
+pub(super) fn cusps(subject: &Subject) -> usize {
     let trail = subject.trail();
     let turns: Vec<usize> = (0..trail.points.len()).filter(|&i| trail.turns_sharply(i)).collect();
     if turns.is_empty() {
@@ -69,7 +70,7 @@ fn cusps(subject: &Subject) -> usize {
         let sample = trail.samples[i];
         let [mut a, mut b] = beside(subject, sample);
         let step = (b - a).abs();
-        for _ in 0..80 {
+        for _ in 0..60 {
             let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
             let [sc, sd] = [c, d].map(|input| speed_and_curvature(subject, sample, input)[0]);
             if sc < sd { b = d } else { a = c }
@@ -89,7 +90,7 @@ fn cusps(subject: &Subject) -> usize {
 fn sharpest(subject: &Subject) -> Option<f64> {
     let trail = subject.trail();
     let sharpest = trail.sharpest()?;
-    if trail.points.iter().enumerate().any(|(i, _)| trail.turns_sharply(i)) && cusps(subject) > 0 {
+    if subject.cusps() > 0 {
         return Some(f64::INFINITY);
     }
     let sample = trail.samples[sharpest];

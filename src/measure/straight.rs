@@ -123,7 +123,7 @@ impl Search<'_> {
     /// The ends of the longest portion anywhere.
     fn longest_of_all(&self) -> Option<[f64; 2]> {
         /// So many portions are drawn out that might come to be the longest.
-        const RIVALS: usize = 3;
+        const RIVALS: usize = 2;
         let Some((found, width)) = self.by_points(LOOSER) else {
             // Every portion is shorter than the way from a point to the next: it bends least where it is flattest.
             let about = self.course.flattest().into_iter().take(RIVALS).map(|k| [k as f64 - 1.0, k as f64 + 1.0]);
@@ -277,7 +277,7 @@ impl Search<'_> {
     /// The length and the ends of a portion drawn out between points.
     fn refined(&self, ends: [usize; 2], depth: usize) -> Option<(f64, [f64; 2])> {
         /// The strip of so few points is not the curve's.
-        const FEW: usize = 16;
+        const FEW: usize = 8;
         let whole = ends.map(|k| k as f64);
         if ends[1] - ends[0] >= FEW || depth == 0 {
             return self.drawn_out(whole);

@@ -1,3 +1,5 @@
+use std::cell::OnceCell;
+
 use crate::geometry::{Point, Vector, cross, distance_to_segment, trig};
 use crate::linkage::Input;
 use crate::motion::Circuit;
@@ -23,9 +25,11 @@ pub(super) struct Trail {
     travel: Vec<f64>,
     /// The signed curvature at each sample, of the circle through it and its neighbours.
     bends: Vec<f64>,
+    arcs: OnceCell<Vec<Arc>>,
 }
 
 /// An arc of a circle over a chord.
+#[derive(Clone, Copy, Debug)]
 struct Arc {
     length: f64,
     /// Between it and its chord; positive where it bends to the left.
@@ -39,13 +43,6 @@ impl Trail {
         let inputs: Vec<f64> = samples.iter().map(|&sample| circuit.input[sample]).collect();
         let round = if input == Input::Length { f64::INFINITY } else { 360.0 };
         Trail::new((points, samples), inputs, circuit.closed.then_some(round))
-    }
-
-    /// An open curve through points.
-    pub fn through(points: Vec<Point>) -> Trail {
-        let samples = (0..points.len()).collect();
-        let inputs = (0..points.len()).map(|k| k as f64).collect();
-        Trail::new((points, samples), inputs, None)
     }
 
     /// A curve; a closed one is driven by an input of some period.
@@ -62,7 +59,16 @@ impl Trail {
         }
         // An open curve goes no further than its last sample.
         travel.resize(inputs.len() + 1, travel[travel.len() - 1]);
-        let mut trail = Trail { points, samples, inputs, closed: period.is_some(), turn, travel, bends: Vec::new() };
+        let mut trail = Trail {
+            points,
+            samples,
+            inputs,
+            closed: period.is_some(),
+            turn,
+            travel,
+            bends: Vec::new(),
+            arcs: OnceCell::new(),
+        };
         trail.bends = (0..trail.points.len()).map(|i| trail.bend(i)).collect();
         trail
     }
@@ -120,6 +126,11 @@ impl Trail {
         if bend.is_finite() { bend } else { 0.0 }
     }
 
+    /// The arc from each sample to the next.
+    fn arcs(&self) -> &[Arc] {
+        self.arcs.get_or_init(|| (0..self.intervals()).map(|i| self.arc(i)).collect())
+    }
+
     fn arc(&self, i: usize) -> Arc {
         let next = self.at(i, 1).unwrap_or(i);
         let chord = (self.points[next] - self.points[i]).norm();
@@ -142,7 +153,7 @@ impl Trail {
 
     /// The length of the path from each sample to the next.
     pub fn lengths(&self) -> Vec<f64> {
-        (0..self.intervals()).map(|i| self.arc(i).length).collect()
+        self.arcs().iter().map(|arc| arc.length).collect()
     }
 
     /// The area it goes round, positive counter-clockwise; none of an open curve.
@@ -150,7 +161,7 @@ impl Trail {
         let first = *self.points.first().filter(|_| self.closed)?;
         let part = |i: usize| {
             let (a, b) = (self.points[i] - first, self.points[self.at(i, 1).unwrap_or(i)] - first);
-            cross(a, b) / 2.0 + self.arc(i).area
+            cross(a, b) / 2.0 + self.arcs()[i].area
         };
         Some((0..self.intervals()).map(part).sum())
     }
