@@ -1,4 +1,4 @@
-//! How many positions of a four-bar one core solves: `cargo bench`.
+//! How many positions of a four-bar one core solves, and how many curves it measures: `cargo bench`.
 //!
 //! A position is a crank pin, a rocker pin and a coupler point. The table of sines and cosines is made beforehand, as
 //! it is for all cells of a family.

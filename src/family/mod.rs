@@ -217,6 +217,16 @@ impl Family {
         own.chain(measures).chain(truths).collect()
     }
 
+    /// Whether `where` or `sort` ask for a measure, told by its place in [`measure::ALL`].
+    pub fn asks_for(&self, measure: usize) -> bool {
+        let is_number = |k: &usize| !measure::ALL[*k].is_word;
+        let numbers: Vec<usize> = (0..measure::ALL.len()).filter(is_number).collect();
+        let slots = self.filter.iter().chain(&self.sort).flat_map(|bound| bound.slots());
+        let mut asked = slots.filter_map(|slot| slot.checked_sub(self.names.len()));
+        // Truths are told by a word.
+        asked.any(|slot| numbers.get(slot).map_or(measure::ALL[measure].is_word, |k| *k == measure))
+    }
+
     /// Whether a name is that of a column of `points.csv` or `cells.csv`, or of a measure.
     pub fn is_column(name: &str) -> bool {
         const COLUMNS: [&str; 8] = ["cell", "trace", "circuit", "branch", "sample", "input_deg", "status", "reason"];

@@ -82,6 +82,11 @@ impl<'a> Subject<'a> {
         *self.cusps.get_or_init(|| shape::cusps(self))
     }
 
+    /// What is marked on pages of what has been measured: its straight portion and its symmetry.
+    pub fn marks(&self) -> (Option<Portion>, Option<Symmetry>) {
+        (self.straight.get().cloned().flatten(), self.symmetry.get().copied().flatten())
+    }
+
     /// Whether it is symmetrical, and about which line; `None` of a point.
     pub fn symmetry(&self) -> Option<&Symmetry> {
         self.symmetry.get_or_init(|| symmetry::symmetry(self)).as_ref()
@@ -180,7 +185,13 @@ pub fn truth(word: &str, values: &[Value]) -> f64 {
 
 /// Every measure of a subject, in the order of [`ALL`].
 pub fn take(subject: &Subject) -> Vec<Value> {
-    ALL.iter().map(|measure| (measure.take)(subject)).collect()
+    take_some(subject, |_| true)
+}
+
+/// Some measures of a subject, told by their place in [`ALL`], in that order; the others are missing.
+pub fn take_some(subject: &Subject, is_wanted: impl Fn(usize) -> bool) -> Vec<Value> {
+    let take = |(k, measure): (usize, &Measure)| if is_wanted(k) { (measure.take)(subject) } else { Value::Missing };
+    ALL.iter().enumerate().map(take).collect()
 }
 
 const _: () = assert!(TRUTHS.len() == Class::ALL.len());

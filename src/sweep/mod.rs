@@ -97,6 +97,11 @@ impl Solved {
 
 /// Solves and measures the `k`-th cell of a family.
 pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
+    solve_for(family, sampler, k, measure::take)
+}
+
+/// Solves the `k`-th cell of a family, and takes some measures of it.
+fn solve_for(family: &Family, sampler: &Sampler, k: usize, take: impl Fn(&Subject) -> Vec<Value>) -> Option<Solved> {
     let cell = family.cell(k);
     // A family is validated cell by cell before it is swept, so every cell makes a linkage.
     let linkage = family.linkage(&cell).ok()?;
@@ -106,9 +111,9 @@ pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
     for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
         for (number, circuit) in (1..).zip(&solved.motion.circuits) {
             let subject = Subject::new(&solved.linkage, &solved.motion, circuit, joint).asking(family.straight);
-            let measures = measure::take(&subject);
+            let measures = take(&subject);
             if family.keeps(&solved.cell, &measures) {
-                let (straight, symmetry) = (subject.straight().cloned(), subject.symmetry().copied());
+                let (straight, symmetry) = subject.marks();
                 curves.push(Curve { trace, circuit: number, joint, measures, straight, symmetry });
             } else {
                 solved.left_out += 1;
@@ -125,12 +130,12 @@ pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
 
 /// The cells of which something is kept, by their places; all of them where nothing is asked.
 pub fn select(family: &Family) -> Vec<usize> {
-    let sampler = Sampler::new(family.sampling);
     let all = 0..family.cells();
     if family.filter.is_none() {
         return all.collect();
     }
-    let is_kept = |&k: &usize| solve(family, &sampler, k).is_some_and(|solved| !solved.is_left_out());
+    let judged = judged(family);
+    let is_kept = |&k: &usize| judged(k).is_some_and(|solved| !solved.is_left_out());
     all.into_par_iter().filter(is_kept).collect()
 }
 
@@ -140,17 +145,24 @@ pub fn order(family: &Family, kept: &[usize]) -> Vec<usize> {
     if family.sort.is_none() {
         return kept.to_vec();
     }
-    let sampler = Sampler::new(family.sampling);
+    let judged = judged(family);
     let rank = |&k: &usize| {
         let ranks = |solved: Solved| {
             let of = |curve: &Curve| family.rank(&solved.cell, &curve.measures);
             solved.curves.iter().map(of).fold(f64::NAN, f64::min)
         };
-        (solve(family, &sampler, k).map_or(f64::NAN, ranks), k)
+        (judged(k).map_or(f64::NAN, ranks), k)
     };
     let mut ranked: Vec<(f64, usize)> = kept.par_iter().map(rank).collect();
     ranked.sort_by(|a, b| a.0.is_nan().cmp(&b.0.is_nan()).then(a.0.total_cmp(&b.0)).then(a.1.cmp(&b.1)));
     ranked.into_iter().map(|(_, k)| k).collect()
+}
+
+/// Solves cells of a family, and takes no more measures of them than `where` and `sort` ask for.
+fn judged(family: &Family) -> impl Fn(usize) -> Option<Solved> + Sync + '_ {
+    let sampler = Sampler::new(family.sampling);
+    let asked: Vec<bool> = (0..measure::ALL.len()).map(|measure| family.asks_for(measure)).collect();
+    move |k| solve_for(family, &sampler, k, |subject| measure::take_some(subject, |measure| asked[measure]))
 }
 
 /// About how many places of curves are held at once: 2^21 of them, and their rows, are some 200 MB.

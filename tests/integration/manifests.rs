@@ -177,6 +177,46 @@ fn where_is_a_condition_over_names_and_measures() {
     }
 }
 
+#[test]
+fn every_measure_can_be_asked_for_sorted_by_and_told() {
+    for measure in coupler_atlas::measure::ALL {
+        let name = measure.name;
+        let uses = format!("where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
+        if measure.is_word {
+            assert!(problems(&format!("{GOOD}{uses}")).contains(&format!("there is no `{name}`")), "{name}");
+        } else {
+            plan(&format!("{GOOD}{uses}"));
+        }
+    }
+    for good in ["{ tolerance = 0.01 }", "{ input = \"2 * 60 deg\" }", "{ length = \"1 + 1\" }"] {
+        plan(&format!("{GOOD}straight = {good}\n"));
+    }
+    for (bad, message) in [
+        ("straight = 0.01", "a table is wanted"),
+        ("straight = {}", "a straight portion is asked for by one of tolerance, input and length"),
+        ("straight = { tolerance = 0.1, length = 2 }", "by one of tolerance, input and length"),
+        ("straight = { tolerance = 0 }", "`tolerance` is 0, which is out of range"),
+        ("straight = { tolerance = 2 }", "`tolerance` is 2, which is out of range"),
+        ("straight = { length = -1 }", "`length` is -1, which is out of range"),
+        ("straight = { input = 120 }", "the unit is missing"),
+        ("straight = { input = \"-5 deg\" }", "`input` is -5, which is out of range"),
+        ("straight = { width = 1 }", "`straight` has no key `width`"),
+        ("sort = \"p > 2\"", "a truth where a number"),
+        ("sort = \"class\"", "there is no `class`"),
+        ("sort = 3", ""),
+        ("caption = \"{q}\"", "there is no `q`"),
+        ("note = \"{mu_min_deg:.1\"", "this brace is never closed"),
+    ] {
+        let text = format!("{GOOD}{bad}\n");
+        if message.is_empty() {
+            plan(&text);
+        } else {
+            let found = problems(&text);
+            assert!(found.contains(message), "{bad}: {found}");
+        }
+    }
+}
+
 /// A linkage to be spoilt, joint by joint.
 const OWN: &str = r#"[atlas]
 title = "T"

@@ -508,3 +508,35 @@ fn inspect_draws_a_plate_and_knows_a_manifests_own_linkages() {
     let plate = fs::read_to_string(folder.path().join("plate.svg")).unwrap();
     assert!(plate.contains("class=\"curve\"") && plate.ends_with("</svg>\n"));
 }
+
+/// Pages follow `sort`, tables the cells; captions tell what was measured, and the straight portion is marked.
+#[test]
+fn pages_are_sorted_and_tables_are_not() {
+    let manifest = MANIFEST.replace(
+        "let = {",
+        "sort = \"-p\"\ncaption = \"straight {straight_length:.3}\"\nstraight = { input = \"60 deg\" }\nlet = {",
+    );
+    let folder = folder_with(&manifest);
+    let (code, _, err) = run(folder.path(), &["render", "--only", "evans"]);
+    assert_eq!(code, 0, "{err}");
+    let read = |name: &str| fs::read_to_string(folder.path().join("pages/evans").join(name)).unwrap();
+    let mut cells = csv::Reader::from_reader(read("cells.csv").into_bytes().leak() as &[u8]);
+    let head = cells.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = cells.records().map(Result::unwrap).collect();
+    let value = |row: &csv::StringRecord, name: &str| -> f64 {
+        row[head.iter().position(|n| n == name).unwrap()].parse().unwrap()
+    };
+    assert_eq!(rows.iter().map(|row| &row[0]).collect::<Vec<_>>(), ["1", "2", "3"]);
+    let (first, second) = (read("evans-001.svg"), read("evans-002.svg"));
+    for (page, cells) in [(&first, &[3, 2][..]), (&second, &[1][..])] {
+        let at: Vec<usize> = cells.iter().map(|k| page.find(&format!("id=\"evans-{k}-1-1\"")).unwrap()).collect();
+        assert!(at.is_sorted(), "{cells:?}");
+        for k in cells {
+            let row = &rows[k - 1];
+            assert!((value(row, "straight_input_deg") - 60.0).abs() < 1e-6);
+            assert!(page.contains(&format!("straight {:.3}<", value(row, "straight_length"))), "cell {k}");
+        }
+        assert_eq!(page.matches("class=\"straight\"").count(), cells.len());
+        assert_eq!(page.matches("class=\"axis\"").count(), cells.len());
+    }
+}
