@@ -32,8 +32,34 @@ impl Default for Samplers {
 /// The best linkages of a kind, the best first, each of another region of proportions; none where nothing meets the
 /// wishes.
 pub(super) fn search(question: &Question, samplers: &Samplers) -> Vec<Trial> {
+    /// What meets the wishes only just may be missed by a sweep, and found from what meets them with more to spare.
+    const LOOSER: [f64; 2] = [2.0, 5.0];
+    let found = swept(question, samplers);
+    if !found.is_empty() {
+        return found;
+    }
+    let looser =
+        LOOSER.into_iter().map(|part| question.tolerance * part).filter(|tolerance| *tolerance <= TOLERANCES[1]);
+    let mut found = looser.map(|tolerance| {
+        let near = swept(&Question { tolerance, ..*question }, samplers);
+        let refined = near.iter().map(|trial| refine(question, &trial.of, samplers)).collect();
+        ranked(refined)
+    });
+    found.find(|found| !found.is_empty()).unwrap_or_default()
+}
+
+/// What has been refined and meets the wishes, the best first.
+fn ranked(refined: Vec<(f64, Option<Trial>)>) -> Vec<Trial> {
+    let mut found: Vec<(f64, Trial)> =
+        refined.into_iter().filter_map(|(value, trial)| Some((value, trial?))).filter(|(v, _)| *v < UNMET).collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    distinct(found.into_iter().map(|(_, trial)| trial).collect())
+}
+
+/// The best linkages of a kind from the best places of a sweep on.
+fn swept(question: &Question, samplers: &Samplers) -> Vec<Trial> {
     /// Places the refinement begins with.
-    const STARTS: usize = 3;
+    const STARTS: usize = 5;
     let fixed = fixed_p(question);
     let grid = grid(question, fixed);
     let swept: Vec<f64> = grid.par_iter().map(|of| question.ask(of, &samplers.coarse).0).collect();
@@ -50,11 +76,7 @@ pub(super) fn search(question: &Question, samplers: &Samplers) -> Vec<Trial> {
     let ask = |of: &Vec<f64>| question.ask(of, &samplers.fine).0;
     let closed = closed.iter().min_by(|a, b| ask(a).total_cmp(&ask(b)));
     starts.extend(closed.map(Vec::as_slice));
-    let refined: Vec<(f64, Option<Trial>)> = starts.par_iter().map(|of| refine(question, of, samplers)).collect();
-    let mut found: Vec<(f64, Trial)> =
-        refined.into_iter().filter_map(|(value, trial)| Some((value, trial?))).filter(|(v, _)| *v < UNMET).collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    distinct(found.into_iter().map(|(_, trial)| trial).collect())
+    ranked(starts.par_iter().map(|of| refine(question, of, samplers)).collect())
 }
 
 /// The first of those that are much alike.

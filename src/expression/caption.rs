@@ -66,7 +66,7 @@ impl Caption {
         self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
     }
 
-    /// The text, where `load(name)` is the value of a name.
+    /// The text, where `load(name)` is the value of a name; a dash for a value that is none.
     pub fn format(&self, load: impl Fn(&str) -> f64) -> String {
         let mut out = String::new();
         for piece in &self.pieces {
@@ -76,6 +76,8 @@ impl Caption {
                     // Adding 0 makes a negative zero positive.
                     let value = expression.evaluate(|i| load(&expression.names()[i])) + 0.0;
                     match decimals {
+                        _ if value.is_nan() => out.push('–'),
+                        _ if value.is_infinite() => out.push_str(if value > 0.0 { "∞" } else { "−∞" }),
                         Some(n) => out.push_str(&format!("{value:.n$}")),
                         None => out.push_str(&six_digits(value).to_string()),
                     }

@@ -247,7 +247,7 @@ impl Sextic {
                 d if d < 0.0 => Node::Crunode,
                 _ => Node::Acnode,
             };
-            let is_new = found.iter().all(|other| (other.at - point).norm() > 1e-9 * frame);
+            let is_new = found.iter().all(|other| (other.at - point).norm() > 1e-6 * (frame + point.coords.norm()));
             // The pivots are on the circle too, and are double points only where the curve goes through them.
             let [value, terms] = self.at(point);
             if is_new && point.x.is_finite() && value.abs() <= 1e-9 * terms {

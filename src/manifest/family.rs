@@ -220,18 +220,24 @@ fn straight<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
         "input" => reader.measure(value, Dimension::Angle)?,
         _ => reader.constant(value)?,
     };
+    /// A portion as straight as that is not told from one that is straighter still.
+    const LEAST_TOLERANCE: f64 = 1e-8;
+    let least = if key == "tolerance" { LEAST_TOLERANCE } else { 0.0 };
     let (most, straight) = match key {
         "tolerance" => (1.0, Straight::Tolerance(number)),
         "input" if !is_driven_by_length => (720.0, Straight::Input(number)),
         "input" => (f64::INFINITY, Straight::Input(number)),
         _ => (f64::INFINITY, Straight::Length(number)),
     };
-    if number > 0.0 && number <= most {
+    if number > 0.0 && number >= least && number <= most {
         return Some(straight);
     }
     let problem = Problem::error(value.span(), format!("`{key}` is {number}, which is out of range"));
-    let range =
-        if most.is_finite() { format!("give more than 0, and {most} at most") } else { "give more than 0".to_owned() };
+    let range = match most {
+        _ if least > 0.0 => format!("give {least} to {most}"),
+        most if most.is_finite() => format!("give more than 0, and {most} at most"),
+        _ => "give more than 0".to_owned(),
+    };
     reader.note(problem.help(range));
     None
 }

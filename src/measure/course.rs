@@ -136,14 +136,15 @@ impl<'a> Course<'a> {
     pub fn after_input(&self, from: f64, span: f64) -> Option<f64> {
         let first = from.floor() as usize;
         let start = self.spanned([0.0, from]);
-        let last = self.last(first);
+        // All of a closed curve ends where it begins.
+        let last = if self.is_closed { first + self.starts } else { self.last(first) };
+        let span = span * (1.0 - 1e-12);
         let beyond = first + self.travel[first..=last].partition_point(|&travel| travel - start < span);
         if beyond > last {
             return None;
         }
         let (mut low, mut high) = ((beyond as f64 - 1.0).max(from), beyond as f64);
-        // To a ten-thousandth of the way between points, and then as a straight line goes.
-        for _ in 0..14 {
+        for _ in 0..40 {
             let middle = (low + high) / 2.0;
             if self.spanned([0.0, middle]) - start < span { low = middle } else { high = middle }
         }
@@ -167,7 +168,7 @@ impl<'a> Course<'a> {
             return None;
         }
         let (mut low, mut high) = ((to as f64 - 1.0).max(from), to as f64);
-        while high - low > 1e-9 {
+        for _ in 0..50 {
             let middle = (low + high) / 2.0;
             if (self.point(middle) - start).norm() < length { low = middle } else { high = middle }
         }

@@ -1,8 +1,9 @@
+use super::annulus::GOLDEN;
 use super::trail::Trail;
 use super::{Measure, Subject, Value};
 use crate::geometry::Vector;
 use crate::linkage::{JointId, Linkage};
-use crate::motion::Circuit;
+use crate::motion::{self, Circuit, Pass};
 
 /// The length of the path.
 pub const LENGTH: Measure = Measure {
@@ -55,9 +56,50 @@ pub const BOX: [Measure; 4] = [
 ];
 
 fn reach(subject: &Subject, direction: Vector) -> Value {
-    let reach = subject.trail().reach(direction);
+    let trail = subject.trail();
+    let Some(top) = trail.top(direction) else { return Value::Missing };
+    // About a limit samples lie far apart: there the linkage itself is asked.
+    let reach = match at_limit(subject, top) {
+        true => direction.dot(&trail.points[top].coords).max(posed(subject, direction, top)),
+        false => trail.reach(direction, top),
+    };
     // The least is the furthest the other way.
     Value::Number(if direction.x + direction.y < 0.0 { -reach } else { reach })
+}
+
+/// Whether a limit is no more than two samples away.
+fn at_limit(subject: &Subject, i: usize) -> bool {
+    let trail = subject.trail();
+    let ends = || subject.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]).filter(|end| !end.flat.is_none());
+    let is_limit = |off: isize| trail.at(i, off).is_some_and(|k| ends().any(|end| end.stop.at == trail.inputs[k]));
+    (-2..=2).any(is_limit)
+}
+
+/// The greatest extent in a direction between a sample and its neighbours, by the poses there.
+fn posed(subject: &Subject, direction: Vector, top: usize) -> f64 {
+    let (trail, circuit) = (subject.trail(), subject.circuit);
+    let mut most = f64::NEG_INFINITY;
+    for (from, to) in [(trail.at(top, -1), Some(top)), (Some(top), trail.at(top, 1))] {
+        let (Some(from), Some(to)) = (from, to) else { continue };
+        // The way to a sample has the sides that it has itself, be it the end of a pass.
+        let (low, high) = (trail.inputs[from].min(trail.inputs[to]), trail.inputs[from].max(trail.inputs[to]));
+        let is_way = |pass: &&Pass| {
+            let [first, last] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+            pass.signs == circuit.signs(trail.samples[to]) && first <= low && high <= last
+        };
+        let Some(pass) = circuit.passes.iter().find(is_way) else { continue };
+        let height = |input: f64| {
+            let at = motion::poses(subject.linkage, pass, &[input]).point(subject.joint, 0);
+            direction.dot(&at.coords)
+        };
+        let (mut a, mut b) = (low, high);
+        for _ in 0..30 {
+            let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+            if height(c) > height(d) { b = d } else { a = c }
+        }
+        most = most.max(height((a + b) / 2.0));
+    }
+    most
 }
 
 /// The length of a joint's path from its first sample to each sample, and, where it closes, to the first again at the

@@ -166,12 +166,15 @@ impl Trail {
         Some((0..self.intervals()).map(part).sum())
     }
 
-    /// The greatest extent in a direction.
-    pub fn reach(&self, direction: Vector) -> f64 {
+    /// The point that is furthest in a direction.
+    pub fn top(&self, direction: Vector) -> Option<usize> {
         let height = |i: usize| direction.dot(&self.points[i].coords);
-        let Some(top) = (0..self.points.len()).max_by(|&a, &b| height(a).total_cmp(&height(b))) else {
-            return f64::NAN;
-        };
+        (0..self.points.len()).max_by(|&a, &b| height(a).total_cmp(&height(b)))
+    }
+
+    /// The greatest extent in a direction, about the point that is furthest.
+    pub fn reach(&self, direction: Vector, top: usize) -> f64 {
+        let height = |i: usize| direction.dot(&self.points[i].coords);
         let Some(near) = self.near(top) else { return height(top) };
         let rise = near.most(|near, u| direction.dot(&near.at(u)[0]));
         // A curve does not rise above its furthest sample by more than a part of the way to the next.

@@ -8,9 +8,9 @@ use crate::measure::{Axis, Portion, Symmetry, Value};
 use crate::scene::{Color, Item, Line, Path};
 use crate::sweep::{Curve, Solved};
 
-/// The facts of a cell in a line: its class, the range of its transmission angle, its straight portion.
-pub fn facts(solved: &Solved) -> String {
-    let Some(first) = solved.curves.first() else { return String::new() };
+/// The facts of a cell: its class and the range of its transmission angle; its longest straight portion. Either may be empty.
+pub fn facts(solved: &Solved) -> [String; 2] {
+    let Some(first) = solved.curves.first() else { return Default::default() };
     let mut parts = Vec::new();
     if let Value::Word(class) = first.measure("class") {
         parts.push(class.to_owned());
@@ -18,25 +18,22 @@ pub fn facts(solved: &Solved) -> String {
     if let (Value::Number(least), Value::Number(most)) = (first.measure("mu_min_deg"), first.measure("mu_max_deg")) {
         parts.push(format!("μ {least:.1}°–{most:.1}°"));
     }
-    if let Some(Portion { length, deviation, input, .. }) = longest(solved) {
+    let portions = solved.curves.iter().filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
+    let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
+    let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = if solved.linkage.input() == Input::Length { "" } else { "°" };
-        let (length, deviation) = (digits(*length, 4), digits(*deviation, 2));
-        parts.push(format!("straight {length} ± {deviation} over {input:.1}{unit}"));
-    }
-    parts.join(" · ")
+        let (length, deviation) = (digits(portion.length, 4), digits(portion.deviation, 2));
+        let of = if solved.linkage.traced.len() > 1 { format!(" (curve {})", curve.trace) } else { String::new() };
+        format!("straight {length} ± {deviation} over {:.1}{unit}{of}", portion.input)
+    });
+    [parts.join(" · "), straight]
 }
 
-/// The longest of the straight portions that are marked.
-fn longest(solved: &Solved) -> Option<&Portion> {
-    let portions = solved.curves.iter().filter_map(|curve| marked(solved, curve));
-    portions.max_by(|a, b| a.length.total_cmp(&b.length))
-}
-
-/// The straight portion of a curve, if it is long enough to be seen as one: a tenth of the curve at least.
+/// The straight portion of a curve, if it is long enough to be seen: a fiftieth of the curve at least.
 fn marked<'a>(solved: &'a Solved, curve: &'a Curve) -> Option<&'a Portion> {
     let bounds = Bounds::of(solved.circuit(curve).points(curve.joint));
     let extent = bounds.size().x.max(bounds.size().y);
-    curve.straight.as_ref().filter(|portion| portion.length >= 0.1 * extent)
+    curve.straight.as_ref().filter(|portion| portion.length >= 0.02 * extent)
 }
 
 /// A number in so many significant digits.
@@ -61,7 +58,7 @@ pub(super) fn portion(solved: &Solved, curve: &Curve, ink: Color, plot: &Plot, t
     Some(Item::Path(Path { lines: vec![Line { points, closed: false }], stroke, fill: None }))
 }
 
-/// The lines about which curves are symmetrical, in dashes and dots, a little longer than the curves.
+/// The lines about which curves are symmetrical, in dashes and dots, by three joints longer than the curves.
 pub(super) fn axes(solved: &Solved, plot: &Plot, theme: &Theme) -> Vec<Item> {
     let mut drawn: Vec<Axis> = Vec::new();
     for curve in &solved.curves {
@@ -88,11 +85,10 @@ fn across(solved: &Solved, curve: &Curve, axis: &Axis) -> bool {
 }
 
 fn chain_line(solved: &Solved, axis: &Axis, plot: &Plot, theme: &Theme) -> Option<Item> {
-    const BEYOND: f64 = 0.04;
     let points = solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
     let reach = points.map(|p| axis.along.dot(&(p - axis.through)));
     let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
-    let beyond = BEYOND * (high - low) + 3.0 * theme.joint / plot.page_from_plane.scale;
+    let beyond = 3.0 * theme.joint / plot.page_from_plane.scale;
     let end = |s: f64| plot.page_from_plane.apply(axis.through + axis.along * s);
     let (from, to) = (end(low - beyond), end(high + beyond));
     let whole = (to - from).norm();

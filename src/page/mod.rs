@@ -139,7 +139,7 @@ pub struct Panel<'a> {
     /// A smaller line under that; may be empty.
     pub note: String,
     /// What is known of the cell, as [`facts`] has it; may be empty.
-    pub facts: String,
+    pub facts: [String; 2],
     /// The cell.
     pub solved: &'a Solved,
     /// The pose its linkage is drawn in.

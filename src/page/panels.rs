@@ -22,9 +22,9 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
     let theme = &theme.for_panels(size(&areas[0]));
     let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
-    let has_facts = sheet.panels.iter().any(|panel| !panel.facts.is_empty());
+    let facts = Facts::of(sheet, size(&areas[0]).x - 1.2 * theme.caption, theme);
     let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
-    let lines = f64::from(u8::from(has_notes) + u8::from(has_facts));
+    let lines = f64::from(u8::from(has_notes) + facts.lines());
     let foot = theme.caption * 1.5 + lines * theme.note * 1.5 + 2.2 * theme.caption;
     // The figure's frame is that of any panel: plotters splits a page to within a hundredth of a millimetre.
     let room = |area: &Area| {
@@ -40,7 +40,48 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
             Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
             None => draw_reason(area, frame, panel, theme),
         }
-        caption(area, foot, panel, sheet.symbols, theme);
+        caption(area, (foot, facts), panel, sheet.symbols, theme);
+    }
+}
+
+/// How the facts of the cells of a page are set: all in as many lines.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Facts {
+    None,
+    OneLine,
+    TwoLines,
+}
+
+impl Facts {
+    /// One line, if every panel's fits a width without being set much smaller.
+    fn of(sheet: &Sheet, width: f64, theme: &Theme) -> Facts {
+        const SMALLER: f64 = 0.85;
+        let texts = || sheet.panels.iter().flat_map(|panel| Facts::OneLine.texts(panel));
+        let natural =
+            |text: String| Words::new(&text, Point::origin(), Anchor::Middle, theme.note, theme.grey).text.width();
+        match texts().map(natural).fold(0.0, f64::max) {
+            0.0 => Facts::None,
+            widest if SMALLER * widest <= width => Facts::OneLine,
+            _ => Facts::TwoLines,
+        }
+    }
+
+    fn lines(self) -> u8 {
+        match self {
+            Facts::None => 0,
+            Facts::OneLine => 1,
+            Facts::TwoLines => 2,
+        }
+    }
+
+    /// The lines of a panel.
+    fn texts(self, panel: &Panel) -> Vec<String> {
+        let parts = panel.facts.iter().filter(|part| !part.is_empty()).cloned();
+        match self {
+            Facts::None => Vec::new(),
+            Facts::OneLine => vec![parts.collect::<Vec<_>>().join(" · ")],
+            Facts::TwoLines => parts.collect(),
+        }
     }
 }
 
@@ -53,7 +94,7 @@ pub(super) fn most(paper: Paper, theme: &Theme) -> [usize; 2] {
 }
 
 /// The cell's number at its upper left, and its lines below.
-fn caption(area: &Area, foot: f64, panel: &Panel, symbols: &[String], theme: &Theme) {
+fn caption(area: &Area, (foot, facts): (f64, Facts), panel: &Panel, symbols: &[String], theme: &Theme) {
     let page = size(area);
     let number = panel.solved.cell.number.to_string();
     let at = Point::new(0.8 * theme.caption, theme.note);
@@ -69,8 +110,8 @@ fn caption(area: &Area, foot: f64, panel: &Panel, symbols: &[String], theme: &Th
     if !panel.note.is_empty() {
         line(&panel.note, theme.note, theme.grey, symbols);
     }
-    if !panel.facts.is_empty() {
-        line(&panel.facts, theme.note, theme.grey, &[]);
+    for text in facts.texts(panel) {
+        line(&text, theme.note, theme.grey, &[]);
     }
     if let (Some(reason), true) = (&panel.solved.motion.shortfall, panel.solved.motion.is_assembled()) {
         line(reason, theme.note, theme.curve_ink(0), &[]);

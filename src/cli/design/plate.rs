@@ -21,7 +21,14 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
     let panel = |(design, solved)| {
         let design: &Design = design;
         let view = design.pose.clone().map_or(View::Clearest, View::At);
-        Panel { inks: Vec::new(), caption: caption(design), note: note(design), facts: String::new(), solved, view }
+        Panel {
+            inks: Vec::new(),
+            caption: caption(design),
+            note: note(design),
+            facts: Default::default(),
+            solved,
+            view,
+        }
     };
     let mut symbols: Vec<String> = designs.iter().flat_map(|design| design.family.names.clone()).collect();
     symbols.sort();

@@ -64,7 +64,7 @@ fn table(sextic: &Sextic, out: &mut String) {
     let head: String = (0..=6).map(|j| format!("{:>15}", power("y", j))).collect();
     let _ = writeln!(out, "     {head}");
     for i in 0..=6 {
-        let row: String = (0..=6 - i).map(|j| format!("{:>15}", short(sextic.coefficient(i, j), 9))).collect();
+        let row: String = (0..=6 - i).map(|j| format!("{:>17}", short(sextic.coefficient(i, j), 9))).collect();
         let _ = writeln!(out, "{:<5}{row}", power("x", i));
     }
 }
