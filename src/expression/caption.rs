@@ -66,10 +66,17 @@ impl Caption {
         self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
     }
 
-    /// The text, where `load(name)` is the value of a name; a dash for a value that is none.
-    pub fn format(&self, load: impl Fn(&str) -> f64) -> String {
+    /// The text, where `load(name)` is the value of a name, and `word(name)` what stands for one that is a word; a dash for
+    /// a value that is none.
+    pub fn format(&self, load: impl Fn(&str) -> f64, word: impl Fn(&str) -> Option<&'static str>) -> String {
         let mut out = String::new();
         for piece in &self.pieces {
+            if let Piece::Value { expression, .. } = piece
+                && let Some(word) = expression.as_name().and_then(&word)
+            {
+                out.push_str(word);
+                continue;
+            }
             match piece {
                 Piece::Text(text) => out.push_str(text),
                 Piece::Value { expression, decimals, .. } => {
@@ -117,9 +124,9 @@ mod tests {
     #[test]
     fn values_stand_where_their_names_stood() {
         let caption = Caption::parse("p = {p:.2}, {{2p}} = {2 * p}").unwrap();
-        assert_eq!(caption.format(|_| 2.5), "p = 2.50, {2p} = 5");
+        assert_eq!(caption.format(|_| 2.5, |_| None), "p = 2.50, {2p} = 5");
         assert_eq!(caption.expressions().count(), 2);
-        assert_eq!(Caption::parse("{p} {p:.1}").unwrap().format(|_| 2.0 / 3.0), "0.666667 0.7");
+        assert_eq!(Caption::parse("{p} {p:.1}").unwrap().format(|_| 2.0 / 3.0, |_| None), "0.666667 0.7");
     }
 
     #[test]

@@ -64,6 +64,14 @@ impl Expression {
         &self.names
     }
 
+    /// The name it is, if it is nothing but a name.
+    pub fn as_name(&self) -> Option<&str> {
+        match (&self.program[..], &self.names[..]) {
+            ([(Instruction::Load(0), _)], [name]) => Some(name),
+            _ => None,
+        }
+    }
+
     /// What its value is, given what each name stands for (`None`: there is no such name).
     ///
     /// # Errors

@@ -200,7 +200,15 @@ impl Family {
             Some(slot) => Family::load(cell, measures, slot),
             None => f64::NAN,
         };
-        self.captions.each_ref().map(|line| line.as_ref().map(|line| line.format(load)).unwrap_or_default())
+        let word = |name: &str| {
+            let is_named =
+                |(measure, _): &(&measure::Measure, &measure::Value)| measure.name == name && measure.is_word;
+            match measure::ALL.iter().zip(measures).find(is_named)? {
+                (_, measure::Value::Word(word)) => Some(*word),
+                _ => Some("–"),
+            }
+        };
+        self.captions.each_ref().map(|line| line.as_ref().map(|line| line.format(load, word)).unwrap_or_default())
     }
 
     /// The value of a name in a cell; not a number where there is none.
@@ -225,6 +233,11 @@ impl Family {
         let mut asked = slots.filter_map(|slot| slot.checked_sub(self.names.len()));
         // Truths are told by a word.
         asked.any(|slot| numbers.get(slot).map_or(measure::ALL[measure].is_word, |k| *k == measure))
+    }
+
+    /// The measures that are words: a caption tells them, and nothing can be reckoned with them.
+    pub fn words() -> impl Iterator<Item = &'static str> {
+        measure::ALL.iter().filter(|measure| measure.is_word).map(|measure| measure.name)
     }
 
     /// Whether a name is that of a column of `points.csv` or `cells.csv`, or of a measure.

@@ -79,11 +79,12 @@ pub(super) fn names<'t>(template: &Template, fields: &Fields<'_, 't>, reader: &m
     }
     let filter = fields.get("where").and_then(|value| filter(value, &all, reader));
     read_all &= filter.is_some() == fields.get("where").is_some();
-    let sort = fields.get("sort").and_then(|value| reader.bound(value, &Family::scope(&all)));
+    let sort = fields.get("sort").filter(|value| !asks_a_word(value, reader));
+    let sort = sort.and_then(|value| reader.bound(value, &Family::scope(&all)));
     read_all &= sort.is_some() == fields.get("sort").is_some();
     let line = |key: &str, own: &Option<Caption>, reader: &mut Reader<'t>| match fields.get(key) {
         None => own.clone(),
-        Some(value) => reader.caption(value, &Family::scope(&all)),
+        Some(value) => reader.caption(value, &Family::scope(&all), &Family::words().collect::<Vec<_>>()),
     };
     let captions = [line("caption", &template.caption, reader), line("note", &template.note, reader)];
     let in_chart = chart::used_names(fields);
@@ -124,10 +125,27 @@ fn unused(name: &str, span: Span, template: &Template, reader: &mut Reader) {
     reader.note(Problem::error(span, message).help(help));
 }
 
+/// Whether a condition or an order rests on a measure that is a word, which is said.
+fn asks_a_word<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> bool {
+    let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return false };
+    let word = Family::words().find(|word| expression.names().iter().any(|name| name == word));
+    if let Some(word) = word {
+        let problem = Problem::error(value.span(), format!("`{word}` is a word, and cannot be reckoned with"));
+        reader.note(
+            problem
+                .help("ask `is_crank_rocker` and its like of the class; numbers of the rest, as `symmetry_residual`"),
+        );
+    }
+    word.is_some()
+}
+
 fn filter<'t>(value: &Value<'t>, names: &[String], reader: &mut Reader<'t>) -> Option<Bound> {
     if !value.get_ref().is_str() {
         let problem = Problem::error(value.span(), "`where` is a condition in quotes");
         reader.note(problem.help("write where = \"a < 5 and is_crank_rocker\""));
+        return None;
+    }
+    if asks_a_word(value, reader) {
         return None;
     }
     let expression = reader.expression(value)?;

@@ -43,8 +43,8 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
     let text = |key: &str, reader: &mut Reader<'t>| fields.get(key).and_then(|value| reader.text(value));
     let source = text("source", reader).unwrap_or_default();
     let legend = text("legend", reader).unwrap_or_default();
-    let caption = fields.get("caption").and_then(|value| reader.caption(value, &scope));
-    let note = fields.get("note").and_then(|value| reader.caption(value, &scope));
+    let caption = fields.get("caption").and_then(|value| reader.caption(value, &scope, &[]));
+    let note = fields.get("note").and_then(|value| reader.caption(value, &scope, &[]));
     let circuits = fields.get("circuits").and_then(|value| reader.word(value, &CIRCUITS)).unwrap_or_default();
     let continuation =
         fields.get("continuation").and_then(|value| reader.word(value, &CONTINUATIONS)).unwrap_or_default();

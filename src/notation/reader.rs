@@ -222,13 +222,14 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// A line of text with values of `scope` in it.
-    pub fn caption(&mut self, value: &Value<'t>, scope: &[(&str, Kind)]) -> Option<Caption> {
+    /// A line of text with values of `scope` in it, and words that stand alone.
+    pub fn caption(&mut self, value: &Value<'t>, scope: &[(&str, Kind)], words: &[&str]) -> Option<Caption> {
         let text = self.text(value)?;
         let parsed = Caption::parse(&text);
         let caption = self.placed(value, parsed)?;
         for (expression, start) in caption.expressions() {
-            if let Err(error) = expression.bind(scope, Kind::Number) {
+            let is_word = expression.as_name().is_some_and(|name| words.contains(&name));
+            if let (Err(error), false) = (expression.bind(scope, Kind::Number), is_word) {
                 let span = start + error.span.start..start + error.span.end;
                 self.placed::<()>(value, Err(expression::Error { span, ..error }));
             }

@@ -58,7 +58,7 @@ pub(super) fn portion(solved: &Solved, curve: &Curve, ink: Color, plot: &Plot, t
     Some(Item::Path(Path { lines: vec![Line { points, closed: false }], stroke, fill: None }))
 }
 
-/// The lines about which curves are symmetrical, in dashes and dots, by three joints longer than the curves.
+/// The lines about which curves are symmetrical, in dashes and dots, a little longer than the curves.
 pub(super) fn axes(solved: &Solved, plot: &Plot, theme: &Theme) -> Vec<Item> {
     let mut drawn: Vec<Axis> = Vec::new();
     for curve in &solved.curves {
@@ -88,7 +88,7 @@ fn chain_line(solved: &Solved, axis: &Axis, plot: &Plot, theme: &Theme) -> Optio
     let points = solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
     let reach = points.map(|p| axis.along.dot(&(p - axis.through)));
     let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
-    let beyond = 3.0 * theme.joint / plot.page_from_plane.scale;
+    let beyond = 1.6 * theme.joint / plot.page_from_plane.scale;
     let end = |s: f64| plot.page_from_plane.apply(axis.through + axis.along * s);
     let (from, to) = (end(low - beyond), end(high + beyond));
     let whole = (to - from).norm();

@@ -514,7 +514,7 @@ fn inspect_draws_a_plate_and_knows_a_manifests_own_linkages() {
 fn pages_are_sorted_and_tables_are_not() {
     let manifest = MANIFEST.replace(
         "let = {",
-        "sort = \"-p\"\ncaption = \"straight {straight_length:.3}\"\nstraight = { input = \"60 deg\" }\nlet = {",
+        "sort = \"-p\"\ncaption = \"{class} {input_min_deg}: straight {straight_length:.3}\"\nstraight = { input = \"60 deg\" }\nlet = {",
     );
     let folder = folder_with(&manifest);
     let (code, _, err) = run(folder.path(), &["render", "--only", "evans"]);
@@ -534,7 +534,8 @@ fn pages_are_sorted_and_tables_are_not() {
         for k in cells {
             let row = &rows[k - 1];
             assert!((value(row, "straight_input_deg") - 60.0).abs() < 1e-6);
-            assert!(page.contains(&format!("straight {:.3}<", value(row, "straight_length"))), "cell {k}");
+            let line = format!("crank-rocker –: straight {:.3}<", value(row, "straight_length"));
+            assert!(page.contains(&line), "cell {k}: {line}");
         }
         assert_eq!(page.matches("class=\"straight\"").count(), cells.len());
         assert_eq!(page.matches("class=\"axis\"").count(), cells.len());
