@@ -29,6 +29,10 @@ impl Annulus {
         let goes_round = near < far / 4.0;
         let mut four =
             if goes_round { [1, 3, 5, 7].map(|k| k * last / 8) } else { [0, last / 4, last - last / 4, last] };
+        // A row that goes there and back on one arc has pairs of points in one place.
+        if Annulus::through(four.map(|k| points[k])).is_none() {
+            four = [1, 6, 11, 17].map(|k| k * last / 20);
+        }
         let mut best: Option<Annulus> = None;
         for _ in 0..ROUNDS {
             let ring = Annulus::through(four.map(|k| points[k]))?;

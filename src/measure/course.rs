@@ -113,7 +113,8 @@ impl<'a> Course<'a> {
 
     /// The point at a place.
     pub fn point(&self, place: f64) -> Point {
-        if place.fract() == 0.0
+        if place >= 0.0
+            && place.fract() == 0.0
             && let Some(point) = self.points.get(place as usize)
         {
             return *point;
@@ -182,7 +183,7 @@ impl<'a> Course<'a> {
             return vec![self.point(from)];
         }
         let parts = (POINTS / (to - from)).ceil().max(1.0);
-        let first = (from * parts).floor() as usize + 1;
+        let first = (from * parts).floor() as i64 + 1;
         let inside = (first..).map(|k| k as f64 / parts).take_while(|&place| place < to).map(|place| self.point(place));
         std::iter::once(self.point(from)).chain(inside).chain(std::iter::once(self.point(to))).collect()
     }

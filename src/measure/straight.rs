@@ -124,12 +124,21 @@ impl Search<'_> {
     fn longest_of_all(&self) -> Option<[f64; 2]> {
         /// So many portions are drawn out that might come to be the longest.
         const RIVALS: usize = 2;
-        let Some((found, width)) = self.by_points(LOOSER) else {
-            // Every portion is shorter than the way from a point to the next: it bends least where it is flattest.
-            let about = self.course.flattest().into_iter().take(RIVALS).map(|k| [k as f64 - 1.0, k as f64 + 1.0]);
+        /// Where a portion is of so few points, it is likelier where the curve is flattest than where they are far apart.
+        const FEW: usize = 8;
+        let flattest = || {
+            let about = self.course.flattest().into_iter().take(RIVALS + 1).map(|k| [k as f64 - 1.0, k as f64 + 1.0]);
             let each = about.filter_map(|ends| self.finely(ends, DEPTH));
-            return each.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
+            each.max_by(|a, b| a.0.total_cmp(&b.0))
         };
+        let Some((found, width)) = self.by_points(LOOSER) else {
+            return flattest().map(|(_, ends)| ends);
+        };
+        if found[1] - found[0] < FEW {
+            let by_points = self.refined(found, DEPTH);
+            let both = [flattest(), by_points].into_iter().flatten();
+            return both.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
+        }
         let longest = self.refined(found, DEPTH).or_else(|| self.stricter(DEPTH));
         // Where nothing is straight between points, those are all that is known.
         let mut best = longest.unwrap_or_else(|| (self.course.distance(found), found.map(|k| k as f64)));

@@ -10,7 +10,7 @@ use super::mirror::{Axis, by_moments, finely, roughly};
 use super::strip::{diameter, hull};
 use super::{Measure, Subject, Value};
 use crate::geometry::{Point, Vector, cross};
-use crate::linkage::{FourBar, Sextic};
+use crate::linkage::{Class, FourBar, Sextic};
 
 /// What is said of a curve's symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +78,7 @@ pub(super) fn symmetry(subject: &Subject) -> Option<Symmetry> {
     }
     // Of a linkage with two circuits each may be the mirror image of the other: not so where it is roughly its own.
     if let Some((axis, theorem)) = theorem(subject)
-        && roughly(trail, axis) <= APART * extent
+        && (has_one_circuit(subject) || roughly(trail, axis) <= APART * extent)
     {
         let residual = by_equation(subject, axis).unwrap_or_else(|| finely(trail, axis, true).1) / extent;
         return Some(Symmetry { axis: Some(axis), residual, theorem: Some(theorem) });
@@ -91,6 +91,11 @@ pub(super) fn symmetry(subject: &Subject) -> Option<Symmetry> {
     }
     let (axis, most) = finely(trail, axis, false);
     Some(Symmetry { axis: Some(axis), residual: most / extent, theorem: None })
+}
+
+/// Whether a four-bar has one circuit only, as those without a link that turns fully have.
+fn has_one_circuit(subject: &Subject) -> bool {
+    FourBar::of(subject.linkage).is_some_and(|bar| bar.class() == Class::TripleRocker)
 }
 
 /// The greatest distance of the mirrored samples from the curve of a coupler point, by its own equation.

@@ -26,6 +26,8 @@ pub(super) struct Trail {
     /// The signed curvature at each sample, of the circle through it and its neighbours.
     bends: Vec<f64>,
     arcs: OnceCell<Vec<Arc>>,
+    /// Whether the path turns sharply about each sample.
+    sharp: Vec<bool>,
 }
 
 /// An arc of a circle over a chord.
@@ -68,8 +70,10 @@ impl Trail {
             travel,
             bends: Vec::new(),
             arcs: OnceCell::new(),
+            sharp: Vec::new(),
         };
         trail.bends = (0..trail.points.len()).map(|i| trail.bend(i)).collect();
+        trail.sharp = (0..trail.points.len()).map(|i| trail.turns_about(i)).collect();
         trail
     }
 
@@ -96,6 +100,10 @@ impl Trail {
 
     /// Whether the path turns through more than a right angle about a sample, as at a cusp.
     pub fn turns_sharply(&self, i: usize) -> bool {
+        self.sharp[i]
+    }
+
+    fn turns_about(&self, i: usize) -> bool {
         let (Some(a), Some(b)) = (self.at(i, -1), self.at(i, 1)) else { return false };
         let (before, after) = (self.points[i] - self.points[a], self.points[b] - self.points[i]);
         before.dot(&after) < 0.5 * before.norm() * after.norm()
@@ -190,9 +198,14 @@ impl Trail {
         self.near(i).map_or(self.bends[i].abs(), |near| near.most(curvature))
     }
 
-    /// The point a part of the way along, in samples from the first, and the input there; round a closed curve.
+    /// The point a part of the way along, in samples from the first, and the input there; round a closed curve, on which a
+    /// place may be a little less than nothing.
     pub fn place(&self, place: f64) -> (Point, f64) {
         let n = self.points.len();
+        if place < 0.0 {
+            let (point, input) = self.place(place + n as f64);
+            return (point, input - self.turn);
+        }
         let (whole, part) = (place.floor(), place.fract());
         let (i, rounds) = (whole as usize % n, (whole as usize / n) as f64 * self.turn);
         if part == 0.0 {
@@ -201,11 +214,23 @@ impl Trail {
         let next = self.at(i, 1).unwrap_or(i);
         let step = self.points[next] - self.points[i];
         let input = self.inputs[next] + if next < i { self.turn } else { 0.0 };
-        let straight = (self.points[i] + step * part, self.inputs[i] + (input - self.inputs[i]) * part);
+        // An arc over the chord, as flat as the curve is at the flatter end; of a turning back the other end tells.
+        let bend = match [self.sharp[i], self.sharp[next]] {
+            [true, _] => self.bends[next],
+            [_, true] => self.bends[i],
+            _ if self.bends[i].abs() < self.bends[next].abs() => self.bends[i],
+            _ => self.bends[next],
+        };
+        let height = (bend * step.norm() * part * (1.0 - part) / 2.0).clamp(-0.2, 0.2);
+        let over_chord = self.points[i] + step * part + Vector::new(step.y, -step.x) * height;
+        let straight = (over_chord, self.inputs[i] + (input - self.inputs[i]) * part);
+        // Where the path turns back its samples on the other side do not tell of it; and where they lie too unevenly, a
+        // polynomial through them strays further from their chord than a curve that is known by its samples does.
         let about = |k: usize, u: f64, from: f64| {
-            let near = self.near(k)?;
+            let near = if self.is_smooth_about(k) { self.near(k)? } else { return None };
             let found = (self.points[k] + near.at(u)[0], from + near.input(u));
-            (found.0.x.is_finite() && found.0.y.is_finite() && found.1.is_finite()).then_some(found)
+            let strayed = (found.0 - straight.0).norm();
+            (strayed <= 0.2 * step.norm() && found.1.is_finite()).then_some(found)
         };
         // About the sample that is nearer, by the length of the chords; halfway the one goes over into the other.
         let over = ((part - 0.25) * 2.0).clamp(0.0, 1.0);
@@ -271,11 +296,19 @@ impl Trail {
     /// How far the input has gone, there and back, from the first sample to a place.
     pub fn travelled(&self, place: f64) -> f64 {
         let n = self.points.len();
+        if place < 0.0 {
+            return self.travelled(place + n as f64) - self.travel[n];
+        }
         let (i, rounds) = (place.floor() as usize % n, (place.floor() as usize / n) as f64);
         let (from, to) = (self.travel[i], self.travel[i + 1]);
         let part =
             if place.fract() > 0.0 { (self.place(i as f64 + place.fract()).1 - self.inputs[i]).abs() } else { 0.0 };
         rounds * self.travel[n] + from + part.min(to - from)
+    }
+
+    /// Whether no sample within two of one is a turning back of the path.
+    fn is_smooth_about(&self, i: usize) -> bool {
+        (-2..=2).all(|off| self.at(i, off).is_none_or(|k| !self.sharp[k]))
     }
 
     /// The curve about a sample that two others stand on either side of.
