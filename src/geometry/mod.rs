@@ -24,6 +24,11 @@ pub fn left_normal(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
+/// The product of two vectors as complex numbers: `b` turned by the angle of `a`, and longer by its length.
+pub fn times(a: Vector, b: Vector) -> Vector {
+    Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
+}
+
 /// The cross product `a.x b.y - a.y b.x`: positive when `b` points to the left of `a`.
 pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x

@@ -4,7 +4,7 @@ use super::{
     Assembly, Circuits, Class, Continuation, Error, FourBar, JointId, Link, Linkage, Side, Step, Travel,
     four_bar_tolerance,
 };
-use crate::geometry::{Point, Vector, cross, left_normal, trig};
+use crate::geometry::{Point, Vector, cross, times, trig};
 
 /// A four-bar where it stands in the plane, and a point of its coupler.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -347,11 +347,6 @@ impl Cognate {
         let arm = a - o;
         (trig::degrees(trig::atan2(arm.y, arm.x)), if turn > 0.0 { Side::Left } else { Side::Right }, turn.abs())
     }
-}
-
-/// The product of two complex numbers.
-fn times(a: Vector, b: Vector) -> Vector {
-    b * a.x + left_normal(b) * a.y
 }
 
 fn conjugate(a: Vector) -> Vector {

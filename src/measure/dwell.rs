@@ -32,40 +32,31 @@ pub struct Dwell {
     pub points: Vec<Point>,
 }
 
-const fn number(
-    name: &'static str,
-    unit: &'static str,
-    definition: &'static str,
-    take: fn(&Subject) -> Value,
-) -> Measure {
-    Measure { name, unit, is_word: false, definition, take }
-}
-
 /// What is told of it.
 pub const MEASURES: [Measure; 6] = [
-    number(
+    Measure::number(
         "dwell_input_deg",
         "deg",
         "input that the best circular portion spans: the most within 0.0005 of the curve's greatest extent of a circle; of an actuator a length",
         |subject| of(subject, |dwell| dwell.input),
     ),
-    number(
+    Measure::number(
         "dwell_radius",
         "",
         "radius of that circle, no more than the curve's length, in the manifest's unit",
         |subject| of(subject, |dwell| dwell.radius),
     ),
-    number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |subject| {
+    Measure::number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |subject| {
         of(subject, |dwell| dwell.deviation)
     }),
-    number(
+    Measure::number(
         "dwell_start_deg",
         "deg",
         "input at which the circular portion begins; of an actuator a length",
         |subject| of(subject, |dwell| dwell.start),
     ),
-    number("dwell_x", "", "x of the circle's centre", |subject| of(subject, |dwell| dwell.centre.x)),
-    number("dwell_y", "", "y of the circle's centre", |subject| of(subject, |dwell| dwell.centre.y)),
+    Measure::number("dwell_x", "", "x of the circle's centre", |subject| of(subject, |dwell| dwell.centre.x)),
+    Measure::number("dwell_y", "", "y of the circle's centre", |subject| of(subject, |dwell| dwell.centre.y)),
 ];
 
 fn of(subject: &Subject, value: fn(&Dwell) -> f64) -> Value {

@@ -18,7 +18,7 @@ pub(super) fn extremes(subject: &Subject, quantity: impl Fn(&dyn Fn(usize) -> Po
         };
         let mut least = sign * values[best];
         for pass in &circuit.passes {
-            let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+            let [low, high] = pass.range();
             let middle = circuit.input[best];
             // On a whole turn the first sample is between the last and the second.
             let step = (high - low) / circuit.len().max(2) as f64;

@@ -1,5 +1,5 @@
 use super::trail::Trail;
-use crate::geometry::{Point, Vector, cross, trig};
+use crate::geometry::{Point, Vector, cross, times, trig};
 
 /// A line that a curve may be symmetrical about.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,11 +28,6 @@ impl Axis {
         let deg = trig::degrees(trig::atan2(self.along.y, self.along.x)).rem_euclid(180.0);
         if deg == 180.0 { 0.0 } else { deg }
     }
-}
-
-/// The product of complex numbers.
-fn times(a: Vector, b: Vector) -> Vector {
-    Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 
 /// The axis that a curve is symmetrical about if it is about any, by the moments of its length; `None` where moments of

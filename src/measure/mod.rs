@@ -129,6 +129,18 @@ pub struct Measure {
     pub take: fn(&Subject) -> Value,
 }
 
+impl Measure {
+    /// A measure that is a number.
+    const fn number(
+        name: &'static str,
+        unit: &'static str,
+        definition: &'static str,
+        take: fn(&Subject) -> Value,
+    ) -> Measure {
+        Measure { name, unit, is_word: false, definition, take }
+    }
+}
+
 /// Every measure, in the order of the columns.
 pub const ALL: [Measure; 33] = [
     class::CLASS,
@@ -154,10 +166,10 @@ pub const ALL: [Measure; 33] = [
     symmetry::RESIDUAL,
     shape::CURVATURE_MAX,
     speed_ratio::SPEED_RATIO,
-    straight::LENGTH,
-    straight::DEVIATION,
-    straight::START,
-    straight::INPUT,
+    straight::MEASURES[0],
+    straight::MEASURES[1],
+    straight::MEASURES[2],
+    straight::MEASURES[3],
     dwell::MEASURES[0],
     dwell::MEASURES[1],
     dwell::MEASURES[2],

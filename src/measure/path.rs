@@ -84,7 +84,7 @@ fn posed(subject: &Subject, direction: Vector, top: usize) -> f64 {
         // The way to a sample has the sides that it has itself, be it the end of a pass.
         let (low, high) = (trail.inputs[from].min(trail.inputs[to]), trail.inputs[from].max(trail.inputs[to]));
         let is_way = |pass: &&Pass| {
-            let [first, last] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+            let [first, last] = pass.range();
             pass.signs == circuit.signs(trail.samples[to]) && first <= low && high <= last
         };
         let Some(pass) = circuit.passes.iter().find(is_way) else { continue };

@@ -21,7 +21,7 @@ fn ratio(subject: &Subject) -> Option<f64> {
     }
     let mut lengths: Vec<f64> = Vec::new();
     for pass in &subject.circuit.passes {
-        let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+        let [low, high] = pass.range();
         let (first, last) = ((low / PERIOD).ceil() as i64, ((high - DRAWN) / PERIOD).floor() as i64);
         let place = |k: i64, i: usize| k as f64 * PERIOD + DRAWN * i as f64 / (PLACES - 1) as f64;
         let inputs: Vec<f64> = (first..=last).flat_map(|k| (0..PLACES).map(move |i| place(k, i))).collect();

@@ -50,41 +50,33 @@ pub struct Portion {
     pub points: Vec<Point>,
 }
 
-/// Its length.
-pub const LENGTH: Measure = Measure {
-    name: "straight_length",
-    unit: "",
-    is_word: false,
-    definition: "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as the family's `straight` has it",
-    take: |subject: &Subject| of(subject, |portion| portion.length),
-};
-
-/// Its deviation.
-pub const DEVIATION: Measure = Measure {
-    name: "straight_deviation",
-    unit: "",
-    is_word: false,
-    definition: "greatest distance of the straightest portion from its line, half the width of its strip, in the manifest's unit",
-    take: |subject: &Subject| of(subject, |portion| portion.deviation),
-};
-
-/// Where it begins.
-pub const START: Measure = Measure {
-    name: "straight_start_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "input at which the straightest portion begins; of an actuator a length",
-    take: |subject: &Subject| of(subject, |portion| portion.start),
-};
-
-/// What it spans.
-pub const INPUT: Measure = Measure {
-    name: "straight_input_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "input the straightest portion spans; of an actuator a length",
-    take: |subject: &Subject| of(subject, |portion| portion.input),
-};
+/// What is told of it.
+pub const MEASURES: [Measure; 4] = [
+    Measure::number(
+        "straight_length",
+        "",
+        "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as the family's `straight` has it",
+        |subject| of(subject, |portion| portion.length),
+    ),
+    Measure::number(
+        "straight_deviation",
+        "",
+        "greatest distance of the straightest portion from its line, half the width of its strip, in the manifest's unit",
+        |subject| of(subject, |portion| portion.deviation),
+    ),
+    Measure::number(
+        "straight_start_deg",
+        "deg",
+        "input at which the straightest portion begins; of an actuator a length",
+        |subject| of(subject, |portion| portion.start),
+    ),
+    Measure::number(
+        "straight_input_deg",
+        "deg",
+        "input the straightest portion spans; of an actuator a length",
+        |subject| of(subject, |portion| portion.input),
+    ),
+];
 
 fn of(subject: &Subject, value: fn(&Portion) -> f64) -> Value {
     subject.straight().map_or(Value::Missing, |portion| Value::Number(value(portion)))
@@ -110,6 +102,9 @@ pub(super) fn portion(trail: &Trail, asked: Straight) -> Option<Portion> {
 /// How often a portion of few points is looked for again among many: each time shows what is some thirty times as short.
 const DEPTH: usize = 4;
 
+/// The strip of so few points says little of the curve between them.
+const FEW: usize = 8;
+
 /// What fits only between two points is found by asking the points for a little less.
 const LOOSER: f64 = 1.02;
 
@@ -124,8 +119,6 @@ impl Search<'_> {
     fn longest_of_all(&self) -> Option<[f64; 2]> {
         /// So many portions are drawn out that might come to be the longest.
         const RIVALS: usize = 2;
-        /// Where a portion is of so few points, it is likelier where the curve is flattest than where they are far apart.
-        const FEW: usize = 8;
         let flattest = || {
             let about = self.course.flattest().into_iter().take(RIVALS + 1).map(|k| [k as f64 - 1.0, k as f64 + 1.0]);
             let each = about.filter_map(|ends| self.finely(ends, DEPTH));
@@ -134,6 +127,7 @@ impl Search<'_> {
         let Some((found, width)) = self.by_points(LOOSER) else {
             return flattest().map(|(_, ends)| ends);
         };
+        // So short a portion is likelier where the curve is flattest than where its points are far apart.
         if found[1] - found[0] < FEW {
             let by_points = self.refined(found, DEPTH);
             let both = [flattest(), by_points].into_iter().flatten();
@@ -256,8 +250,7 @@ impl Search<'_> {
     fn fits(&self, [from, to]: [usize; 2], width: f64) -> bool {
         let points = &self.course.points[from..=to];
         let last = points.len() - 1;
-        if last < 8 {
-            // Of so few points their own strip says little of the curve between them.
+        if last < FEW {
             return self.course.bend_between([from, to]) <= width
                 && (last < 2 || Strip::of(points.to_vec()).width <= width);
         }
@@ -285,8 +278,6 @@ impl Search<'_> {
 
     /// The length and the ends of a portion drawn out between points.
     fn refined(&self, ends: [usize; 2], depth: usize) -> Option<(f64, [f64; 2])> {
-        /// The strip of so few points is not the curve's.
-        const FEW: usize = 8;
         let whole = ends.map(|k| k as f64);
         if ends[1] - ends[0] >= FEW || depth == 0 {
             return self.drawn_out(whole);

@@ -1,6 +1,6 @@
 use super::extreme::extremes;
 use super::{Measure, Subject, Value};
-use crate::geometry::{Vector, cross, trig};
+use crate::geometry::{Vector, cross, times, trig};
 use crate::linkage::FourBar;
 
 /// How far the output link swings.
@@ -30,7 +30,7 @@ fn swing(subject: &Subject) -> Option<f64> {
     let [low, high] = turned.iter().fold([0.0f64; 2], |[low, high], t| [low.min(*t), high.max(*t)]);
     let (cos, sin) = trig::cos_sin_deg((low + high) / 2.0);
     let first = arm(0);
-    let middle = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
+    let middle = times(Vector::new(cos, sin), first);
     let [least, greatest] = extremes(subject, |place| angle(middle, place(b) - place(c)));
     Some(greatest - least)
 }

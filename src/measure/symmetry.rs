@@ -9,8 +9,8 @@
 use super::mirror::{Axis, by_moments, finely, roughly};
 use super::strip::{diameter, hull};
 use super::{Measure, Subject, Value};
-use crate::geometry::{Point, Vector, cross};
-use crate::linkage::{Class, FourBar, Sextic};
+use crate::geometry::{Point, Vector, cross, times};
+use crate::linkage::{Class, FourBar, PlacedFourBar, Sextic};
 
 /// What is said of a curve's symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,17 +100,13 @@ fn has_one_circuit(subject: &Subject) -> bool {
 
 /// The greatest distance of the mirrored samples from the curve of a coupler point, by its own equation.
 fn by_equation(subject: &Subject, axis: Axis) -> Option<f64> {
-    let linkage = subject.linkage;
-    let [o, a, b, c] = FourBar::coupler_pins(linkage, subject.joint)?;
-    let link = linkage.links.iter().find(|link| [a, b, subject.joint].iter().all(|&j| link.place(j).is_some()))?;
-    let (from, along) = (link.place(a)?, (link.place(b)? - link.place(a)?).try_normalize(0.0)?);
-    let arm = link.place(subject.joint)? - from;
-    let sextic = Sextic::of(FourBar::of(linkage)?, Vector::new(along.dot(&arm), cross(along, arm)))?;
-    let place = |joint| subject.circuit.places.point(joint, 0);
-    let (origin, frame) = (place(o), (place(c) - place(o)).try_normalize(0.0)?);
+    let PlacedFourBar { pivots: [origin, end], lengths, point } =
+        PlacedFourBar::of(subject.linkage, subject.joint).ok()?;
+    let sextic = Sextic::of(lengths, point)?;
+    let frame = (end - origin).try_normalize(0.0)?;
     let distance = |point: &Point| {
         let by = axis.mirror(*point) - origin;
-        let own = Point::new(frame.dot(&by), cross(frame, by) * linkage.placement.handedness());
+        let own = Point::new(frame.dot(&by), cross(frame, by));
         // To the first order. At a double point both vanish, and what is left of the one is rounding.
         let [value, terms] = sextic.at(own);
         let off = value.abs() / sextic.gradient(own).norm();
@@ -151,6 +147,6 @@ fn theorem(subject: &Subject) -> Option<(Axis, &'static str)> {
     let [from, to] = seen(best);
     let (cos, sin) = (from.dot(&to), cross(from, to));
     let frame = other - pivot;
-    let direction = Vector::new(cos * frame.x - sin * frame.y, sin * frame.x + cos * frame.y);
+    let direction = times(Vector::new(cos, sin), frame);
     Some((Axis::new(Point::from(pivot.coords), direction)?, "theorem 2"))
 }

@@ -1,6 +1,6 @@
 use std::cell::OnceCell;
 
-use crate::geometry::{Point, Vector, cross, distance_to_segment, trig};
+use crate::geometry::{Point, Vector, cross, distance_to_segment, times, trig};
 use crate::linkage::Input;
 use crate::motion::Circuit;
 
@@ -403,7 +403,7 @@ impl Trail {
             let chord = self.points[next] - self.points[i];
             let turned = (self.bends[i] + self.bends[next]) / 2.0 * chord.norm() * (parts[k] - 0.5);
             let (cos, sin) = (trig::cos(turned), trig::sin(turned));
-            Vector::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y)
+            times(Vector::new(cos, sin), chord)
         });
         cross(a, b).abs() > 1e-3 * a.norm() * b.norm()
     }

@@ -74,7 +74,7 @@ fn distances(subject: &Subject, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2
     let towards = circuit.input[0] + turn;
     let reached = |deg: f64| {
         circuit.passes.iter().any(|pass| {
-            let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+            let [low, high] = pass.range();
             (deg - low + 1e-9).rem_euclid(360.0) <= high - low + 2e-9
         })
     };

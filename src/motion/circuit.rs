@@ -63,6 +63,11 @@ impl Pass {
         (self.to.stop.at - self.from.stop.at).abs()
     }
 
+    /// The least and the greatest input on it.
+    pub fn range(&self) -> [f64; 2] {
+        [self.from.stop.at.min(self.to.stop.at), self.from.stop.at.max(self.to.stop.at)]
+    }
+
     fn reversed(&self) -> Pass {
         Pass { from: self.to, to: self.from, signs: self.signs }
     }
@@ -270,7 +275,7 @@ fn precedes(a: &[Pass], b: &[Pass]) -> bool {
 fn cut_at_zero(passes: Vec<Pass>, period: f64) -> Vec<Pass> {
     let mut cut = Vec::new();
     for pass in passes {
-        let [low, high] = [pass.from.stop.at.min(pass.to.stop.at), pass.from.stop.at.max(pass.to.stop.at)];
+        let [low, high] = pass.range();
         let zero = (high / period).ceil() * period - period;
         if zero > low {
             let at = End { stop: Stop::angle(zero), flat: Flat::NONE };
