@@ -10,6 +10,7 @@ use std::path::Path;
 use crate::chart::{Gathering, Taken};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
+use crate::page::Layout;
 use crate::problem::Problem;
 use crate::record::{Cells, FamilyRecord, Points, Run};
 use crate::render::Format;
@@ -94,8 +95,8 @@ pub fn empty_families(plan: &Plan, built: Option<&Run>) -> Vec<Problem> {
 
 /// The cells of a page and the rows that go with them, ready to be written.
 struct Made {
-    /// The page, if they are drawn on one of their own.
-    page: Option<Rendered>,
+    /// The pages, if they are drawn on some of their own.
+    pages: Vec<Rendered>,
     /// What charts take of them.
     taken: Vec<Taken>,
     points: String,
@@ -120,7 +121,13 @@ fn build_family(
     files::create_folder(&folder)?;
     let kept = sweep::select(family);
     let cells_to_a_page = planned.layout.cells();
+    let order = sweep::order(family, &kept);
+    let begins = match planned.layout {
+        Layout::CouplerGrid => first_pages(&sweep::points(family, &order)),
+        _ => Vec::new(),
+    };
     let (group, pages) = match &planned.chart {
+        None if planned.layout == Layout::CouplerGrid => (1, begins.last().map_or(0, |end| end - 1)),
         None => (cells_to_a_page, kept.len().div_ceil(cells_to_a_page)),
         Some(_) if kept.is_empty() => (CELLS_TO_A_GROUP, 0),
         Some(chart) => (CELLS_TO_A_GROUP, chart.y.len().div_ceil(cells_to_a_page)),
@@ -145,6 +152,10 @@ fn build_family(
         pages,
         files: Vec::new(),
     };
+    let draw = |group: usize, solved: &[Solved]| match (planned.layout, solved) {
+        (Layout::CouplerGrid, [solved]) => printer.grids(begins[group], solved),
+        _ => Ok(vec![printer.panels(group + 1, solved)?]),
+    };
     let make = |page: usize, solved: Vec<Solved>| -> Result<Made, Error> {
         let (mut points, mut cells) = (String::new(), String::new());
         for solved in &solved {
@@ -157,10 +168,10 @@ fn build_family(
         let left_out = solved.iter().map(|s| s.left_out).sum();
         let shortfalls = solved.iter().filter_map(shortfall).collect();
         let is_drawn = planned.chart.is_none() && family.sort.is_none();
-        let page = is_drawn.then(|| printer.panels(page + 1, &solved)).transpose()?;
+        let pages = if is_drawn { draw(page, &solved)? } else { Vec::new() };
         let taken =
             planned.chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.take(solved))).collect();
-        Ok(Made { page, taken, points, cells, curves, left_out, shortfalls })
+        Ok(Made { pages, taken, points, cells, curves, left_out, shortfalls })
     };
     let mut gathering = planned.chart.as_ref().map(|chart| Gathering::new(chart, family));
     sweep::run(family, (&kept, group), make, |made| -> Result<(), Error> {
@@ -176,7 +187,7 @@ fn build_family(
         for (cell, reason) in &made.shortfalls {
             tell(Event::Shortfall { family: &family.id, cell: *cell, reason });
         }
-        if let Some(page) = made.page {
+        for page in made.pages {
             keep(page, &folder, &mut record)?;
             tell(Event::Page);
         }
@@ -184,11 +195,12 @@ fn build_family(
     })?;
     if planned.chart.is_none() && family.sort.is_some() {
         // Tables are in the order of the cells, pages in one of their own.
-        let order = sweep::order(family, &kept);
-        let draw = |page: usize, solved: Vec<Solved>| printer.panels(page + 1, &solved);
-        sweep::run(family, (&order, group), draw, |page| -> Result<(), Error> {
-            keep(page?, &folder, &mut record)?;
-            tell(Event::Page);
+        let draw = |group: usize, solved: Vec<Solved>| draw(group, &solved);
+        sweep::run(family, (&order, group), draw, |pages| -> Result<(), Error> {
+            for page in pages? {
+                keep(page, &folder, &mut record)?;
+                tell(Event::Page);
+            }
             Ok(())
         })?;
     }
@@ -203,6 +215,17 @@ fn build_family(
     record.files.insert(0, cells.finish()?);
     tell(Event::End { record: &record });
     Ok(record)
+}
+
+/// The numbers of the first pages of cells with so many traced points, and the one after the last.
+fn first_pages(points: &[usize]) -> Vec<usize> {
+    let mut next = 1;
+    let mut begins = vec![next];
+    for points in points {
+        next += points.div_ceil(Layout::POINTS).max(1);
+        begins.push(next);
+    }
+    begins
 }
 
 /// Writes a page and records it.

@@ -4,7 +4,7 @@ use super::Error;
 use crate::chart::{Chart, Gathered};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::{self, ChartSheet, Panel, Sheet, View};
+use crate::page::{self, ChartSheet, GridSheet, Heading, Layout, Panel, Sheet, View};
 use crate::record::FileRecord;
 use crate::render::{self, Format};
 use crate::scene::Scene;
@@ -37,26 +37,35 @@ fn panel<'s>(family: &Family, solved: &'s Solved) -> Panel<'s> {
 impl Printer<'_> {
     /// A page of panels; pages are counted from 1.
     pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Rendered, Error> {
-        let Printer { plan, planned, of, .. } = *self;
+        let Printer { plan, planned, .. } = *self;
         let family = &planned.family;
         let sheet = Sheet {
-            atlas: &plan.title,
-            family: &family.id,
-            title: &family.title,
-            symbols: &family.names,
-            source: source_line(planned, plan.page.dash_deg),
-            page,
-            of,
+            heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
             layout: planned.layout,
             panels: solved.iter().map(|solved| panel(family, solved)).collect(),
         };
         self.render(page, &page::compose(&sheet, &plan.page))
     }
 
+    /// The pages of a coupler grid, of which the first has this number.
+    pub fn grids(&self, page: usize, solved: &Solved) -> Result<Vec<Rendered>, Error> {
+        let Printer { plan, planned, .. } = *self;
+        let mut shown = solved.by_points(Layout::POINTS);
+        if shown.is_empty() {
+            // A cell that is not assembled has a page that says so.
+            shown.push(Vec::new());
+        }
+        let draw = |(page, shown)| {
+            let heading = self.heading(page, planned.source.clone());
+            let sheet = GridSheet { heading, panel: panel(&planned.family, solved), shown };
+            self.render(page, &page::compose_grid(&sheet, &plan.page))
+        };
+        (page..).zip(shown).map(draw).collect()
+    }
+
     /// A page of charts.
     pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Rendered, Error> {
-        let Printer { plan, planned, of, .. } = *self;
-        let family = &planned.family;
+        let Printer { plan, planned, .. } = *self;
         let first = (page - 1) * planned.layout.cells();
         let mut source = vec![planned.source.clone()];
         if gathered.left_out > 0 {
@@ -65,19 +74,19 @@ impl Printer<'_> {
         }
         source.retain(|part| !part.is_empty());
         let sheet = ChartSheet {
-            atlas: &plan.title,
-            family: &family.id,
-            title: &family.title,
-            symbols: &family.names,
-            source: source.join(" · "),
-            page,
-            of,
+            heading: self.heading(page, source.join(" · ")),
             layout: planned.layout,
             chart,
             shown: first..(first + planned.layout.cells()).min(chart.y.len()),
             series: &gathered.series,
         };
         self.render(page, &page::compose_charts(&sheet, &plan.page))
+    }
+
+    fn heading(&self, page: usize, source: String) -> Heading<'_> {
+        let Printer { plan, planned, of, .. } = *self;
+        let Family { id, title, names, .. } = &planned.family;
+        Heading { atlas: &plan.title, family: id, title, source, symbols: names, page, of }
     }
 
     /// A page in each format.

@@ -275,6 +275,8 @@ mod tests {
             assert_eq!(value(text), 0.0, "{text}");
         }
         assert_eq!(value("not x < 1"), 1.0);
+        // A truth that is missing, the comparison of two of which is another, is not true.
+        assert_eq!(value("x < 1 or x > 1"), 0.0);
     }
 
     #[test]

@@ -214,8 +214,8 @@ impl Operator {
             Operator::LessOrEqual => truth(a <= b),
             Operator::Greater => truth(a > b),
             Operator::GreaterOrEqual => truth(a >= b),
-            Operator::And => truth(a != 0.0 && b != 0.0),
-            Operator::Or => truth(a != 0.0 || b != 0.0),
+            Operator::And => truth(a == 1.0 && b == 1.0),
+            Operator::Or => truth(a == 1.0 || b == 1.0),
         }
     }
 }

@@ -269,15 +269,23 @@ fn columns<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Column>
 
 /// The layout; of charts, of which there are that many, one in which they show well where no panels are given.
 fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, charts: usize, reader: &mut Reader<'t>) -> Option<Layout> {
-    let words = Layout::ALL.map(|(name, _)| (name, name == "chart"));
-    let is_chart = match fields.get("layout") {
+    let words = Layout::ALL.map(|(name, _)| (name, name));
+    let name = match fields.get("layout") {
         Some(value) => reader.word(value, &words)?,
-        None => false,
+        None => "panels",
     };
+    let is_chart = name == "chart";
     chart::check_layout(fields, is_chart, reader);
     // Of a paper that could not be read nothing is asked.
     let most = if is_chart { Layout::most_charts } else { Layout::most_panels };
     let [most_columns, most_rows] = paper.map_or([100, 100], most);
+    if name == "coupler-grid" {
+        if let Some(value) = fields.get("panels") {
+            let problem = Problem::error(value.span(), "a page of a coupler grid has one cell, and no panels");
+            reader.note(problem.help("leave `panels` out, or write layout = \"panels\""));
+        }
+        return Some(Layout::CouplerGrid);
+    }
     let Some(value) = fields.get("panels") else {
         return Some(match paper.filter(|_| is_chart) {
             Some(paper) => Layout::of_charts(paper, charts),

@@ -110,9 +110,9 @@ impl<'a> Figure<'a> {
             };
             let cell = self.solved.cell.number;
             let element = CouplerCurve {
-                id: format!("{}-{cell}-{trace}-{circuit}", sheet.family),
+                id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family),
                 class: "curve",
-                title: format!("{}, no. {cell}: {}", sheet.title, self.panel.caption),
+                title: format!("{}, no. {cell}: {}", sheet.heading.title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 strokes,
                 weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],

@@ -9,24 +9,32 @@ use crate::geometry::Point;
 use crate::scene::{Anchor, Canvas, Color};
 
 /// What is said round the contents of a page.
-pub(super) struct Heading<'a> {
+#[derive(Clone, Debug)]
+pub struct Heading<'a> {
+    /// The atlas's title.
     pub atlas: &'a str,
+    /// The family's id.
+    pub family: &'a str,
+    /// The family's title.
     pub title: &'a str,
-    pub source: &'a str,
+    /// Where the linkage comes from and what its letters mean.
+    pub source: String,
     /// Words that stand for values, set in italics.
     pub symbols: &'a [String],
+    /// The page's number in the family, from 1.
     pub page: usize,
+    /// How many pages the family has.
     pub of: usize,
 }
 
 impl Heading<'_> {
     /// The name of the whole page.
-    pub fn name(&self) -> String {
+    pub(super) fn name(&self) -> String {
         format!("{}, page {} of {}: {}", self.title, self.page, self.of, self.atlas)
     }
 
     /// Draws border, title, source line and folio.
-    pub fn draw(&self, root: &Area, theme: &Theme) {
+    pub(super) fn draw(&self, root: &Area, theme: &Theme) {
         let page = size(root);
         let Color(r, g, b) = theme.ink;
         let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
@@ -42,7 +50,7 @@ impl Heading<'_> {
         let mut at = Point::new(left, at.y + 1.85 * theme.source);
         let words = |text: &str, at| Words::new(text, at, Anchor::Start, theme.source, theme.grey).italic(self.symbols);
         // What is too long for one line is parted between two of its parts; there is no room for a third line.
-        let (first, second) = parted(self.source, |text| words(text, at).text.width() <= right - left);
+        let (first, second) = parted(&self.source, |text| words(text, at).text.width() <= right - left);
         for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
             draw(root, &words(line, at).fitted(right - left));
             at.y += 1.35 * theme.source;

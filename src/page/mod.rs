@@ -2,6 +2,7 @@
 
 mod arrangement;
 mod chart;
+mod coupler_grid;
 mod element;
 mod figure;
 mod heading;
@@ -12,6 +13,7 @@ mod plot;
 mod pose;
 mod theme;
 
+pub use heading::Heading;
 pub use marks::facts;
 pub use theme::Theme;
 
@@ -19,7 +21,6 @@ use crate::chart::{Chart, Series};
 use crate::geometry::Point;
 use crate::scene::Scene;
 use crate::sweep::Solved;
-use heading::Heading;
 
 /// The size of the paper, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,12 +61,21 @@ pub enum Layout {
         /// Rows.
         rows: usize,
     },
+    /// A page for each cell and ten traced points of it, as in the atlas of Hrones and Nelson.
+    CouplerGrid,
 }
 
 impl Layout {
+    /// How many traced points a page of a coupler grid shows.
+    pub const POINTS: usize = 10;
+
     /// Every layout's name and what it shows.
-    pub const ALL: [(&'static str, &'static str); 2] = [
+    pub const ALL: [(&'static str, &'static str); 3] = [
         ("panels", "a grid of panels, each with a cell's linkage, its curves and its caption"),
+        (
+            "coupler-grid",
+            "a page for each cell and ten of its coupler points, on the grid they stand on; then for the next ten",
+        ),
         ("chart", "a grid of charts, each with one of the quantities that the family's `chart` names over another"),
     ];
 
@@ -89,6 +99,7 @@ impl Layout {
     pub fn grid(self) -> [usize; 2] {
         match self {
             Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
+            Layout::CouplerGrid => [1, 1],
         }
     }
 
@@ -111,20 +122,8 @@ pub struct Options {
 /// A page to be composed.
 #[derive(Clone, Debug)]
 pub struct Sheet<'a> {
-    /// The atlas's title.
-    pub atlas: &'a str,
-    /// The family's id.
-    pub family: &'a str,
-    /// The family's title.
-    pub title: &'a str,
-    /// Where the linkage comes from and what its letters mean.
-    pub source: String,
-    /// Words that stand for values, set in italics.
-    pub symbols: &'a [String],
-    /// The page's number in the family, from 1.
-    pub page: usize,
-    /// How many pages the family has.
-    pub of: usize,
+    /// What stands round the contents.
+    pub heading: Heading<'a>,
     /// How the cells are laid out.
     pub layout: Layout,
     /// The cells.
@@ -165,23 +164,22 @@ pub enum View {
     },
 }
 
+/// A page of a coupler grid to be composed.
+#[derive(Clone, Debug)]
+pub struct GridSheet<'a> {
+    /// What stands round the contents.
+    pub heading: Heading<'a>,
+    /// The cell.
+    pub panel: Panel<'a>,
+    /// Which of its curves are on this page, by their places.
+    pub shown: Vec<usize>,
+}
+
 /// A page of charts to be composed.
 #[derive(Clone, Debug)]
 pub struct ChartSheet<'a> {
-    /// The atlas's title.
-    pub atlas: &'a str,
-    /// The family's id.
-    pub family: &'a str,
-    /// The family's title.
-    pub title: &'a str,
-    /// Where the linkage comes from and what its letters mean.
-    pub source: String,
-    /// Words that stand for values, set in italics.
-    pub symbols: &'a [String],
-    /// The page's number in the family, from 1.
-    pub page: usize,
-    /// How many pages the family has.
-    pub of: usize,
+    /// What stands round the contents.
+    pub heading: Heading<'a>,
     /// How the charts are laid out.
     pub layout: Layout,
     /// What the charts show.
@@ -192,33 +190,27 @@ pub struct ChartSheet<'a> {
     pub series: &'a [Series],
 }
 
-impl Sheet<'_> {
-    fn heading(&self) -> Heading<'_> {
-        let Sheet { atlas, title, symbols, page, of, .. } = *self;
-        Heading { atlas, title, source: &self.source, symbols, page, of }
-    }
-}
-
-impl ChartSheet<'_> {
-    fn heading(&self) -> Heading<'_> {
-        let ChartSheet { atlas, title, symbols, page, of, .. } = *self;
-        Heading { atlas, title, source: &self.source, symbols, page, of }
-    }
-}
-
 /// Draws a page of panels.
 pub fn compose(sheet: &Sheet, options: &Options) -> Scene {
     let theme = Theme::for_paper(options.paper);
-    let mut scene = blank(&sheet.heading(), options, &theme);
+    let mut scene = blank(&sheet.heading, options, &theme);
     let [columns, rows] = sheet.layout.grid();
     panels::compose(&mut scene, sheet, (columns, rows), options, &theme);
+    scene
+}
+
+/// Draws a page of a coupler grid.
+pub fn compose_grid(sheet: &GridSheet, options: &Options) -> Scene {
+    let theme = Theme::for_paper(options.paper);
+    let mut scene = blank(&sheet.heading, options, &theme);
+    coupler_grid::compose(&mut scene, sheet, options, &theme);
     scene
 }
 
 /// Draws a page of charts.
 pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
     let theme = Theme::for_paper(options.paper);
-    let mut scene = blank(&sheet.heading(), options, &theme);
+    let mut scene = blank(&sheet.heading, options, &theme);
     chart::compose(&mut scene, sheet, &theme);
     scene
 }

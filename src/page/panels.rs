@@ -13,7 +13,7 @@ use crate::scene::{Anchor, Canvas, Color, Item, Scene};
 
 pub(super) fn compose(scene: &mut Scene, sheet: &Sheet, grid: (usize, usize), options: &Options, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
-    sheet.heading().draw(&root, theme);
+    sheet.heading.draw(&root, theme);
     panels(&root, sheet, grid, options, theme);
 }
 
@@ -40,7 +40,7 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
             Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
             None => draw_reason(area, frame, panel, theme),
         }
-        caption(area, (foot, facts), panel, sheet.symbols, theme);
+        caption(area, (foot, facts), panel, sheet.heading.symbols, theme);
     }
 }
 

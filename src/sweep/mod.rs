@@ -84,6 +84,15 @@ impl Solved {
         &self.motion.circuits[curve.circuit - 1]
     }
 
+    /// The curves by traced points, in order, so many points together: what stands on one page after the other.
+    pub fn by_points(&self, together: usize) -> Vec<Vec<usize>> {
+        let mut traces: Vec<usize> = self.curves.iter().map(|curve| curve.trace).collect();
+        traces.dedup();
+        let of =
+            |traces: &[usize]| (0..self.curves.len()).filter(|&k| traces.contains(&self.curves[k].trace)).collect();
+        traces.chunks(together).map(of).collect()
+    }
+
     /// What was measured of the first curve; nothing where there is none.
     pub fn measures(&self) -> &[Value] {
         self.curves.first().map_or(&[], |curve| &curve.measures)
@@ -156,6 +165,12 @@ pub fn order(family: &Family, kept: &[usize]) -> Vec<usize> {
     let mut ranked: Vec<(f64, usize)> = kept.par_iter().map(rank).collect();
     ranked.sort_by(|a, b| a.0.is_nan().cmp(&b.0.is_nan()).then(a.0.total_cmp(&b.0)).then(a.1.cmp(&b.1)));
     ranked.into_iter().map(|(_, k)| k).collect()
+}
+
+/// How many traced points of each of some cells are kept on any circuit; none of a cell that is not assembled.
+pub fn points(family: &Family, cells: &[usize]) -> Vec<usize> {
+    let judged = judged(family);
+    cells.par_iter().map(|&k| judged(k).map_or(0, |solved| solved.by_points(1).len())).collect()
 }
 
 /// Solves cells of a family, and takes no more measures of them than `where` and `sort` ask for.

@@ -1,5 +1,5 @@
 use coupler_atlas::design::Design;
-use coupler_atlas::page::{self, Layout, Options, Panel, Paper, Sheet, View};
+use coupler_atlas::page::{self, Heading, Layout, Options, Panel, Paper, Sheet, View};
 use coupler_atlas::render::{self, TextMode};
 use coupler_atlas::sweep::Solved;
 
@@ -33,7 +33,7 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
     let mut symbols: Vec<String> = designs.iter().flat_map(|design| design.family.names.clone()).collect();
     symbols.sort();
     symbols.dedup();
-    let sheet = Sheet {
+    let heading = Heading {
         atlas: "coupler-atlas",
         family: "design",
         title: "Straight-line linkages",
@@ -41,6 +41,9 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
         symbols: &symbols,
         page: 1,
         of: 1,
+    };
+    let sheet = Sheet {
+        heading,
         layout: Layout::Panels { columns, rows },
         panels: designs.iter().zip(&solved).map(panel).collect(),
     };

@@ -1,7 +1,7 @@
 use coupler_atlas::geometry::Point;
 use coupler_atlas::linkage::Input;
 use coupler_atlas::motion::{self, Motion, Sampler, Sampling};
-use coupler_atlas::page::{self, Layout, Options, Panel, Paper, Sheet, View};
+use coupler_atlas::page::{self, Heading, Layout, Options, Panel, Paper, Sheet, View};
 use coupler_atlas::render::{self, TextMode};
 use coupler_atlas::sweep::Solved;
 
@@ -22,7 +22,7 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
     };
     let panel = Panel { view, ..panel };
     let title = if cognates.is_some() { format!("{} and its cognates", family.title) } else { family.title.clone() };
-    let sheet = Sheet {
+    let heading = Heading {
         atlas: "coupler-atlas",
         family: &family.id,
         title: &title,
@@ -30,9 +30,8 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
         symbols: &family.names,
         page: 1,
         of: 1,
-        layout: Layout::Panels { columns: 1, rows: 1 },
-        panels: vec![panel],
     };
+    let sheet = Sheet { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] };
     let options = Options { paper: Paper { width: 200.0, height: 150.0 }, dash_deg: 5.0 };
     render::svg(&page::compose(&sheet, &options), TextMode::Text)
 }

@@ -32,7 +32,7 @@ impl<'a> Figure<'a> {
     pub fn of(sheet: &'a ChartSheet<'a>, place: usize, area: Vector, theme: &Theme) -> Figure<'a> {
         let chart = sheet.chart;
         let labels = || sheet.series.iter().map(|series| series.label.as_str());
-        let right = keys::room(labels(), sheet.symbols, theme).min(0.3 * area.x);
+        let right = keys::room(labels(), sheet.heading.symbols, theme).min(0.3 * area.x);
         let room = |mm: f64, least: f64, most: usize| ((mm / least) as usize).clamp(2, most);
         let wish = |quantity: &Quantity, ends, ticks| Wish {
             is_log: quantity.is_log,
@@ -110,7 +110,7 @@ impl<'a> Figure<'a> {
         let y = 1.2 * theme.caption;
         let name = named(self.quantity());
         let words = Words::new(&name, Point::new(0.0, y), Anchor::Start, theme.caption, theme.ink);
-        let words = words.italic(self.sheet.symbols).fitted(width);
+        let words = words.italic(self.sheet.heading.symbols).fitted(width);
         let after = words.text.width() + 1.2 * theme.caption;
         draw(area, &words);
         let definition = |text: &str| Words::new(text, Point::new(after, y), Anchor::Start, theme.note, theme.grey);
@@ -130,7 +130,7 @@ impl<'a> Figure<'a> {
         let y = all.y - foot + 2.0 * tick(theme) + 1.5 * theme.note + 1.1 * theme.caption;
         let name = named(&self.sheet.chart.x);
         let words = Words::new(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption, theme.ink);
-        let words = words.italic(self.sheet.symbols).fitted(0.9 * inner.x);
+        let words = words.italic(self.sheet.heading.symbols).fitted(0.9 * inner.x);
         let beside = (inner.x - words.text.width()) / 2.0 - theme.caption;
         draw(area, &words);
         let below: usize = self.traces(frame).iter().map(|trace| trace.below).sum();
@@ -177,7 +177,7 @@ impl<'a> Figure<'a> {
                 keys.push(Key { label: &series.label, manner, height: end.y });
             }
         }
-        let items = keys::items(keys, (span.x, span.y, self.right), with_marks, self.sheet.symbols, theme);
+        let items = keys::items(keys, (span.x, span.y, self.right), with_marks, self.sheet.heading.symbols, theme);
         if !items.is_empty() {
             draw(frame, &Drawing { class: "keys", title: String::new(), items });
         }
@@ -190,9 +190,9 @@ impl<'a> Figure<'a> {
             series.cell.map(|cell| ("cell", cell.to_string())).into_iter().collect();
         data.extend([("trace", series.trace.to_string()), ("circuit", series.circuit.to_string())]);
         Group {
-            id: format!("{}-chart-{}-{}", self.sheet.family, self.place + 1, k + 1),
+            id: format!("{}-chart-{}-{}", self.sheet.heading.family, self.place + 1, k + 1),
             class: "series",
-            title: format!("{}: {y} over {x}{of}", self.sheet.title),
+            title: format!("{}: {y} over {x}{of}", self.sheet.heading.title),
             data,
             items,
         }

@@ -21,7 +21,7 @@ use figure::Figure;
 /// Draws a page of charts.
 pub(super) fn compose(scene: &mut Scene, sheet: &ChartSheet, theme: &Theme) {
     let [columns, rows] = sheet.layout.grid();
-    sheet.heading().draw(&Canvas::new(scene).into_drawing_area(), theme);
+    sheet.heading.draw(&Canvas::new(scene).into_drawing_area(), theme);
     for (place, shown) in sheet.shown.clone().enumerate() {
         // What plotters draws is gathered to a group.
         let before = scene.items.len();
@@ -37,7 +37,7 @@ pub(super) fn compose(scene: &mut Scene, sheet: &ChartSheet, theme: &Theme) {
         let items = scene.items.split_off(before);
         let quantity = &sheet.chart.y[shown];
         let title = format!("{} over {}", quantity.text, sheet.chart.x.text);
-        let id = format!("{}-chart-{}", sheet.family, shown + 1);
+        let id = format!("{}-chart-{}", sheet.heading.family, shown + 1);
         scene.items.push(Item::Group(Group { id, class: "chart", title, data, items }));
     }
 }
