@@ -4,7 +4,7 @@ use super::Error;
 use crate::chart::{Chart, Gathered};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::{self, ChartSheet, GridSheet, Heading, Layout, Panel, Sheet, View};
+use crate::page::{self, ChartSheet, GridSheet, Heading, Label, Layout, Panel, Sheet, View};
 use crate::record::FileRecord;
 use crate::render::{self, Format};
 use crate::scene::Scene;
@@ -34,6 +34,16 @@ fn panel<'s>(family: &Family, solved: &'s Solved) -> Panel<'s> {
     Panel { inks: Vec::new(), caption, note, facts: page::facts(solved), solved, view: View::Clearest }
 }
 
+/// What the links of a cell are called.
+fn labels(family: &Family, solved: &Solved) -> Vec<Label> {
+    let joint = |name: &str| solved.linkage.joints.iter().position(|joint| joint.name == name);
+    let label = |(ends, text): ([&str; 2], String)| {
+        let [from, to] = ends.map(joint);
+        Some(Label { ends: [from?, to?], text })
+    };
+    family.template.lengths().into_iter().filter_map(label).collect()
+}
+
 impl Printer<'_> {
     /// A page of panels; pages are counted from 1.
     pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Rendered, Error> {
@@ -55,9 +65,13 @@ impl Printer<'_> {
             // A cell that is not assembled has a page that says so.
             shown.push(Vec::new());
         }
+        let labels = labels(&planned.family, solved);
+        // One pose for all pages of a cell.
+        let view = page::clearest_pose(solved).map_or(View::Clearest, View::At);
         let draw = |(page, shown)| {
             let heading = self.heading(page, planned.source.clone());
-            let sheet = GridSheet { heading, panel: panel(&planned.family, solved), shown };
+            let panel = Panel { view: view.clone(), ..panel(&planned.family, solved) };
+            let sheet = GridSheet { heading, panel, shown, labels: &labels };
             self.render(page, &page::compose_grid(&sheet, &plan.page))
         };
         (page..).zip(shown).map(draw).collect()

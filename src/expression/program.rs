@@ -177,6 +177,15 @@ impl Bound {
         self.expression.evaluate(|name| load(self.slots[name]))
     }
 
+    /// The name or the number it is, if it is nothing else.
+    pub fn word(&self) -> Option<String> {
+        match (self.expression.as_name(), &self.expression.program[..]) {
+            (Some(name), _) => Some(name.to_owned()),
+            (None, [(Instruction::Push(value), _)]) => Some(value.to_string()),
+            _ => None,
+        }
+    }
+
     /// The places of the names it asks for.
     pub fn slots(&self) -> &[usize] {
         &self.slots

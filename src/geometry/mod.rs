@@ -6,11 +6,13 @@
 
 mod bounds;
 mod placement;
+mod polyline;
 mod similarity;
 pub mod trig;
 
 pub use bounds::Bounds;
 pub use placement::Placement;
+pub use polyline::thinned;
 pub use similarity::Similarity;
 
 /// A point of the plane.

@@ -36,7 +36,7 @@ pub use circuit::{End, Pass, Stop};
 pub use instant::Instant;
 pub use jet::Jets;
 pub use kernel::{Columns, Inputs, Modes, place};
-pub use path::{Dashes, Stroke, strokes};
+pub use path::{Dashes, Path, Stroke, paths};
 pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
 
 use crate::geometry::Point;
@@ -80,11 +80,11 @@ impl Motion {
 
 /// Where every joint is at inputs of a pass, as seen from the linkage's own view.
 pub fn poses(linkage: &Linkage, pass: &Pass, inputs: &[f64]) -> Columns {
-    path::at(linkage, pass, inputs)
+    path::at_inputs(linkage, pass, inputs)
 }
 
 /// Where every joint is at one input of a pass, as seen from the linkage's own view.
 pub fn pose(linkage: &Linkage, pass: &Pass, input: f64) -> Vec<Point> {
-    let columns = path::at(linkage, pass, &[input]);
+    let columns = path::at_inputs(linkage, pass, &[input]);
     (0..linkage.joints.len()).map(|joint: JointId| columns.point(joint, 0)).collect()
 }

@@ -1,11 +1,11 @@
-//! The path a joint draws, refined to a chord error, and cut into dashes of equal input.
+//! The path a joint draws, refined to a chord error, whole and cut into dashes of equal input.
 
 use super::circuit::{Pass, Stop};
 use super::ends::place_end;
 use super::kernel::{Columns, Modes, OwnInputs, place, see};
 use super::sampling::Circuit;
-use crate::geometry::{Point, distance_to_segment};
-use crate::linkage::{Arc, Flat, JointId, Linkage};
+use crate::geometry::{Point, distance_to_segment, thinned};
+use crate::linkage::{Arc, Flat, Input, JointId, Linkage};
 
 /// How a curve is cut into dashes: dash k starts at input k * period and spans `drawn`, both in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,49 +25,59 @@ pub struct Stroke {
     pub figure: bool,
 }
 
-/// The strokes of some joints on a circuit, joint by joint.
+/// What a joint draws on a circuit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    /// All of it, from the circuit's beginning to its end.
+    pub whole: Vec<Point>,
+    /// The dashes.
+    pub dashes: Vec<Stroke>,
+}
+
+/// The paths of some joints on a circuit, joint by joint.
 ///
-/// A chord is nowhere further than `tolerance` (in the plane's unit) from the curve, as judged at the middle of its
-/// input; the paths of all `joints` share their inputs.
-pub fn strokes(
-    linkage: &Linkage,
-    circuit: &Circuit,
-    joints: &[JointId],
-    dashes: Dashes,
-    tolerance: f64,
-) -> Vec<Vec<Stroke>> {
-    let mut out: Vec<Vec<Stroke>> = vec![Vec::new(); joints.len()];
+/// No chord is further than `tolerance` (in the plane's unit) from the curve: half of that is for the refinement, as
+/// judged at the middle of a chord's input, and half for the points that are left out again because the line passes
+/// them that near. The inputs are refined for all joints together.
+pub fn paths(linkage: &Linkage, circuit: &Circuit, joints: &[JointId], dashes: Dashes, tolerance: f64) -> Vec<Path> {
+    let mut out = vec![Path::default(); joints.len()];
     let mut continues = false;
     for pass in &circuit.passes {
-        for piece in pieces(pass, dashes, linkage.travel.arc) {
-            let path = refine(linkage, pass, &piece, joints, tolerance);
-            for (strokes, points) in out.iter_mut().zip(path) {
-                match strokes.last_mut() {
+        let pieces = pieces(pass, dashes, linkage.travel.arc);
+        let nodes = Nodes::of(linkage, pass, &pieces, joints, tolerance / 2.0);
+        let runs = nodes.runs(&pieces);
+        for (path, points) in out.iter_mut().zip(&nodes.points) {
+            let seam = usize::from(!path.whole.is_empty());
+            path.whole.extend(thinned(points, tolerance / 2.0).into_iter().skip(seam));
+            for (piece, run) in pieces.iter().zip(&runs).filter(|(piece, _)| piece.drawn) {
+                let points = thinned(&points[run.clone()], tolerance / 2.0);
+                match path.dashes.last_mut() {
                     // A dash that a limit falls in goes on where the pass before ended.
                     Some(last) if continues && piece.at_start && last.figure == piece.figure => {
                         last.points.extend(points.into_iter().skip(1));
                     }
-                    _ => strokes.push(Stroke { points, figure: piece.figure }),
+                    _ => path.dashes.push(Stroke { points, figure: piece.figure }),
                 }
             }
-            continues = piece.at_end;
         }
+        continues = pieces.last().is_some_and(|piece| piece.drawn);
     }
     out
 }
 
-/// A part of a pass that is drawn.
+/// A part of a pass: a dash or a gap, in the sense of the pass.
 struct Piece {
     from: f64,
     to: f64,
+    drawn: bool,
     figure: bool,
     at_start: bool,
-    at_end: bool,
 }
 
+/// The parts of a pass, one after the other.
 fn pieces(pass: &Pass, dashes: Dashes, arc: Option<Arc>) -> Vec<Piece> {
     let (from, to) = (pass.from.stop.at, pass.to.stop.at);
-    let [low, high] = [from.min(to), from.max(to)];
+    let [low, high] = pass.range();
     let mut cuts = vec![low, high];
     let mut k = (low / dashes.period).floor();
     while k * dashes.period < high {
@@ -85,73 +95,117 @@ fn pieces(pass: &Pass, dashes: Dashes, arc: Option<Arc>) -> Vec<Piece> {
     cuts.retain(|deg| (low..=high).contains(deg));
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
-    let mut out: Vec<Piece> = Vec::new();
-    for pair in cuts.windows(2) {
-        let middle = (pair[0] + pair[1]) / 2.0;
-        if middle.rem_euclid(dashes.period) < dashes.drawn {
-            let inside = arc.is_none() || arcs.iter().any(|[a, b]| (*a..=*b).contains(&middle));
-            out.push(Piece {
-                from: pair[0],
-                to: pair[1],
-                figure: inside,
-                at_start: pair[0] == from,
-                at_end: pair[1] == to,
-            });
-        }
-    }
     if from > to {
-        out.reverse();
-        for piece in &mut out {
-            (piece.from, piece.to) = (piece.to, piece.from);
-            (piece.at_start, piece.at_end) = (piece.from == from, piece.to == to);
-        }
+        cuts.reverse();
     }
-    out
+    let piece = |pair: &[f64]| {
+        let middle = (pair[0] + pair[1]) / 2.0;
+        let drawn = middle.rem_euclid(dashes.period) < dashes.drawn;
+        let figure = arc.is_none() || arcs.iter().any(|[a, b]| (*a..=*b).contains(&middle));
+        Piece { from: pair[0], to: pair[1], drawn, figure, at_start: pair[0] == from }
+    };
+    cuts.windows(2).map(piece).collect()
 }
 
-/// The paths of `joints` over a piece of a pass.
-fn refine(linkage: &Linkage, pass: &Pass, piece: &Piece, joints: &[JointId], tolerance: f64) -> Vec<Vec<Point>> {
-    /// Each round halves the input between neighbours; 2^-30 of a dash is far below any paper's resolution.
-    const ROUNDS: usize = 30;
-    /// A dash of more points than this is not drawn finer, whatever the tolerance.
-    const MOST: usize = 10_000;
-    let places = |degs: Vec<f64>| -> Vec<Node> {
-        let columns = at(linkage, pass, &degs);
-        let points = |i: usize| joints.iter().map(|&joint| columns.point(joint, i)).collect();
-        degs.iter().enumerate().map(|(i, &at)| Node { at, points: points(i), open: true }).collect()
-    };
-    let is_bent = |middle: &Node, a: &Node, b: &Node| {
-        (0..joints.len()).any(|j| distance_to_segment(middle.points[j], a.points[j], b.points[j]) > tolerance)
-    };
-    let mut nodes = places(vec![piece.from, (piece.from + piece.to) / 2.0, piece.to]);
-    for _ in 0..ROUNDS {
-        let pairs = nodes.windows(2).filter(|pair| pair[0].open);
-        let middles = places(pairs.map(|pair| (pair[0].at + pair[1].at) / 2.0).collect());
-        if middles.is_empty() || nodes.len() > MOST {
-            break;
-        }
-        let mut middles = middles.into_iter();
-        let mut old = std::mem::take(&mut nodes).into_iter().peekable();
-        while let Some(mut node) = old.next() {
-            let middle = old.peek().filter(|_| node.open).and_then(|next| Some((middles.next()?, next)));
-            let inserted = middle.filter(|(middle, next)| is_bent(middle, &node, next)).map(|(middle, _)| middle);
-            node.open = inserted.is_some();
-            nodes.push(node);
-            nodes.extend(inserted);
-        }
-    }
-    (0..joints.len()).map(|j| nodes.iter().map(|node| node.points[j]).collect()).collect()
+/// Inputs of a pass, the ends of all its pieces among them, and where the joints are there.
+struct Nodes {
+    at: Vec<f64>,
+    /// Whether the path from a node to the next may still be bent.
+    open: Vec<bool>,
+    /// The places of each joint.
+    points: Vec<Vec<Point>>,
 }
 
-/// A place of a path: its input, where the joints are, and whether the path to the next may still be bent.
-struct Node {
-    at: f64,
-    points: Vec<Point>,
-    open: bool,
+impl Nodes {
+    /// As many as it takes for no joint to be further than `tolerance` from its chords, at the middles of their inputs.
+    fn of(linkage: &Linkage, pass: &Pass, pieces: &[Piece], joints: &[JointId], tolerance: f64) -> Nodes {
+        /// No chord spans more of a crank's turn than this, in degrees: a longer one may cross its curve at its middle.
+        const LONGEST: f64 = 3.0;
+        /// Nor more of a pass than a part in this.
+        const FEWEST: f64 = 64.0;
+        /// Each round halves the input between neighbours; 2^-30 of a dash is far below any paper's resolution.
+        const ROUNDS: usize = 30;
+        /// A pass of more nodes than this is not drawn finer, whatever the tolerance.
+        const MOST: usize = 100_000;
+        let longest = match linkage.input() {
+            Input::Angle { .. } => LONGEST.min(pass.length() / FEWEST),
+            Input::Length => pass.length() / FEWEST,
+        };
+        let mut inputs: Vec<f64> = Vec::new();
+        for piece in pieces {
+            let chords = ((piece.to - piece.from).abs() / longest).ceil().clamp(1.0, MOST as f64);
+            let part = |k: usize| piece.from + (piece.to - piece.from) * (k as f64 / chords);
+            inputs.extend((0..chords as usize).map(part));
+        }
+        inputs.extend(pieces.last().map(|piece| piece.to));
+        let mut nodes = Nodes::placed(linkage, pass, inputs, joints);
+        for _ in 0..ROUNDS {
+            let pairs = (1..nodes.at.len()).filter(|&k| nodes.open[k - 1]);
+            let middles: Vec<f64> = pairs.map(|k| (nodes.at[k - 1] + nodes.at[k]) / 2.0).collect();
+            if middles.is_empty() || nodes.at.len() > MOST {
+                break;
+            }
+            nodes = nodes.refined(&Nodes::placed(linkage, pass, middles, joints), tolerance);
+        }
+        nodes
+    }
+
+    fn placed(linkage: &Linkage, pass: &Pass, at: Vec<f64>, joints: &[JointId]) -> Nodes {
+        let columns = at_inputs(linkage, pass, &at);
+        let column = |joint: &JointId| {
+            let (x, y) = (columns.x(*joint), columns.y(*joint));
+            x.iter().zip(y).map(|(x, y)| Point::new(*x, *y)).collect()
+        };
+        Nodes { open: vec![true; at.len()], points: joints.iter().map(column).collect(), at }
+    }
+
+    /// The nodes with those of the middles of their open chords that are off their chord.
+    fn refined(&self, middles: &Nodes, tolerance: f64) -> Nodes {
+        let mut next = 0;
+        // For each node, the middle after it, if the path is bent there.
+        let mut middle_after: Vec<Option<usize>> = vec![None; self.at.len()];
+        for k in 1..self.at.len() {
+            if self.open[k - 1] {
+                let joints = self.points.iter().zip(&middles.points);
+                let is_bent = |(points, middles): (&Vec<Point>, &Vec<Point>)| {
+                    distance_to_segment(middles[next], points[k - 1], points[k]) > tolerance
+                };
+                middle_after[k - 1] = joints.into_iter().any(is_bent).then_some(next);
+                next += 1;
+            }
+        }
+        fn merged<T: Copy>(old: &[T], new: &[T], after: &[Option<usize>]) -> Vec<T> {
+            let mut out = Vec::with_capacity(old.len() + new.len());
+            for (value, middle) in old.iter().zip(after) {
+                out.push(*value);
+                out.extend(middle.map(|middle| new[middle]));
+            }
+            out
+        }
+        let still_open: Vec<bool> = middle_after.iter().map(Option::is_some).collect();
+        let points = self.points.iter().zip(&middles.points);
+        Nodes {
+            at: merged(&self.at, &middles.at, &middle_after),
+            open: merged(&still_open, &middles.open, &middle_after),
+            points: points.map(|(old, new)| merged(old, new, &middle_after)).collect(),
+        }
+    }
+
+    /// The nodes of each piece, its ends included.
+    fn runs(&self, pieces: &[Piece]) -> Vec<std::ops::RangeInclusive<usize>> {
+        let mut from = 0;
+        let run = |piece: &Piece| {
+            let steps = self.at[from..].iter().position(|at| *at == piece.to).unwrap_or(0);
+            let run = from..=from + steps;
+            from += steps;
+            run
+        };
+        pieces.iter().map(run).collect()
+    }
 }
 
 /// All joints at some inputs of a pass; at its ends exactly as the circuit has them.
-pub(super) fn at(linkage: &Linkage, pass: &Pass, degs: &[f64]) -> Columns {
+pub(super) fn at_inputs(linkage: &Linkage, pass: &Pass, degs: &[f64]) -> Columns {
     let input = linkage.input();
     let inputs = OwnInputs::new(&degs.iter().map(|&at| Stop::of(input, at)).collect::<Vec<_>>());
     let mut out = Columns::new(linkage.joints.len(), degs.len());

@@ -35,7 +35,7 @@ impl Mileage {
         const CHORDS: usize = 2048;
         let parts: Vec<f64> = (0..=CHORDS).map(|i| i as f64 / CHORDS as f64).collect();
         let inputs: Vec<f64> = parts.iter().map(|&part| smooth(pass, part)).collect();
-        let places = path::at(linkage, pass, &inputs);
+        let places = path::at_inputs(linkage, pass, &inputs);
         let mut lengths = vec![0.0];
         for i in 1..parts.len() {
             let chord = (places.point(joint, i) - places.point(joint, i - 1)).norm();

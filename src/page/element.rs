@@ -205,6 +205,24 @@ impl Words {
         self
     }
 
+    /// The text in lines no wider than `width`, broken between words.
+    pub fn wrapped(&self, width: f64) -> Vec<String> {
+        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
+        let is_wider =
+            |line: &str| self.text.runs.first().is_some_and(|run| run.face.width(line, self.text.size) > width);
+        let mut lines: Vec<String> = Vec::new();
+        for word in text.split(' ') {
+            match lines.last_mut() {
+                Some(line) if !is_wider(&format!("{line} {word}")) => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
+        }
+        lines
+    }
+
     fn item(&self, origin: Vector) -> Item {
         moved(&Item::Text(self.text.clone()), origin)
     }

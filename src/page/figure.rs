@@ -8,14 +8,48 @@ use super::plot::{Plot, round_number};
 use super::pose;
 use super::theme::Theme;
 use super::{Options, Panel, Sheet, View};
-use crate::geometry::{Bounds, Point};
+use crate::geometry::{Bounds, Point, Similarity};
 use crate::linkage::{Input, JointId};
 use crate::motion::{self, Circuit, Dashes};
-use crate::scene::{Circle, Color, Item, Line, Moving, Path};
+use crate::scene::{Circle, Color, Item, Moving, Path};
 use crate::sweep::{Curve, Solved};
 
 /// A chord is nowhere further than this from its curve, in millimetres on paper.
-const CHORD_ERROR: f64 = 0.01;
+pub(super) const CHORD_ERROR: f64 = 0.015;
+
+/// A dash spans this part of its period: the first 3 of 5 degrees.
+pub(super) const DRAWN: f64 = 0.6;
+
+/// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
+pub(super) fn dash(solved: &Solved, options: &Options) -> f64 {
+    if solved.linkage.input() != Input::Length {
+        return options.dash_deg;
+    }
+    let passes = solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
+    round_number(passes.map(|pass| pass.length()).fold(0.0, f64::max) / 20.0)
+}
+
+/// The paths of some curves of a cell on the page, in their order; those of one circuit are found together.
+pub(super) fn paths(
+    solved: &Solved,
+    curves: &[usize],
+    page_from_plane: Similarity,
+    dashes: Dashes,
+) -> Vec<motion::Path> {
+    let tolerance = CHORD_ERROR / page_from_plane.scale;
+    let on_page = |points: &mut [Point]| points.iter_mut().for_each(|p| *p = page_from_plane.apply(*p));
+    let mut out = vec![motion::Path::default(); curves.len()];
+    for (number, circuit) in (1..).zip(&solved.motion.circuits) {
+        let ours: Vec<usize> = (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
+        let joints: Vec<JointId> = ours.iter().map(|&k| solved.curves[curves[k]].joint).collect();
+        for (k, mut path) in ours.into_iter().zip(motion::paths(&solved.linkage, circuit, &joints, dashes, tolerance)) {
+            on_page(&mut path.whole);
+            path.dashes.iter_mut().for_each(|dash| on_page(&mut dash.points));
+            out[k] = path;
+        }
+    }
+    out
+}
 
 /// A cell with the poses its linkage is drawn in.
 pub(super) struct Figure<'a> {
@@ -64,13 +98,13 @@ impl<'a> Figure<'a> {
         (options, theme): (&Options, &Theme),
     ) {
         let [curve, key] = arrangement.frames(whole).map(|frame| Plot::new(frame, theme));
-        let period = self.dash(options);
-        // A dash spans three fifths of its period: the first 3 of 5 degrees.
-        let dashes = Dashes { period, drawn: 0.6 * period };
+        let period = dash(self.solved, options);
+        let dashes = Dashes { period, drawn: DRAWN * period };
         let in_dashes = |plot: &Plot| {
-            self.trail(area, plot, theme.hair, theme);
+            let paths = self.paths(plot, dashes);
+            self.trail(area, &paths, theme.hair, theme);
             self.marks(area, plot, theme);
-            self.curves(area, plot, sheet, dashes, theme);
+            self.curves(area, plot, sheet, paths, theme);
         };
         let key = key.of(self.extents.key);
         key.bar(area, theme);
@@ -79,7 +113,7 @@ impl<'a> Figure<'a> {
             in_dashes(&key);
             self.linkage(area, &key, theme);
         } else {
-            self.trail(area, &key, theme.fine, theme);
+            self.trail(area, &self.paths(&key, dashes), theme.fine, theme);
             self.linkage(area, &key, theme);
             let curve = curve.of(self.extents.curve);
             curve.bar(area, theme);
@@ -87,19 +121,10 @@ impl<'a> Figure<'a> {
         }
     }
 
-    /// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
-    fn dash(&self, options: &Options) -> f64 {
-        if self.solved.linkage.input() != Input::Length {
-            return options.dash_deg;
-        }
-        let passes = self.solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
-        round_number(passes.map(|pass| pass.length()).fold(0.0, f64::max) / 20.0)
-    }
-
     /// The curves in dashes, each with its coupler point.
-    fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, dashes: Dashes, theme: &Theme) {
+    fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, paths: Vec<motion::Path>, theme: &Theme) {
         let limits = self.limit_poses();
-        for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, dashes)) {
+        for (curve, path) in self.solved.curves.iter().zip(paths) {
             let ink = self.ink(curve, theme);
             let Curve { trace, circuit, joint, .. } = curve;
             let dot = |pose: &Vec<Point>| Circle {
@@ -114,7 +139,7 @@ impl<'a> Figure<'a> {
                 class: "curve",
                 title: format!("{}, no. {cell}: {}", sheet.heading.title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
-                strokes,
+                strokes: path.dashes,
                 weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],
                 // A dot at each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
@@ -126,19 +151,12 @@ impl<'a> Figure<'a> {
     }
 
     /// The curves as light unbroken lines: beside the linkage, and under the dashes to lead the eye over their gaps.
-    fn trail(&self, area: &Area, plot: &Plot, weight: f64, theme: &Theme) {
-        let mut items = Vec::new();
-        // One stroke to a turn; of lengths, one to all there are.
-        let ends = self.solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
-        let furthest = ends.map(|pass| pass.from.stop.at.max(pass.to.stop.at)).fold(0.0, f64::max);
-        let whole = if self.solved.linkage.input() == Input::Length { 2.0 * furthest } else { 360.0 };
-        let whole = Dashes { period: whole, drawn: whole };
-        for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, whole)) {
-            let line = |points| Line { points, closed: false };
-            let lines = strokes.into_iter().map(|stroke| line(stroke.points)).collect();
+    fn trail(&self, area: &Area, paths: &[motion::Path], weight: f64, theme: &Theme) {
+        let trail = |(curve, path): (&Curve, &motion::Path)| {
             let ink = theme.faded(self.ink(curve, theme));
-            items.push(Item::Path(Path { lines, stroke: Some(theme.stroke(ink, weight)), fill: None }));
-        }
+            Item::Path(Path::stroked(path.whole.clone(), theme.stroke(ink, weight)))
+        };
+        let items = self.solved.curves.iter().zip(paths).map(trail).collect();
         draw(area, &Drawing { class: "trail", title: String::new(), items });
     }
 
@@ -151,24 +169,10 @@ impl<'a> Figure<'a> {
         draw(area, &Drawing { class: "straight", title: String::new(), items });
     }
 
-    /// The strokes of every curve, in the order of the curves; those of one circuit are found together.
-    fn strokes(&self, plot: &Plot, dashes: Dashes) -> Vec<Vec<motion::Stroke>> {
-        let curves = &self.solved.curves;
-        let tolerance = CHORD_ERROR / plot.page_from_plane.scale;
-        let on_page = |stroke: motion::Stroke| motion::Stroke {
-            points: stroke.points.into_iter().map(|p| plot.page_from_plane.apply(p)).collect(),
-            ..stroke
-        };
-        let mut out = vec![Vec::new(); curves.len()];
-        for (number, circuit) in (1..).zip(&self.solved.motion.circuits) {
-            let ours: Vec<usize> = (0..curves.len()).filter(|&k| curves[k].circuit == number).collect();
-            let joints: Vec<JointId> = ours.iter().map(|&k| curves[k].joint).collect();
-            let strokes = motion::strokes(&self.solved.linkage, circuit, &joints, dashes, tolerance);
-            for (k, strokes) in ours.into_iter().zip(strokes) {
-                out[k] = strokes.into_iter().map(on_page).collect();
-            }
-        }
-        out
+    /// The path of every curve, in the order of the curves.
+    fn paths(&self, plot: &Plot, dashes: Dashes) -> Vec<motion::Path> {
+        let all: Vec<usize> = (0..self.solved.curves.len()).collect();
+        paths(self.solved, &all, plot.page_from_plane, dashes)
     }
 
     /// Curves of one traced joint are told apart by circuit, those of several by trace.

@@ -33,8 +33,8 @@ impl Heading<'_> {
         format!("{}, page {} of {}: {}", self.title, self.page, self.of, self.atlas)
     }
 
-    /// Draws border, title, source line and folio.
-    pub(super) fn draw(&self, root: &Area, theme: &Theme) {
+    /// Draws the border.
+    pub(super) fn border(&self, root: &Area, theme: &Theme) {
         let page = size(root);
         let Color(r, g, b) = theme.ink;
         let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
@@ -42,6 +42,12 @@ impl Heading<'_> {
         let stroke_width = Canvas::pixels(theme.fine) as u32;
         let style = ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width };
         draw(root, &Rectangle::new(border, style));
+    }
+
+    /// Draws border, title, source line and folio.
+    pub(super) fn draw(&self, root: &Area, theme: &Theme) {
+        self.border(root, theme);
+        let page = size(root);
         let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
         let top = theme.border + theme.title;
         let at = Point::new(left, top + 0.9 * theme.title);

@@ -37,7 +37,7 @@ fn marked<'a>(solved: &'a Solved, curve: &'a Curve) -> Option<&'a Portion> {
 }
 
 /// A number in so many significant digits.
-fn digits(value: f64, count: i32) -> String {
+pub(super) fn digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }

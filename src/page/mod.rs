@@ -173,6 +173,23 @@ pub struct GridSheet<'a> {
     pub panel: Panel<'a>,
     /// Which of its curves are on this page, by their places.
     pub shown: Vec<usize>,
+    /// The letters of its links.
+    pub labels: &'a [Label],
+}
+
+/// What a link is called: a letter for its length, or the length itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// The joints at its ends, by their places in the linkage.
+    pub ends: [usize; 2],
+    /// Its letter.
+    pub text: String,
+}
+
+/// The places of all joints of a cell's linkage in the pose in which it is seen best; `None` where it has no curve.
+pub fn clearest_pose(solved: &Solved) -> Option<Vec<Point>> {
+    let circuit = solved.circuit(solved.curves.first()?);
+    Some(pose::clearest(&solved.linkage, circuit))
 }
 
 /// A page of charts to be composed.

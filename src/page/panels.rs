@@ -38,7 +38,10 @@ fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: 
         let frame = room(area);
         match figure {
             Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
-            None => draw_reason(area, frame, panel, theme),
+            None => {
+                let reason = panel.solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
+                draw_reason(area, frame, reason, theme);
+            }
         }
         caption(area, (foot, facts), panel, sheet.heading.symbols, theme);
     }
@@ -119,25 +122,13 @@ fn caption(area: &Area, (foot, facts): (f64, Facts), panel: &Panel, symbols: &[S
 }
 
 /// Where there is no curve to draw: that it cannot be assembled, and why.
-fn draw_reason(area: &Area, frame: Frame, panel: &Panel, theme: &Theme) {
-    let reason = panel.solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
+pub(super) fn draw_reason(area: &Area, frame: Frame, reason: &str, theme: &Theme) {
     let centre = frame.centre();
-    let width = 0.9 * frame.size.x;
-    let words = |text: &str, y: f64, size: f64, color: Color| {
-        Words::new(text, Point::new(centre.x, y), Anchor::Middle, size, color)
-    };
-    let mut lines = vec![words("not assembled", 0.0, theme.caption, theme.curve_ink(0)).text];
-    let mut line = String::new();
-    for word in reason.split(' ') {
-        let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
-        if words(&longer, 0.0, theme.note, theme.grey).text.width() > width && !line.is_empty() {
-            lines.push(words(&line, 0.0, theme.note, theme.grey).text);
-            line = word.to_owned();
-        } else {
-            line = longer;
-        }
-    }
-    lines.push(words(&line, 0.0, theme.note, theme.grey).text);
+    let words =
+        |text: &str, size: f64, color: Color| Words::new(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color);
+    let mut lines = vec![words("not assembled", theme.caption, theme.curve_ink(0)).text];
+    let reason = words(reason, theme.note, theme.grey).wrapped(0.9 * frame.size.x);
+    lines.extend(reason.iter().map(|line| words(line, theme.note, theme.grey).text));
     let step = 1.5 * theme.note;
     let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;
     for (k, text) in lines.iter_mut().enumerate() {

@@ -146,6 +146,38 @@ impl Template {
         self.traced.iter().map(|&joint| points(&self.joints[joint].placing)).sum()
     }
 
+    /// What the lengths of links are called, where it is one name or a number: the names of the joints at the ends, and
+    /// the word. Of the frame, the distance between two fixed joints on one level, of which one is at its origin.
+    pub fn lengths(&self) -> Vec<([&str; 2], String)> {
+        let name = |joint: usize| self.joints[joint].name.as_str();
+        let origin = self.joints.iter().position(|joint| match &joint.placing {
+            Placing::Fixed(at) => at.iter().all(|c| c.word().as_deref() == Some("0")),
+            _ => false,
+        });
+        let mut out = Vec::new();
+        for joint in &self.joints {
+            let mut call = |from: usize, length: &Bound| {
+                out.extend(length.word().map(|word| ([name(from), joint.name.as_str()], word)));
+            };
+            match (&joint.placing, origin) {
+                (Placing::Crank { pivot, length } | Placing::Gear { pivot, length, .. }, _) => call(*pivot, length),
+                (Placing::Piston { base: [_, pivot], length, .. }, _) => call(*pivot, length),
+                (Placing::Slide { from, length, .. }, _) => call(*from, length),
+                (Placing::Dyad { base: [p, q], lengths: [l0, l1], .. }, _) => {
+                    call(*p, l0);
+                    call(*q, l1);
+                }
+                (Placing::Fixed([x, y]), Some(origin))
+                    if y.word().as_deref() == Some("0") && name(origin) != joint.name =>
+                {
+                    call(origin, x);
+                }
+                _ => {}
+            }
+        }
+        out
+    }
+
     /// The linkage of a parameter set, `values` in the order of [`Template::parameters`].
     ///
     /// # Errors

@@ -1,0 +1,54 @@
+//! The foot of a page: the ratios large, the facts and the folio; and the source in the column.
+
+use super::super::arrangement::Frame;
+use super::super::element::{Area, draw as put, size};
+use super::super::theme::Theme;
+use super::super::{GridSheet, Options, figure};
+use super::words;
+use crate::geometry::Point;
+use crate::scene::Anchor;
+
+/// Draws it, and says how high it is, from the edge of the paper.
+pub(super) fn draw(area: &Area, sheet: &GridSheet, options: &Options, theme: &Theme) -> f64 {
+    let page = size(area);
+    let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
+    let half = 0.49 * (right - left);
+    let at = Point::new(left, page.y - theme.border - 0.65 * theme.margin);
+    let ratios = words(&sheet.panel.caption, at, Anchor::Start, theme.title, theme.ink);
+    put(area, &ratios.italic(sheet.heading.symbols).fitted(half));
+    let mut y = at.y;
+    for text in [folio(sheet), facts(sheet, options)].into_iter().filter(|text| !text.is_empty()) {
+        let line = words(&text, Point::new(right, y), Anchor::End, theme.source, theme.grey);
+        put(area, &line.fitted(half));
+        y -= 1.5 * theme.source;
+    }
+    theme.border + 0.65 * theme.margin + 1.5 * theme.title
+}
+
+fn folio(sheet: &GridSheet) -> String {
+    let heading = &sheet.heading;
+    format!("{} · {} · page {} of {}", heading.atlas, heading.title, heading.page, heading.of)
+}
+
+/// Its class, the range of its transmission angle, and what a dash is.
+fn facts(sheet: &GridSheet, options: &Options) -> String {
+    let solved = sheet.panel.solved;
+    let dash = figure::dash(solved, options);
+    let dash = format!("one dash and its gap = {dash}{} of input", super::input_unit(solved));
+    let parts = [sheet.panel.facts[0].as_str(), &sheet.panel.note, &dash];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
+}
+
+/// The source, in as many lines as it takes, at the foot of the column.
+pub(super) fn source(area: &Area, side: Frame, sheet: &GridSheet, theme: &Theme) {
+    let symbols = sheet.heading.symbols;
+    let lines = words(&sheet.heading.source, Point::origin(), Anchor::End, theme.note, theme.grey).wrapped(side.size.x);
+    let right = side.corner.x + side.size.x;
+    let step = 1.45 * theme.note;
+    let first = side.corner.y + side.size.y - step * lines.len() as f64;
+    for (k, line) in lines.iter().enumerate() {
+        let at = Point::new(right, first + step * k as f64);
+        let line = words(line, at, Anchor::End, theme.note, theme.grey);
+        put(area, &line.italic(symbols).fitted(side.size.x));
+    }
+}

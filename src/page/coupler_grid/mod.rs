@@ -1,0 +1,172 @@
+//! The `coupler-grid` layout: a linkage with a grid of points on its coupler, and the curves of ten of them.
+//!
+//! All pages of a cell have one pose, and each the largest scale at which linkage and curves fit its frame. To the right of the figure stands a column: the key, which says what the letters are, and a table of the points.
+
+mod foot;
+mod grid;
+mod key;
+mod labels;
+mod table;
+
+use plotters::drawing::IntoDrawingArea;
+
+use super::arrangement::Frame;
+use super::element::{Area, CouplerCurve, Drawing, Words, draw};
+use super::figure;
+use super::marks;
+use super::mechanism::Mechanism;
+use super::plot::Plot;
+use super::theme::Theme;
+use super::{GridSheet, Layout, Options, Panel, View, pose};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::linkage::Input;
+use crate::motion::{self, Dashes};
+use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene};
+use crate::sweep::{Curve, Solved};
+
+/// What is read of a page, and in which ink: a curve, its coupler point and its row in the table.
+struct Shown<'a> {
+    curve: &'a Curve,
+    /// Its traced point's place on the page, from 0.
+    place: usize,
+}
+
+impl Shown<'_> {
+    /// There are more points on a page than inks: the same ink is used again with a thin line under the dashes.
+    fn is_lined(&self, theme: &Theme) -> bool {
+        self.place / theme.curves.len() % 2 == 1
+    }
+
+    fn ink(&self, theme: &Theme) -> Color {
+        theme.curve_ink(self.place)
+    }
+}
+
+pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, theme: &Theme) {
+    let size = Vector::new(scene.width, scene.height);
+    let root = Canvas::new(scene).into_drawing_area();
+    sheet.heading.border(&root, theme);
+    let foot = foot::draw(&root, sheet, options, theme);
+    let edge = theme.border + theme.margin;
+    let column = (0.19 * size.x).max(22.0 * theme.note);
+    let height = size.y - edge - foot;
+    let figure = Frame { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge - column, height) };
+    let side = Frame { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
+    let solved = sheet.panel.solved;
+    let shown = shown(solved, &sheet.shown);
+    match figure_of(&sheet.panel) {
+        Some(mechanism) => {
+            draw_figure(&root, figure, sheet, &mechanism, &shown, options, theme);
+            let below = key::draw(&root, side, sheet, &mechanism, theme);
+            table::draw(&root, below, sheet, &shown, theme);
+        }
+        None => {
+            let reason = solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
+            super::panels::draw_reason(&root, figure, reason, theme);
+        }
+    }
+    foot::source(&root, side, sheet, theme);
+}
+
+/// The curves of a page, numbered by their points.
+fn shown<'a>(solved: &'a Solved, places: &[usize]) -> Vec<Shown<'a>> {
+    let mut traces: Vec<usize> = Vec::with_capacity(Layout::POINTS);
+    let mut shown = Vec::with_capacity(places.len());
+    for curve in places.iter().filter_map(|&k| solved.curves.get(k)) {
+        let place = traces.iter().position(|trace| *trace == curve.trace).unwrap_or_else(|| {
+            traces.push(curve.trace);
+            traces.len() - 1
+        });
+        shown.push(Shown { curve, place });
+    }
+    shown
+}
+
+/// The linkage in its pose, where it can be assembled.
+fn figure_of<'a>(panel: &'a Panel) -> Option<Mechanism<'a>> {
+    let solved = panel.solved;
+    let circuit = solved.circuit(solved.curves.first()?);
+    let pose = match &panel.view {
+        View::At(pose) => pose.clone(),
+        View::Clearest | View::Moving { .. } => pose::clearest(&solved.linkage, circuit),
+    };
+    Some(Mechanism::new(&solved.linkage, circuit, pose, &panel.inks))
+}
+
+fn draw_figure(
+    area: &Area,
+    frame: Frame,
+    sheet: &GridSheet,
+    mechanism: &Mechanism,
+    shown: &[Shown],
+    options: &Options,
+    theme: &Theme,
+) {
+    let solved = sheet.panel.solved;
+    let grid = grid::Grid::of(&solved.linkage, shown.iter().map(|s| s.curve.joint));
+    let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
+    let extents = Bounds::of(curves.chain(grid.points(&mechanism.pose))).union(mechanism.bounds());
+    let plot = Plot::new(frame, theme).of(extents);
+    plot.bar(area, theme);
+    let group = |class, items| draw(area, &Drawing { class, title: String::new(), items });
+    group("underlay", mechanism.underlay(&plot, theme));
+    group("grid", grid.items(&mechanism.pose, &plot, theme));
+
+    let period = figure::dash(solved, options);
+    let dashes = Dashes { period, drawn: figure::DRAWN * period };
+    let places: Vec<usize> = sheet.shown.clone();
+    let paths = figure::paths(solved, &places, plot.page_from_plane, dashes);
+    let portions = shown.iter().filter_map(|s| marks::portion(solved, s.curve, s.ink(theme), &plot, theme));
+    group("straight", portions.collect());
+    let lined = |(shown, path): (&Shown, &motion::Path)| {
+        let line = || Path::stroked(path.whole.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine));
+        shown.is_lined(theme).then(|| Item::Path(line()))
+    };
+    group("trail", shown.iter().zip(&paths).filter_map(lined).collect());
+    let lines: Vec<&[Point]> = paths.iter().map(|path| path.whole.as_slice()).collect();
+    let numbers = labels::place(&mechanism.pose, shown, &lines, &plot, (solved, frame), theme);
+    for (shown, path) in shown.iter().zip(paths) {
+        draw(area, &coupler_curve(sheet, shown, path, theme));
+    }
+    group("linkage", mechanism.items(&plot, theme, |_| theme.ink));
+    group("coupler-point", points(mechanism, shown, &plot, theme));
+    group("number", numbers);
+}
+
+fn coupler_curve(sheet: &GridSheet, shown: &Shown, path: motion::Path, theme: &Theme) -> CouplerCurve {
+    let Curve { trace, circuit, .. } = shown.curve;
+    let cell = sheet.panel.solved.cell.number;
+    let ink = shown.ink(theme);
+    CouplerCurve {
+        id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family),
+        class: "curve",
+        title: format!("{}, no. {cell}: {}, point {trace}", sheet.heading.title, sheet.panel.caption),
+        data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
+        strokes: path.dashes,
+        weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],
+        marks: Vec::new(),
+    }
+}
+
+/// A small circle for each point of the page, once, where it is in the pose.
+fn points(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) -> Vec<Item> {
+    let mut items = Vec::new();
+    for (k, s) in shown.iter().enumerate() {
+        if shown[..k].iter().all(|other| other.place != s.place) {
+            let centre = plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
+            let stroke = Some(theme.stroke(s.ink(theme), theme.fine));
+            let fill = Some(if s.is_lined(theme) { s.ink(theme) } else { theme.paper });
+            items.push(Item::Circle(Circle { centre, radius: 0.8 * theme.joint, stroke, fill }));
+        }
+    }
+    items
+}
+
+/// The unit of the input, as it is written after a number.
+fn input_unit(solved: &Solved) -> &'static str {
+    if solved.linkage.input() == Input::Length { "" } else { "°" }
+}
+
+fn words(text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> Words {
+    Words::new(text, at, anchor, size, color)
+}

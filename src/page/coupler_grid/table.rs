@@ -1,0 +1,100 @@
+//! The table of a page's points: where each is on its link, and how straight its curve is.
+
+use super::super::GridSheet;
+use super::super::arrangement::Frame;
+use super::super::element::{Area, Drawing, draw as put};
+use super::super::marks::digits;
+use super::super::theme::Theme;
+use super::{Shown, input_unit, words};
+use crate::geometry::{Point, Vector};
+use crate::linkage::{Linkage, Step};
+use crate::scene::{Anchor, Circle, Item, Line, Path};
+use crate::sweep::{Curve, Solved};
+
+/// The heads of the columns that follow the number, and where each column ends, in parts of the table's width.
+const COLUMNS: [(&str, f64); 5] =
+    [("point", 0.2), ("along", 0.38), ("across", 0.58), ("straight", 0.82), ("over", 1.0)];
+
+/// Draws it at the head of a frame.
+pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown], theme: &Theme) {
+    let solved = sheet.panel.solved;
+    let has_circuits = solved.motion.circuits.len() > 1;
+    let row = 1.5 * theme.note;
+    let at = |column: usize, y: f64| Point::new(frame.corner.x + COLUMNS[column].1 * frame.size.x, y);
+    let mut y = frame.corner.y + 1.5 * row;
+    for (column, (head, _)) in COLUMNS.iter().enumerate() {
+        put(area, &words(head, at(column, y), Anchor::End, 0.9 * theme.note, theme.grey));
+    }
+    let rule =
+        vec![Point::new(frame.corner.x, y + 0.4 * row), Point::new(frame.corner.x + frame.size.x, y + 0.4 * row)];
+    let rule = Item::Path(Path::stroked(rule, theme.stroke(theme.hairline, theme.hair)));
+    put(area, &Drawing { class: "rule", title: String::new(), items: vec![rule] });
+    y += 0.25 * row;
+    let last = frame.corner.y + frame.size.y - 3.0 * row;
+    for (k, s) in shown.iter().enumerate() {
+        y += row;
+        if y > last && k + 1 < shown.len() {
+            let rest = format!("and {} more", shown.len() - k);
+            put(area, &words(&rest, at(4, y), Anchor::End, theme.note, theme.grey));
+            break;
+        }
+        put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note), s, theme));
+        let number =
+            if has_circuits { format!("{}/{}", s.curve.trace, s.curve.circuit) } else { s.curve.trace.to_string() };
+        let [along, across] = place(&solved.linkage, s.curve);
+        let [straight, over] = straight(solved, s.curve);
+        for (column, text) in [number, along, across, straight, over].iter().enumerate() {
+            let color = if column == 0 { s.ink(theme) } else { theme.grey };
+            put(area, &words(text, at(column, y), Anchor::End, theme.note, color));
+        }
+    }
+}
+
+/// A dash of the curve, with its point.
+fn swatch(at: Point, shown: &Shown, theme: &Theme) -> Drawing {
+    let ink = shown.ink(theme);
+    let length = 2.4 * theme.note;
+    let line = |from: f64, to: f64| Line {
+        points: vec![at + Vector::new(from * length, 0.0), at + Vector::new(to * length, 0.0)],
+        closed: false,
+    };
+    let lines = vec![line(0.0, 0.3), line(0.5, 0.8)];
+    let mut items = vec![Item::Path(Path { lines, stroke: Some(theme.stroke(ink, theme.curve)), fill: None })];
+    if shown.is_lined(theme) {
+        let stroke = Some(theme.stroke(ink, 0.6 * theme.fine));
+        items.insert(0, Item::Path(Path { lines: vec![line(0.0, 1.0)], stroke, fill: None }));
+    }
+    let fill = Some(if shown.is_lined(theme) { ink } else { theme.paper });
+    let centre = at + Vector::new(length, 0.0);
+    let stroke = Some(theme.stroke(ink, theme.fine));
+    items.push(Item::Circle(Circle { centre, radius: 0.8 * theme.joint, stroke, fill }));
+    Drawing { class: "swatch", title: String::new(), items }
+}
+
+/// Where a point is on its link, along its base from the first joint and to the left of it; empty where it is not
+/// placed that way.
+fn place(linkage: &Linkage, curve: &Curve) -> [String; 2] {
+    let Step::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].step else {
+        return Default::default();
+    };
+    let ends = |link: &&crate::linkage::Link| link.place(from).is_some() && link.place(to).is_some();
+    let base = linkage.links.iter().find(ends).and_then(|link| Some((link.place(to)? - link.place(from)?).norm()));
+    let short = |part: f64| base.map_or(String::new(), |base| minus(format!("{:.2}", part * base + 0.0)));
+    [short(along), short(across)]
+}
+
+/// A true minus sign.
+fn minus(number: String) -> String {
+    if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
+        return number.trim_start_matches('-').to_owned();
+    }
+    number.replace('-', "−")
+}
+
+/// The length of a curve's straight portion and the input it spans.
+fn straight(solved: &Solved, curve: &Curve) -> [String; 2] {
+    match &curve.straight {
+        Some(portion) => [digits(portion.length, 3), format!("{:.1}{}", portion.input, input_unit(solved))],
+        None => ["–", "–"].map(str::to_owned),
+    }
+}
