@@ -20,6 +20,10 @@ pub enum Error {
     Encoding(String),
 }
 
+/// A page is drawn in strips of about this many bytes, which the processor's caches hold, and not on one sheet: at 300
+/// pixels to the inch a tabloid page would take 67 million.
+const STRIP: usize = 1 << 22;
+
 /// A scene as a PNG image of `dpi` pixels to the inch, which the file records.
 ///
 /// # Errors
@@ -28,19 +32,36 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let scale = dpi / 25.4;
     let pixels = |mm: f64| (mm * scale).round().max(1.0) as u32;
     let (width, height) = (pixels(scene.width), pixels(scene.height));
-    let mut pixmap = Pixmap::new(width, height).ok_or(Error::Size { width, height })?;
+    let too_large = Error::Size { width, height };
+    let bytes = (width as usize).checked_mul(height as usize).and_then(|pixels| pixels.checked_mul(3));
+    let bytes = bytes.filter(|bytes| *bytes <= isize::MAX as usize).ok_or(too_large.clone())?;
+    let rows = (STRIP / (4 * width as usize)).clamp(1, height as usize) as u32;
+    let mut raster = Raster { pixmap: Pixmap::new(width, rows).ok_or(too_large)?, scale, top: 0 };
+    let mut rgb = Vec::with_capacity(bytes);
     let Color(r, g, b) = scene.paper;
-    pixmap.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
-    let mut raster = Raster { pixmap, scale: Transform::from_scale(scale as f32, scale as f32) };
-    for item in &scene.items {
-        raster.item(item);
+    while raster.top < height {
+        raster.pixmap.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
+        scene.items.iter().for_each(|item| raster.item(item));
+        let rows = rows.min(height - raster.top) as usize;
+        // The paper covers the page, so that every pixel is opaque and premultiplied colours are plain ones.
+        let strip = &raster.pixmap.data()[..4 * width as usize * rows];
+        let at = rgb.len();
+        rgb.resize(at + strip.len() / 4 * 3, 0);
+        for (to, from) in rgb[at..].chunks_exact_mut(3).zip(strip.chunks_exact(4)) {
+            to.copy_from_slice(&from[..3]);
+        }
+        raster.top += rows as u32;
     }
-    encode(&raster.pixmap, dpi)
+    encode(&rgb, (width, height), dpi)
 }
 
+/// A strip of a page.
 struct Raster {
     pixmap: Pixmap,
-    scale: Transform,
+    /// Pixels to a millimetre.
+    scale: f64,
+    /// The row of the page that is the strip's first.
+    top: u32,
 }
 
 impl Raster {
@@ -54,10 +75,24 @@ impl Raster {
         }
     }
 
+    /// From the page to the strip.
+    fn strip_from_page(&self) -> Transform {
+        Transform::from_row(self.scale as f32, 0.0, 0.0, self.scale as f32, 0.0, -(self.top as f32))
+    }
+
+    /// Whether anything between two heights of the page, in millimetres, can be seen on the strip.
+    fn shows(&self, high: f64, low: f64) -> bool {
+        // Half a pixel more is touched by what is smoothed, and a pixel by the thinnest line.
+        const MARGIN: f64 = 2.0;
+        let (top, bottom) = (f64::from(self.top), f64::from(self.top + self.pixmap.height()));
+        low * self.scale >= top - MARGIN && high * self.scale <= bottom + MARGIN
+    }
+
     fn draw(&mut self, path: Option<tiny_skia::Path>, stroke: Option<Stroke>, fill: Option<Color>) {
         let Some(path) = path else { return };
+        let transform = self.strip_from_page();
         if let Some(fill) = fill {
-            self.pixmap.fill_path(&path, &paint(fill), FillRule::Winding, self.scale, None);
+            self.pixmap.fill_path(&path, &paint(fill), FillRule::Winding, transform, None);
         }
         if let Some(stroke) = stroke {
             let style = tiny_skia::Stroke {
@@ -66,11 +101,17 @@ impl Raster {
                 line_join: LineJoin::Round,
                 ..tiny_skia::Stroke::default()
             };
-            self.pixmap.stroke_path(&path, &paint(stroke.color), &style, self.scale, None);
+            self.pixmap.stroke_path(&path, &paint(stroke.color), &style, transform, None);
         }
     }
 
     fn path(&mut self, path: &Path) {
+        let heights = || path.lines.iter().flat_map(|line| &line.points).map(|point| point.y);
+        let (high, low) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+        let width = path.stroke.map_or(0.0, |stroke| stroke.width);
+        if !self.shows(high - width, low + width) {
+            return;
+        }
         let mut builder = PathBuilder::new();
         for line in &path.lines {
             for (k, point) in line.points.iter().enumerate() {
@@ -85,11 +126,19 @@ impl Raster {
     }
 
     fn circle(&mut self, circle: &Circle) {
+        let reach = circle.radius + circle.stroke.map_or(0.0, |stroke| stroke.width);
+        if !self.shows(circle.centre.y - reach, circle.centre.y + reach) {
+            return;
+        }
         let (x, y, radius) = (circle.centre.x as f32, circle.centre.y as f32, circle.radius as f32);
         self.draw(PathBuilder::from_circle(x, y, radius), circle.stroke, circle.fill);
     }
 
     fn text(&mut self, text: &Text) {
+        // Letters are no higher than twice their em; a text that is turned may go anywhere.
+        if text.quarter_turns == 0 && !self.shows(text.at.y - 2.0 * text.size, text.at.y + 2.0 * text.size) {
+            return;
+        }
         let mut builder = PathBuilder::new();
         let mut at = text.start();
         for run in &text.runs {
@@ -123,12 +172,12 @@ fn paint(Color(r, g, b): Color) -> Paint<'static> {
     paint
 }
 
-fn encode(pixmap: &Pixmap, dpi: f64) -> Result<Vec<u8>, Error> {
-    // The paper covers the page, so that every pixel is opaque and premultiplied colours are plain ones.
-    let rgb: Vec<u8> = pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+fn encode(rgb: &[u8], (width, height): (u32, u32), dpi: f64) -> Result<Vec<u8>, Error> {
     let mut out = Vec::new();
-    PngEncoder::new_with_quality(&mut out, CompressionType::Default, FilterType::Adaptive)
-        .write_image(&rgb, pixmap.width(), pixmap.height(), ExtendedColorType::Rgb8)
+    // Most of a page is paper, and what is drawn on it does not resemble its neighbours: filters make such an image larger,
+    // and of the levels the first has nearly all there is to gain.
+    PngEncoder::new_with_quality(&mut out, CompressionType::Level(1), FilterType::NoFilter)
+        .write_image(rgb, width, height, ExtendedColorType::Rgb8)
         .map_err(|error| Error::Encoding(error.to_string()))?;
     record_resolution(&mut out, dpi);
     Ok(out)

@@ -34,14 +34,16 @@ pub(super) fn place(
         }
         let text = words(&s.curve.trace.to_string(), Point::origin(), Anchor::Middle, size, s.ink(theme)).text;
         let half = Vector::new(text.width() / 2.0, 0.36 * size);
-        let near = Near::of(centres[k], 6.0 * size, lines, &links);
+        let near = Near::of(centres[k], 5.0 * theme.joint + 3.0 * half.x, lines, &links);
         let others = || centres.iter().chain(&placed).filter(|other| (*other - centres[k]).norm() < 8.0 * size);
+        // What is that far from everything is as good as what is further.
+        let enough = 0.6 * theme.joint;
         let clearance = |middle: Point| {
             let to = |other: &Point| off(half, other - middle);
             let circles = others().map(to).fold(f64::INFINITY, f64::min) - theme.joint;
-            circles.min(near.clearance(middle, half))
+            circles.min(near.clearance(middle, half, enough))
         };
-        let Some(middle) = best(centres[k], half, (theme.joint, frame), clearance) else { continue };
+        let Some(middle) = best(centres[k], half, (theme.joint, enough, frame), clearance) else { continue };
         placed.push(middle);
         items.push(Item::Text(crate::scene::Text { at: middle + Vector::new(0.0, half.y), ..text }));
     }
@@ -49,9 +51,13 @@ pub(super) fn place(
 }
 
 /// The first of the places round a point, near ones before far ones, that is clear enough; or the clearest.
-fn best(centre: Point, half: Vector, (joint, frame): (f64, Frame), clearance: impl Fn(Point) -> f64) -> Option<Point> {
+fn best(
+    centre: Point,
+    half: Vector,
+    (joint, enough, frame): (f64, f64, Frame),
+    clearance: impl Fn(Point) -> f64,
+) -> Option<Point> {
     const DIRECTIONS: i32 = 16;
-    let enough = 0.6 * joint;
     let far = frame.corner + frame.size;
     let is_inside = |p: &Point| {
         p.x - half.x >= frame.corner.x
@@ -66,7 +72,7 @@ fn best(centre: Point, half: Vector, (joint, frame): (f64, Frame), clearance: im
             let reach = Vector::new(half.x + ring * 1.6 * joint, half.y + ring * 1.6 * joint);
             let middle = centre + Vector::new(cos * reach.x, -sin * reach.y);
             let clear = clearance(middle);
-            if is_inside(&middle) && best.is_none_or(|(most, _)| clear.min(enough) > most.min(enough)) {
+            if is_inside(&middle) && best.is_none_or(|(most, _)| clear > most) {
                 best = Some((clear, middle));
             }
         }
@@ -88,18 +94,26 @@ struct Near {
 }
 
 impl Near {
+    /// Those of some lines that come as near to a point as `within`, or nearly so.
     fn of(centre: Point, within: f64, curves: &[&[Point]], links: &[Vec<Point>]) -> Near {
         let lines = curves.iter().copied().chain(links.iter().map(Vec::as_slice));
         let pairs = lines.flat_map(|line| line.windows(2)).map(|pair| [pair[0], pair[1]]);
-        Near { segments: pairs.filter(|[a, b]| distance_to_segment(centre, *a, *b) < within).collect() }
+        Near { segments: pairs.filter(|segment| is_near(segment, centre, Vector::repeat(within))).collect() }
     }
 
-    /// The least distance of the lines from five places of a box, less what lies between those.
-    fn clearance(&self, middle: Point, half: Vector) -> f64 {
+    /// The least distance of the lines from seven places of a box; no less than `enough` where none is that near.
+    fn clearance(&self, middle: Point, half: Vector, enough: f64) -> f64 {
         let corners = [(0.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 0.0), (-1.0, 0.0)];
         let places = corners.map(|(x, y)| middle + Vector::new(x * half.x, y * half.y));
-        let to =
-            |[a, b]: &[Point; 2]| places.iter().map(|p| distance_to_segment(*p, *a, *b)).fold(f64::INFINITY, f64::min);
-        self.segments.iter().map(to).fold(f64::INFINITY, f64::min)
+        let reach = half + Vector::repeat(enough);
+        let near = self.segments.iter().filter(|segment| is_near(segment, middle, reach));
+        let to = |[a, b]: &[Point; 2]| places.iter().map(|p| distance_to_segment(*p, *a, *b)).fold(enough, f64::min);
+        near.map(to).fold(enough, f64::min)
     }
+}
+
+/// Whether the box round a segment meets one about a point.
+fn is_near([a, b]: &[Point; 2], middle: Point, half: Vector) -> bool {
+    let (low, high) = (middle - half, middle + half);
+    a.x.min(b.x) <= high.x && a.x.max(b.x) >= low.x && a.y.min(b.y) <= high.y && a.y.max(b.y) >= low.y
 }

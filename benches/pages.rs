@@ -1,0 +1,54 @@
+//! How many pages one core draws: a page of ten coupler curves, composed and rendered: `cargo bench --bench pages`.
+
+use std::hint::black_box;
+
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::motion::Sampler;
+use coupler_atlas::page::{self, GridSheet, Heading, Layout, Panel, View};
+use coupler_atlas::render::{self, TextMode};
+use coupler_atlas::scene::Scene;
+use coupler_atlas::sweep::{self, Solved};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
+/// The pages of one cell of the atlas of Hrones and Nelson.
+fn compose(plan: &Plan, solved: &Solved) -> Vec<Scene> {
+    let family = &plan.families[0].family;
+    let pages = solved.by_points(Layout::POINTS);
+    let of = pages.len();
+    let view = page::clearest_pose(solved).map_or(View::Clearest, View::At);
+    let sheet = |(page, shown)| {
+        let [caption, note] = family.describe(&solved.cell, solved.measures());
+        let facts = page::facts(solved);
+        let (title, symbols) = (family.title.as_str(), family.names.as_slice());
+        let source = plan.families[0].source.clone();
+        let heading = Heading { atlas: &plan.title, family: &family.id, title, source, symbols, page, of };
+        let panel = Panel { caption, note, facts, solved, view: view.clone(), inks: Vec::new() };
+        page::compose_grid(&GridSheet { heading, panel, shown, labels: &[] }, &plan.page)
+    };
+    (1..).zip(pages).map(sheet).collect()
+}
+
+fn pages(criterion: &mut Criterion) {
+    let plan = manifest::load(include_str!("../examples/hrones-nelson.toml")).plan.expect("a valid manifest");
+    let family = &plan.families[0].family;
+    let sampler = Sampler::new(family.sampling);
+    // A = 2.5, B = 3.5, C = 3: its curves are neither small nor long.
+    let solved = sweep::solve(family, &sampler, 87).expect("a cell");
+    let scenes = compose(&plan, &solved);
+    let mut group = criterion.benchmark_group("pages");
+    group.throughput(Throughput::Elements(scenes.len() as u64));
+    group.sample_size(20);
+    group.bench_function("composed", |bencher| bencher.iter(|| black_box(compose(&plan, &solved))));
+    let mut bench = |name: &str, render: &dyn Fn(&Scene) -> Vec<u8>| {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| scenes.iter().for_each(|scene| drop(black_box(render(scene)))));
+        });
+    };
+    bench("svg", &|scene| render::svg(scene, TextMode::Text));
+    bench("png at 100 dpi", &|scene| render::png(scene, 100.0).expect("an image"));
+    bench("png at 300 dpi", &|scene| render::png(scene, 300.0).expect("an image"));
+    group.finish();
+}
+
+criterion_group!(benches, pages);
+criterion_main!(benches);
