@@ -42,6 +42,23 @@ fn kernel(criterion: &mut Criterion) {
             });
         });
     }
+    // A circuit that does not turn fully is sampled at angles of its own: their sines are reckoned for each.
+    let linkage = four_bar(1);
+    let joints = linkage.joints.len();
+    let mut out = Columns::new(joints, SAMPLES);
+    let modes = Modes::new(Signs::default(), Flat::NONE);
+    group.throughput(Throughput::Elements(SAMPLES as u64));
+    group.bench_function("1 coupler points over a limited range", |bencher| {
+        bencher.iter(|| {
+            let angle = |k: usize| Stop::angle(black_box(40.0) + 200.0 * k as f64 / SAMPLES as f64);
+            let stops: Vec<Stop> = (0..SAMPLES).map(angle).collect();
+            let column = |pick: fn(&Stop) -> f64| stops.iter().map(pick).collect::<Vec<f64>>();
+            let (at, cos, sin) = (column(|stop| stop.at), column(|stop| stop.cos), column(|stop| stop.sin));
+            let inputs = Inputs { at: &at, cos: &cos, sin: &sin };
+            place(black_box(&linkage), joints, inputs, &modes, &mut out, 0..SAMPLES);
+            black_box(&mut out);
+        });
+    });
     group.finish();
 }
 
