@@ -64,13 +64,10 @@ impl<'a> Figure<'a> {
         (options, theme): (&Options, &Theme),
     ) {
         let [curve, key] = arrangement.frames(whole).map(|frame| Plot::new(frame, theme));
-        let period = self.dash(options);
-        // A dash spans three fifths of its period: the first 3 of 5 degrees.
-        let dashes = Dashes { period, drawn: 0.6 * period };
         let in_dashes = |plot: &Plot| {
             self.trail(area, plot, theme.hair, theme);
             self.marks(area, plot, theme);
-            self.curves(area, plot, sheet, dashes, theme);
+            self.curves(area, plot, sheet, self.dash(options), theme);
         };
         let key = key.of(self.extents.key);
         key.bar(area, theme);
@@ -97,10 +94,13 @@ impl<'a> Figure<'a> {
     }
 
     /// The curves in dashes, each with its coupler point.
-    fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, dashes: Dashes, theme: &Theme) {
+    fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, period: f64, theme: &Theme) {
         let limits = self.limit_poses();
+        // A dash is the first part of its period: of 5 degrees, as a rule, the first 3.
+        let dashes = |curve: &Curve| Dashes { period, drawn: theme.curve_drawn(self.place(curve)) * period };
         for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, dashes)) {
-            let ink = self.ink(curve, theme);
+            let stroke = theme.curve_stroke(self.place(curve));
+            let ink = stroke.color;
             let Curve { trace, circuit, joint, .. } = curve;
             let dot = |pose: &Vec<Point>| Circle {
                 centre: plot.page_from_plane.apply(pose[*joint]),
@@ -115,7 +115,7 @@ impl<'a> Figure<'a> {
                 title: format!("{}, no. {cell}: {}", sheet.title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 strokes,
-                weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],
+                weights: [stroke, theme.stroke(theme.faded(ink), theme.fine)],
                 // A dot at each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
             };
@@ -133,7 +133,7 @@ impl<'a> Figure<'a> {
         let furthest = ends.map(|pass| pass.from.stop.at.max(pass.to.stop.at)).fold(0.0, f64::max);
         let whole = if self.solved.linkage.input() == Input::Length { 2.0 * furthest } else { 360.0 };
         let whole = Dashes { period: whole, drawn: whole };
-        for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, whole)) {
+        for (curve, strokes) in self.solved.curves.iter().zip(self.strokes(plot, |_| whole)) {
             let line = |points| Line { points, closed: false };
             let lines = strokes.into_iter().map(|stroke| line(stroke.points)).collect();
             let ink = theme.faded(self.ink(curve, theme));
@@ -151,8 +151,8 @@ impl<'a> Figure<'a> {
         draw(area, &Drawing { class: "straight", title: String::new(), items });
     }
 
-    /// The strokes of every curve, in the order of the curves; those of one circuit are found together.
-    fn strokes(&self, plot: &Plot, dashes: Dashes) -> Vec<Vec<motion::Stroke>> {
+    /// The strokes of every curve, in the order of the curves; those of one circuit with like dashes are found together.
+    fn strokes(&self, plot: &Plot, dashes: impl Fn(&Curve) -> Dashes) -> Vec<Vec<motion::Stroke>> {
         let curves = &self.solved.curves;
         let tolerance = CHORD_ERROR / plot.page_from_plane.scale;
         let on_page = |stroke: motion::Stroke| motion::Stroke {
@@ -161,20 +161,29 @@ impl<'a> Figure<'a> {
         };
         let mut out = vec![Vec::new(); curves.len()];
         for (number, circuit) in (1..).zip(&self.solved.motion.circuits) {
-            let ours: Vec<usize> = (0..curves.len()).filter(|&k| curves[k].circuit == number).collect();
-            let joints: Vec<JointId> = ours.iter().map(|&k| curves[k].joint).collect();
-            let strokes = motion::strokes(&self.solved.linkage, circuit, &joints, dashes, tolerance);
-            for (k, strokes) in ours.into_iter().zip(strokes) {
-                out[k] = strokes.into_iter().map(on_page).collect();
+            let mut left: Vec<usize> = (0..curves.len()).filter(|&k| curves[k].circuit == number).collect();
+            while let Some(&first) = left.first() {
+                let alike = dashes(&curves[first]);
+                let (ours, others) = left.into_iter().partition::<Vec<_>, _>(|&k| dashes(&curves[k]) == alike);
+                let joints: Vec<JointId> = ours.iter().map(|&k| curves[k].joint).collect();
+                let strokes = motion::strokes(&self.solved.linkage, circuit, &joints, alike, tolerance);
+                for (k, strokes) in ours.into_iter().zip(strokes) {
+                    out[k] = strokes.into_iter().map(on_page).collect();
+                }
+                left = others;
             }
         }
         out
     }
 
-    /// Curves of one traced joint are told apart by circuit, those of several by trace.
-    fn ink(&self, curve: &Curve, theme: &Theme) -> Color {
+    /// Which ink and manner a curve has: curves of one traced joint are told apart by circuit, those of several by trace.
+    fn place(&self, curve: &Curve) -> usize {
         let one_trace = self.solved.linkage.traced.len() == 1;
-        theme.curve_ink(if one_trace { curve.circuit - 1 } else { curve.trace - 1 })
+        if one_trace { curve.circuit - 1 } else { curve.trace - 1 }
+    }
+
+    fn ink(&self, curve: &Curve, theme: &Theme) -> Color {
+        theme.curve_ink(self.place(curve))
     }
 
     /// The poses at the limits of the input, circuit by circuit.
