@@ -34,8 +34,10 @@ pub(super) fn read<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Theme {
         return named(value, reader).unwrap_or_default();
     }
     let Some(fields) = Fields::of(value, "a theme", &KEYS, reader) else { return Theme::default() };
-    let mut theme = fields.get("base").and_then(|value| named(value, reader)).unwrap_or_default();
-    let colors_read = colors(&fields, &mut theme, reader);
+    let base = fields.get("base").map_or_else(|| Some(Theme::default()), |value| named(value, reader));
+    let base_read = base.is_some();
+    let mut theme = base.unwrap_or_default();
+    let colors_read = colors(&fields, &mut theme, reader) && base_read;
     if let Some(face) = fields.get("face") {
         theme.typeface = reader.word(face, &Typeface::NAMED).unwrap_or_default();
     }

@@ -116,6 +116,9 @@ fn each_mistake_has_its_message() {
     let (said, _) = said("{ bace = 1, ink = \"x\", face = \"y\", drawn = 2, weights = 9, lettering = 9 }");
     assert_eq!(said.matches("error: ").count(), 6, "{said}");
     assert!(said.contains("did you mean `base`?"), "{said}");
+    // Of a paper that is not known nothing is asked.
+    let (said, _) = self::said("{ base = \"drak\", ink = \"#eee\" }");
+    assert_eq!(said.matches("error: ").count(), 1, "{said}");
 }
 
 #[test]
