@@ -183,6 +183,8 @@ impl Words {
 
     /// The same in no more than `width`: set smaller, to two thirds, and then cut short.
     pub fn fitted(mut self, width: f64) -> Words {
+        // What fits to rounding fits: a room may have been made for this very text.
+        let width = width * (1.0 + 1e-9);
         let natural = self.text.width();
         if natural > width {
             self.text.size *= (width / natural).max(2.0 / 3.0);
@@ -235,5 +237,11 @@ mod tests {
         let cut = words("a line of some length").fitted(0.3 * natural).text;
         assert!(cut.width() <= 0.3 * natural && cut.runs[0].text.ends_with('…'));
         assert!(words("a").fitted(0.0).text.runs.is_empty());
+        // In a room of its own width it stays whole, however that was come by.
+        for k in 1..200 {
+            let before = 0.37 * f64::from(k);
+            let room = (before + natural) - before;
+            assert_eq!(words("a line of some length").fitted(room).text, words("a line of some length").text, "{k}");
+        }
     }
 }
