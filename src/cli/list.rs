@@ -1,11 +1,11 @@
 use clap::{Args, ValueEnum};
-use coupler_atlas::page::Layout;
+use coupler_atlas::page::{Layout, Theme};
 use coupler_atlas::template::Template;
 use coupler_atlas::{catalogue, measure};
 
 use super::{Outcome, print};
 
-/// List the built-in linkages, the measures, the further columns and the layouts.
+/// List the built-in linkages, the measures, the further columns, the layouts and the themes.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to list [default: everything].
@@ -22,6 +22,8 @@ enum What {
     Columns,
     /// The ways a page can be laid out.
     Layouts,
+    /// What pages can look like.
+    Themes,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
@@ -46,6 +48,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     section(What::Columns, "columns", columns.collect());
     let layouts = Layout::ALL.iter().map(|(name, shows)| format!("{name:<16} {shows}\n"));
     section(What::Layouts, "layouts", layouts.collect());
+    let themes = Theme::NAMED.iter().map(|theme| format!("{:<16} {}\n", theme.name, theme.shows));
+    section(What::Themes, "themes", themes.collect());
     print(&out)?;
     Ok(Outcome::Done)
 }

@@ -7,7 +7,7 @@ use super::{PlannedFamily, Templates, chart, settings};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
 use crate::notation::{self, Fields, Reader, Value};
-use crate::page::{Layout, Paper};
+use crate::page::{Layout, Options};
 use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::{Placement, Template};
@@ -47,7 +47,7 @@ pub(super) fn id(value: &Value) -> Option<(String, Span)> {
 pub(super) fn read<'t>(
     value: &Value<'t>,
     templates: &Templates,
-    (formats, paper): (&[Format], Option<Paper>),
+    (formats, page): (&[Format], Option<&Options>),
     reader: &mut Reader<'t>,
 ) -> Option<PlannedFamily> {
     let fields = Fields::of(value, "a [[family]]", &KEYS, reader)?;
@@ -86,7 +86,7 @@ pub(super) fn read<'t>(
         }
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
-    let layout = layout(&fields, paper, charts, reader);
+    let layout = layout(&fields, page, charts, reader);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let family = Family {
         title: title.unwrap_or_else(|| id.clone()),
@@ -268,7 +268,12 @@ fn columns<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Column>
 }
 
 /// The layout; of charts, of which there are that many, one in which they show well where no panels are given.
-fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, charts: usize, reader: &mut Reader<'t>) -> Option<Layout> {
+fn layout<'t>(
+    fields: &Fields<'_, 't>,
+    page: Option<&Options>,
+    charts: usize,
+    reader: &mut Reader<'t>,
+) -> Option<Layout> {
     let words = Layout::ALL.map(|(name, _)| (name, name));
     let name = match fields.get("layout") {
         Some(value) => reader.word(value, &words)?,
@@ -276,9 +281,9 @@ fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, charts: usize, read
     };
     let is_chart = name == "chart";
     chart::check_layout(fields, is_chart, reader);
-    // Of a paper that could not be read nothing is asked.
+    // Of a page that could not be read nothing is asked.
     let most = if is_chart { Layout::most_charts } else { Layout::most_panels };
-    let [most_columns, most_rows] = paper.map_or([100, 100], most);
+    let [most_columns, most_rows] = page.map_or([100, 100], most);
     if name == "coupler-grid" {
         if let Some(value) = fields.get("panels") {
             let problem = Problem::error(value.span(), "a page of a coupler grid has one cell, and no panels");
@@ -287,8 +292,8 @@ fn layout<'t>(fields: &Fields<'_, 't>, paper: Option<Paper>, charts: usize, read
         return Some(Layout::CouplerGrid);
     }
     let Some(value) = fields.get("panels") else {
-        return Some(match paper.filter(|_| is_chart) {
-            Some(paper) => Layout::of_charts(paper, charts),
+        return Some(match page.filter(|_| is_chart) {
+            Some(page) => Layout::of_charts(page, charts),
             None => Layout::Panels { columns: most_columns.min(5), rows: most_rows.min(3) },
         });
     };

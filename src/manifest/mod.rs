@@ -5,6 +5,7 @@ mod family;
 mod grid;
 mod names;
 mod settings;
+mod theme;
 
 use std::sync::Arc;
 
@@ -107,8 +108,8 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
     let mut families: Vec<PlannedFamily> = Vec::new();
     let mut ids: Vec<String> = Vec::new();
     for value in tables {
-        let paper = page.as_ref().map(|page| page.options.paper);
-        let read = family::read(value, &templates, (&formats, paper), reader);
+        let options = page.as_ref().map(|page| &page.options);
+        let read = family::read(value, &templates, (&formats, options), reader);
         if let Some((id, span)) = family::id(value) {
             if ids.contains(&id) {
                 let problem = Problem::error(span, format!("there are two families `{id}`"));

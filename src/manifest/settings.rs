@@ -1,8 +1,9 @@
 //! The tables `[atlas]` and `[page]`.
 
+use super::theme;
 use crate::expression::Dimension;
 use crate::notation::{Fields, Reader, Value};
-use crate::page::{Options, Paper};
+use crate::page::{Options, Paper, Theme};
 use crate::problem::Problem;
 use crate::render::{Format, TextMode};
 
@@ -62,9 +63,9 @@ pub(super) fn formats<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<
 
 pub(super) fn page<'t>(value: Option<&Value<'t>>, reader: &mut Reader<'t>) -> Option<Page> {
     let tabloid = Paper::NAMED[1].1;
-    let default = Page { options: Options { paper: tabloid, dash_deg: 5.0 }, dpi: 100.0, text: TextMode::default() };
+    let default = Page { options: Options::on(tabloid), dpi: 100.0, text: TextMode::default() };
     let Some(value) = value else { return Some(default) };
-    let fields = Fields::of(value, "[page]", &["paper", "dpi", "dash", "text"], reader)?;
+    let fields = Fields::of(value, "[page]", &["paper", "dpi", "dash", "text", "theme"], reader)?;
     let paper = match fields.get("paper") {
         None => Some(tabloid),
         Some(value) => paper(value, reader),
@@ -94,7 +95,8 @@ pub(super) fn page<'t>(value: Option<&Value<'t>>, reader: &mut Reader<'t>) -> Op
         None => Some(TextMode::default()),
         Some(value) => reader.word(value, &[("text", TextMode::Text), ("outlines", TextMode::Outlines)]),
     };
-    Some(Page { options: Options { paper: paper?, dash_deg: dash_deg? }, dpi: dpi?, text: text? })
+    let theme = fields.get("theme").map_or_else(Theme::default, |value| theme::read(value, reader));
+    Some(Page { options: Options { paper: paper?, dash_deg: dash_deg?, theme }, dpi: dpi?, text: text? })
 }
 
 fn paper<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Paper> {
@@ -112,7 +114,7 @@ fn paper<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Paper> {
 }
 
 /// A value that must lie between two others.
-fn within<'t>(
+pub(super) fn within<'t>(
     value: &Value<'t>,
     reader: &mut Reader<'t>,
     read: impl Fn(&Value<'t>, &mut Reader<'t>) -> Option<f64>,

@@ -9,7 +9,7 @@ use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 use crate::geometry::{Point, Vector};
 use crate::motion;
-use crate::scene::{Anchor, Canvas, Circle, Color, Face, Group, Item, Line, Moving, Path, Run, Stroke, Text};
+use crate::scene::{Anchor, Canvas, Circle, Color, Face, Group, Item, Line, Moving, Path, Run, Stroke, Text, Typeface};
 
 /// A part of the page: its lengths are in 1/100 mm, its origin the upper left corner.
 pub(super) type Area<'s> = DrawingArea<Canvas<'s>, Shift>;
@@ -152,8 +152,8 @@ pub(super) struct Words {
 
 impl Words {
     /// A line of text at a place of the area.
-    pub fn new(text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> Words {
-        let runs = vec![Run { text: text.to_owned(), face: Face::Regular }];
+    pub fn new(text: &str, typeface: Typeface, at: Point, anchor: Anchor, (size, color): (f64, Color)) -> Words {
+        let runs = vec![Run { text: text.to_owned(), face: typeface.regular() }];
         Words { text: Text { at, anchor, size, color, runs, quarter_turns: 0 } }
     }
 
@@ -161,9 +161,10 @@ impl Words {
     pub fn italic(mut self, symbols: &[String]) -> Words {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let mut runs: Vec<Run> = Vec::new();
-        let mut push = |text: &str, face| match runs.last_mut() {
-            Some(last) if last.face == face => last.text.push_str(text),
-            _ => runs.push(Run { text: text.to_owned(), face }),
+        let typeface = self.text.runs.first().map_or(Typeface::default(), |run| run.face.typeface);
+        let mut push = |text: &str, is_italic| match runs.last_mut() {
+            Some(last) if last.face.is_italic == is_italic => last.text.push_str(text),
+            _ => runs.push(Run { text: text.to_owned(), face: Face { typeface, is_italic } }),
         };
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
         let mut rest = text.as_str();
@@ -173,7 +174,7 @@ impl Words {
             let (piece, after) = rest.split_at(word);
             // A longer name is a word to be read, a single letter a symbol.
             let is_symbol = piece.chars().count() == 1 && symbols.iter().any(|symbol| symbol == piece);
-            push(piece, if is_symbol { Face::Italic } else { Face::Regular });
+            push(piece, is_symbol);
             rest = after;
         }
         self.text.runs = runs;
@@ -182,6 +183,8 @@ impl Words {
 
     /// The same in no more than `width`: set smaller, to two thirds, and then cut short.
     pub fn fitted(mut self, width: f64) -> Words {
+        // What fits to rounding fits: a room may have been made for this very text.
+        let width = width * (1.0 + 1e-9);
         let natural = self.text.width();
         if natural > width {
             self.text.size *= (width / natural).max(2.0 / 3.0);
@@ -233,7 +236,7 @@ mod tests {
     use super::*;
 
     fn words(text: &str) -> Words {
-        Words::new(text, Point::origin(), Anchor::Start, 3.0, Color(0, 0, 0))
+        Words::new(text, Typeface::Sans, Point::origin(), Anchor::Start, (3.0, Color(0, 0, 0)))
     }
 
     #[test]
@@ -241,7 +244,7 @@ mod tests {
         let symbols = ["p".to_owned(), "frame".to_owned()];
         let runs = words("p = 2, prop frame's p's").italic(&symbols).text.runs;
         let texts: Vec<(&str, Face)> = runs.iter().map(|run| (run.text.as_str(), run.face)).collect();
-        assert_eq!(texts, [("p", Face::Italic), (" = 2, prop frame's p's", Face::Regular)]);
+        assert_eq!(texts, [("p", Typeface::Sans.italic()), (" = 2, prop frame's p's", Typeface::Sans.regular())]);
     }
 
     #[test]
@@ -252,5 +255,11 @@ mod tests {
         let cut = words("a line of some length").fitted(0.3 * natural).text;
         assert!(cut.width() <= 0.3 * natural && cut.runs[0].text.ends_with('…'));
         assert!(words("a").fitted(0.0).text.runs.is_empty());
+        // In a room of its own width it stays whole, however that was come by.
+        for k in 1..200 {
+            let before = 0.37 * f64::from(k);
+            let room = (before + natural) - before;
+            assert_eq!(words("a line of some length").fitted(room).text, words("a line of some length").text, "{k}");
+        }
     }
 }

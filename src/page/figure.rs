@@ -17,9 +17,6 @@ use crate::sweep::{Curve, Solved};
 /// A chord is nowhere further than this from its curve, in millimetres on paper.
 pub(super) const CHORD_ERROR: f64 = 0.015;
 
-/// A dash spans this part of its period: the first 3 of 5 degrees.
-pub(super) const DRAWN: f64 = 0.6;
-
 /// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
 pub(super) fn dash(solved: &Solved, options: &Options) -> f64 {
     if solved.linkage.input() != Input::Length {
@@ -29,23 +26,30 @@ pub(super) fn dash(solved: &Solved, options: &Options) -> f64 {
     round_number(passes.map(|pass| pass.length()).fold(0.0, f64::max) / 20.0)
 }
 
-/// The paths of some curves of a cell on the page, in their order; those of one circuit are found together.
+/// The paths of some curves of a cell on the page, in their order, the k-th in `dashes(k)`; those of one circuit in like
+/// dashes are found together.
 pub(super) fn paths(
     solved: &Solved,
     curves: &[usize],
     page_from_plane: Similarity,
-    dashes: Dashes,
+    dashes: impl Fn(usize) -> Dashes,
 ) -> Vec<motion::Path> {
     let tolerance = CHORD_ERROR / page_from_plane.scale;
     let on_page = |points: &mut [Point]| points.iter_mut().for_each(|p| *p = page_from_plane.apply(*p));
     let mut out = vec![motion::Path::default(); curves.len()];
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-        let ours: Vec<usize> = (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
-        let joints: Vec<JointId> = ours.iter().map(|&k| solved.curves[curves[k]].joint).collect();
-        for (k, mut path) in ours.into_iter().zip(motion::paths(&solved.linkage, circuit, &joints, dashes, tolerance)) {
-            on_page(&mut path.whole);
-            path.dashes.iter_mut().for_each(|dash| on_page(&mut dash.points));
-            out[k] = path;
+        let mut left: Vec<usize> = (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
+        while let Some(&first) = left.first() {
+            let alike = dashes(first);
+            let (ours, others) = left.into_iter().partition::<Vec<_>, _>(|&k| dashes(k) == alike);
+            let joints: Vec<JointId> = ours.iter().map(|&k| solved.curves[curves[k]].joint).collect();
+            let paths = motion::paths(&solved.linkage, circuit, &joints, alike, tolerance);
+            for (k, mut path) in ours.into_iter().zip(paths) {
+                on_page(&mut path.whole);
+                path.dashes.iter_mut().for_each(|dash| on_page(&mut dash.points));
+                out[k] = path;
+            }
+            left = others;
         }
     }
     out
@@ -99,9 +103,8 @@ impl<'a> Figure<'a> {
     ) {
         let [curve, key] = arrangement.frames(whole).map(|frame| Plot::new(frame, theme));
         let period = dash(self.solved, options);
-        let dashes = Dashes { period, drawn: DRAWN * period };
         let in_dashes = |plot: &Plot| {
-            let paths = self.paths(plot, dashes);
+            let paths = self.paths(plot, period, theme);
             self.trail(area, &paths, theme.hair, theme);
             self.marks(area, plot, theme);
             self.curves(area, plot, sheet, paths, theme);
@@ -113,7 +116,7 @@ impl<'a> Figure<'a> {
             in_dashes(&key);
             self.linkage(area, &key, theme);
         } else {
-            self.trail(area, &self.paths(&key, dashes), theme.fine, theme);
+            self.trail(area, &self.paths(&key, period, theme), theme.fine, theme);
             self.linkage(area, &key, theme);
             let curve = curve.of(self.extents.curve);
             curve.bar(area, theme);
@@ -125,7 +128,8 @@ impl<'a> Figure<'a> {
     fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, paths: Vec<motion::Path>, theme: &Theme) {
         let limits = self.limit_poses();
         for (curve, path) in self.solved.curves.iter().zip(paths) {
-            let ink = self.ink(curve, theme);
+            let stroke = theme.curve_stroke(self.place(curve));
+            let ink = stroke.color;
             let Curve { trace, circuit, joint, .. } = curve;
             let dot = |pose: &Vec<Point>| Circle {
                 centre: plot.page_from_plane.apply(pose[*joint]),
@@ -140,7 +144,7 @@ impl<'a> Figure<'a> {
                 title: format!("{}, no. {cell}: {}", sheet.heading.title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 strokes: path.dashes,
-                weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],
+                weights: [stroke, theme.stroke(theme.faded(ink), theme.fine)],
                 // A dot at each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
             };
@@ -170,15 +174,24 @@ impl<'a> Figure<'a> {
     }
 
     /// The path of every curve, in the order of the curves.
-    fn paths(&self, plot: &Plot, dashes: Dashes) -> Vec<motion::Path> {
+    fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<motion::Path> {
         let all: Vec<usize> = (0..self.solved.curves.len()).collect();
+        // A dash is the first part of its period: of 5 degrees, as a rule, the first 3.
+        let dashes = |k: usize| {
+            let drawn = theme.curve_drawn(self.place(&self.solved.curves[k])) * period;
+            Dashes { period, drawn }
+        };
         paths(self.solved, &all, plot.page_from_plane, dashes)
     }
 
-    /// Curves of one traced joint are told apart by circuit, those of several by trace.
-    fn ink(&self, curve: &Curve, theme: &Theme) -> Color {
+    /// Which ink and manner a curve has: curves of one traced joint are told apart by circuit, those of several by trace.
+    fn place(&self, curve: &Curve) -> usize {
         let one_trace = self.solved.linkage.traced.len() == 1;
-        theme.curve_ink(if one_trace { curve.circuit - 1 } else { curve.trace - 1 })
+        if one_trace { curve.circuit - 1 } else { curve.trace - 1 }
+    }
+
+    fn ink(&self, curve: &Curve, theme: &Theme) -> Color {
+        theme.curve_ink(self.place(curve))
     }
 
     /// The poses at the limits of the input, circuit by circuit.

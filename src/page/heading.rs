@@ -3,7 +3,7 @@
 use plotters::element::Rectangle;
 use plotters::style::{RGBColor, ShapeStyle};
 
-use super::element::{Area, Words, draw, size};
+use super::element::{Area, draw, size};
 use super::theme::Theme;
 use crate::geometry::Point;
 use crate::scene::{Anchor, Canvas, Color};
@@ -51,10 +51,11 @@ impl Heading<'_> {
         let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
         let top = theme.border + theme.title;
         let at = Point::new(left, top + 0.9 * theme.title);
-        let title = Words::new(self.title, at, Anchor::Start, theme.title, theme.ink);
+        let title = theme.words(self.title, at, Anchor::Start, theme.title, theme.ink);
         draw(root, &title.fitted(right - left));
         let mut at = Point::new(left, at.y + 1.85 * theme.source);
-        let words = |text: &str, at| Words::new(text, at, Anchor::Start, theme.source, theme.grey).italic(self.symbols);
+        let words =
+            |text: &str, at| theme.words(text, at, Anchor::Start, theme.source, theme.grey).italic(self.symbols);
         // What is too long for one line is parted between two of its parts; there is no room for a third line.
         let (first, second) = parted(&self.source, |text| words(text, at).text.width() <= right - left);
         for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
@@ -63,7 +64,7 @@ impl Heading<'_> {
         }
         let folio = format!("{} · page {} of {}", self.atlas, self.page, self.of);
         let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
-        draw(root, &Words::new(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
+        draw(root, &theme.words(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
     }
 }
 

@@ -15,7 +15,7 @@ mod theme;
 
 pub use heading::Heading;
 pub use marks::facts;
-pub use theme::Theme;
+pub use theme::{Manner, Named as NamedTheme, Theme};
 
 use crate::chart::{Chart, Series};
 use crate::geometry::Point;
@@ -79,19 +79,19 @@ impl Layout {
         ("chart", "a grid of charts, each with one of the quantities that the family's `chart` names over another"),
     ];
 
-    /// The most columns and rows of panels that a paper has room for.
-    pub fn most_panels(paper: Paper) -> [usize; 2] {
-        panels::most(paper, &Theme::for_paper(paper))
+    /// The most columns and rows of panels that a page has room for.
+    pub fn most_panels(options: &Options) -> [usize; 2] {
+        panels::most(options.paper, &options.theme.for_paper(options.paper))
     }
 
-    /// The most columns and rows of charts that a paper has room for.
-    pub fn most_charts(paper: Paper) -> [usize; 2] {
-        chart::most(paper, &Theme::for_paper(paper))
+    /// The most columns and rows of charts that a page has room for.
+    pub fn most_charts(options: &Options) -> [usize; 2] {
+        chart::most(options.paper, &options.theme.for_paper(options.paper))
     }
 
-    /// The layout in which that many charts show best on a paper: as many to a page as can well be read.
-    pub fn of_charts(paper: Paper, count: usize) -> Layout {
-        let [columns, rows] = chart::balanced(paper, &Theme::for_paper(paper), count);
+    /// The layout in which that many charts show best: as many to a page as can well be read.
+    pub fn of_charts(options: &Options, count: usize) -> Layout {
+        let [columns, rows] = chart::balanced(options.paper, &options.theme.for_paper(options.paper), count);
         Layout::Chart { columns, rows }
     }
 
@@ -117,6 +117,15 @@ pub struct Options {
     pub paper: Paper,
     /// The input a dash and its gap span, in degrees.
     pub dash_deg: f64,
+    /// What they look like.
+    pub theme: Theme,
+}
+
+impl Options {
+    /// Those of a paper where nothing else is asked for: dashes of 5 degrees, ink on cream.
+    pub fn on(paper: Paper) -> Options {
+        Options { paper, dash_deg: 5.0, theme: Theme::default() }
+    }
 }
 
 /// A page to be composed.
@@ -209,7 +218,7 @@ pub struct ChartSheet<'a> {
 
 /// Draws a page of panels.
 pub fn compose(sheet: &Sheet, options: &Options) -> Scene {
-    let theme = Theme::for_paper(options.paper);
+    let theme = options.theme.for_paper(options.paper);
     let mut scene = blank(&sheet.heading, options, &theme);
     let [columns, rows] = sheet.layout.grid();
     panels::compose(&mut scene, sheet, (columns, rows), options, &theme);
@@ -218,7 +227,7 @@ pub fn compose(sheet: &Sheet, options: &Options) -> Scene {
 
 /// Draws a page of a coupler grid.
 pub fn compose_grid(sheet: &GridSheet, options: &Options) -> Scene {
-    let theme = Theme::for_paper(options.paper);
+    let theme = options.theme.for_paper(options.paper);
     let mut scene = blank(&sheet.heading, options, &theme);
     coupler_grid::compose(&mut scene, sheet, options, &theme);
     scene
@@ -226,7 +235,7 @@ pub fn compose_grid(sheet: &GridSheet, options: &Options) -> Scene {
 
 /// Draws a page of charts.
 pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
-    let theme = Theme::for_paper(options.paper);
+    let theme = options.theme.for_paper(options.paper);
     let mut scene = blank(&sheet.heading, options, &theme);
     chart::compose(&mut scene, sheet, &theme);
     scene
@@ -234,5 +243,5 @@ pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
 
 fn blank(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
     let Paper { width, height } = options.paper;
-    Scene { width, height, paper: theme.paper, title: heading.name(), items: Vec::new() }
+    Scene { width, height, paper: theme.paper, typeface: theme.typeface, title: heading.name(), items: Vec::new() }
 }

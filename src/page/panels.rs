@@ -3,7 +3,7 @@
 use plotters::drawing::IntoDrawingArea;
 
 use super::arrangement::{Arrangement, Extents, Frame};
-use super::element::{Area, Drawing, Words, draw, size};
+use super::element::{Area, Drawing, draw, size};
 use super::figure::Figure;
 use super::heading::margins;
 use super::theme::Theme;
@@ -61,7 +61,7 @@ impl Facts {
         const SMALLER: f64 = 0.85;
         let texts = || sheet.panels.iter().flat_map(|panel| Facts::OneLine.texts(panel));
         let natural =
-            |text: String| Words::new(&text, Point::origin(), Anchor::Middle, theme.note, theme.grey).text.width();
+            |text: String| theme.words(&text, Point::origin(), Anchor::Middle, theme.note, theme.grey).text.width();
         match texts().map(natural).fold(0.0, f64::max) {
             0.0 => Facts::None,
             widest if SMALLER * widest <= width => Facts::OneLine,
@@ -101,11 +101,11 @@ fn caption(area: &Area, (foot, facts): (f64, Facts), panel: &Panel, symbols: &[S
     let page = size(area);
     let number = panel.solved.cell.number.to_string();
     let at = Point::new(0.8 * theme.caption, theme.note);
-    draw(area, &Words::new(&number, at, Anchor::Start, theme.note, theme.grey));
+    draw(area, &theme.words(&number, at, Anchor::Start, theme.note, theme.grey));
     let width = page.x - 1.2 * theme.caption;
     let mut y = page.y - foot + 1.5 * theme.caption;
     let mut line = |text: &str, size: f64, color, symbols: &[String]| {
-        let words = Words::new(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color);
+        let words = theme.words(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color);
         draw(area, &words.italic(symbols).fitted(width));
         y += 1.45 * theme.note;
     };
@@ -125,7 +125,7 @@ fn caption(area: &Area, (foot, facts): (f64, Facts), panel: &Panel, symbols: &[S
 pub(super) fn draw_reason(area: &Area, frame: Frame, reason: &str, theme: &Theme) {
     let centre = frame.centre();
     let words =
-        |text: &str, size: f64, color: Color| Words::new(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color);
+        |text: &str, size: f64, color: Color| theme.words(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color);
     let mut lines = vec![words("not assembled", theme.caption, theme.curve_ink(0)).text];
     let reason = words(reason, theme.note, theme.grey).wrapped(0.9 * frame.size.x);
     lines.extend(reason.iter().map(|line| words(line, theme.note, theme.grey).text));

@@ -1,5 +1,5 @@
 use super::arrangement::Frame;
-use super::element::{Area, Drawing, Words, draw};
+use super::element::{Area, Drawing, draw};
 use super::theme::Theme;
 use crate::geometry::{Bounds, Point, Similarity, Vector};
 use crate::scene::{Anchor, Item, Line, Path, Text};
@@ -37,7 +37,7 @@ impl Plot {
         let label = units.to_string();
         let size = 0.75 * theme.note;
         let at = Point::new(self.frame.centre().x, self.frame.corner.y + self.frame.size.y + 2.2 * theme.joint + size);
-        let words = Words::new(&label, Point::origin(), Anchor::Start, size, theme.grey);
+        let words = theme.words(&label, Point::origin(), Anchor::Start, size, theme.grey);
         let gap = 0.4 * size;
         let left = at.x - (length + gap + words.text.width()) / 2.0;
         let tick = 0.3 * size;

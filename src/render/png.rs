@@ -144,7 +144,7 @@ impl Raster {
         for run in &text.runs {
             for c in run.text.chars() {
                 let place = |[x, y]: [f64; 2]| ((at.x + x * text.size) as f32, (at.y - y * text.size) as f32);
-                for segment in run.face.outline(c) {
+                for segment in run.face.outline(c).iter().copied() {
                     match segment {
                         Segment::Move(p) => builder.move_to(place(p).0, place(p).1),
                         Segment::Line(p) => builder.line_to(place(p).0, place(p).1),

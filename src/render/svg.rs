@@ -2,7 +2,7 @@ use std::fmt::Write;
 
 use super::TextMode;
 use crate::geometry::Point;
-use crate::scene::{Anchor, Circle, Color, Face, Group, Item, Moving, Path, Scene, Segment, Stroke, Text};
+use crate::scene::{Anchor, Circle, Color, Group, Item, Moving, Path, Scene, Segment, Stroke, Text};
 
 /// A scene as an SVG document, in millimetres to 1/1000 mm.
 pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
@@ -12,10 +12,10 @@ pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
          font-family=\"{}\" font-kerning=\"none\" style=\"font-variant-ligatures:none\" \
          stroke-linejoin=\"round\" fill=\"none\">\n",
-        Face::FAMILIES
+        scene.typeface.families()
     ));
     out.raw(format_args!("<title>{}</title>\n", Escaped(&scene.title)));
-    out.raw(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", Hex(scene.paper)));
+    out.raw(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", scene.paper));
     for item in &scene.items {
         out.item(item);
     }
@@ -106,11 +106,11 @@ impl Writer {
 
     fn paint(&mut self, stroke: Option<Stroke>, fill: Option<Color>) {
         if let Some(fill) = fill {
-            self.raw(format_args!(" fill=\"{}\"", Hex(fill)));
+            self.raw(format_args!(" fill=\"{}\"", fill));
         }
         if let Some(stroke) = stroke {
             let width = Number(micrometres(stroke.width));
-            self.raw(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", Hex(stroke.color)));
+            self.raw(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", stroke.color));
             if stroke.round {
                 self.out.push_str(" stroke-linecap=\"round\"");
             }
@@ -143,7 +143,7 @@ impl Writer {
 
     fn text(&mut self, text: &Text) {
         let [x, y, size] = [text.at.x, text.at.y, text.size].map(|c| Number(micrometres(c)));
-        self.raw(format_args!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", Hex(text.color)));
+        self.raw(format_args!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", text.color));
         match text.anchor {
             Anchor::Start => {}
             Anchor::Middle => self.out.push_str(" text-anchor=\"middle\""),
@@ -154,11 +154,10 @@ impl Writer {
         }
         self.out.push('>');
         for run in &text.runs {
-            match run.face {
-                Face::Regular => self.raw(format_args!("{}", Escaped(&run.text))),
-                Face::Italic => {
-                    self.raw(format_args!("<tspan font-style=\"italic\">{}</tspan>", Escaped(&run.text)));
-                }
+            if run.face.is_italic {
+                self.raw(format_args!("<tspan font-style=\"italic\">{}</tspan>", Escaped(&run.text)));
+            } else {
+                self.raw(format_args!("{}", Escaped(&run.text)));
             }
         }
         self.out.push_str("</text>\n");
@@ -177,7 +176,7 @@ impl Writer {
         for run in &text.runs {
             for c in run.text.chars() {
                 let place = |[x, y]: [f64; 2]| Point::new(at.x + x * text.size, at.y - y * text.size);
-                for segment in run.face.outline(c) {
+                for segment in run.face.outline(c).iter().copied() {
                     match segment {
                         Segment::Move(p) => pen.to(&mut self.out, 'm', &[place(p)]),
                         Segment::Line(p) => pen.to(&mut self.out, 'l', &[place(p)]),
@@ -293,15 +292,6 @@ impl std::fmt::Display for Number {
             p if p % 10 == 0 => write!(f, ".{:02}", p / 10),
             p => write!(f, ".{p:03}"),
         }
-    }
-}
-
-struct Hex(Color);
-
-impl std::fmt::Display for Hex {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Color(r, g, b) = self.0;
-        write!(f, "#{r:02x}{g:02x}{b:02x}")
     }
 }
 

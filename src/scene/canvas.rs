@@ -6,7 +6,7 @@ use plotters_backend::{
     FontTransform,
 };
 
-use super::{Anchor, Circle, Color, Face, Item, Line, Path, Run, Scene, Stroke, Text};
+use super::{Anchor, Circle, Color, Face, Item, Line, Path, Run, Scene, Stroke, Text, Typeface};
 use crate::geometry::Point;
 
 /// A plotters backend that records a [`Scene`]; its pixel is 1/100 mm.
@@ -109,7 +109,7 @@ impl DrawingBackend for Canvas<'_> {
     }
 
     fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> Drawn {
-        let (face, size) = (face(style), style.size() / PIXELS);
+        let (face, size) = (face(self.scene.typeface, style), style.size() / PIXELS);
         let (above, below) = face.extents();
         // From the anchored height of the line's box down to its baseline.
         let drop = match style.anchor().v_pos {
@@ -140,16 +140,16 @@ impl DrawingBackend for Canvas<'_> {
         text: &str,
         style: &T,
     ) -> Result<(u32, u32), DrawingErrorKind<Infallible>> {
-        let face = face(style);
+        let face = face(self.scene.typeface, style);
         let (above, below) = face.extents();
         let (width, height) = (face.width(text, style.size()), (above + below) * style.size());
         Ok((width.ceil() as u32, height.ceil() as u32))
     }
 }
 
-fn face<T: BackendTextStyle>(style: &T) -> Face {
+fn face<T: BackendTextStyle>(typeface: Typeface, style: &T) -> Face {
     match style.style() {
-        FontStyle::Italic | FontStyle::Oblique => Face::Italic,
-        FontStyle::Normal | FontStyle::Bold => Face::Regular,
+        FontStyle::Italic | FontStyle::Oblique => typeface.italic(),
+        FontStyle::Normal | FontStyle::Bold => typeface.regular(),
     }
 }

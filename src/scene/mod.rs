@@ -5,10 +5,12 @@
 //! upper left corner, x to the right and y down.
 
 mod canvas;
+mod color;
 mod font;
 
 pub use canvas::Canvas;
-pub use font::{Face, Segment};
+pub use color::Color;
+pub use font::{Face, Segment, Typeface};
 
 use crate::geometry::Point;
 
@@ -21,15 +23,13 @@ pub struct Scene {
     pub height: f64,
     /// The colour of the paper.
     pub paper: Color,
+    /// What its texts are set in.
+    pub typeface: Typeface,
     /// What the page is called.
     pub title: String,
     /// What is drawn, from back to front.
     pub items: Vec<Item>,
 }
-
-/// A colour, red, green and blue.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Color(pub u8, pub u8, pub u8);
 
 /// Something drawn.
 #[derive(Clone, Debug, PartialEq)]

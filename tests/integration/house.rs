@@ -1,8 +1,8 @@
 //! Which room may import which, read from the imports themselves.
 //!
 //! Where this differs from a plain reading of data going one way, it is for the sake of one word for one thing: a
-//! family says how its circuits are sampled in motion's words, a manifest names the templates that notation reads,
-//! and a record has the columns of the measures.
+//! family says how its circuits are sampled in motion's words, a manifest names the templates that notation reads, and
+//! the colours and typefaces of a scene, and a record has the columns of the measures.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -25,7 +25,7 @@ const HOUSE: [(&str, &str); 20] = [
     ("scene", "geometry"),
     ("page", "geometry expression linkage motion measure sweep scene chart"),
     ("render", "geometry scene"),
-    ("manifest", "problem expression notation catalogue family page render template chart"),
+    ("manifest", "problem expression notation catalogue family page render template chart scene"),
     ("record", "family sweep measure"),
     (
         "build",

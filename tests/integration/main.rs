@@ -17,6 +17,7 @@ mod rates;
 mod readme;
 mod sextic;
 mod straight_line;
+mod themes;
 mod thesis;
 
 /// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and

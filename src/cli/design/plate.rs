@@ -48,7 +48,7 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
         panels: designs.iter().zip(&solved).map(panel).collect(),
     };
     let paper = Paper { width: 110.0 * columns as f64 + 20.0, height: 100.0 * rows as f64 + 35.0 };
-    render::svg(&page::compose(&sheet, &Options { paper, dash_deg: 5.0 }), TextMode::Text)
+    render::svg(&page::compose(&sheet, &Options::on(paper)), TextMode::Text)
 }
 
 fn caption(design: &Design) -> String {

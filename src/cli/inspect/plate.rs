@@ -32,7 +32,7 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
         of: 1,
     };
     let sheet = Sheet { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] };
-    let options = Options { paper: Paper { width: 200.0, height: 150.0 }, dash_deg: 5.0 };
+    let options = Options::on(Paper { width: 200.0, height: 150.0 });
     render::svg(&page::compose(&sheet, &options), TextMode::Text)
 }
 

@@ -6,14 +6,14 @@ use plotters::drawing::DrawingArea;
 use plotters::style::{Color as _, IntoFont, RGBColor, ShapeStyle, TextStyle};
 
 use super::super::ChartSheet;
-use super::super::element::{Area, Drawing, Tagged, Words, draw, size};
+use super::super::element::{Area, Drawing, Tagged, draw, size};
 use super::super::theme::Theme;
 use super::keys::{self, Key};
 use super::line::{Manner, Trace};
 use super::scale::{Ends, Scale, Wish, is_drawn};
 use crate::chart::{Over, Quantity, Series};
 use crate::geometry::{Point, Vector};
-use crate::scene::{Anchor, Canvas, Color, Face, Group, Item};
+use crate::scene::{Anchor, Canvas, Color, Group, Item};
 
 /// A chart that is to be drawn.
 pub(super) struct Figure<'a> {
@@ -57,7 +57,7 @@ impl<'a> Figure<'a> {
         let y = Scale::of(drawn(place).map(|(_, y)| y), &wishes[1]);
         let scales = x.zip(y).map(|(x, y)| [x, y]);
         let labels = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.label(*tick)));
-        let left = labels.map(|label| Face::Regular.width(&label, theme.note)).fold(0.0, f64::max);
+        let left = labels.map(|label| theme.typeface.regular().width(&label, theme.note)).fold(0.0, f64::max);
         let left = left + 2.0 * tick(theme) + 0.2 * theme.note;
         Figure { sheet, place, scales, left, right }
     }
@@ -109,11 +109,11 @@ impl<'a> Figure<'a> {
         let width = size(area).x;
         let y = 1.2 * theme.caption;
         let name = named(self.quantity());
-        let words = Words::new(&name, Point::new(0.0, y), Anchor::Start, theme.caption, theme.ink);
+        let words = theme.words(&name, Point::new(0.0, y), Anchor::Start, theme.caption, theme.ink);
         let words = words.italic(self.sheet.heading.symbols).fitted(width);
         let after = words.text.width() + 1.2 * theme.caption;
         draw(area, &words);
-        let definition = |text: &str| Words::new(text, Point::new(after, y), Anchor::Start, theme.note, theme.grey);
+        let definition = |text: &str| theme.words(text, Point::new(after, y), Anchor::Start, theme.note, theme.grey);
         let whole = self.quantity().definition;
         // A definition may go on to say how it is found; that is left out first.
         let parts = [": ", ", "].into_iter().filter_map(|end| whole.split_once(end)).map(|(part, _)| part);
@@ -129,7 +129,7 @@ impl<'a> Figure<'a> {
         let left = f64::from(frame.get_base_pixel().0 - area.get_base_pixel().0) / f64::from(Canvas::pixels(1.0));
         let y = all.y - foot + 2.0 * tick(theme) + 1.5 * theme.note + 1.1 * theme.caption;
         let name = named(&self.sheet.chart.x);
-        let words = Words::new(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption, theme.ink);
+        let words = theme.words(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption, theme.ink);
         let words = words.italic(self.sheet.heading.symbols).fitted(0.9 * inner.x);
         let beside = (inner.x - words.text.width()) / 2.0 - theme.caption;
         draw(area, &words);
@@ -139,7 +139,7 @@ impl<'a> Figure<'a> {
                 1 => "1 value of 0 or less is left out".to_owned(),
                 n => format!("{n} values of 0 or less are left out"),
             };
-            let words = Words::new(&note, Point::new(left + inner.x, y), Anchor::End, theme.note, theme.grey);
+            let words = theme.words(&note, Point::new(left + inner.x, y), Anchor::End, theme.note, theme.grey);
             draw(area, &words.fitted(beside));
         }
     }
@@ -149,7 +149,7 @@ impl<'a> Figure<'a> {
         let is_log = self.quantity().is_log || self.sheet.chart.x.is_log;
         let text = if is_log { "no value that a logarithmic axis has a place for" } else { "no finite value" };
         let at = Point::from(size(area) / 2.0);
-        let words = Words::new(text, at, Anchor::Middle, theme.caption, theme.grey).fitted(size(area).x);
+        let words = theme.words(text, at, Anchor::Middle, theme.caption, theme.grey).fitted(size(area).x);
         draw(area, &Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(words.text)] });
     }
 

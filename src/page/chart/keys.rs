@@ -21,7 +21,7 @@ fn sample(theme: &Theme) -> f64 {
 }
 
 fn words(label: &str, at: Point, symbols: &[String], theme: &Theme) -> Words {
-    Words::new(label, at, Anchor::Start, theme.note, theme.ink).italic(symbols)
+    theme.words(label, at, Anchor::Start, theme.note, theme.ink).italic(symbols)
 }
 
 /// How much room the names of lines take, in millimetres; none where there is nothing to tell apart.
@@ -67,7 +67,7 @@ pub(super) fn items(
     }
     if unnamed > 0 {
         let more = format!("and {unnamed} more");
-        let words = Words::new(&more, Point::new(text, height + drop), Anchor::Start, theme.note, theme.grey);
+        let words = theme.words(&more, Point::new(text, height + drop), Anchor::Start, theme.note, theme.grey);
         items.push(Item::Text(words.fitted(left + room - text).text));
     }
     items

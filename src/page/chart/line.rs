@@ -85,10 +85,12 @@ fn clipped(a: Point, b: Point, size: Vector) -> Option<[Point; 2]> {
     (from <= to).then(|| [at(from), at(to)])
 }
 
-/// How a line is told from others: by colour, by dashes and by marks.
+/// How a line is told from others: by colour, weight, dashes and marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Manner {
     pub ink: Color,
+    /// Its weight in millimetres.
+    weight: f64,
     /// Its dashes and gaps in turn, in millimetres; none where it is unbroken.
     dashes: &'static [f64],
     mark: Mark,
@@ -105,12 +107,19 @@ enum Mark {
 }
 
 impl Manner {
-    /// That of the k-th line, from 0: the first twenty-five differ in more than one way from those with their colour.
+    /// That of the k-th line, from 0: those of one ink, five of them, differ in dashes and in marks.
     pub fn of(k: usize, theme: &Theme) -> Manner {
         const DASHES: [&[f64]; 5] = [&[], &[3.0, 1.2], &[1.0, 1.0], &[5.0, 1.0, 1.0, 1.0], &[7.0, 1.6]];
         const MARKS: [Mark; 5] = [Mark::Disc, Mark::Ring, Mark::Square, Mark::Diamond, Mark::Triangle];
-        let round = k / theme.curves.len();
-        Manner { ink: theme.curve_ink(k), dashes: DASHES[(k + round) % 5], mark: MARKS[(k + 2 * round) % 5] }
+        let inks = theme.curves.len();
+        let (ink, round) = (k % inks, k / inks);
+        let weight = 1.2 * theme.curve_stroke(k).width;
+        Manner {
+            ink: theme.curve_ink(k),
+            weight,
+            dashes: DASHES[(ink + round) % 5],
+            mark: MARKS[(ink + 2 * round) % 5],
+        }
     }
 
     /// A line through some runs: where it is dashed, with a light one under it that leads over the gaps.
@@ -119,7 +128,7 @@ impl Manner {
         let whole = |stroke: Stroke| {
             Item::Path(Path { lines: runs.iter().map(line).collect(), stroke: Some(stroke), fill: None })
         };
-        let stroke = theme.stroke(self.ink, 1.2 * theme.curve);
+        let stroke = theme.stroke(self.ink, self.weight);
         if runs.is_empty() {
             return Vec::new();
         }
@@ -233,7 +242,7 @@ mod tests {
 
     #[test]
     fn twenty_five_lines_differ() {
-        let theme = Theme::for_paper(super::super::super::Paper::NAMED[1].1);
+        let theme = Theme::default().for_paper(super::super::super::Paper::NAMED[1].1);
         let manners: Vec<Manner> = (0..25).map(|k| Manner::of(k, &theme)).collect();
         for (k, a) in manners.iter().enumerate() {
             for b in &manners[..k] {

@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn charts_are_arranged_to_be_read() {
         let [letter, tabloid, ..] = Paper::NAMED.map(|(_, paper)| paper);
-        let of = |paper, count| balanced(paper, &Theme::for_paper(paper), count);
+        let of = |paper, count| balanced(paper, &Theme::default().for_paper(paper), count);
         assert_eq!([1, 2, 4, 6, 40].map(|count| of(tabloid, count)), [[1, 1], [2, 1], [2, 2], [3, 2], [3, 2]]);
         assert_eq!(of(letter, 1), [1, 1]);
         let slip = Paper { width: 50.0, height: 2000.0 };

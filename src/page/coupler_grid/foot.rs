@@ -4,7 +4,6 @@ use super::super::arrangement::Frame;
 use super::super::element::{Area, draw as put, size};
 use super::super::theme::Theme;
 use super::super::{GridSheet, Options, figure};
-use super::words;
 use crate::geometry::Point;
 use crate::scene::Anchor;
 
@@ -14,11 +13,11 @@ pub(super) fn draw(area: &Area, sheet: &GridSheet, options: &Options, theme: &Th
     let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
     let at = Point::new(left, page.y - theme.border - 0.65 * theme.margin);
-    let ratios = words(&sheet.panel.caption, at, Anchor::Start, theme.title, theme.ink);
+    let ratios = theme.words(&sheet.panel.caption, at, Anchor::Start, theme.title, theme.ink);
     put(area, &ratios.italic(sheet.heading.symbols).fitted(half));
     let mut y = at.y;
     for text in [folio(sheet), facts(sheet, options)].into_iter().filter(|text| !text.is_empty()) {
-        let line = words(&text, Point::new(right, y), Anchor::End, theme.source, theme.grey);
+        let line = theme.words(&text, Point::new(right, y), Anchor::End, theme.source, theme.grey);
         put(area, &line.fitted(half));
         y -= 1.5 * theme.source;
     }
@@ -42,13 +41,14 @@ fn facts(sheet: &GridSheet, options: &Options) -> String {
 /// The source, in as many lines as it takes, at the foot of the column.
 pub(super) fn source(area: &Area, side: Frame, sheet: &GridSheet, theme: &Theme) {
     let symbols = sheet.heading.symbols;
-    let lines = words(&sheet.heading.source, Point::origin(), Anchor::End, theme.note, theme.grey).wrapped(side.size.x);
+    let lines =
+        theme.words(&sheet.heading.source, Point::origin(), Anchor::End, theme.note, theme.grey).wrapped(side.size.x);
     let right = side.corner.x + side.size.x;
     let step = 1.45 * theme.note;
     let first = side.corner.y + side.size.y - step * lines.len() as f64;
     for (k, line) in lines.iter().enumerate() {
         let at = Point::new(right, first + step * k as f64);
-        let line = words(line, at, Anchor::End, theme.note, theme.grey);
+        let line = theme.words(line, at, Anchor::End, theme.note, theme.grey);
         put(area, &line.italic(symbols).fitted(side.size.x));
     }
 }

@@ -5,7 +5,6 @@ use super::super::arrangement::Frame;
 use super::super::element::{Area, Drawing, draw as put};
 use super::super::mechanism::Mechanism;
 use super::super::theme::Theme;
-use super::words;
 use crate::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use crate::linkage::JointId;
 use crate::scene::{Anchor, Item, Line, Path};
@@ -39,7 +38,7 @@ pub(super) fn draw(area: &Area, side: Frame, sheet: &GridSheet, mechanism: &Mech
         let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
         let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
         let baseline = middle + outward * (0.95 * letter) + Vector::new(0.0, 0.36 * letter);
-        letters.push(words(&label.text, baseline, Anchor::Middle, letter, theme.grey));
+        letters.push(theme.words(&label.text, baseline, Anchor::Middle, letter, theme.grey));
     }
     put(area, &Drawing { class: "key", title: String::new(), items });
     for letter in letters {

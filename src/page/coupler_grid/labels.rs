@@ -4,7 +4,7 @@ use super::super::arrangement::Frame;
 use super::super::mechanism::{drawn_links, ground};
 use super::super::plot::Plot;
 use super::super::theme::Theme;
-use super::{Shown, words};
+use super::Shown;
 use crate::geometry::{Point, Vector, distance_to_segment, trig};
 use crate::scene::{Anchor, Item};
 use crate::sweep::Solved;
@@ -32,7 +32,7 @@ pub(super) fn place(
         if shown[..k].iter().any(|other| other.place == s.place) {
             continue;
         }
-        let text = words(&s.curve.trace.to_string(), Point::origin(), Anchor::Middle, size, s.ink(theme)).text;
+        let text = theme.words(&s.curve.trace.to_string(), Point::origin(), Anchor::Middle, size, s.ink(theme)).text;
         let half = Vector::new(text.width() / 2.0, 0.36 * size);
         let near = Near::of(centres[k], 5.0 * theme.joint + 3.0 * half.x, lines, &links);
         let others = || centres.iter().chain(&placed).filter(|other| (*other - centres[k]).norm() < 8.0 * size);

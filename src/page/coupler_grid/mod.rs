@@ -11,7 +11,7 @@ mod table;
 use plotters::drawing::IntoDrawingArea;
 
 use super::arrangement::Frame;
-use super::element::{Area, CouplerCurve, Drawing, Words, draw};
+use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::figure;
 use super::marks;
 use super::mechanism::Mechanism;
@@ -21,7 +21,7 @@ use super::{GridSheet, Layout, Options, Panel, View, pose};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::linkage::Input;
 use crate::motion::{self, Dashes};
-use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene};
+use crate::scene::{Canvas, Circle, Color, Item, Path, Scene};
 use crate::sweep::{Curve, Solved};
 
 /// What is read of a page, and in which ink: a curve, its coupler point and its row in the table.
@@ -113,9 +113,8 @@ fn draw_figure(
     group("grid", grid.items(&mechanism.pose, &plot, theme));
 
     let period = figure::dash(solved, options);
-    let dashes = Dashes { period, drawn: figure::DRAWN * period };
-    let places: Vec<usize> = sheet.shown.clone();
-    let paths = figure::paths(solved, &places, plot.page_from_plane, dashes);
+    let dashes = |k: usize| Dashes { period, drawn: theme.curve_drawn(shown[k].place) * period };
+    let paths = figure::paths(solved, &sheet.shown, plot.page_from_plane, dashes);
     let portions = shown.iter().filter_map(|s| marks::portion(solved, s.curve, s.ink(theme), &plot, theme));
     group("straight", portions.collect());
     let lined = |(shown, path): (&Shown, &motion::Path)| {
@@ -136,14 +135,14 @@ fn draw_figure(
 fn coupler_curve(sheet: &GridSheet, shown: &Shown, path: motion::Path, theme: &Theme) -> CouplerCurve {
     let Curve { trace, circuit, .. } = shown.curve;
     let cell = sheet.panel.solved.cell.number;
-    let ink = shown.ink(theme);
+    let stroke = theme.curve_stroke(shown.place);
     CouplerCurve {
         id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family),
         class: "curve",
         title: format!("{}, no. {cell}: {}, point {trace}", sheet.heading.title, sheet.panel.caption),
         data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
         strokes: path.dashes,
-        weights: [theme.stroke(ink, theme.curve), theme.stroke(theme.faded(ink), theme.fine)],
+        weights: [stroke, theme.stroke(theme.faded(stroke.color), theme.fine)],
         marks: Vec::new(),
     }
 }
@@ -165,8 +164,4 @@ fn points(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) ->
 /// The unit of the input, as it is written after a number.
 fn input_unit(solved: &Solved) -> &'static str {
     if solved.linkage.input() == Input::Length { "" } else { "°" }
-}
-
-fn words(text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> Words {
-    Words::new(text, at, anchor, size, color)
 }

@@ -5,7 +5,7 @@ use super::super::arrangement::Frame;
 use super::super::element::{Area, Drawing, draw as put};
 use super::super::marks::digits;
 use super::super::theme::Theme;
-use super::{Shown, input_unit, words};
+use super::{Shown, input_unit};
 use crate::geometry::{Point, Vector};
 use crate::linkage::{Linkage, Step};
 use crate::scene::{Anchor, Circle, Item, Line, Path};
@@ -23,7 +23,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
     let at = |column: usize, y: f64| Point::new(frame.corner.x + COLUMNS[column].1 * frame.size.x, y);
     let mut y = frame.corner.y + 1.5 * row;
     for (column, (head, _)) in COLUMNS.iter().enumerate() {
-        put(area, &words(head, at(column, y), Anchor::End, 0.9 * theme.note, theme.grey));
+        put(area, &theme.words(head, at(column, y), Anchor::End, 0.9 * theme.note, theme.grey));
     }
     let rule =
         vec![Point::new(frame.corner.x, y + 0.4 * row), Point::new(frame.corner.x + frame.size.x, y + 0.4 * row)];
@@ -35,7 +35,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
         y += row;
         if y > last && k + 1 < shown.len() {
             let rest = format!("and {} more", shown.len() - k);
-            put(area, &words(&rest, at(4, y), Anchor::End, theme.note, theme.grey));
+            put(area, &theme.words(&rest, at(4, y), Anchor::End, theme.note, theme.grey));
             break;
         }
         put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note), s, theme));
@@ -45,7 +45,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
         let [straight, over] = straight(solved, s.curve);
         for (column, text) in [number, along, across, straight, over].iter().enumerate() {
             let color = if column == 0 { s.ink(theme) } else { theme.grey };
-            put(area, &words(text, at(column, y), Anchor::End, theme.note, color));
+            put(area, &theme.words(text, at(column, y), Anchor::End, theme.note, color));
         }
     }
 }

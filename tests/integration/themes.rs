@@ -1,0 +1,395 @@
+//! Themes: what a manifest may say of them, what is on the pages, and whether the eye can tell their inks apart.
+
+use std::fs;
+use std::process::Command;
+
+use coupler_atlas::geometry::trig;
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::page::{Layout, Options, Paper, Theme};
+use coupler_atlas::problem::report;
+use coupler_atlas::scene::{Color, Typeface};
+use tempfile::TempDir;
+
+/// Panels of five curves and their plate, a case that cannot be assembled, and a chart of several lines.
+const GOOD: &str = r#"[atlas]
+title = "T"
+output = "out"
+[page]
+theme = "paper"
+[[linkage]]
+id = "five"
+parameters = { g = { min = 0 } }
+caption = "g = {g:.1}"
+trace = ["M"]
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = ["g", 0] }
+A = { crank = "O", length = 1 }
+B = { dyad = ["A", "C"], lengths = [2.7, 3], side = "left" }
+M = { point = ["A", "B"], along = { from = 0.3, to = 2.7, count = 5 }, across = 1 }
+[[family]]
+id = "panels"
+linkage = "five"
+panels = [3, 1]
+sampling = { step = "10 deg" }
+grid = { g = [3, 3.3, 9] }
+[[family]]
+id = "plates"
+linkage = "jansen"
+panels = [2, 1]
+sampling = { step = "10 deg" }
+grid = { m = [14, 15] }
+[[family]]
+id = "chart"
+linkage = "evans"
+layout = "chart"
+chart = { x = "p", y = ["length", "mu_min_deg"] }
+sampling = { step = "10 deg" }
+grid = { p = [2, 3, 4], k = [1.5, 1.75, 2] }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+
+fn with(theme: &str) -> String {
+    GOOD.replace("\"paper\"", theme)
+}
+
+fn plan(theme: &str) -> Plan {
+    let text = with(theme);
+    let loaded = manifest::load(&text);
+    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", &text, false)))
+}
+
+fn theme(text: &str) -> Theme {
+    plan(text).page.theme
+}
+
+fn named(name: &str) -> Theme {
+    theme(&format!("\"{name}\""))
+}
+
+/// What is said of a theme, and whether a plan comes of it.
+fn said(theme: &str) -> (String, bool) {
+    let text = with(theme);
+    let loaded = manifest::load(&text);
+    assert!(loaded.problems.iter().all(|problem| !problem.help.is_empty()));
+    (report(&loaded.problems, "atlas.toml", &text, false), loaded.plan.is_some())
+}
+
+#[test]
+fn each_mistake_has_its_message() {
+    let cases = [
+        ("\"drak\"", "`drak` is not one of the words allowed here", "5:9"),
+        ("3", "a table is wanted here", "5:9"),
+        ("{ bace = \"dark\" }", "a theme has no key `bace`", "5:11"),
+        ("{ base = \"night\" }", "`night` is not one of the words allowed here", "5:18"),
+        ("{ paper = \"white\" }", "`white` is no colour", "5:19"),
+        ("{ ink = \"#12345\" }", "`#12345` is no colour", "5:17"),
+        ("{ ink = 0 }", "text is wanted here", "5:17"),
+        ("{ curves = \"#000\" }", "a list is wanted here", "5:20"),
+        ("{ curves = [] }", "curves are drawn in no ink at all", "5:20"),
+        ("{ curves = [\"#000\", \"blue\"] }", "`blue` is no colour", "5:29"),
+        ("{ curves = [\"#000\", \"#fffeff\"] }", "#fffeff cannot be told from the paper, #fffdf8", "5:29"),
+        ("{ ink = \"#f0f0f0\" }", "#f0f0f0 cannot be told from the paper", "5:17"),
+        (
+            "{ paper = \"#000\" }",
+            "on this paper, #000000, the theme's `ink`, `grey`, `curves` cannot well be seen",
+            "5:19",
+        ),
+        ("{ monochrome = \"yes\" }", "true or false is wanted here", "5:24"),
+        ("{ face = \"times\" }", "`times` is not one of the words allowed here", "5:18"),
+        ("{ drawn = 0 }", "0 of a dash's span is out of range", "5:19"),
+        ("{ drawn = 1.5 }", "1.5 of a dash's span is out of range", "5:19"),
+        ("{ weights = { links = \"1 mm\" } }", "`weights` has no key `links`", "5:23"),
+        ("{ weights = { link = 1 } }", "the unit is missing", "5:30"),
+        ("{ weights = { link = \"9 mm\" } }", "9 mm is out of range", "5:30"),
+        ("{ weights = 0 }", "0 times the size is out of range", "5:21"),
+        ("{ lettering = { title = \"2 deg\" } }", "`deg` is not a unit here", "5:36"),
+        ("{ lettering = { note = \"0.1 mm\" } }", "0.1 mm is out of range", "5:32"),
+        ("{ lettering = 3 }", "3 times the size is out of range", "5:23"),
+    ];
+    for (theme, message, place) in cases {
+        let (said, is_planned) = said(theme);
+        assert!(!is_planned, "{theme}");
+        assert!(said.contains(message), "{message}:\n{said}");
+        assert!(said.contains(&format!("atlas.toml:{place}\n")), "{message} at {place}:\n{said}");
+    }
+    let (said, _) = said("{ bace = 1, ink = \"x\", face = \"y\", drawn = 2, weights = 9, lettering = 9 }");
+    assert_eq!(said.matches("error: ").count(), 6, "{said}");
+    assert!(said.contains("did you mean `base`?"), "{said}");
+    // Of a paper that is not known nothing is asked.
+    let (said, _) = self::said("{ base = \"drak\", ink = \"#eee\" }");
+    assert_eq!(said.matches("error: ").count(), 1, "{said}");
+}
+
+#[test]
+fn what_can_hardly_be_seen_is_warned_of() {
+    let cases = [
+        ("{ ink = \"#888\" }", "#888888 is hard to see on the paper, #fffdf8"),
+        ("{ base = \"dark\", grey = \"#777\" }", "#777777 is hard to see on the paper, #14181d"),
+        (
+            "{ paper = \"#c0c0c0\" }",
+            "on this paper, #c0c0c0, the theme's `grey`, `hairline`, `curves` cannot well be seen",
+        ),
+        ("{ curves = [\"#000\", \"#00f\", \"#080\"] }", "curves are told apart by 5 inks, and here are 3"),
+        (
+            "{ curves = [\"#8c2d19\", \"#1f3d66\", \"#2f6b3a\", \"#5b2d82\", \"#8f2f1b\"] }",
+            "#8f2f1b looks like #8c2d19, which is given before it",
+        ),
+    ];
+    for (theme, message) in cases {
+        let (said, is_planned) = said(theme);
+        assert!(is_planned && said.contains(message) && !said.contains("error: "), "{message}:\n{said}");
+    }
+    for good in [
+        "{}",
+        "{ base = \"dark\" }",
+        "{ base = \"dark\", monochrome = true }",
+        "{ monochrome = true, curves = [\"#000\", \"#00f\"] }",
+        "{ paper = \"#eef\" }",
+    ] {
+        assert_eq!(said(good).0, "", "{good}");
+    }
+}
+
+#[test]
+fn a_table_changes_what_it_names_and_no_more() {
+    assert_eq!(theme("{}"), Theme::default());
+    for name in Theme::NAMED.map(|theme| theme.name) {
+        assert_eq!(theme(&format!("{{ base = \"{name}\" }}")), named(name));
+    }
+    // What is monochrome stays so, unless it is said not to.
+    let red = |monochrome: &str| theme(&format!("{{ base = \"monochrome\", ink = \"#700\"{monochrome} }}")).ink;
+    assert_eq!((red(""), red(", monochrome = false")), (Color(0x77, 0, 0).grey(), Color(0x77, 0, 0)));
+    let own = theme(
+        "{ base = \"print\", ink = \"#123\", face = \"mono\", drawn = \"3 / 4\", weights = { link = \"0.05 in\" }, lettering = 1.5 }",
+    );
+    let print = named("print");
+    let wanted = Theme {
+        ink: Color(0x11, 0x22, 0x33),
+        typeface: Typeface::Mono,
+        drawn: 0.75,
+        link: 0.05 * 25.4,
+        title: 1.5 * print.title,
+        source: 1.5 * print.source,
+        caption: 1.5 * print.caption,
+        note: 1.5 * print.note,
+        ..print
+    };
+    assert_eq!(own, wanted);
+}
+
+#[test]
+fn sizes_follow_the_paper() {
+    let options = |theme: &str, paper: &str| {
+        let text = with(theme).replace("[page]\n", &format!("[page]\npaper = \"{paper}\"\n"));
+        let page = manifest::load(&text).plan.unwrap().page;
+        page.theme.for_paper(page.paper)
+    };
+    for (paper, part) in [("tabloid", 1.0), ("a4", f64::min(297.0 / 431.8, 210.0 / 279.4))] {
+        let scaled = options("{ weights = { curve = \"0.8 mm\" }, lettering = { note = \"4 mm\" } }", paper);
+        assert!((scaled.curve - 0.8 * part.sqrt()).abs() < 1e-12 && (scaled.note - 4.0 * part).abs() < 1e-12);
+        let plain = options("\"paper\"", paper);
+        assert_eq!((scaled.link, scaled.title), (plain.link, plain.title));
+        let double = options("{ weights = 2 }", paper);
+        let weights = |theme: &Theme| [theme.link, theme.curve, theme.fine, theme.hair, theme.joint];
+        assert_eq!(weights(&double), weights(&plain).map(|weight| 2.0 * weight));
+    }
+    // Where lettering is larger there is room for fewer panels.
+    let large = Options { theme: theme("{ lettering = 2 }"), ..Options::on(Paper::NAMED[1].1) };
+    let plain = Options::on(Paper::NAMED[1].1);
+    let [fewer, more] = [&large, &plain].map(Layout::most_panels);
+    assert!(fewer[0] < more[0] && fewer[1] < more[1], "{fewer:?} {more:?}");
+}
+
+/// The pages of a manifest with a theme: their names, texts and images.
+fn pages(theme: &str) -> Vec<(String, String, image::RgbImage)> {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), with(theme)).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = |family: &str| {
+        let path = folder.path().join(format!("out/{family}/{family}-001"));
+        let image = image::open(path.with_extension("png")).unwrap().to_rgb8();
+        (family.to_owned(), fs::read_to_string(path.with_extension("svg")).unwrap(), image)
+    };
+    ["panels", "plates", "chart"].map(page).into()
+}
+
+/// The colours of an SVG.
+fn colors(svg: &str) -> Vec<Color> {
+    let words = svg.split("=\"#").skip(1).map(|rest| format!("#{}", rest.split('"').next().unwrap()));
+    let mut found: Vec<Color> = words.map(|word| Color::parse(&word).unwrap()).collect();
+    found.sort_by_key(|Color(r, g, b)| (*r, *g, *b));
+    found.dedup();
+    assert!(found.len() > 3);
+    found
+}
+
+#[test]
+fn dark_pages_are_dark() {
+    let ground = named("dark").paper;
+    assert!(ground.lightness() < 10.0);
+    for (family, svg, image) in pages("\"dark\"") {
+        let dark = image.pixels().filter(|pixel| Color(pixel[0], pixel[1], pixel[2]).lightness() < 15.0).count();
+        let all = image.pixels().count();
+        assert!(dark as f64 > 0.85 * all as f64, "{family}: {dark} of {all}");
+        // Nothing is darker than the ground: no ink of another theme is left, and nothing hollow is white.
+        for color in colors(&svg) {
+            assert!(color.lightness() >= ground.lightness(), "{family}: {color}");
+        }
+        let fills = svg.split("fill=\"#").skip(1).map(|rest| format!("#{}", &rest[..6]));
+        let white = fills.filter_map(|fill| Color::parse(&fill)).filter(|fill| fill.lightness() > 95.0).count();
+        assert_eq!(white, 0, "{family}");
+    }
+}
+
+#[test]
+fn monochrome_pages_have_no_colour() {
+    for theme in [
+        "\"monochrome\"",
+        "{ monochrome = true }",
+        "{ base = \"dark\", monochrome = true, curves = [\"#f88\", \"#8af\"] }",
+    ] {
+        for (family, svg, image) in pages(theme) {
+            let is_grey = |Color(r, g, b): Color| r == g && g == b;
+            assert!(colors(&svg).into_iter().all(is_grey), "{theme} {family}: {:?}", colors(&svg));
+            assert!(image.pixels().all(|p| is_grey(Color(p[0], p[1], p[2]))), "{theme} {family}");
+        }
+    }
+    // Curves differ in weight as well: those of a panel have as many weights as manners.
+    let (_, svg, _) = pages("\"monochrome\"").remove(0);
+    let curve = |k: usize| svg.split(&format!("id=\"panels-1-{k}-1\"")).nth(1).unwrap().split("</g>").next().unwrap();
+    let style = |k: usize| curve(k).split(" stroke=").nth(1).unwrap().split("/>").next().unwrap().to_owned();
+    let styles: Vec<String> = (1..=5).map(style).collect();
+    for (k, style) in styles.iter().enumerate() {
+        assert!(!styles[..k].contains(style), "{styles:?}");
+    }
+}
+
+#[test]
+fn the_face_of_a_page_is_that_of_the_theme() {
+    let families: Vec<&str> = Typeface::NAMED.iter().map(|(_, face)| face.families()).collect();
+    for (name, face) in Typeface::NAMED {
+        let pages = pages(&format!("{{ face = \"{name}\" }}"));
+        for (family, svg, _) in &pages {
+            let named: Vec<&str> = svg.split("font-family=\"").skip(1).map(|s| s.split('"').next().unwrap()).collect();
+            assert_eq!(named, [face.families()], "{family}");
+        }
+        assert_eq!(families.iter().filter(|other| **other == face.families()).count(), 1);
+    }
+    // Images are drawn from the face's own outlines.
+    let [serif, mono] = ["serif", "mono"].map(|face| pages(&format!("{{ face = \"{face}\" }}")).remove(0).2);
+    assert_ne!(serif, mono);
+}
+
+#[test]
+fn the_drawn_part_of_a_dash_is_the_themes() {
+    // An unbroken line has no gaps: the dashes of a curve are then as many, and end where the next begins.
+    let dashes = |theme: &str| {
+        let (_, svg, _) = pages(theme).remove(0);
+        let curve = svg.split("id=\"panels-1-1-1\"").nth(1).unwrap().split("</g>").next().unwrap();
+        curve.split("d=\"").nth(1).unwrap().split('"').next().unwrap().to_owned()
+    };
+    let [plain, same, longer] = ["\"paper\"", "{ drawn = 0.6 }", "{ drawn = 0.9 }"].map(dashes);
+    assert_eq!(plain, same);
+    assert!(plain != longer && plain.matches('m').count() == longer.matches('m').count());
+}
+
+/// The least difference of any two of some colours.
+fn least(colors: &[[f64; 3]], difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64) -> f64 {
+    let pairs = (0..colors.len()).flat_map(|k| (0..k).map(move |l| (k, l)));
+    pairs.map(|(k, l)| difference(&colors[k], &colors[l])).fold(f64::INFINITY, f64::min)
+}
+
+fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+/// Linear light of an sRGB colour (IEC 61966-2-1).
+fn linear(Color(r, g, b): Color) -> [f64; 3] {
+    [r, g, b].map(|channel| {
+        let c = f64::from(channel) / 255.0;
+        if c <= 0.04045 { c / 12.92 } else { trig::pow((c + 0.055) / 1.055, 2.4) }
+    })
+}
+
+/// CIELAB of linear light, D65.
+fn lab(light: [f64; 3]) -> [f64; 3] {
+    const XYZ: [[f64; 3]; 3] = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
+    let white = times(&XYZ, [1.0; 3]);
+    let xyz = times(&XYZ, light.map(|c| c.clamp(0.0, 1.0)));
+    let f = |k: usize| {
+        let t = xyz[k] / white[k];
+        if t > 216.0 / 24389.0 { trig::pow(t, 1.0 / 3.0) } else { (24389.0 / 27.0 * t + 16.0) / 116.0 }
+    };
+    [116.0 * f(1) - 16.0, 500.0 * (f(0) - f(1)), 200.0 * (f(1) - f(2))]
+}
+
+/// Machado, Oliveira and Fernandes, A physiologically-based model for simulation of color vision deficiency (IEEE TVCG
+/// 15, 2009), severity 1: protanopia, deuteranopia, tritanopia; of linear light.
+const DICHROMACIES: [[[f64; 3]; 3]; 3] = [
+    [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+    [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+];
+
+#[test]
+fn inks_can_be_told_apart_by_all_readers() {
+    let distance = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt();
+    let lightness = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).abs();
+    // What docs/themes.md says, rounded down: in colour, under each dichromacy, in grey. About 2 can just be seen side by
+    // side; thin lines want several times that.
+    let cases = [
+        ("paper", [34.9, 20.1, 23.6, 26.3, 8.7]),
+        ("print", [34.9, 20.1, 23.6, 26.3, 8.7]),
+        ("monochrome", [12.9; 5]),
+        ("dark", [32.0, 21.0, 22.0, 23.0, 8.4]),
+    ];
+    for (name, wanted) in cases {
+        let light: Vec<[f64; 3]> = named(name).curves.iter().map(|ink| linear(*ink)).collect();
+        let seen = |matrix: &[[f64; 3]; 3]| light.iter().map(|ink| lab(times(matrix, *ink))).collect::<Vec<_>>();
+        let normal: Vec<[f64; 3]> = light.iter().map(|ink| lab(*ink)).collect();
+        let mut found = vec![least(&normal, distance)];
+        found.extend(DICHROMACIES.iter().map(|matrix| least(&seen(matrix), distance)));
+        found.push(least(&normal, lightness));
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!(found >= &wanted && *found < wanted + 1.0, "{name}: {found} for {wanted}");
+        }
+        // The difference manifests are checked by is the same one.
+        let inks = named(name).curves;
+        assert!((inks[0].difference(inks[1]) - distance(&normal[0], &normal[1])).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn contrast_is_enough_to_read() {
+    for name in Theme::NAMED.map(|theme| theme.name) {
+        let theme = named(name);
+        for (text, k) in [theme.ink, theme.grey, theme.curve_ink(0)].into_iter().zip(0..) {
+            assert!(text.contrast(theme.paper) >= 4.5, "{name}: text {k}");
+        }
+        for ink in &theme.curves {
+            assert!(ink.contrast(theme.paper) >= 3.0, "{name}: {ink}");
+        }
+        assert!(theme.hairline.contrast(theme.paper) >= 1.5, "{name}");
+    }
+}
+
+#[test]
+fn the_documents_theme_is_one_and_they_name_every_key() {
+    let text = include_str!("../../docs/themes.md");
+    let page = text.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let (said, is_planned) = said(page.split_once("theme = ").unwrap().1.trim());
+    assert!(is_planned && said.is_empty(), "{said}");
+    let names = Theme::NAMED.iter().map(|theme| theme.name).chain(Typeface::NAMED.iter().map(|(name, _)| *name));
+    for name in names {
+        assert!(text.contains(&format!("`\"{name}\"`")), "{name}");
+    }
+    let (said, _) = self::said("{ zzzzzz = 1, weights = { zzzzzz = 1 }, lettering = { zzzzzz = 1 } }");
+    let keys =
+        said.lines().filter(|line| line.contains("it can be")).flat_map(|line| line.split('`').skip(1).step_by(2));
+    for key in keys {
+        assert!(text.contains(&format!("`{key}`")), "{key}");
+    }
+    assert_eq!(said.matches("it can be").count(), 3, "{said}");
+}
