@@ -257,11 +257,11 @@ impl Pen {
         if parted && x >= 0 {
             out.push(' ');
         }
-        let _ = write!(out, "{}", Number(x));
+        out.push_str(Number(x).text(&mut [0; 24]));
         if y >= 0 {
             out.push(' ');
         }
-        let _ = write!(out, "{}", Number(y));
+        out.push_str(Number(y).text(&mut [0; 24]));
     }
 
     fn close(&mut self, out: &mut String) {
@@ -276,22 +276,46 @@ fn micrometres(mm: f64) -> i64 {
 }
 
 /// Micrometres written as millimetres, in as few characters as it takes.
+#[derive(Clone, Copy)]
 struct Number(i64);
+
+impl Number {
+    /// Its text, at the end of a buffer. Most of what an SVG has are numbers, over which the formatter takes its time.
+    fn text(self, buffer: &mut [u8; 24]) -> &str {
+        let (mut whole, mut part) = (self.0.unsigned_abs() / 1000, self.0.unsigned_abs() % 1000);
+        let mut at = buffer.len();
+        let mut push = |byte: u8| {
+            at -= 1;
+            buffer[at] = byte;
+        };
+        if part > 0 {
+            let mut digits = 3;
+            while part % 10 == 0 {
+                part /= 10;
+                digits -= 1;
+            }
+            for _ in 0..digits {
+                push(b'0' + (part % 10) as u8);
+                part /= 10;
+            }
+            push(b'.');
+        }
+        while whole > 0 {
+            push(b'0' + (whole % 10) as u8);
+            whole /= 10;
+        }
+        match self.0.signum() {
+            -1 => push(b'-'),
+            0 => push(b'0'),
+            _ => {}
+        }
+        std::str::from_utf8(&buffer[at..]).unwrap_or_default()
+    }
+}
 
 impl std::fmt::Display for Number {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (sign, size) = (if self.0 < 0 { "-" } else { "" }, self.0.unsigned_abs());
-        let (whole, part) = (size / 1000, size % 1000);
-        f.write_str(sign)?;
-        if whole > 0 || part == 0 {
-            write!(f, "{whole}")?;
-        }
-        match part {
-            0 => Ok(()),
-            p if p % 100 == 0 => write!(f, ".{}", p / 100),
-            p if p % 10 == 0 => write!(f, ".{:02}", p / 10),
-            p => write!(f, ".{p:03}"),
-        }
+        f.write_str(self.text(&mut [0; 24]))
     }
 }
 
@@ -321,9 +345,16 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (micrometres, written) in
-            [(0, "0"), (500, ".5"), (-10, "-.01"), (1234, "1.234"), (-2000, "-2"), (1050, "1.05")]
-        {
+        for (micrometres, written) in [
+            (0, "0"),
+            (500, ".5"),
+            (-10, "-.01"),
+            (1234, "1.234"),
+            (-2000, "-2"),
+            (1050, "1.05"),
+            (40_100, "40.1"),
+            (i64::MIN, "-9223372036854775.808"),
+        ] {
             assert_eq!(Number(micrometres).to_string(), written);
         }
     }
