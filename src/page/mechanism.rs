@@ -290,7 +290,7 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
 }
 
 /// Whether a link is drawn as a plate and not as a bar.
-fn is_plate(points: &[Point]) -> bool {
+pub(super) fn is_plate(points: &[Point]) -> bool {
     points.len() > 2 && !is_flat(points)
 }
 

@@ -1,50 +1,65 @@
 //! The key: the bare linkage in its pose, small, with the letters of its links.
 
-use super::super::GridSheet;
 use super::super::arrangement::Frame;
-use super::super::element::{Area, Drawing, draw as put};
-use super::super::mechanism::Mechanism;
+use super::super::element::{Area, Drawing, Words, draw as put};
+use super::super::mechanism::{Mechanism, drawn_links, ground, is_plate};
 use super::super::theme::Theme;
+use super::super::{GridSheet, Label};
 use crate::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use crate::linkage::JointId;
 use crate::scene::{Anchor, Item, Line, Path};
 
 /// Draws it at the head of a column, and gives what is left of the column.
 pub(super) fn draw(area: &Area, side: Frame, sheet: &GridSheet, mechanism: &Mechanism, theme: &Theme) -> Frame {
-    let labels = sheet.labels;
-    if labels.is_empty() {
-        return side;
-    }
-    let pose = |joint: JointId| mechanism.pose[joint];
-    let bounds = Bounds::of(labels.iter().flat_map(|label| label.ends.map(pose)));
+    let linkage = &sheet.panel.solved.linkage;
+    let pose = |joint: &JointId| mechanism.pose[*joint];
+    let (links, pivots) = (drawn_links(linkage), ground(linkage));
+    let bounds = Bounds::of(links.iter().flatten().chain(&pivots).map(pose));
     let letter = 1.1 * theme.note;
     let height = 0.19 * side.size.y;
-    // Letters stand outside the links, all round.
-    let room = Frame { corner: side.corner, size: Vector::new(side.size.x, height) }.inset(1.4 * letter);
+    // Words stand outside the links, all round.
+    let widest = sheet.labels.iter().map(|label| words(label, theme, letter).text.width()).fold(letter, f64::max);
+    let room = Frame { corner: side.corner, size: Vector::new(side.size.x, height) };
+    let room = Frame {
+        corner: room.corner + Vector::new(widest + 0.6 * letter, 1.4 * letter),
+        size: (room.size - Vector::new(2.0 * widest + 1.2 * letter, 2.8 * letter)).sup(&Vector::repeat(letter)),
+    };
     let page_from_plane = Similarity::page_from_plane(bounds, room.centre(), room.scale(bounds));
-    let at = |joint: JointId| page_from_plane.apply(pose(joint));
+    let at = |joint: &JointId| page_from_plane.apply(pose(joint));
+    let stroke = Some(theme.stroke(theme.grey, theme.fine));
+    let path = |lines| Item::Path(Path { lines, stroke, fill: None });
+    let pairs = |joints: &[JointId]| joints.windows(2).map(|pair| [at(&pair[0]), at(&pair[1])]).collect::<Vec<_>>();
+    let frame = pairs(&pivots).into_iter().flat_map(|[a, b]| dashed(a, b, 0.5 * letter)).collect();
+    let mut items = vec![path(frame)];
+    items.extend(links.iter().map(|link| {
+        let points: Vec<Point> = link.iter().map(at).collect();
+        let closed = is_plate(&points);
+        path(vec![Line { points, closed }])
+    }));
+    put(area, &Drawing { class: "key", title: String::new(), items });
+
     let centre = page_from_plane.apply(bounds.centre());
-    let mut items = Vec::new();
-    let mut letters = Vec::new();
-    let ground = sheet.panel.solved.linkage.ground();
-    for label in labels {
-        let [a, b] = label.ends.map(at);
-        let is_frame = label.ends.iter().all(|&joint| ground.place(joint).is_some());
-        let lines = if is_frame { dashed(a, b, 0.5 * letter) } else { vec![line(a, b)] };
-        let stroke = Some(theme.stroke(theme.grey, theme.fine));
-        items.push(Item::Path(Path { lines, stroke, fill: None }));
+    let is_fixed = |joint: &JointId| linkage.ground().place(*joint).is_some();
+    // Of the frame, only what joins two pivots is a link.
+    let is_link =
+        |label: &&Label| !label.ends.iter().all(is_fixed) || label.ends.iter().all(|end| pivots.contains(end));
+    for label in sheet.labels.iter().filter(is_link) {
+        let [a, b] = [at(&label.ends[0]), at(&label.ends[1])];
         // On the side that is away from the middle of the linkage.
-        let middle = nalgebra::center(&a, &b);
         let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
         let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
-        let baseline = middle + outward * (0.95 * letter) + Vector::new(0.0, 0.36 * letter);
-        letters.push(theme.words(&label.text, baseline, Anchor::Middle, letter, theme.grey));
-    }
-    put(area, &Drawing { class: "key", title: String::new(), items });
-    for letter in letters {
-        put(area, &letter.italic(sheet.heading.symbols));
+        let mut text = words(label, theme, letter).italic(sheet.heading.symbols);
+        let half = Vector::new(text.text.width() / 2.0, 0.36 * letter);
+        // The box of the word touches the link with the corner or side that is nearest.
+        let away = half.x * outward.x.abs() + half.y * outward.y.abs() + 0.45 * letter;
+        text.text.at = nalgebra::center(&a, &b) + outward * away + Vector::new(0.0, half.y);
+        put(area, &text);
     }
     Frame { corner: side.corner + Vector::new(0.0, height), size: side.size - Vector::new(0.0, height) }
+}
+
+fn words(label: &Label, theme: &Theme, size: f64) -> Words {
+    theme.words(&label.text, Point::origin(), Anchor::Middle, size, theme.grey)
 }
 
 fn line(a: Point, b: Point) -> Line {
