@@ -234,5 +234,5 @@ pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
 
 fn blank(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
     let Paper { width, height } = options.paper;
-    Scene { width, height, paper: theme.paper, title: heading.name(), items: Vec::new() }
+    Scene { width, height, paper: theme.paper, title: heading.name(), items: Vec::new(), links: Vec::new() }
 }

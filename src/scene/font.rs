@@ -1,6 +1,8 @@
 use std::sync::LazyLock;
 
+use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
+use skrifa::metrics::GlyphMetrics;
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
@@ -29,7 +31,10 @@ pub enum Segment {
 }
 
 struct Font {
+    bytes: &'static [u8],
     font: FontRef<'static>,
+    charmap: Charmap<'static>,
+    metrics: GlyphMetrics<'static>,
     units_per_em: f64,
 }
 
@@ -37,7 +42,8 @@ impl Font {
     fn new(bytes: &'static [u8]) -> Font {
         let font = FontRef::new(bytes).expect("the dejavu crate ships whole fonts");
         let units_per_em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
-        Font { font, units_per_em }
+        let (charmap, metrics) = (font.charmap(), font.glyph_metrics(Size::unscaled(), LocationRef::default()));
+        Font { bytes, font, charmap, metrics, units_per_em }
     }
 }
 
@@ -48,6 +54,11 @@ impl Face {
     /// What a text is set in where this very typeface is not to be had: families of like width, in order.
     pub const FAMILIES: &'static str =
         "'DejaVu Serif Condensed','Bitstream Vera Serif','Noto Serif',Charter,Cambria,Georgia,'DejaVu Serif',serif";
+
+    /// The whole font, an OpenType file.
+    pub fn bytes(self) -> &'static [u8] {
+        self.font().bytes
+    }
 
     fn font(self) -> &'static Font {
         match self {
@@ -63,21 +74,20 @@ impl Face {
 
     /// How far a character moves on, in ems.
     pub fn advance(self, character: char) -> f64 {
-        let Font { font, units_per_em } = self.font();
-        let advance = font.glyph_metrics(Size::unscaled(), LocationRef::default()).advance_width(self.glyph(character));
-        f64::from(advance.unwrap_or_default()) / units_per_em
+        let Font { metrics, units_per_em, .. } = self.font();
+        f64::from(metrics.advance_width(self.glyph(character)).unwrap_or_default()) / units_per_em
     }
 
     /// How far the face reaches above and below its baseline, in ems, both positive.
     pub fn extents(self) -> (f64, f64) {
-        let Font { font, units_per_em } = self.font();
+        let Font { font, units_per_em, .. } = self.font();
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         (f64::from(metrics.ascent) / units_per_em, f64::from(-metrics.descent) / units_per_em)
     }
 
     /// The outline of a character; a box for one the face does not have.
     pub fn outline(self, character: char) -> Vec<Segment> {
-        let Font { font, units_per_em } = self.font();
+        let Font { font, units_per_em, .. } = self.font();
         let mut pen = Pen { units_per_em: *units_per_em, segments: Vec::new() };
         if let Some(glyph) = font.outline_glyphs().get(self.glyph(character)) {
             // A glyph that cannot be drawn leaves its space empty.
@@ -86,8 +96,13 @@ impl Face {
         pen.segments
     }
 
+    /// The number of a character's glyph in the font; 0, a box, for one the face does not have.
+    pub fn glyph_index(self, character: char) -> u32 {
+        self.glyph(character).to_u32()
+    }
+
     fn glyph(self, character: char) -> GlyphId {
-        self.font().font.charmap().map(character).unwrap_or(GlyphId::NOTDEF)
+        self.font().charmap.map(character).unwrap_or(GlyphId::NOTDEF)
     }
 }
 

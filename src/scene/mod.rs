@@ -10,7 +10,7 @@ mod font;
 pub use canvas::Canvas;
 pub use font::{Face, Segment};
 
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
 
 /// A page, ready to be turned into bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,19 @@ pub struct Scene {
     pub title: String,
     /// What is drawn, from back to front.
     pub items: Vec<Item>,
+    /// What leads to other pages, where it is a page of a book; elsewhere nothing does.
+    pub links: Vec<Link>,
+}
+
+/// A part of a page of a book that leads to another page of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Its upper left corner.
+    pub corner: Point,
+    /// Its width and height in millimetres.
+    pub size: Vector,
+    /// The page it leads to, by its place in the book, from 0.
+    pub page: usize,
 }
 
 /// A colour, red, green and blue.
