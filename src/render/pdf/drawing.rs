@@ -39,7 +39,7 @@ impl Frame {
     fn points_from_units(self) -> Transform {
         let scale = (POINTS_PER_MM / UNITS_PER_MM) as f32;
         let (cos, sin) = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][usize::from(self.quarter_turns % 4)];
-        let [x, y] = [self.origin.x, self.origin.y].map(points);
+        let [x, y] = [self.origin.x, self.origin.y].map(|mm| points(on_paper(mm)));
         Transform::from_row(scale * cos, scale * sin, -scale * sin, scale * cos, x, y)
     }
 }
@@ -90,7 +90,7 @@ impl<'d> Pen<'d> {
     fn path(&mut self, path: &Path) {
         let points = path.lines.iter().flat_map(|line| &line.points);
         let low = points.fold([f64::INFINITY; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]);
-        let frame = Frame::at(Point::from(low.map(|c| if c.is_finite() { c.floor() } else { 0.0 })));
+        let frame = Frame::at(Point::from(low.map(|c| on_paper(c).floor())));
         let mut builder = PathBuilder::new();
         for line in &path.lines {
             let mut last = None;
@@ -144,15 +144,20 @@ impl<'d> Pen<'d> {
     }
 }
 
-/// A place in units from an origin, which are whole; what is no number is at the origin.
+/// A place in units from an origin, which are whole.
 fn place(point: &Point, origin: Point) -> [f32; 2] {
     [units(point.x - origin.x), units(point.y - origin.y)]
 }
 
 /// Millimetres in whole units.
 fn units(mm: f64) -> f32 {
-    // What is no number becomes 0, and what is beyond all paper stays where it can be written.
-    (mm * UNITS_PER_MM).round().clamp(-1e8, 1e8) as i32 as f32
+    (on_paper(mm) * UNITS_PER_MM).round() as f32
+}
+
+/// A length that can be written: what is no number is 0, and what is beyond all paper stays just there.
+fn on_paper(mm: f64) -> f64 {
+    const BEYOND: f64 = 1e5;
+    if mm.is_nan() { 0.0 } else { mm.clamp(-BEYOND, BEYOND) }
 }
 
 fn fill(color: Color) -> Fill {
