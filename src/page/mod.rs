@@ -1,6 +1,7 @@
 //! What stands where on a page: paper, theme and layouts, drawn through plotters onto a [`Scene`].
 
 mod arrangement;
+pub mod book;
 mod chart;
 mod coupler_grid;
 mod element;

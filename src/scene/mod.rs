@@ -4,13 +4,15 @@
 //! arrives in those whole numbers; elements of our own record their items in full precision. The page's origin is its
 //! upper left corner, x to the right and y down.
 
+mod book;
 mod canvas;
 mod font;
 
+pub use book::{Entry, Label, Link};
 pub use canvas::Canvas;
 pub use font::{Face, Segment};
 
-use crate::geometry::{Point, Vector};
+use crate::geometry::Point;
 
 /// A page, ready to be turned into bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,17 +29,6 @@ pub struct Scene {
     pub items: Vec<Item>,
     /// What leads to other pages, where it is a page of a book; elsewhere nothing does.
     pub links: Vec<Link>,
-}
-
-/// A part of a page of a book that leads to another page of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
-    /// Its upper left corner.
-    pub corner: Point,
-    /// Its width and height in millimetres.
-    pub size: Vector,
-    /// The page it leads to, by its place in the book, from 0.
-    pub page: usize,
 }
 
 /// A colour, red, green and blue.

@@ -18,7 +18,7 @@ use krilla::outline::{Outline, OutlineNode};
 use krilla::page::{NumberingStyle, Page, PageLabel, PageSettings};
 use krilla::{Document, SerializeSettings};
 
-use crate::scene::{Link, Scene};
+use crate::scene::{Entry, Label, Link, Scene};
 use drawing::{Pen, points};
 use fonts::Fonts;
 
@@ -44,26 +44,6 @@ pub enum Error {
     /// A face cannot be embedded, or a limit of the format is passed.
     #[error("the book cannot be written: {0}")]
     Writing(String),
-}
-
-/// What a page of a book is called, beside its place: its number, from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Label {
-    /// In small Roman numerals: title, contents.
-    Front(u32),
-    /// In Arabic ones.
-    Page(u32),
-}
-
-/// An entry of the outline.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Entry {
-    /// What it says.
-    pub title: String,
-    /// The page it leads to, by its place in the book, from 0.
-    pub page: usize,
-    /// The entries under it, which are not shown before it is opened.
-    pub children: Vec<Entry>,
 }
 
 /// A book that is being written.
@@ -99,8 +79,8 @@ impl Book {
         let Scene { width, height, .. } = *scene;
         let settings = PageSettings::from_wh(points(width), points(height)).ok_or(Error::Size { width, height })?;
         let (style, number) = match label {
-            Label::Front(number) => (NumberingStyle::LowerRoman, number),
-            Label::Page(number) => (NumberingStyle::Arabic, number),
+            Label::Roman(number) => (NumberingStyle::LowerRoman, number),
+            Label::Arabic(number) => (NumberingStyle::Arabic, number),
         };
         let label = PageLabel::new(Some(style), None, NonZeroU32::new(number));
         let mut page = self.document.start_page_with(settings.with_page_label(label));
@@ -121,7 +101,7 @@ impl Book {
     /// # Errors
     /// A link or an entry that leads to no page; a face that cannot be embedded.
     pub fn finish(mut self, outline: &[Entry]) -> Result<Vec<u8>, Error> {
-        let furthest = outline.iter().map(Entry::furthest).max().max(self.furthest);
+        let furthest = outline.iter().map(furthest).max().max(self.furthest);
         if let Some(to) = furthest.filter(|&to| to >= self.pages) {
             return Err(Error::NoPage { to: to + 1, pages: self.pages });
         }
@@ -129,23 +109,22 @@ impl Book {
             return Err(Error::Writing(format!("the face {face:?} cannot be read")));
         }
         let mut root = Outline::new();
-        outline.iter().for_each(|entry| root.push_child(entry.node()));
+        outline.iter().for_each(|entry| root.push_child(node(entry)));
         self.document.set_outline(root);
         self.document.set_metadata(self.metadata);
         self.document.finish().map_err(|error| Error::Writing(error.to_string()))
     }
 }
 
-impl Entry {
-    fn furthest(&self) -> usize {
-        self.children.iter().map(Entry::furthest).fold(self.page, usize::max)
-    }
+/// The furthest page that an entry or one under it leads to.
+fn furthest(entry: &Entry) -> usize {
+    entry.children.iter().map(furthest).fold(entry.page, usize::max)
+}
 
-    fn node(&self) -> OutlineNode {
-        let mut node = OutlineNode::new(plain(&self.title), top_of(self.page));
-        self.children.iter().for_each(|child| node.push_child(child.node()));
-        node
-    }
+fn node(entry: &Entry) -> OutlineNode {
+    let mut node = OutlineNode::new(plain(&entry.title), top_of(entry.page));
+    entry.children.iter().for_each(|child| node.push_child(self::node(child)));
+    node
 }
 
 fn top_of(page: usize) -> XyzDestination {

@@ -3,9 +3,9 @@
 mod reader;
 
 use coupler_atlas::geometry::{Point, Vector};
-use coupler_atlas::render::pdf::{Book, Entry, Error, Label};
+use coupler_atlas::render::pdf::{Book, Error};
 use coupler_atlas::scene::{
-    Anchor, Circle, Color, Face, Group, Item, Line, Link, Moving, Path, Run, Scene, Stroke, Text,
+    Anchor, Circle, Color, Entry, Face, Group, Item, Label, Line, Link, Moving, Path, Run, Scene, Stroke, Text,
 };
 use reader::Pdf;
 
@@ -34,7 +34,7 @@ fn text(words: &[(&str, Face)], anchor: Anchor, quarter_turns: u8) -> Text {
 fn book(scenes: &[Scene], outline: &[Entry]) -> Result<Vec<u8>, Error> {
     let mut book = Book::new("An <atlas> & \"more\"", "coupler-atlas 1.0");
     for (scene, number) in scenes.iter().zip(1..) {
-        book.add(scene, Label::Page(number))?;
+        book.add(scene, Label::Arabic(number))?;
     }
     book.finish(outline)
 }
@@ -143,7 +143,8 @@ fn labels_links_and_the_outline_lead_where_they_should() {
     first.links.push(Link { corner: Point::new(25.4, 50.8), size: Vector::new(12.7, 5.08), page: 2 });
     first.links.push(Link { corner: Point::new(f64::NAN, 1.0), size: Vector::new(1.0, 1.0), page: 1 });
     let mut book = Book::new("A book", "a program");
-    let pages = [(first, Label::Front(1)), (scene(Vec::new()), Label::Page(7)), (scene(Vec::new()), Label::Page(8))];
+    let pages =
+        [(first, Label::Roman(1)), (scene(Vec::new()), Label::Arabic(7)), (scene(Vec::new()), Label::Arabic(8))];
     for (scene, label) in &pages {
         book.add(scene, *label).unwrap();
     }
@@ -216,7 +217,7 @@ fn nothing_that_a_page_says_or_draws_stops_the_book() {
     let scene = scene(items);
     for says in says {
         let mut book = Book::new(says, says);
-        book.add(&scene, Label::Page(0)).unwrap();
+        book.add(&scene, Label::Arabic(0)).unwrap();
         let outline = [Entry { title: says.to_owned(), page: 0, children: Vec::new() }];
         let bytes = book.finish(&outline).unwrap();
         let pdf = Pdf::read(&bytes);
