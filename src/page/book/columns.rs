@@ -17,7 +17,37 @@ pub(super) enum Row<'a> {
     /// A remark, of one line or more.
     Note(String),
     /// Something with its page.
-    Entry { text: String, symbols: &'a [String], value: String, curve: Option<usize>, page: usize },
+    Entry(Entry<'a>),
+}
+
+/// A geometry, or what else has a page.
+pub(super) struct Entry<'a> {
+    /// The name of its family, where it needs one.
+    pub family: Option<&'a str>,
+    pub caption: &'a str,
+    /// Words of the caption that stand for values.
+    pub symbols: &'a [String],
+    /// What was measured of it; may be empty.
+    pub value: String,
+    /// The number of the curve it was measured of.
+    pub curve: Option<usize>,
+    pub page: usize,
+}
+
+impl Entry<'_> {
+    /// What it says at a place, in one line.
+    fn words(&self, at: Point, theme: &Theme) -> Words {
+        let family = self.family.map_or(String::new(), |family| format!("{family} · "));
+        let mut says = words(&family, at, Anchor::Start, theme.note, theme);
+        // Only in the caption are there words that stand for values.
+        says.text.runs.extend(words(self.caption, at, Anchor::Start, theme.note, theme).italic(self.symbols).text.runs);
+        says.text.runs.retain(|run| !run.text.is_empty());
+        says
+    }
+
+    fn curve(&self) -> String {
+        self.curve.map_or(String::new(), |curve| format!("curve {curve}"))
+    }
 }
 
 /// What the pages of a list have in common.
@@ -99,18 +129,18 @@ impl Columns {
         let whole = Vector::new(options.paper.width - 2.0 * left, options.paper.height - top - bottom);
         let [mut text, mut value, mut curve, mut page] = [0.0f64; 4];
         for row in rows {
-            if let Row::Entry { text: says, value: measured, curve: number, page: at, .. } = row {
-                text = text.max(width(says, theme));
-                value = value.max(width(measured, theme));
-                curve = curve.max(number.map_or(0.0, |number| width(&curve_number(number), theme)));
-                page = page.max(width(&at.to_string(), theme));
+            if let Row::Entry(entry) = row {
+                text = text.max(entry.words(Point::origin(), theme).text.width());
+                value = value.max(width(&entry.value, theme));
+                curve = curve.max(width(&entry.curve(), theme));
+                page = page.max(width(&entry.page.to_string(), theme));
             }
         }
         let gap = 1.2 * theme.note;
         let with_gap = |width: f64| if width > 0.0 { width + gap } else { 0.0 };
         let (page, value, curve) = (with_gap(page) + gap, with_gap(value), with_gap(curve));
         let gutter = 5.0 * theme.note;
-        let natural = (text + curve + value + page).max(16.0 * theme.note);
+        let natural = (text + curve + value + page).max(20.0 * theme.note);
         let count = (((whole.x + gutter) / (natural + gutter)).floor() as usize).clamp(2, 8);
         let size = Vector::new((whole.x + gutter) / count as f64 - gutter, whole.y.max(8.0 * theme.note));
         Columns { corner: Point::new(left, top), size, gutter, count, line: 1.5 * theme.note, page, value, curve }
@@ -121,7 +151,7 @@ impl Columns {
         let mut placed: Vec<Placed> = Vec::new();
         let (mut column, mut y) = (0, 0.0);
         for row in rows {
-            let before = if matches!(row, Row::Heading { .. }) && y > 0.0 { 1.2 * self.line } else { 0.0 };
+            let before = if matches!(row, Row::Heading { .. }) && y > 0.0 { self.line } else { 0.0 };
             // A heading with its note and an entry takes some five lines.
             let room = if matches!(row, Row::Heading { .. }) { 6.0 } else { 1.0 };
             if y > 0.0 && y + before + room * self.line > self.size.y {
@@ -139,9 +169,6 @@ impl Columns {
                 }
                 y += self.line;
                 placed.push(Placed { row, text, column, y });
-            }
-            if matches!(row, Row::Heading { .. }) {
-                y += 0.25 * self.line;
             }
         }
         placed
@@ -187,35 +214,38 @@ impl Columns {
                     let words = Words::new(says, at, Anchor::Start, theme.note, theme.grey);
                     draw(root, &words.fitted(self.size.x));
                 }
-                Row::Entry { text, symbols, value, curve, page } => {
-                    let room = self.size.x - self.page - self.value - self.curve;
-                    let says = words(text, at, Anchor::Start, theme.note, theme).italic(symbols).fitted(room);
-                    let from = at.x + says.text.width() + 0.6 * theme.note;
-                    draw(root, &says);
-                    draw(root, &words(&page.to_string(), end, Anchor::End, theme.note, theme));
-                    let mut to = end.x - self.page;
-                    draw(root, &words(value, Point::new(to, at.y), Anchor::End, theme.note, theme));
-                    to -= self.value;
-                    if let Some(curve) = curve {
-                        let at = Point::new(to, at.y);
-                        let says = curve_number(*curve);
-                        draw(root, &Words::new(&says, at, Anchor::End, theme.note, theme.grey));
-                    }
-                    let is_measured = !value.is_empty();
-                    let to = if is_measured { end.x - self.page - self.value - self.curve } else { to };
-                    leaders.extend(dots(from, to, at.y, theme));
-                }
+                Row::Entry(entry) => leaders.extend(self.entry(root, entry, at, theme)),
             }
         }
         let stroke = Some(theme.stroke(theme.hairline, theme.fine));
         vec![Item::Path(Path { lines: leaders, stroke, fill: None })]
     }
 
+    /// Draws an entry, and gives its dots.
+    fn entry(&self, root: &Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Line> {
+        let right = at.x + self.size.x;
+        let says = entry.words(at, theme).fitted(self.size.x - self.page - self.value - self.curve);
+        let from = at.x + says.text.width();
+        draw(root, &says);
+        let numbers = [
+            (entry.page.to_string(), right, theme.ink),
+            (entry.value.clone(), right - self.page, theme.ink),
+            (entry.curve(), right - self.page - self.value, theme.grey),
+        ];
+        let mut to = right;
+        for (says, x, ink) in numbers.into_iter().filter(|(says, ..)| !says.is_empty()) {
+            let says = Words::new(&says, Point::new(x, at.y), Anchor::End, theme.note, ink);
+            to = says.text.start().x;
+            draw(root, &says);
+        }
+        dots(from, to, at.y, theme)
+    }
+
     /// The box of a line that leads to a page of its volume.
     fn link(&self, placed: &Placed, volume: &Volume, front: usize) -> Option<Link> {
         let page = match placed.row {
             Row::Heading { page, .. } => (*page)?,
-            Row::Entry { page, .. } => *page,
+            Row::Entry(entry) => entry.page,
             Row::Note(_) => return None,
         };
         let corner = self.start(placed) - Vector::new(0.0, 0.75 * self.line);
@@ -223,17 +253,13 @@ impl Columns {
     }
 }
 
-fn curve_number(curve: usize) -> String {
-    format!("curve {curve}")
-}
-
-/// Dots on a baseline, which stand under one another from line to line.
+/// Dots on a baseline between two words, which stand under one another from line to line.
 fn dots(from: f64, to: f64, y: f64, theme: &Theme) -> Vec<Line> {
     let step = 0.9 * theme.note;
-    let (first, last) = ((from / step).ceil() as i64, (to / step).floor() as i64);
+    let (first, last) = ((from / step + 0.7).ceil() as i64, (to / step - 0.9).floor() as i64);
     let dot = |k: i64| {
         let x = k as f64 * step;
         Line { points: vec![Point::new(x, y), Point::new(x + theme.fine, y)], closed: false }
     };
-    (first..last).map(dot).collect()
+    (first..=last).map(dot).collect()
 }

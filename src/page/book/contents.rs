@@ -1,8 +1,8 @@
-use super::columns::Row;
+use super::columns::{Entry, Row};
 use super::{Atlas, Cell, Chapter, Volume, count};
 
 /// The most cells of a family that contents and outline name.
-const MOST: usize = 600;
+const MOST: usize = 1000;
 
 /// What contents say: every family with its cells.
 pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume) -> Vec<Row<'a>> {
@@ -17,14 +17,17 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume) -> Vec<Row<'a>> {
         }
         rows.push(Row::Note(says.join(", ")));
         if named.len() < here {
-            rows.push(Row::Note(format!("{} of the {here} geometries on these pages are named", named.len())));
+            rows.push(Row::Note(format!("{} of {here} are named", named.len())));
         }
-        rows.extend(named.iter().map(|cell| Row::Entry {
-            text: cell.caption.clone(),
-            symbols: chapter.symbols,
-            value: String::new(),
-            curve: None,
-            page: before + cell.page,
+        rows.extend(named.iter().map(|cell| {
+            Row::Entry(Entry {
+                family: None,
+                caption: &cell.caption,
+                symbols: chapter.symbols,
+                value: String::new(),
+                curve: None,
+                page: before + cell.page,
+            })
         }));
     }
     rows

@@ -1,4 +1,4 @@
-use super::columns::Row;
+use super::columns::{Entry, Row};
 use super::geometry::Found;
 use super::{Atlas, Geometry, Volume};
 
@@ -8,7 +8,7 @@ const MOST: usize = 2000;
 type Entries<'g> = Vec<(&'g Geometry, Found)>;
 
 /// What the index of a volume says: of every measure what it is, and the geometries, the best first.
-pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &[Geometry]) -> Vec<Row<'a>> {
+pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry]) -> Vec<Row<'a>> {
     let here = |(_, found): &(&Geometry, Found)| volume.range().contains(&found.page);
     let best = |pick: fn(&Geometry) -> Option<Found>| {
         let picked = found.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
@@ -54,9 +54,9 @@ struct Section<'a> {
     entries: Entries<'a>,
 }
 
-impl Section<'_> {
+impl<'a> Section<'a> {
     /// Nothing, where there is no entry.
-    fn rows<'a>(&self, atlas: &'a Atlas) -> Vec<Row<'a>> {
+    fn rows(&self, atlas: &'a Atlas) -> Vec<Row<'a>> {
         let Section { title, note, unit, scale, ref entries } = *self;
         if entries.is_empty() {
             return Vec::new();
@@ -66,16 +66,15 @@ impl Section<'_> {
             rows.push(Row::Note(format!("the first {MOST} of {}", entries.len())));
         }
         rows.extend(entries.iter().take(MOST).map(|(geometry, found)| {
-            let (caption, chapter) = (&geometry.caption, atlas.chapters.get(geometry.chapter));
-            // Where there are several families, a geometry needs the name of its own.
-            let family = chapter.filter(|_| atlas.chapters.len() > 1).map(|chapter| chapter.title);
-            Row::Entry {
-                text: family.map_or_else(|| caption.clone(), |family| format!("{family} · {caption}")),
+            let chapter = atlas.chapters.get(geometry.chapter);
+            Row::Entry(Entry {
+                family: chapter.filter(|_| atlas.chapters.len() > 1).map(|chapter| chapter.title),
+                caption: &geometry.caption,
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
                 value: format!("{:.1}{unit}", scale * found.value),
                 curve: found.curve,
                 page: found.page,
-            }
+            })
         }));
         rows
     }

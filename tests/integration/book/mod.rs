@@ -1,5 +1,6 @@
 //! The atlas as a book in PDF, read back.
 
+mod bound;
 mod reader;
 
 use coupler_atlas::geometry::{Point, Vector};
