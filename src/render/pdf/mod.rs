@@ -1,9 +1,9 @@
 //! A book in PDF, page after page.
 //!
-//! A [`Book`] takes finished scenes in the order of its pages. What is drawn on a page is written out at once and
-//! compressed on the threads of rayon while the next one is drawn, so that no more than compressed pages and a few
-//! plain ones are held. Where a link or an entry of the outline leads may be a page that is still to come: that is
-//! looked up when the book is finished.
+//! A [`Book`] takes finished scenes in the order of its pages. Each is drawn and compressed at once, on the thread that
+//! adds it, about a millisecond to a page; no more is held of it than its compressed drawing, until the book is finished.
+//! A book does not go from thread to thread: pages that are composed in parallel are added by one of them, in order.
+//! Where a link or an entry of the outline leads may be a page that is still to come: that is looked up in the end.
 
 mod drawing;
 mod fonts;
