@@ -8,7 +8,7 @@ use super::super::heading;
 use super::super::theme::Theme;
 use super::{Atlas, Volume, blank, number};
 use crate::geometry::{Point, Vector};
-use crate::scene::{Anchor, Canvas, Item, Label, Line, Link, Path, Scene};
+use crate::scene::{Anchor, Canvas, Item, Label, Line, Link, Path, Scene, Text};
 
 /// A line of a list. Pages are those of the atlas, from 1.
 pub(super) enum Row<'a> {
@@ -117,6 +117,10 @@ fn words(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> Wor
     Words::new(text, at, anchor, size, theme.ink)
 }
 
+fn note(text: &str, theme: &Theme) -> Words {
+    Words::new(text, Point::origin(), Anchor::Start, theme.note, theme.grey)
+}
+
 fn width(text: &str, theme: &Theme) -> f64 {
     words(text, Point::origin(), Anchor::Start, theme.note, theme).text.width()
 }
@@ -160,7 +164,7 @@ impl Columns {
                 y += before;
             }
             let texts = match row {
-                Row::Note(text) => self.parted(text, theme).into_iter().map(Some).collect(),
+                Row::Note(text) => note(text, theme).wrapped(self.size.x).into_iter().map(Some).collect(),
                 _ => vec![None],
             };
             for text in texts {
@@ -172,21 +176,6 @@ impl Columns {
             }
         }
         placed
-    }
-
-    /// A remark in lines that go into a column.
-    fn parted(&self, text: &str, theme: &Theme) -> Vec<String> {
-        let mut lines: Vec<String> = Vec::new();
-        for word in text.split(' ') {
-            match lines.last_mut() {
-                Some(line) if width(&format!("{line} {word}"), theme) <= self.size.x => {
-                    line.push(' ');
-                    line.push_str(word);
-                }
-                _ => lines.push(word.to_owned()),
-            }
-        }
-        lines
     }
 
     /// Where a line begins on its page.
@@ -211,8 +200,7 @@ impl Columns {
                 }
                 Row::Note(_) => {
                     let says = line.text.as_deref().unwrap_or_default();
-                    let words = Words::new(says, at, Anchor::Start, theme.note, theme.grey);
-                    draw(root, &words.fitted(self.size.x));
+                    draw(root, &Words { text: Text { at, ..note(says, theme).text } }.fitted(self.size.x));
                 }
                 Row::Entry(entry) => leaders.extend(self.entry(root, entry, at, theme)),
             }
