@@ -33,27 +33,12 @@ impl Heading<'_> {
         format!("{}, page {} of {}: {}", self.title, self.page, self.of, self.atlas)
     }
 
-    /// Draws the border.
-    pub(super) fn border(&self, root: &Area, theme: &Theme) {
-        let page = size(root);
-        let Color(r, g, b) = theme.ink;
-        let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
-        let border = [corner(theme.border, theme.border), corner(page.x - theme.border, page.y - theme.border)];
-        let stroke_width = Canvas::pixels(theme.fine) as u32;
-        let style = ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width };
-        draw(root, &Rectangle::new(border, style));
-    }
-
     /// Draws border, title, source line and folio.
     pub(super) fn draw(&self, root: &Area, theme: &Theme) {
-        self.border(root, theme);
+        border(root, theme);
         let page = size(root);
-        let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
-        let top = theme.border + theme.title;
-        let at = Point::new(left, top + 0.9 * theme.title);
-        let title = theme.words(self.title, at, Anchor::Start, theme.title, theme.ink);
-        draw(root, &title.fitted(right - left));
-        let mut at = Point::new(left, at.y + 1.85 * theme.source);
+        let mut at = title(root, self.title, theme);
+        let (left, right) = (at.x, page.x - at.x);
         let words =
             |text: &str, at| theme.words(text, at, Anchor::Start, theme.source, theme.grey).italic(self.symbols);
         // What is too long for one line is parted between two of its parts; there is no room for a third line.
@@ -66,6 +51,26 @@ impl Heading<'_> {
         let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
         draw(root, &theme.words(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
     }
+}
+
+/// The border of a page.
+pub(super) fn border(root: &Area, theme: &Theme) {
+    let page = size(root);
+    let Color(r, g, b) = theme.ink;
+    let corner = |x: f64, y: f64| (Canvas::pixels(x), Canvas::pixels(y));
+    let border = [corner(theme.border, theme.border), corner(page.x - theme.border, page.y - theme.border)];
+    let stroke_width = Canvas::pixels(theme.fine) as u32;
+    let style = ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width };
+    draw(root, &Rectangle::new(border, style));
+}
+
+/// The title of a page, and where the line under it begins.
+pub(super) fn title(root: &Area, title: &str, theme: &Theme) -> Point {
+    let left = theme.border + theme.margin;
+    let at = Point::new(left, theme.border + 1.9 * theme.title);
+    let words = theme.words(title, at, Anchor::Start, theme.title, theme.ink);
+    draw(root, &words.fitted(size(root).x - 2.0 * left));
+    Point::new(left, at.y + 1.85 * theme.source)
 }
 
 /// What is left free above, below and beside the contents.

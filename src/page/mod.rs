@@ -1,6 +1,7 @@
 //! What stands where on a page: paper, theme and layouts, drawn through plotters onto a [`Scene`].
 
 mod arrangement;
+pub mod book;
 mod chart;
 mod coupler_grid;
 mod element;
@@ -243,5 +244,6 @@ pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
 
 fn blank(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
     let Paper { width, height } = options.paper;
-    Scene { width, height, paper: theme.paper, typeface: theme.typeface, title: heading.name(), items: Vec::new() }
+    let (paper, typeface, title) = (theme.paper, theme.typeface, heading.name());
+    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
 }

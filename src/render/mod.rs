@@ -1,5 +1,6 @@
 //! A scene as bytes: a function for each format. The formats decide nothing and do not know each other.
 
+pub mod pdf;
 mod png;
 mod svg;
 

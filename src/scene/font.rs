@@ -82,6 +82,7 @@ pub enum Segment {
 }
 
 struct Font {
+    bytes: &'static [u8],
     font: FontRef<'static>,
     units_per_em: f64,
     /// The glyphs of the characters that texts are made of, each read when it is first met.
@@ -91,6 +92,8 @@ struct Font {
 /// What is known of a character in a face.
 #[derive(Clone)]
 struct Glyph {
+    /// Its number in the font.
+    index: u32,
     /// In ems.
     advance: f64,
     outline: Vec<Segment>,
@@ -103,7 +106,7 @@ impl Font {
     fn new(bytes: &'static [u8]) -> Font {
         let font = FontRef::new(bytes).expect("the dejavu crate ships whole fonts");
         let units_per_em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
-        Font { font, units_per_em, glyphs: vec![OnceLock::new(); KEPT] }
+        Font { bytes, font, units_per_em, glyphs: vec![OnceLock::new(); KEPT] }
     }
 
     fn glyph(&self, character: char) -> Cow<'_, Glyph> {
@@ -122,7 +125,8 @@ impl Font {
             // A glyph that cannot be drawn leaves its space empty.
             let _ = glyph.draw(DrawSettings::unhinted(Size::unscaled(), LocationRef::default()), &mut pen);
         }
-        Glyph { advance: f64::from(advance.unwrap_or_default()) / self.units_per_em, outline: pen.segments }
+        let advance = f64::from(advance.unwrap_or_default()) / self.units_per_em;
+        Glyph { index: id.to_u32(), advance, outline: pen.segments }
     }
 }
 
@@ -135,6 +139,11 @@ macro_rules! font {
 }
 
 impl Face {
+    /// The whole font, an OpenType file.
+    pub fn bytes(self) -> &'static [u8] {
+        self.font().bytes
+    }
+
     fn font(self) -> &'static Font {
         match (self.typeface, self.is_italic) {
             (Typeface::Serif, false) => font!(serif, regular),
@@ -173,6 +182,11 @@ impl Face {
             Cow::Borrowed(glyph) => Cow::Borrowed(&glyph.outline),
             Cow::Owned(glyph) => Cow::Owned(glyph.outline),
         }
+    }
+
+    /// The number of a character's glyph in the font; 0, a box, for one the face does not have.
+    pub fn glyph_index(self, character: char) -> u32 {
+        self.font().glyph(character).index
     }
 }
 

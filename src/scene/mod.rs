@@ -4,10 +4,12 @@
 //! arrives in those whole numbers; elements of our own record their items in full precision. The page's origin is its
 //! upper left corner, x to the right and y down.
 
+mod book;
 mod canvas;
 mod color;
 mod font;
 
+pub use book::{Entry, Label, Link};
 pub use canvas::Canvas;
 pub use color::Color;
 pub use font::{Face, Segment, Typeface};
@@ -29,6 +31,8 @@ pub struct Scene {
     pub title: String,
     /// What is drawn, from back to front.
     pub items: Vec<Item>,
+    /// What leads to other pages, where it is a page of a book; elsewhere nothing does.
+    pub links: Vec<Link>,
 }
 
 /// Something drawn.

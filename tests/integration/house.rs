@@ -138,6 +138,7 @@ fn formats_files_and_prints_stay_in_their_rooms() {
         ("stderr()", &["cli"]),
         ("plotters", &["scene", "page"]),
         ("tiny_skia", &["render"]),
+        ("krilla", &["render"]),
         ("skrifa", &["scene"]),
         ("annotate_snippets", &["problem"]),
         ("indicatif", &["cli"]),

@@ -13,6 +13,7 @@ use plotters::drawing::IntoDrawingArea;
 use super::arrangement::Frame;
 use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::figure;
+use super::heading;
 use super::marks;
 use super::mechanism::Mechanism;
 use super::plot::Plot;
@@ -45,7 +46,7 @@ impl Shown<'_> {
 pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
     let root = Canvas::new(scene).into_drawing_area();
-    sheet.heading.border(&root, theme);
+    heading::border(&root, theme);
     let foot = foot::draw(&root, sheet, options, theme);
     let edge = theme.border + theme.margin;
     let column = (0.19 * size.x).max(22.0 * theme.note);

@@ -1,0 +1,81 @@
+use super::columns::{Entry, Row};
+use super::geometry::Found;
+use super::{Atlas, Geometry, Volume};
+
+/// The most entries under a measure.
+const MOST: usize = 2000;
+
+type Entries<'g> = Vec<(&'g Geometry, Found)>;
+
+/// What the index of a volume says: of every measure what it is, and the geometries, the best first.
+pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry]) -> Vec<Row<'a>> {
+    let here = |(_, found): &(&Geometry, Found)| volume.range().contains(&found.page);
+    let best = |pick: fn(&Geometry) -> Option<Found>| {
+        let picked = found.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
+        let mut entries: Entries = picked.filter(here).collect();
+        entries.sort_by(|(_, a), (_, b)| b.value.total_cmp(&a.value).then(a.page.cmp(&b.page)));
+        entries
+    };
+    let symmetrical =
+        found.iter().flat_map(|geometry| geometry.symmetrical.iter().map(move |found| (geometry, *found)));
+    let sections = [
+        Section {
+            title: "By straightness",
+            note: "the straight portion of the straightest curve, as a part of the length of the whole curve; the straightest \
+                   first",
+            unit: " %",
+            scale: 100.0,
+            entries: best(|geometry| geometry.straight),
+        },
+        Section {
+            title: "By transmission angle",
+            note: "the least angle between coupler and output link that the motion comes to; the greatest first",
+            unit: "°",
+            scale: 1.0,
+            entries: best(|geometry| geometry.transmission),
+        },
+        Section {
+            title: "By symmetry",
+            note: "the curves that are symmetrical, in the order of their pages, with the direction of their axes",
+            unit: "°",
+            scale: 1.0,
+            entries: symmetrical.filter(here).collect(),
+        },
+    ];
+    sections.iter().flat_map(|section| section.rows(atlas)).collect()
+}
+
+struct Section<'a> {
+    title: &'static str,
+    note: &'static str,
+    /// What follows a value, and how often it is written.
+    unit: &'static str,
+    scale: f64,
+    entries: Entries<'a>,
+}
+
+impl<'a> Section<'a> {
+    /// Nothing, where there is no entry.
+    fn rows(&self, atlas: &'a Atlas) -> Vec<Row<'a>> {
+        let Section { title, note, unit, scale, ref entries } = *self;
+        if entries.is_empty() {
+            return Vec::new();
+        }
+        let mut rows = vec![Row::Heading { text: title.to_owned(), page: None }, Row::Note(note.to_owned())];
+        if entries.len() > MOST {
+            rows.push(Row::Note(format!("the first {MOST} of {}", entries.len())));
+        }
+        rows.extend(entries.iter().take(MOST).map(|(geometry, found)| {
+            let chapter = atlas.chapters.get(geometry.chapter);
+            Row::Entry(Entry {
+                family: chapter.filter(|_| atlas.chapters.len() > 1).map(|chapter| chapter.title),
+                caption: &geometry.caption,
+                symbols: chapter.map_or(&[], |chapter| chapter.symbols),
+                value: format!("{:.1}{unit}", scale * found.value),
+                curve: found.curve,
+                page: found.page,
+            })
+        }));
+        rows
+    }
+}

@@ -1,0 +1,89 @@
+use plotters::drawing::IntoDrawingArea;
+
+use super::super::arrangement::{Arrangement, Frame};
+use super::super::element::{Area, Drawing, draw, size};
+use super::super::figure::Figure;
+use super::super::heading;
+use super::super::theme::Theme;
+use super::super::{Options, Sheet};
+use super::{Atlas, Volume, count, number};
+use crate::geometry::{Point, Vector};
+use crate::scene::{Anchor, Canvas, Color, Item, Label, Path, Scene};
+
+/// The most families that are named.
+const MOST: usize = 5;
+
+pub(super) fn compose(
+    scene: &mut Scene,
+    atlas: &Atlas,
+    volume: &Volume,
+    frontispiece: Option<&Sheet>,
+    (options, theme): (&Options, &Theme),
+) {
+    let root = Canvas::new(scene).into_drawing_area();
+    heading::border(&root, theme);
+    let page = size(&root);
+    let room = page.x - 2.0 * (theme.border + 2.0 * theme.margin);
+    let centred = |text: &str, y: f64, size: f64, color: Color| {
+        draw(&root, &theme.words(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fitted(room));
+    };
+    let mut y = theme.border + 5.2 * theme.title;
+    centred(atlas.title, y, 2.2 * theme.title, theme.ink);
+    y += 1.3 * theme.title;
+    rule(&root, Point::new(page.x / 2.0, y), 5.0 * theme.title, theme);
+    if let Some(name) = volume.name() {
+        y += 1.4 * theme.title;
+        centred(&name, y, 1.3 * theme.source, theme.grey);
+    }
+    let lines = families(atlas);
+    let step = 1.7 * theme.source;
+    let foot = page.y - theme.border - 2.2 * theme.margin;
+    let first = foot - 1.6 * theme.title - step * lines.len() as f64;
+    for (line, k) in lines.iter().zip(1..) {
+        centred(line, first + step * f64::from(k), 1.1 * theme.source, theme.ink);
+    }
+    centred(atlas.program, foot, theme.source, theme.grey);
+    if let Some(sheet) = frontispiece {
+        let corner = Point::new(theme.border + 2.0 * theme.margin, y + 2.0 * theme.title);
+        let size = Vector::new(room, first - theme.title - corner.y);
+        figure(&root, Frame { corner, size }, sheet, (options, theme));
+    }
+    drop(root);
+    number(scene, Label::Roman(1), options);
+}
+
+/// What the atlas has, a line for each family.
+fn families(atlas: &Atlas) -> Vec<String> {
+    let line = |title: &str, cells: usize, curves: Option<usize>, pages: usize| {
+        let mut says = vec![title.to_owned(), count(cells, "geometry", "geometries")];
+        says.extend(curves.map(|curves| count(curves, "curve", "curves")));
+        says.push(count(pages, "page", "pages"));
+        says.join(" · ")
+    };
+    let chapters = &atlas.chapters;
+    // The last line is for those that have no line of their own.
+    let own = if chapters.len() > MOST { MOST - 1 } else { chapters.len() };
+    let named = chapters[..own].iter().map(|c| line(c.title, c.cells.len(), c.curves, c.pages));
+    let rest = &chapters[own..];
+    let others = (!rest.is_empty()).then(|| {
+        let cells = rest.iter().map(|chapter| chapter.cells.len()).sum();
+        let curves = rest.iter().map(|chapter| chapter.curves).sum();
+        line(&format!("{} more families", rest.len()), cells, curves, rest.iter().map(|chapter| chapter.pages).sum())
+    });
+    named.chain(others).collect()
+}
+
+/// A line under the title.
+fn rule(root: &Area, centre: Point, length: f64, theme: &Theme) {
+    let half = Vector::new(length / 2.0, 0.0);
+    let path = Path::stroked(vec![centre - half, centre + half], theme.stroke(theme.hairline, theme.fine));
+    draw(root, &Drawing { class: "rule", title: String::new(), items: vec![Item::Path(path)] });
+}
+
+/// The first cell of a sheet; nothing, where it has no curve or there is no room.
+fn figure(root: &Area, frame: Frame, sheet: &Sheet, (options, theme): (&Options, &Theme)) {
+    let Some(figure) = sheet.panels.first().and_then(Figure::of) else { return };
+    if frame.size.x > 10.0 * theme.joint && frame.size.y > 10.0 * theme.joint {
+        figure.draw(root, frame, Arrangement::Together, sheet, (options, theme));
+    }
+}

@@ -1,0 +1,301 @@
+//! An atlas bound as a book: what leads where, in what order, and that nothing in a manifest's words stops it.
+
+use std::ops::Range;
+
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
+use coupler_atlas::page::{self, Heading, Options, Panel, Paper, Sheet, View};
+use coupler_atlas::render::pdf::Book;
+use coupler_atlas::scene::{Item, Label, Scene};
+use coupler_atlas::sweep::{self, Solved};
+
+use super::reader::{Contents, Pdf};
+
+const MANIFEST: &str = r#"
+[atlas]
+title = "Curves"
+[[family]]
+id = "rockers"
+linkage = "four-bar"
+title = "Crank-rockers"
+panels = [2, 1]
+sampling = { samples = 60 }
+grid = { crank = 1, coupler = 3, rocker = [3, 3.25], frame = [3, 3.5] }
+let = { along = 1.5, across = 1 }
+[[family]]
+id = "evans"
+linkage = "evans"
+title = "Evans’s"
+panels = [1, 1]
+sampling = { samples = 60 }
+cases = [ { p = 2.00, s = 2.50, a = 2.50 }, { p = 3.00, s = 4.00, a = 4.00 } ]
+"#;
+
+fn plan() -> Plan {
+    let loaded = manifest::load(MANIFEST);
+    assert!(loaded.problems.is_empty(), "{:?}", loaded.problems);
+    loaded.plan.unwrap()
+}
+
+/// The solved cells of every family of a plan.
+fn solved(plan: &Plan) -> Vec<Vec<Solved>> {
+    let all = |planned: &manifest::PlannedFamily| {
+        let mut found = Vec::new();
+        let kept = sweep::select(&planned.family);
+        let take = |mut solved: Vec<Solved>| -> Result<(), ()> {
+            found.append(&mut solved);
+            Ok(())
+        };
+        sweep::run(&planned.family, (&kept, 1), |_, solved| solved, take).unwrap();
+        found
+    };
+    plan.families.iter().map(all).collect()
+}
+
+fn caption(plan: &Plan, family: usize, solved: &Solved) -> String {
+    let [caption, _] = plan.families[family].family.describe(&solved.cell, solved.measures());
+    caption
+}
+
+fn atlas<'p>(plan: &'p Plan, solved: &[Vec<Solved>]) -> Atlas<'p> {
+    let chapter = |(k, planned): (usize, &'p manifest::PlannedFamily)| {
+        let to_a_page = planned.layout.cells();
+        let cell = |(at, solved)| Cell { caption: caption(plan, k, solved), page: at / to_a_page + 1 };
+        Chapter {
+            title: &planned.family.title,
+            symbols: &planned.family.names,
+            curves: Some(solved[k].iter().map(|solved| solved.curves.len()).sum()),
+            pages: solved[k].len().div_ceil(to_a_page),
+            cells: solved[k].iter().enumerate().map(cell).collect(),
+        }
+    };
+    let chapters = plan.families.iter().enumerate().map(chapter).collect();
+    Atlas { title: &plan.title, program: "coupler-atlas 1.0", chapters }
+}
+
+/// The pages of all families, and what the index says of their cells.
+fn pages(plan: &Plan, solved: &[Vec<Solved>]) -> (Vec<Scene>, Vec<Geometry>) {
+    let (mut scenes, mut found) = (Vec::new(), Vec::new());
+    for (k, planned) in plan.families.iter().enumerate() {
+        for (at, group) in solved[k].chunks(planned.layout.cells()).enumerate() {
+            let number = scenes.len() + 1;
+            let panel = |solved: &'_ Solved| caption(plan, k, solved);
+            let captions: Vec<String> = group.iter().map(panel).collect();
+            found.extend(group.iter().zip(&captions).map(|(s, caption)| Geometry::of(s, k, caption, |_| number)));
+            let mut scene = page::compose(&sheet(plan, k, at + 1, group), &plan.page);
+            book::number(&mut scene, Label::Arabic(number as u32), &plan.page);
+            scenes.push(scene);
+        }
+    }
+    (scenes, found)
+}
+
+fn sheet<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [Solved]) -> Sheet<'p> {
+    let planned = &plan.families[family];
+    let panel = |solved: &'p Solved| Panel {
+        caption: caption(plan, family, solved),
+        note: String::new(),
+        facts: page::facts(solved),
+        solved,
+        view: View::Clearest,
+        inks: Vec::new(),
+    };
+    let (id, title, symbols) = (&planned.family.id, &planned.family.title, &planned.family.names);
+    let heading = Heading { atlas: &plan.title, family: id, title, source: String::new(), symbols, page, of: 9 };
+    Sheet { heading, layout: planned.layout, panels: group.iter().map(panel).collect() }
+}
+
+/// The volumes of an atlas, with how many pages stand before and after their own.
+fn bound(plan: &Plan, most: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
+    let solved = solved(plan);
+    let (scenes, found) = pages(plan, &solved);
+    let atlas = atlas(plan, &solved);
+    let bind = |volume: Volume| {
+        let front = book::front(&atlas, &volume, Some(&sheet(plan, 0, 1, &solved[0])), &plan.page);
+        let index = book::index(&atlas, &volume, front.len(), &found, &plan.page);
+        let own = &scenes[volume.first - 1..volume.first - 1 + volume.pages];
+        let mut book = Book::new(atlas.title, atlas.program);
+        for scene in front.iter().chain(own).chain(&index) {
+            book.add(scene, book::label(&volume, front.len(), book.pages())).unwrap();
+        }
+        let around = [front.len(), index.len()];
+        (volume, around, book.finish(&book::outline(&atlas, &volume, around)).unwrap())
+    };
+    atlas.volumes(most).into_iter().map(bind).collect()
+}
+
+/// What stands in a box of a page that is given in points.
+fn in_box(contents: &Contents, [left, bottom, right, top]: [f64; 4], height: f64) -> Vec<&str> {
+    let mm = 25.4 / 72.0;
+    let (across, down): (Range<f64>, Range<f64>) =
+        (left * mm..right * mm + 1e-3, (height - top) * mm..(height - bottom) * mm);
+    let inside = |at: &[f64; 2]| at[0] > across.start - 1e-3 && at[0] < across.end && down.contains(&at[1]);
+    contents.texts.iter().filter(|(_, at, _)| inside(at)).map(|(says, ..)| says.as_str()).collect()
+}
+
+#[test]
+fn what_contents_and_index_say_leads_to_the_page_with_the_number_they_say() {
+    let plan = plan();
+    for most in [1000, 3, 1] {
+        let mut led = 0;
+        for (volume, [front, index], bytes) in bound(&plan, most) {
+            let pdf = Pdf::read(&bytes);
+            assert_eq!(pdf.pages().len(), front + volume.pages + index);
+            let labels = pdf.labels();
+            for page in (0..front).chain(front + volume.pages..pdf.pages().len()) {
+                let contents = pdf.contents(page);
+                for (corners, to) in pdf.links(page) {
+                    let says = in_box(&contents, corners, 792.0);
+                    let number = says.iter().rev().find_map(|word| word.parse::<usize>().ok()).unwrap();
+                    assert_eq!(to, number - volume.first + front, "{says:?}");
+                    assert_eq!(labels[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
+                    // The page has its number under its border, and what was said of it.
+                    let there = pdf.contents(to);
+                    let last = there.texts.last().unwrap();
+                    assert!(last.0 == number.to_string() && last.1[1] > 270.0, "{last:?}");
+                    led += 1;
+                }
+            }
+        }
+        // Six geometries in contents, and six by straightness and by transmission at least; two families.
+        assert!(led >= 20, "{led} in volumes of {most}");
+    }
+}
+
+#[test]
+fn volumes_part_the_pages_and_number_them_through() {
+    let plan = plan();
+    let volumes = bound(&plan, 3);
+    let ranges: Vec<Range<usize>> = volumes.iter().map(|(volume, ..)| volume.range()).collect();
+    assert_eq!(ranges, [1..4, 4..5]);
+    let labels = |k: usize| Pdf::read(&volumes[k].2).labels();
+    let label = |label: &str| format!("<</Type/PageLabel/S/{}>>", label.replace(' ', "/St"));
+    assert_eq!(labels(0), ["r 1", "r 2", "D 1", "D 2", "D 3", "r 3"].map(label));
+    assert_eq!(labels(1), ["r 1", "r 2", "D 4", "r 3"].map(label));
+    let outline: Vec<(usize, String, usize)> = Pdf::read(&volumes[1].2).outline();
+    let titles: Vec<(usize, &str, usize)> =
+        outline.iter().map(|(depth, title, page)| (*depth, title.as_str(), *page)).collect();
+    let caption = "p = 3.00, r = 1.00, s = 4.00, a = 4.00";
+    let wanted =
+        [(0, "Curves", 0), (0, "Contents", 1), (0, "Evans’s", 2), (1, caption, 2), (0, "Index of geometries", 3)];
+    assert_eq!(titles, wanted);
+    let first = Pdf::read(&volumes[0].2).contents(0);
+    assert!(first.texts.iter().any(|(says, ..)| says == "volume 1 of 2, pages 1–3"));
+}
+
+#[test]
+fn every_page_of_an_atlas_is_in_one_volume() {
+    for (pages, most) in [(0, 5), (1, 5), (5, 5), (6, 5), (11, 5), (7, 0), (780, 1000)] {
+        let chapters = vec![chapter("A", pages, Vec::new())];
+        let atlas = Atlas { title: "T", program: "p", chapters };
+        let volumes = atlas.volumes(most);
+        let all: Vec<usize> = volumes.iter().flat_map(Volume::range).collect();
+        assert_eq!(all, (1..=pages).collect::<Vec<_>>());
+        assert!(volumes.iter().zip(1..).all(|(v, k)| v.number == k && v.of == volumes.len() && v.pages <= most.max(1)));
+    }
+}
+
+fn chapter(title: &str, pages: usize, cells: Vec<Cell>) -> Chapter<'_> {
+    Chapter { title, symbols: &[], curves: None, pages, cells }
+}
+
+fn options(paper: Paper) -> Options {
+    Options::on(paper)
+}
+
+/// All that a page says, in order.
+fn says(scene: &Scene) -> Vec<String> {
+    fn of(items: &[Item], found: &mut Vec<String>) {
+        for item in items {
+            match item {
+                Item::Group(group) => of(&group.items, found),
+                Item::Text(text) => found.push(text.runs.iter().map(|run| run.text.as_str()).collect()),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    of(&scene.items, &mut found);
+    found
+}
+
+#[test]
+fn the_index_has_the_best_first() {
+    let plan = plan();
+    let solved = solved(&plan);
+    let (_, found) = pages(&plan, &solved);
+    let atlas = atlas(&plan, &solved);
+    let [volume] = atlas.volumes(1000).try_into().unwrap();
+    let says: Vec<String> = book::index(&atlas, &volume, 2, &found, &plan.page).iter().flat_map(says).collect();
+    let section = |from: &str, to: &str, unit: &str| -> Vec<f64> {
+        let begin = says.iter().position(|line| line == from).unwrap();
+        let end = says.iter().position(|line| line == to).unwrap_or(says.len());
+        says[begin..end].iter().filter_map(|line| line.strip_suffix(unit)?.parse().ok()).collect()
+    };
+    let angles = section("By transmission angle", "By symmetry", "°");
+    let least = |solved: &Solved| {
+        let number = |name| match solved.curves[0].measure(name) {
+            coupler_atlas::measure::Value::Number(value) => value,
+            other => panic!("{name}: {other:?}"),
+        };
+        number("mu_min_deg").min(180.0 - number("mu_max_deg"))
+    };
+    let mut wanted: Vec<f64> = solved.iter().flatten().map(least).collect();
+    wanted.sort_by(|a, b| b.total_cmp(a));
+    assert_eq!(angles.len(), wanted.len());
+    // Written to a tenth of a degree.
+    assert!(angles.iter().zip(&wanted).all(|(a, b)| (a - b).abs() <= 0.05 + 1e-9), "{angles:?} {wanted:?}");
+    let parts = section("By straightness", "By transmission angle", " %");
+    assert!(parts.len() == 6 && parts.is_sorted_by(|a, b| a >= b) && parts[5] > 0.0 && parts[0] < 100.0, "{parts:?}");
+    // Evans linkages with s = a are symmetrical by theorem 2.
+    assert!(section("By symmetry", "", "°").len() >= 2);
+}
+
+#[test]
+fn an_atlas_of_many_cells_names_some_of_them_and_says_so() {
+    let cell = |k: usize| Cell { caption: format!("p = {k}"), page: k / 15 + 1 };
+    let atlas =
+        Atlas { title: "T", program: "p", chapters: vec![chapter("Many", 2000, (0..30_000).map(cell).collect())] };
+    let volume = atlas.volumes(5000)[0];
+    let front = book::front(&atlas, &volume, None, &options(Paper::NAMED[1].1));
+    assert!(front.len() < 9, "{}", front.len());
+    let says: Vec<String> = front.iter().flat_map(says).collect();
+    // The first of every second page.
+    assert!(says.iter().any(|line| line == "1000 of 30000 are named"));
+    let children = &book::outline(&atlas, &volume, [front.len(), 0])[2].children;
+    assert_eq!(children.len(), 1000);
+    assert_eq!((children[1].title.as_str(), children[1].page), ("p = 30", front.len() + 2));
+    let links: Vec<usize> = front.iter().flat_map(|scene| &scene.links).map(|link| link.page).collect();
+    assert_eq!(links.len(), 1001);
+    assert!(links[1..].iter().zip(children).all(|(link, child)| *link == child.page));
+}
+
+#[test]
+fn no_words_and_no_paper_stop_the_pages_of_a_book() {
+    let odd = ["", "<&>\"", "שלום", "漢字", "\u{0}\n", &"very long words ".repeat(60), &"x".repeat(400)];
+    for paper in [Paper { width: 50.0, height: 50.0 }, Paper { width: 50.0, height: 2000.0 }, Paper::NAMED[2].1] {
+        let options = options(paper);
+        for says in odd {
+            let cell = Cell { caption: says.to_owned(), page: 1 };
+            let empty = chapter(says, 0, Vec::new());
+            let chapters = vec![chapter(says, 1, vec![cell; 40]), empty, chapter(says, 1, Vec::new())];
+            let atlas = Atlas { title: says, program: says, chapters };
+            for volume in atlas.volumes(1) {
+                let front = book::front(&atlas, &volume, None, &options);
+                let index = book::index(&atlas, &volume, front.len(), &[], &options);
+                assert!(index.is_empty(), "nothing was measured");
+                let mut book = Book::new(says, says);
+                for scene in &front {
+                    assert!(scene.links.iter().all(|link| link.page < front.len() + volume.pages));
+                    book.add(scene, book::label(&volume, front.len(), book.pages())).unwrap();
+                }
+                let blank = Scene { items: Vec::new(), links: Vec::new(), ..front[0].clone() };
+                book.add(&blank, book::label(&volume, front.len(), book.pages())).unwrap();
+                book.finish(&book::outline(&atlas, &volume, [front.len(), 0])).unwrap();
+            }
+        }
+    }
+    let none = Atlas { title: "T", program: "p", chapters: Vec::new() };
+    let front = book::front(&none, &none.volumes(10)[0], None, &options(Paper::NAMED[0].1));
+    assert_eq!(front.len(), 1, "there is nothing to be contained");
+}
