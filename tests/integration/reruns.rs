@@ -477,6 +477,21 @@ fn a_run_that_is_killed_is_gone_on_with() {
 }
 
 #[test]
+fn a_change_that_is_killed_claims_nothing_for_the_old_files() {
+    let atlas = Atlas::new(&many("10 deg", "T"));
+    atlas.run(&[]);
+    let before = tree(&atlas.out());
+    atlas.edit(&many("10 deg", "U"));
+    let mut child = started(&atlas, has_drawn(&atlas, 100));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(record_is_true(&atlas.out()) < 500);
+    atlas.edit(&many("10 deg", "T"));
+    atlas.touched(&[]);
+    assert!(tree(&atlas.out()) == before);
+}
+
+#[test]
 fn two_runs_do_not_write_to_one_folder() {
     let atlas = Atlas::new(&many("10 deg", "T"));
     fs::create_dir(atlas.out()).unwrap();
