@@ -1,48 +1,11 @@
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::record::{FileRecord, ReadError, Run, RunningDigest};
-use crate::render;
-
-/// What went wrong with a file.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// A text cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// A file or folder cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file or folder.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The record of an earlier run cannot be used.
-    #[error("cannot use {}, which tells what the other families have: {source}; render all of them", path.display())]
-    Record {
-        /// The record.
-        path: PathBuf,
-        /// Why.
-        source: ReadError,
-    },
-    /// A page makes no image.
-    #[error("cannot draw {name}: {error}")]
-    Image {
-        /// The image.
-        name: String,
-        /// Why.
-        error: render::PngError,
-    },
-}
+use super::Error;
+use crate::record::{FileRecord, RunningDigest};
 
 /// The text of a manifest.
 ///
@@ -63,14 +26,9 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     written.map_err(|source| Error::Write { path: path.to_owned(), source })
 }
 
-/// The record of an earlier run into a folder, if there was one.
-pub(super) fn earlier_run(output: &Path) -> Result<Option<Run>, Error> {
-    let path = output.join("run.json");
-    match Run::read(&path) {
-        Ok(run) => Ok(Some(run)),
-        Err(ReadError::File(error)) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(source) => Err(Error::Record { path, source }),
-    }
+/// A file to be read.
+pub(super) fn open(path: &Path) -> Result<fs::File, Error> {
+    fs::File::open(path).map_err(|source| Error::Read { path: path.to_owned(), source })
 }
 
 pub(super) fn create_folder(path: &Path) -> Result<(), Error> {
@@ -87,6 +45,64 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     file.keep()
 }
 
+/// Whether a file of a folder is what its record says: a text by its bytes; an image, whose bytes no record has, by
+/// being whole.
+pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
+    let path = folder.join(&record.name);
+    let is_file = fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file());
+    let holds = || -> io::Result<bool> {
+        let mut file = fs::File::open(&path)?;
+        let Some(sha256) = &record.sha256 else { return ends_as_png(&mut file) };
+        let mut digest = RunningDigest::default();
+        io::copy(&mut file, &mut digest)?;
+        Ok(digest.finish() == *sha256)
+    };
+    is_file && holds().unwrap_or(false)
+}
+
+/// Whether a file has the last chunk of a PNG at its end, as none has that was cut short.
+fn ends_as_png(file: &mut fs::File) -> io::Result<bool> {
+    const END: [u8; 12] = *b"\0\0\0\0IEND\xaeB`\x82";
+    let mut end = [0; END.len()];
+    file.seek(io::SeekFrom::End(-(END.len() as i64)))?;
+    file.read_exact(&mut end)?;
+    Ok(end == END)
+}
+
+/// Removes files of a folder, those of them that are there. Neither the folder nor a file may be a link to another.
+pub(super) fn remove<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<(), Error> {
+    if !is_folder(folder) {
+        return Ok(());
+    }
+    for path in names.map(|name| folder.join(name)) {
+        if fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
+            fs::remove_file(&path).map_err(|source| Error::Write { path, source })?;
+        }
+    }
+    Ok(())
+}
+
+/// Removes what a run that was killed had begun to write in a folder. No other run may be writing there.
+pub(super) fn remove_leftovers(folder: &Path) {
+    let entries = if is_folder(folder) { fs::read_dir(folder).ok() } else { None };
+    for entry in entries.into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let is_ours = name.to_str().is_some_and(|name| name.starts_with(UNFINISHED.0) && name.ends_with(UNFINISHED.1));
+        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            // One that cannot be removed is in nobody's way.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a path is a folder itself, and no link to one.
+fn is_folder(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
+}
+
+/// How the names of files begin and end that are not finished.
+const UNFINISHED: (&str, &str) = (".coupler-atlas-", ".tmp");
+
 /// A file that grows under another name and takes its own when it is finished; until then nothing is lost, and
 /// nothing is left behind if it never is.
 pub(super) struct Growing {
@@ -99,14 +115,14 @@ impl Growing {
     /// A file that begins with a header.
     pub fn create(path: PathBuf, header: &str) -> Result<Growing, Error> {
         let mut file = Growing::open(path)?;
-        file.append(header)?;
+        file.append(header.as_bytes())?;
         Ok(file)
     }
 
     fn open(path: PathBuf) -> Result<Growing, Error> {
         let folder = path.parent().unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".coupler-atlas-").suffix(".tmp");
+        builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
@@ -124,9 +140,14 @@ impl Growing {
     }
 
     /// Adds text.
-    pub fn append(&mut self, text: &str) -> Result<(), Error> {
-        self.digest.add(text.as_bytes());
-        self.put(text.as_bytes())
+    pub fn append(&mut self, text: &[u8]) -> Result<(), Error> {
+        self.digest.add(text);
+        self.put(text)
+    }
+
+    /// The name it will have.
+    pub fn name(&self) -> String {
+        self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
     fn keep(self) -> Result<(), Error> {
@@ -140,8 +161,7 @@ impl Growing {
 
     /// Gives the file its name.
     pub fn finish(self) -> Result<FileRecord, Error> {
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let record = self.digest.clone().record(name);
+        let record = self.digest.clone().record(self.name());
         self.keep()?;
         Ok(record)
     }

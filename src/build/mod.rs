@@ -1,22 +1,29 @@
-//! Runs a [`Plan`]: names the files, and writes each whole or not at all.
+//! Runs a [`Plan`]: names the files, and writes each whole or not at all; what is there already it leaves alone.
 
+mod claims;
+mod earlier;
+mod error;
+mod family;
 mod files;
+mod inputs;
+mod journal;
+mod lock;
 mod pages;
 
-pub use files::{Error, read_manifest, write as write_file, write_new};
+pub use error::Error;
+pub use files::{read_manifest, write as write_file, write_new};
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::chart::{Gathering, Taken};
-use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::Layout;
 use crate::problem::Problem;
-use crate::record::{Cells, FamilyRecord, Points, Run};
+use crate::record::{FamilyRecord, ReadError, Run};
 use crate::render::Format;
-use crate::sweep::{self, Solved, Status};
-use files::{Growing, write};
-use pages::{Printer, Rendered};
+use crate::sweep;
+use journal::Journal;
+use lock::Lock;
 
 /// What is to be built of a plan.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +32,10 @@ pub struct Options {
     pub formats: Option<Vec<Format>>,
     /// The families to build; all where empty. Those left out keep their files and their record.
     pub only: Vec<String>,
+    /// Whether to draw also what is there already as it would be drawn.
+    pub force: bool,
+    /// Whoever makes this true ends the run as soon as the pages are whole that are being drawn.
+    pub interrupt: Arc<AtomicBool>,
 }
 
 /// Something that happened while building.
@@ -41,8 +52,10 @@ pub enum Event<'a> {
     Page,
     /// A family is done.
     End {
-        /// What was written of it.
+        /// What there is of it.
         record: &'a FamilyRecord,
+        /// How many of its pages were drawn; none where nothing of it was even solved, for nothing has changed.
+        drawn: Option<usize>,
     },
     /// A cell was not assembled, or not over the whole range asked for.
     Shortfall {
@@ -53,29 +66,43 @@ pub enum Event<'a> {
         /// Why.
         reason: &'a str,
     },
+    /// The record of an earlier run cannot be used: everything is drawn, and nothing removed.
+    Unreadable {
+        /// The record.
+        record: &'a Path,
+        /// Why.
+        error: &'a ReadError,
+    },
 }
 
 /// Builds a plan into a folder, and tells what happens on the way.
 ///
+/// What an earlier run left there stays as it is where it would come out the same: its record says what it was made
+/// from. What that run wrote and no longer belongs is removed; what it did not write never is.
+///
 /// Every file is written under another name and renamed, `run.json` last: whatever goes wrong, each file in the
-/// folder is whole, old or new.
+/// folder is whole, old or new, and the record says no more than what is so.
 ///
 /// # Errors
-/// A file that cannot be written; a record of an earlier run that is needed and cannot be read.
+/// A file that cannot be written; a record of an earlier run that is needed and cannot be read; another run into the
+/// same folder; an interruption. What is finished is then recorded, and the next run goes on from there.
 pub fn run(plan: &Plan, output: &Path, options: &Options, tell: &mut dyn FnMut(Event)) -> Result<Run, Error> {
-    let earlier = if options.only.is_empty() { None } else { files::earlier_run(output)? };
-    let mut record = Run::new(&plan.title);
-    for family in &plan.families {
-        let id = &family.family.id;
-        if options.only.is_empty() || options.only.contains(id) {
-            record.families.push(build_family(plan, family, output, options, tell)?);
-        } else {
-            let kept = earlier.iter().flat_map(|run| &run.families).find(|record| record.id == *id);
-            record.families.extend(kept.cloned());
+    files::create_folder(output)?;
+    let _lock = Lock::on(output)?;
+    files::remove_leftovers(output);
+    let is_asked = |planned: &&PlannedFamily| options.only.is_empty() || options.only.contains(&planned.family.id);
+    let earlier = earlier::read(output, !options.only.is_empty(), tell)?;
+    let mut journal = Journal::open(plan, output, earlier);
+    for planned in plan.families.iter().filter(is_asked) {
+        if options.interrupt.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
         }
+        family::build((plan, planned), output, options, &mut journal, tell)?;
     }
-    write(&output.join("run.json"), &record.to_bytes())?;
-    Ok(record)
+    if options.only.is_empty() {
+        journal.drop_others(output)?;
+    }
+    journal.close()
 }
 
 /// A warning for each family whose `where` keeps nothing: found by a sweep, or, of what was built, in its record.
@@ -91,153 +118,4 @@ pub fn empty_families(plan: &Plan, built: Option<&Run>) -> Vec<Problem> {
         (kept(planned) == Some(0)).then_some(problem)
     };
     plan.families.iter().filter_map(warning).collect()
-}
-
-/// The cells of a page and the rows that go with them, ready to be written.
-struct Made {
-    /// The pages, if they are drawn on some of their own.
-    pages: Vec<Rendered>,
-    /// What charts take of them.
-    taken: Vec<Taken>,
-    points: String,
-    cells: String,
-    curves: usize,
-    left_out: usize,
-    shortfalls: Vec<(usize, String)>,
-}
-
-/// How many cells charts take in at a time.
-const CELLS_TO_A_GROUP: usize = 16;
-
-fn build_family(
-    plan: &Plan,
-    planned: &PlannedFamily,
-    output: &Path,
-    options: &Options,
-    tell: &mut dyn FnMut(Event),
-) -> Result<FamilyRecord, Error> {
-    let family = &planned.family;
-    let folder = output.join(&family.id);
-    files::create_folder(&folder)?;
-    let kept = sweep::select(family);
-    let cells_to_a_page = planned.layout.cells();
-    let order = sweep::order(family, &kept);
-    let begins = match planned.layout {
-        Layout::CouplerGrid => first_pages(&sweep::points(family, &order)),
-        _ => Vec::new(),
-    };
-    let (group, pages) = match &planned.chart {
-        None if planned.layout == Layout::CouplerGrid => (1, begins.last().map_or(0, |end| end - 1)),
-        None => (cells_to_a_page, kept.len().div_ceil(cells_to_a_page)),
-        Some(_) if kept.is_empty() => (CELLS_TO_A_GROUP, 0),
-        Some(chart) => (CELLS_TO_A_GROUP, chart.y.len().div_ceil(cells_to_a_page)),
-    };
-    let formats = options.formats.as_ref().unwrap_or(&planned.formats);
-    let printer = Printer { plan, planned, formats, of: pages };
-    tell(Event::Begin { family: &family.id, pages });
-
-    let points_table = Points::new(family, dyads(family));
-    let cells_table = Cells::new(family);
-    let mut points = Growing::create(folder.join("points.csv"), &points_table.header())?;
-    let mut cells = Growing::create(folder.join("cells.csv"), &cells_table.header())?;
-    let mut record = FamilyRecord {
-        id: family.id.clone(),
-        title: family.title.clone(),
-        linkage: family.template.id.clone(),
-        cells: family.cells(),
-        kept: kept.len(),
-        not_assembled: 0,
-        curves_left_out: 0,
-        curves: 0,
-        pages,
-        files: Vec::new(),
-    };
-    let draw = |group: usize, solved: &[Solved]| match (planned.layout, solved) {
-        (Layout::CouplerGrid, [solved]) => printer.grids(begins[group], solved),
-        _ => Ok(vec![printer.panels(group + 1, solved)?]),
-    };
-    let make = |page: usize, solved: Vec<Solved>| -> Result<Made, Error> {
-        let (mut points, mut cells) = (String::new(), String::new());
-        for solved in &solved {
-            points_table.rows(solved, &mut points);
-            cells_table.rows(solved, &mut cells);
-        }
-        let shortfall =
-            |s: &Solved| Some((s.cell.number, s.motion.shortfall.clone()?)).filter(|_| s.status() != Status::Ok);
-        let curves = solved.iter().map(|s| s.curves.len()).sum();
-        let left_out = solved.iter().map(|s| s.left_out).sum();
-        let shortfalls = solved.iter().filter_map(shortfall).collect();
-        let is_drawn = planned.chart.is_none() && family.sort.is_none();
-        let pages = if is_drawn { draw(page, &solved)? } else { Vec::new() };
-        let taken =
-            planned.chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.take(solved))).collect();
-        Ok(Made { pages, taken, points, cells, curves, left_out, shortfalls })
-    };
-    let mut gathering = planned.chart.as_ref().map(|chart| Gathering::new(chart, family));
-    sweep::run(family, (&kept, group), make, |made| -> Result<(), Error> {
-        let made = made?;
-        points.append(&made.points)?;
-        cells.append(&made.cells)?;
-        if let Some(gathering) = &mut gathering {
-            made.taken.into_iter().for_each(|taken| gathering.add(taken));
-        }
-        record.curves += made.curves;
-        record.curves_left_out += made.left_out;
-        record.not_assembled += made.shortfalls.len();
-        for (cell, reason) in &made.shortfalls {
-            tell(Event::Shortfall { family: &family.id, cell: *cell, reason });
-        }
-        for page in made.pages {
-            keep(page, &folder, &mut record)?;
-            tell(Event::Page);
-        }
-        Ok(())
-    })?;
-    if planned.chart.is_none() && family.sort.is_some() {
-        // Tables are in the order of the cells, pages in one of their own.
-        let draw = |group: usize, solved: Vec<Solved>| draw(group, &solved);
-        sweep::run(family, (&order, group), draw, |pages| -> Result<(), Error> {
-            for page in pages? {
-                keep(page, &folder, &mut record)?;
-                tell(Event::Page);
-            }
-            Ok(())
-        })?;
-    }
-    if let (Some(chart), Some(gathering)) = (&planned.chart, gathering) {
-        let gathered = gathering.finish();
-        for page in 1..=pages {
-            keep(printer.charts(page, chart, &gathered)?, &folder, &mut record)?;
-            tell(Event::Page);
-        }
-    }
-    record.files.insert(0, points.finish()?);
-    record.files.insert(0, cells.finish()?);
-    tell(Event::End { record: &record });
-    Ok(record)
-}
-
-/// The numbers of the first pages of cells with so many traced points, and the one after the last.
-fn first_pages(points: &[usize]) -> Vec<usize> {
-    let mut next = 1;
-    let mut begins = vec![next];
-    for points in points {
-        next += points.div_ceil(Layout::POINTS).max(1);
-        begins.push(next);
-    }
-    begins
-}
-
-/// Writes a page and records it.
-fn keep(page: Rendered, folder: &Path, record: &mut FamilyRecord) -> Result<(), Error> {
-    for (name, bytes) in &page.files {
-        write(&folder.join(name), bytes)?;
-    }
-    record.files.extend(page.records);
-    Ok(())
-}
-
-/// How many two-valued joints the linkages of a family have.
-fn dyads(family: &Family) -> usize {
-    family.linkage(&family.cell(0)).map_or(0, |linkage| linkage.dyads())
 }

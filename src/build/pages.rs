@@ -1,6 +1,12 @@
-//! The pages of a family, composed and rendered.
+//! The pages of a family, composed, rendered and written: those that are not there yet as they would be.
+
+use std::cell::LazyCell;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Error;
+use super::claims::Claims;
+use super::earlier::page_name;
+use super::inputs::Inputs;
 use crate::chart::{Chart, Gathered};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
@@ -11,19 +17,24 @@ use crate::scene::Scene;
 use crate::sweep::Solved;
 
 /// A page in each format.
-pub(super) struct Rendered {
-    /// The files' names and bytes.
-    pub files: Vec<(String, Vec<u8>)>,
-    /// What is recorded of them.
-    pub records: Vec<FileRecord>,
+pub(super) struct Printed {
+    /// What is recorded of its files.
+    pub files: Vec<FileRecord>,
+    /// Whether any of them was drawn.
+    pub is_drawn: bool,
 }
 
-/// How the pages of a family are made.
+/// How the pages of a family are made, on any number of threads.
 #[derive(Clone, Copy)]
 pub(super) struct Printer<'a> {
     pub plan: &'a Plan,
     pub planned: &'a PlannedFamily,
     pub formats: &'a [Format],
+    pub inputs: Inputs<'a>,
+    /// What is said of the files.
+    pub claims: &'a Claims,
+    /// Becomes true when no more pages are to be begun.
+    pub interrupt: &'a AtomicBool,
     /// How many pages there are.
     pub of: usize,
 }
@@ -46,19 +57,22 @@ fn labels(family: &Family, solved: &Solved) -> Vec<Label> {
 
 impl Printer<'_> {
     /// A page of panels; pages are counted from 1.
-    pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Rendered, Error> {
+    pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Printed, Error> {
         let Printer { plan, planned, .. } = *self;
         let family = &planned.family;
-        let sheet = Sheet {
-            heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
-            layout: planned.layout,
-            panels: solved.iter().map(|solved| panel(family, solved)).collect(),
-        };
-        self.render(page, &page::compose(&sheet, &plan.page))
+        let inputs = self.inputs.of_page((page, self.of), solved, &[]);
+        self.print(page, &inputs, || {
+            let sheet = Sheet {
+                heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
+                layout: planned.layout,
+                panels: solved.iter().map(|solved| panel(family, solved)).collect(),
+            };
+            page::compose(&sheet, &plan.page)
+        })
     }
 
     /// The pages of a coupler grid, of which the first has this number.
-    pub fn grids(&self, page: usize, solved: &Solved) -> Result<Vec<Rendered>, Error> {
+    pub fn grids(&self, page: usize, solved: &Solved) -> Result<Vec<Printed>, Error> {
         let Printer { plan, planned, .. } = *self;
         let mut shown = solved.by_points(Layout::POINTS);
         if shown.is_empty() {
@@ -66,19 +80,22 @@ impl Printer<'_> {
             shown.push(Vec::new());
         }
         let labels = labels(&planned.family, solved);
-        // One pose for all pages of a cell.
-        let view = page::clearest_pose(solved).map_or(View::Clearest, View::At);
-        let draw = |(page, shown)| {
-            let heading = self.heading(page, planned.source.clone());
-            let panel = Panel { view: view.clone(), ..panel(&planned.family, solved) };
-            let sheet = GridSheet { heading, panel, shown, labels: &labels };
-            self.render(page, &page::compose_grid(&sheet, &plan.page))
+        // One pose for all pages of a cell, sought for the first that is drawn.
+        let view = LazyCell::new(|| page::clearest_pose(solved).map_or(View::Clearest, View::At));
+        let draw = |(page, shown): (usize, Vec<usize>)| {
+            let inputs = self.inputs.of_page((page, self.of), std::slice::from_ref(solved), &shown);
+            self.print(page, &inputs, || {
+                let heading = self.heading(page, planned.source.clone());
+                let panel = Panel { view: view.clone(), ..panel(&planned.family, solved) };
+                let sheet = GridSheet { heading, panel, shown, labels: &labels };
+                page::compose_grid(&sheet, &plan.page)
+            })
         };
         (page..).zip(shown).map(draw).collect()
     }
 
     /// A page of charts.
-    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Rendered, Error> {
+    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Printed, Error> {
         let Printer { plan, planned, .. } = *self;
         let first = (page - 1) * planned.layout.cells();
         let mut source = vec![planned.source.clone()];
@@ -94,7 +111,7 @@ impl Printer<'_> {
             shown: first..(first + planned.layout.cells()).min(chart.y.len()),
             series: &gathered.series,
         };
-        self.render(page, &page::compose_charts(&sheet, &plan.page))
+        self.print(page, &self.inputs.of_charts(page), || page::compose_charts(&sheet, &plan.page))
     }
 
     fn heading(&self, page: usize, source: String) -> Heading<'_> {
@@ -103,27 +120,38 @@ impl Printer<'_> {
         Heading { atlas: &plan.title, family: id, title, source, symbols: names, page, of }
     }
 
-    /// A page in each format.
-    fn render(&self, page: usize, scene: &Scene) -> Result<Rendered, Error> {
-        let Printer { plan, planned, formats, .. } = *self;
-        let (mut files, mut records) = (Vec::new(), Vec::new());
-        let svg = render::svg(scene, plan.text);
-        for format in formats {
-            let name = format!("{}-{page:03}.{}", planned.family.id, format.name());
-            match format {
-                Format::Svg => {
-                    records.push(FileRecord::of_bytes(&name, &svg));
-                    files.push((name, svg.clone()));
-                }
-                Format::Png => {
-                    records.push(FileRecord::of_drawing(&name, &svg, plan.dpi));
-                    let png =
-                        render::png(scene, plan.dpi).map_err(|error| Error::Image { name: name.clone(), error })?;
-                    files.push((name, png));
-                }
-            }
+    /// A page in each format, drawn where it is not there as it would be.
+    fn print(&self, page: usize, inputs: &str, compose: impl FnOnce() -> Scene) -> Result<Printed, Error> {
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
         }
-        Ok(Rendered { files, records })
+        let named = |&format: &Format| (format, page_name(&self.planned.family.id, page, format));
+        let names: Vec<(Format, String)> = self.formats.iter().map(named).collect();
+        let kept: Vec<Option<FileRecord>> = names.iter().map(|(_, name)| self.claims.kept(name, inputs)).collect();
+        if kept.iter().all(Option::is_some) {
+            return Ok(Printed { files: kept.into_iter().flatten().collect(), is_drawn: false });
+        }
+        let scene = compose();
+        // An image is recorded by its SVG, too.
+        let svg = render::svg(&scene, self.plan.text);
+        let draw = |((format, name), kept): ((Format, String), Option<FileRecord>)| match (kept, format) {
+            (Some(kept), _) => Ok(kept),
+            (None, Format::Svg) => self.claims.write(FileRecord::of_bytes(name, &svg).made_from(inputs), &svg),
+            (None, Format::Png) => {
+                let record = FileRecord::of_drawing(&name, &svg, self.plan.dpi).made_from(inputs);
+                let png = render::png(&scene, self.plan.dpi).map_err(|error| Error::Image { name, error })?;
+                self.claims.write(record, &png)
+            }
+        };
+        let files = names.into_iter().zip(kept).map(draw).collect::<Result<_, Error>>()?;
+        Ok(Printed { files, is_drawn: true })
+    }
+
+    /// About how many bytes it takes to draw a page: the pixels of an image, and what they are encoded to.
+    pub fn bytes(&self) -> usize {
+        let Printer { plan, formats, .. } = *self;
+        let pixels = plan.page.paper.width * plan.page.paper.height * (plan.dpi / 25.4) * (plan.dpi / 25.4);
+        if formats.contains(&Format::Png) { 4 * pixels as usize } else { 0 }
     }
 }
 

@@ -16,7 +16,7 @@ use clap::{Parser, Subcommand};
 use coupler_atlas::build;
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 1 with --strict, a cell is not assembled; 2 the input was wrong; \
-                          3 the machine failed.";
+                          3 the machine failed, or another run is writing there; 130 interrupted.";
 
 /// Atlases of coupler curves: solves families of planar linkages and draws them as pages.
 #[derive(Debug, Parser)]
@@ -54,6 +54,7 @@ struct WrongInput(String);
 
 const WRONG_INPUT: u8 = 2;
 const MACHINE_FAILED: u8 = 3;
+const INTERRUPTED: u8 = 130;
 
 /// Runs the program.
 pub fn main() -> ExitCode {
@@ -88,7 +89,12 @@ fn failure(error: &anyhow::Error) -> ExitCode {
     }
     let is_input = error.downcast_ref::<WrongInput>().is_some()
         || matches!(error.downcast_ref(), Some(build::Error::Read { .. } | build::Error::Record { .. }));
-    ExitCode::from(if is_input { WRONG_INPUT } else { MACHINE_FAILED })
+    let is_interrupted = matches!(error.downcast_ref(), Some(build::Error::Interrupted));
+    ExitCode::from(match () {
+        () if is_interrupted => INTERRUPTED,
+        () if is_input => WRONG_INPUT,
+        () => MACHINE_FAILED,
+    })
 }
 
 /// Writes a result to standard output.

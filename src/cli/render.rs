@@ -1,4 +1,6 @@
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use coupler_atlas::build::{self, Event};
@@ -7,7 +9,7 @@ use coupler_atlas::record::FamilyRecord;
 use coupler_atlas::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Outcome, WrongInput, count, plan, print, say};
+use super::{INTERRUPTED, Outcome, WrongInput, count, plan, print, say};
 
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Debug, Args)]
@@ -18,12 +20,15 @@ pub struct Arguments {
     /// The folder to write to, relative to the current folder [default: the manifest's `output`, beside it].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The formats of all pages, in place of the manifest's.
+    /// The formats of all pages, in place of the manifest's; an earlier run's pages in others are removed.
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = format)]
     format: Option<Vec<Format>>,
     /// Render this family only, and leave the others' files as they are; may be given more than once.
     #[arg(long, value_name = "FAMILY")]
     only: Vec<String>,
+    /// Draw every page, also those that are there already as this version of the program draws them.
+    #[arg(long)]
+    force: bool,
     /// How many threads to use [default: one for each processor].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
@@ -58,7 +63,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
     let output = source.output(arguments.output.as_deref());
-    let options = build::Options { formats: arguments.format.clone(), only: arguments.only.clone() };
+    let (formats, only, force) = (arguments.format.clone(), arguments.only.clone(), arguments.force);
+    let options = build::Options { formats, only, force, interrupt: interrupt()? };
     let mut teller = Teller { quiet: arguments.quiet, bar: ProgressBar::hidden(), named: 0, not_assembled: 0 };
     let mut lines = String::new();
     let run = build::run(&source.plan, &output, &options, &mut |event| teller.tell(event, &mut lines))?;
@@ -68,6 +74,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         print(&lines)?;
     }
     Ok(if arguments.strict && teller.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
+}
+
+/// What becomes true when the program is asked to end; asked once more, it ends at once.
+fn interrupt() -> anyhow::Result<Arc<AtomicBool>> {
+    let interrupt = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&interrupt);
+    ctrlc::set_handler(move || {
+        if asked.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED.into());
+        }
+    })?;
+    Ok(interrupt)
 }
 
 /// Tells what happens: a bar on a terminal, a line for each family at the end.
@@ -96,19 +114,23 @@ impl Teller {
                     self.bar.suspend(|| say(&format!("warning: {family}, cell {cell}: {reason}\n")));
                 }
             }
-            Event::End { record } => {
+            Event::End { record, drawn } => {
                 self.bar.finish_and_clear();
                 if self.named > NAMED {
                     say(&format!("warning: {}, and {} more, see cells.csv\n", record.id, self.named - NAMED));
                 }
                 self.named = 0;
-                lines.push_str(&summary(record));
+                lines.push_str(&summary(record, drawn));
+            }
+            Event::Unreadable { record, error } => {
+                let record = record.display();
+                say(&format!("warning: {record} is no help: {error}; everything is drawn, and nothing removed\n"));
             }
         }
     }
 }
 
-fn summary(record: &FamilyRecord) -> String {
+fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
     let mut line = format!("{}: {}", record.id, count(record.cells, "cell"));
     if record.kept < record.cells {
         line.push_str(&format!(" ({} left out by `where`)", record.cells - record.kept));
@@ -120,5 +142,14 @@ fn summary(record: &FamilyRecord) -> String {
     if record.curves_left_out > 0 {
         line.push_str(&format!(" ({} more left out by `where`)", record.curves_left_out));
     }
-    format!("{line}, {}\n", count(record.pages, "page"))
+    line.push_str(&format!(", {}", count(record.pages, "page")));
+    match drawn {
+        None => line.push_str(" (unchanged)"),
+        Some(drawn) if drawn < record.pages => {
+            line.push_str(&format!(" ({drawn} of {} drawn)", count(record.pages, "page")));
+        }
+        Some(_) => {}
+    }
+    line.push('\n');
+    line
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::names::{given, names, read_expressions};
-use super::{PlannedFamily, Templates, chart, settings};
+use super::{Inputs, PlannedFamily, Templates, chart, settings};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
 use crate::notation::{self, Fields, Reader, Value};
@@ -107,7 +107,8 @@ pub(super) fn read<'t>(
     let source =
         source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
     let filter_span = fields.get("where").map(Value::span);
-    Some(PlannedFamily { family, layout: layout?, chart: chart?, formats: formats?, source, filter_span })
+    let (layout, chart, formats) = (layout?, chart?, formats?);
+    Some(PlannedFamily { family, layout, chart, formats, source, inputs: Inputs::default(), filter_span })
 }
 
 /// The template with what the family says otherwise.

@@ -3,9 +3,12 @@
 mod chart;
 mod family;
 mod grid;
+mod inputs;
 mod names;
 mod settings;
 mod theme;
+
+pub use inputs::Inputs;
 
 use std::sync::Arc;
 
@@ -48,6 +51,8 @@ pub struct PlannedFamily {
     pub formats: Vec<Format>,
     /// What stands under the title of its pages.
     pub source: String,
+    /// What its files are made from.
+    pub inputs: Inputs,
     /// Where its `where` stands in the manifest.
     pub filter_span: Option<Span>,
 }
@@ -117,7 +122,7 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
             }
             ids.push(id);
         }
-        families.extend(read);
+        families.extend(read.map(|read| PlannedFamily { inputs: Inputs::of(&root, value), ..read }));
     }
     let (atlas, page) = (atlas?, page?);
     Some(Plan {

@@ -3,9 +3,11 @@
 mod joint;
 mod joints;
 mod linkage;
+mod normal;
 mod reader;
 
 pub use linkage::{CIRCUITS, COINCIDENTS, CONTINUATIONS, check_name, slug, template};
+pub use normal::normal;
 pub use reader::{Fields, Reader, Value};
 
 use crate::problem::Problem;

@@ -5,7 +5,7 @@ mod number;
 mod points;
 mod run;
 
-pub use cells::Cells;
+pub use cells::{Cells, shortfalls};
 pub use number::shortest;
 pub use points::Points;
 pub use run::{FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};

@@ -1,3 +1,4 @@
+use super::number::whole;
 use super::shortest;
 use crate::family::{Column, Family};
 use crate::measure::take_columns;
@@ -29,24 +30,29 @@ impl<'a> Points<'a> {
     }
 
     /// The rows of a cell.
-    pub fn rows(self, solved: &Solved, out: &mut String) {
+    pub fn rows(self, solved: &Solved, out: &mut Vec<u8>) {
+        let mut head = Vec::new();
         for curve in &solved.curves {
             let circuit = solved.circuit(curve);
-            let head = format!("{},{},{},", solved.cell.number, curve.trace, curve.circuit);
+            head.clear();
+            for number in [solved.cell.number, curve.trace, curve.circuit] {
+                whole(number, &mut head);
+                head.push(b',');
+            }
             for sample in 0..circuit.len() {
-                out.push_str(&head);
+                out.extend_from_slice(&head);
                 let signs = circuit.signs(sample);
                 for dyad in 0..self.dyads.max(1) {
-                    out.push_str(if signs.get(dyad) > 0 { "1," } else { "-1," });
+                    out.extend_from_slice(if signs.get(dyad) > 0 { b"1," } else { b"-1," });
                 }
-                out.push_str(&sample.to_string());
+                whole(sample, out);
                 let at = circuit.places.point(curve.joint, sample);
                 let columns = take_columns(self.columns, &solved.linkage, (circuit, curve.joint), sample);
                 for value in [circuit.input[sample], at.x, at.y].into_iter().chain(columns) {
-                    out.push(',');
+                    out.push(b',');
                     shortest(value, out);
                 }
-                out.push('\n');
+                out.push(b'\n');
             }
         }
     }

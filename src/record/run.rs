@@ -30,6 +30,9 @@ pub struct FamilyRecord {
     pub title: String,
     /// The linkage.
     pub linkage: String,
+    /// SHA-256 of what all its files were made from; none while they are not all finished.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inputs_sha256: Option<String>,
     /// How many cells it has.
     pub cells: usize,
     /// How many of them `where` kept.
@@ -57,6 +60,9 @@ pub struct FileRecord {
     /// SHA-256 of what an image is drawn from: the page's SVG, and the resolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn_from_sha256: Option<String>,
+    /// SHA-256 of what a page is made from: the program's version, what the manifest says, and the cells on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inputs_sha256: Option<String>,
 }
 
 /// Why a `run.json` cannot be used.
@@ -89,12 +95,12 @@ impl Run {
         struct Version {
             format: u32,
         }
-        let text = std::fs::read_to_string(path)?;
-        let version: Version = serde_json::from_str(&text)?;
+        let bytes = std::fs::read(path)?;
+        let version: Version = serde_json::from_slice(&bytes)?;
         if version.format != FORMAT {
             return Err(ReadError::Format(version.format));
         }
-        Ok(serde_json::from_str(&text)?)
+        Ok(serde_json::from_slice(&bytes)?)
     }
 
     /// The bytes of the record.
@@ -119,13 +125,35 @@ impl FileRecord {
         let mut digest = RunningDigest::default();
         digest.add(svg);
         digest.add(dpi.to_string().as_bytes());
-        FileRecord { name: name.into(), sha256: None, drawn_from_sha256: Some(digest.finish()) }
+        let drawn_from_sha256 = Some(digest.finish());
+        FileRecord { drawn_from_sha256, ..FileRecord::of_name(name) }
+    }
+
+    /// The record of a file of which nothing but its name is known.
+    pub fn of_name(name: impl Into<String>) -> FileRecord {
+        FileRecord { name: name.into(), sha256: None, drawn_from_sha256: None, inputs_sha256: None }
+    }
+
+    /// The same, with what the file was made from.
+    pub fn made_from(self, inputs_sha256: &str) -> FileRecord {
+        FileRecord { inputs_sha256: Some(inputs_sha256.to_owned()), ..self }
     }
 }
 
 /// The digest of a file that is still being written.
 #[derive(Clone, Default)]
 pub struct RunningDigest(Sha256);
+
+impl std::io::Write for RunningDigest {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.add(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
 
 impl RunningDigest {
     /// Takes in more bytes.
@@ -135,10 +163,11 @@ impl RunningDigest {
 
     /// The record of the file.
     pub fn record(self, name: impl Into<String>) -> FileRecord {
-        FileRecord { name: name.into(), sha256: Some(self.finish()), drawn_from_sha256: None }
+        FileRecord { sha256: Some(self.finish()), ..FileRecord::of_name(name) }
     }
 
-    fn finish(self) -> String {
+    /// The digest, in hexadecimal digits.
+    pub fn finish(self) -> String {
         format!("{:x}", self.0.finalize())
     }
 }

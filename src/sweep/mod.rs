@@ -1,5 +1,9 @@
 //! Every cell of a family through linkage, motion and measure: in parallel, in order, in bounded memory.
 
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, TryRecvError};
+
 use rayon::prelude::*;
 
 use crate::family::{Cell, Family};
@@ -139,77 +143,142 @@ fn solve_for(family: &Family, sampler: &Sampler, k: usize, take: impl Fn(&Subjec
 
 /// The cells of which something is kept, by their places; all of them where nothing is asked.
 pub fn select(family: &Family) -> Vec<usize> {
+    // Nobody stops this.
+    let found = arrange(family, false, &AtomicBool::new(false));
+    found.map(|found| found.kept).unwrap_or_default()
+}
+
+/// Which cells of a family are shown, and in what order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Arrangement {
+    /// The cells of which something is kept, by their places; all of them where nothing is asked.
+    pub kept: Vec<usize>,
+    /// The same in the order of pages: sorted by the least rank of a cell's curves, the cells without a rank last.
+    pub order: Vec<usize>,
+    /// How many traced points of each are kept on any circuit, in the order of pages: none of a cell that is not
+    /// assembled. Empty where it was not asked for.
+    pub points: Vec<usize>,
+}
+
+/// Solves the cells of a family as far as it takes to tell which are shown, where and, if that is asked, with how many
+/// points; nothing where `stop` becomes true on the way.
+pub fn arrange(family: &Family, counts_points: bool, stop: &AtomicBool) -> Option<Arrangement> {
     let all = 0..family.cells();
-    if family.filter.is_none() {
-        return all.collect();
+    if family.filter.is_none() && family.sort.is_none() && !counts_points {
+        let kept: Vec<usize> = all.collect();
+        return Some(Arrangement { order: kept.clone(), kept, points: Vec::new() });
     }
-    let judged = judged(family);
-    let is_kept = |&k: &usize| judged(k).is_some_and(|solved| !solved.is_left_out());
-    all.into_par_iter().filter(is_kept).collect()
-}
-
-/// The places of cells in the order of pages: those of [`select`], sorted by the least rank of a cell's curves, the cells
-/// without a rank last.
-pub fn order(family: &Family, kept: &[usize]) -> Vec<usize> {
-    if family.sort.is_none() {
-        return kept.to_vec();
+    struct Judged {
+        cell: usize,
+        rank: f64,
+        points: usize,
     }
-    let judged = judged(family);
-    let rank = |&k: &usize| {
-        let ranks = |solved: Solved| {
-            let of = |curve: &Curve| family.rank(&solved.cell, &curve.measures);
-            solved.curves.iter().map(of).fold(f64::NAN, f64::min)
-        };
-        (judged(k).map_or(f64::NAN, ranks), k)
-    };
-    let mut ranked: Vec<(f64, usize)> = kept.par_iter().map(rank).collect();
-    ranked.sort_by(|a, b| a.0.is_nan().cmp(&b.0.is_nan()).then(a.0.total_cmp(&b.0)).then(a.1.cmp(&b.1)));
-    ranked.into_iter().map(|(_, k)| k).collect()
-}
-
-/// How many traced points of each of some cells are kept on any circuit; none of a cell that is not assembled.
-pub fn points(family: &Family, cells: &[usize]) -> Vec<usize> {
-    let judged = judged(family);
-    cells.par_iter().map(|&k| judged(k).map_or(0, |solved| solved.by_points(1).len())).collect()
-}
-
-/// Solves cells of a family, and takes no more measures of them than `where` and `sort` ask for.
-fn judged(family: &Family) -> impl Fn(usize) -> Option<Solved> + Sync + '_ {
     let sampler = Sampler::new(family.sampling);
+    // No more measures are taken than `where` and `sort` ask for.
     let asked: Vec<bool> = (0..measure::ALL.len()).map(|measure| family.asks_for(measure)).collect();
-    move |k| solve_for(family, &sampler, k, |subject| measure::take_some(subject, |measure| asked[measure]))
+    let take = |subject: &Subject| measure::take_some(subject, |measure| asked[measure]);
+    let judge = |cell: usize| {
+        let solved = if stop.load(Ordering::Relaxed) { None } else { solve_for(family, &sampler, cell, take) };
+        let solved = solved.filter(|solved| !solved.is_left_out())?;
+        let rank = |curve: &Curve| family.rank(&solved.cell, &curve.measures);
+        let rank = solved.curves.iter().map(rank).fold(f64::NAN, f64::min);
+        Some(Judged { cell, rank, points: solved.by_points(1).len() })
+    };
+    let mut judged: Vec<Judged> = all.into_par_iter().filter_map(judge).collect();
+    if stop.load(Ordering::Relaxed) {
+        return None;
+    }
+    let kept = judged.iter().map(|judged| judged.cell).collect();
+    if family.sort.is_some() {
+        judged.sort_by(|a, b| a.rank.is_nan().cmp(&b.rank.is_nan()).then(a.rank.total_cmp(&b.rank)));
+    }
+    let points = judged.iter().filter(|_| counts_points).map(|judged| judged.points).collect();
+    Some(Arrangement { kept, order: judged.iter().map(|judged| judged.cell).collect(), points })
 }
 
-/// About how many places of curves are held at once: 2^21 of them, and their rows, are some 200 MB.
-const MOST_PLACES: usize = 1 << 21;
+/// Cells that are worked on in groups.
+#[derive(Clone, Copy, Debug)]
+pub struct Groups<'a> {
+    /// The cells, by their places.
+    pub cells: &'a [usize],
+    /// How many of them make a group; the last may have fewer.
+    pub size: usize,
+    /// How many bytes the work on a group holds at a time, beside the group itself.
+    pub bytes: usize,
+}
 
-/// Takes groups of cells through `work` on all threads and hands the results to `take` in order.
+/// About how many bytes are held at once.
+const MOST_BYTES: usize = 240_000_000;
+
+/// About how many bytes a place of a curve takes, with its row.
+const BYTES_OF_A_PLACE: usize = 100;
+
+impl Groups<'_> {
+    /// How many groups are held at once: what keeps the threads busy, and as many as the memory is meant for.
+    fn at_once(&self, family: &Family, sampler: &Sampler) -> usize {
+        let places = sampler.turn().len() * family.template.curves() * self.size;
+        let bytes = places * BYTES_OF_A_PLACE + self.bytes;
+        (MOST_BYTES / bytes.max(1)).clamp(1, rayon::current_num_threads() * 4)
+    }
+}
+
+/// Takes groups of cells through `work` on all threads and hands the results to `take` in order, on the thread that
+/// calls: while it takes, the others go on, but no further than a few groups to a thread.
 ///
-/// `work` is given the number of the group, from 0, and its solved cells. No more than a few groups to a thread are
-/// held at once. Results and their order do not depend on the number of threads.
+/// `work` is given the number of the group, from 0, and its solved cells. Results and their order do not depend on the
+/// number of threads.
 ///
 /// # Errors
-/// The first error of `take`, after which nothing more is done.
-pub fn run<T: Send, E: Send>(
+/// The first error of `take`, after which nothing more is begun.
+pub fn run<T: Send, E>(
     family: &Family,
-    (cells, group): (&[usize], usize),
+    groups: Groups,
     work: impl Fn(usize, Vec<Solved>) -> T + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
-    let sampler = Sampler::new(family.sampling);
-    let groups: Vec<&[usize]> = cells.chunks(group.max(1)).collect();
-    // No more is held at once than keeps the threads busy, and no more than a few million places of curves.
-    let places = sampler.turn().len() * family.template.curves() * group;
-    let at_once = (MOST_PLACES / places.max(1)).clamp(1, rayon::current_num_threads() * 4);
-    for (batch, groups) in groups.chunks(at_once).enumerate() {
-        let solve_group = |(k, cells): (usize, &&[usize])| {
-            let solved = cells.iter().filter_map(|&cell| solve(family, &sampler, cell)).collect();
-            work(batch * at_once + k, solved)
-        };
-        let done: Vec<T> = groups.par_iter().enumerate().map(solve_group).collect();
-        for result in done {
-            take(result)?;
+    let sampler = &Sampler::new(family.sampling);
+    let at_once = groups.at_once(family, sampler);
+    let stopped = &AtomicBool::new(false);
+    let work = &work;
+    let solve_group = move |group: usize, cells: &[usize]| {
+        let goes_on = |_: &&usize| !stopped.load(Ordering::Relaxed);
+        let solved = cells.iter().take_while(goes_on).filter_map(|&cell| solve(family, sampler, cell)).collect();
+        (!stopped.load(Ordering::Relaxed)).then(|| work(group, solved))
+    };
+    let mut coming = groups.cells.chunks(groups.size.max(1)).enumerate();
+    rayon::in_place_scope_fifo(|scope| {
+        let mut ahead: VecDeque<Receiver<T>> = VecDeque::with_capacity(at_once);
+        loop {
+            for (group, cells) in coming.by_ref().take(at_once - ahead.len()) {
+                let (done, result) = mpsc::sync_channel(1);
+                ahead.push_back(result);
+                scope.spawn_fifo(move |_| {
+                    // Where nothing is taken any more, nobody waits for it.
+                    let _ = solve_group(group, cells).map(|made| done.send(made));
+                });
+            }
+            let Some(next) = ahead.pop_front() else { return Ok(()) };
+            // Of a group whose work panicked there is nothing; the scope panics in its turn.
+            let Some(result) = wait(&next) else { return Ok(()) };
+            if let Err(error) = take(result) {
+                stopped.store(true, Ordering::Relaxed);
+                return Err(error);
+            }
+        }
+    })
+}
+
+/// Waits for a result; a thread of the pool does other work meanwhile, which may be that very result.
+fn wait<T>(result: &Receiver<T>) -> Option<T> {
+    loop {
+        match result.try_recv() {
+            Ok(result) => return Some(result),
+            Err(TryRecvError::Disconnected) => return None,
+            Err(TryRecvError::Empty) => match rayon::yield_now() {
+                None => return result.recv().ok(),
+                Some(rayon::Yield::Executed) => {}
+                Some(rayon::Yield::Idle) => std::thread::yield_now(),
+            },
         }
     }
-    Ok(())
 }

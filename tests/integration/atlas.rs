@@ -1,6 +1,6 @@
 //! The committed atlas is what the program makes of `atlas.toml`: text byte for byte, images by their pixels.
 //!
-//! After a change that is meant, `cargo run --release -- render` renews it.
+//! After a change that is meant, `cargo run --release -- render --force` renews it.
 
 use std::fs;
 use std::path::Path;
@@ -45,7 +45,7 @@ fn the_committed_atlas_is_a_fresh_run() {
             // Blending rounds differently where a machine has other vector instructions.
             assert!(apart <= Some(1), "{file} differs by {apart:?}");
         } else {
-            assert!(old == new, "{file} differs from a fresh run: `cargo run --release -- render` renews it");
+            assert!(old == new, "{file} differs from a fresh run: `cargo run --release -- render --force` renews it");
         }
     }
 }

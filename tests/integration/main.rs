@@ -16,6 +16,7 @@ mod measures;
 mod program;
 mod rates;
 mod readme;
+mod reruns;
 mod sextic;
 mod straight_line;
 mod themes;

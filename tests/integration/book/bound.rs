@@ -46,7 +46,8 @@ fn solved(plan: &Plan) -> Vec<Vec<Solved>> {
             found.append(&mut solved);
             Ok(())
         };
-        sweep::run(&planned.family, (&kept, 1), |_, solved| solved, take).unwrap();
+        let groups = sweep::Groups { cells: &kept, size: 1, bytes: 0 };
+        sweep::run(&planned.family, groups, |_, solved| solved, take).unwrap();
         found
     };
     plan.families.iter().map(all).collect()

@@ -1,0 +1,90 @@
+//! What an earlier run left in a folder, as its record tells. A record is a file that anyone may have written: nothing
+//! is made of it but what this program could have put there.
+
+use std::io;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::{Error, Event, files};
+use crate::record::{FamilyRecord, FileRecord, ReadError, Run};
+use crate::render::Format;
+
+/// The tables of a family, which every one has.
+const TABLES: [&str; 2] = ["cells.csv", "points.csv"];
+
+/// The name of a page.
+pub(super) fn page_name(family: &str, page: usize, format: Format) -> String {
+    format!("{family}-{page:03}.{}", format.name())
+}
+
+/// The record of an earlier run, if there was one. Where other families are to stay as they are it must be a good one.
+///
+/// # Errors
+/// A record that is needed and cannot be used.
+pub(super) fn read(output: &Path, is_needed: bool, tell: &mut dyn FnMut(Event)) -> Result<Option<Run>, Error> {
+    let path = output.join("run.json");
+    match Run::read(&path) {
+        Ok(run) => Ok(Some(trusted(run))),
+        Err(ReadError::File(error)) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(source) if is_needed => Err(Error::Record { path, source }),
+        Err(error) => {
+            tell(Event::Unreadable { record: &path, error: &error });
+            Ok(None)
+        }
+    }
+}
+
+/// A record without what is no name of a file in a family's folder.
+fn trusted(mut run: Run) -> Run {
+    let is_slug = |id: &str| {
+        let is_plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
+        !id.is_empty() && id.bytes().all(is_plain)
+    };
+    let mut ids = Vec::new();
+    run.families.retain(|family| {
+        let is_first = !ids.contains(&family.id);
+        ids.push(family.id.clone());
+        is_first && is_slug(&family.id)
+    });
+    for family in &mut run.families {
+        let id = family.id.clone();
+        family.files.retain(|file| is_file_of(&id, &file.name));
+    }
+    run
+}
+
+/// Whether this program gives such a name to a file of a family.
+fn is_file_of(family: &str, name: &str) -> bool {
+    let page = || {
+        let (number, extension) = name.strip_prefix(family)?.strip_prefix('-')?.split_once('.')?;
+        let is_format = Format::ALL.iter().any(|format| format.name() == extension);
+        (is_format && number.bytes().all(|b| b.is_ascii_digit())).then_some(number)
+    };
+    TABLES.contains(&name) || page().is_some_and(|number| number.len() >= 3)
+}
+
+/// The record of a family all of whose files are as they would be if they were made from these inputs now: those it
+/// has in these formats.
+pub(super) fn unchanged(
+    earlier: &FamilyRecord,
+    inputs: &str,
+    formats: &[Format],
+    folder: &Path,
+) -> Option<FamilyRecord> {
+    if earlier.inputs_sha256.as_deref() != Some(inputs) {
+        return None;
+    }
+    let known: std::collections::HashMap<&str, &FileRecord> =
+        earlier.files.iter().map(|file| (file.name.as_str(), file)).collect();
+    let tables = TABLES.iter().map(|name| known.get(name).filter(|file| file.sha256.is_some()));
+    let page = |page| formats.iter().map(move |&format| (page, format));
+    let pages = (1..=earlier.pages).flat_map(page).map(|(page, format)| {
+        known.get(page_name(&earlier.id, page, format).as_str()).filter(|file| file.inputs_sha256.is_some())
+    });
+    // A record that has not all of them ends this at the first that it has not.
+    let expected: Option<Vec<&FileRecord>> = tables.chain(pages).map(|file| file.copied()).collect();
+    let expected = expected?;
+    let all_intact = expected.par_iter().all(|file| files::is_intact(folder, file));
+    all_intact.then(|| FamilyRecord { files: expected.into_iter().cloned().collect(), ..earlier.clone() })
+}

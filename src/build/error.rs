@@ -1,0 +1,51 @@
+use std::io;
+use std::path::PathBuf;
+
+use crate::record::ReadError;
+use crate::render;
+
+/// Why a plan was not built, or a file not read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A text cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file or folder cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The record of an earlier run cannot be used.
+    #[error("cannot use {}, which tells what the other families have: {source}; render all of them", path.display())]
+    Record {
+        /// The record.
+        path: PathBuf,
+        /// Why.
+        source: ReadError,
+    },
+    /// A page makes no image.
+    #[error("cannot draw {name}: {error}")]
+    Image {
+        /// The image.
+        name: String,
+        /// Why.
+        error: render::PngError,
+    },
+    /// Another run has not ended.
+    #[error("another run is writing to {}: wait for its end, or name another folder with -o", folder.display())]
+    Busy {
+        /// Where both write to.
+        folder: PathBuf,
+    },
+    /// The run was asked to stop.
+    #[error("interrupted: what is finished is kept, and the next run goes on from there")]
+    Interrupted,
+}

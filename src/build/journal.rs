@@ -1,0 +1,87 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::Error;
+use super::files::{self, write};
+use crate::manifest::Plan;
+use crate::record::{FamilyRecord, Run};
+
+/// `run.json` as it grows: at any time it says no more than what is so, whatever comes next.
+#[derive(Debug)]
+pub(super) struct Journal<'a> {
+    plan: &'a Plan,
+    path: PathBuf,
+    /// What is known of families, done in this run or an earlier one.
+    families: Vec<FamilyRecord>,
+    /// What is in the file.
+    written: Vec<u8>,
+}
+
+impl<'a> Journal<'a> {
+    /// The journal of a folder, with what is left in it of an earlier run.
+    pub fn open(plan: &'a Plan, output: &Path, earlier: Option<Run>) -> Journal<'a> {
+        let path = output.join("run.json");
+        // Where it cannot be read there is none, or it is one that is replaced.
+        let written = fs::read(&path).unwrap_or_default();
+        Journal { plan, path, families: earlier.map(|run| run.families).unwrap_or_default(), written }
+    }
+
+    /// What is known of a family.
+    pub fn of(&self, id: &str) -> Option<&FamilyRecord> {
+        self.families.iter().find(|record| record.id == id)
+    }
+
+    /// Replaces what is known of a family, on disk too.
+    pub fn put(&mut self, record: FamilyRecord) -> Result<(), Error> {
+        match self.families.iter_mut().find(|known| known.id == record.id) {
+            Some(known) if *known == record => return Ok(()),
+            Some(known) => *known = record,
+            None => self.families.push(record),
+        }
+        self.save()?;
+        Ok(())
+    }
+
+    /// Removes what families left that the plan no longer has, and forgets them.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn drop_others(&mut self, output: &Path) -> Result<(), Error> {
+        let is_planned = |record: &FamilyRecord| self.plan.families.iter().any(|p| p.family.id == record.id);
+        for record in self.families.iter().filter(|record| !is_planned(record)) {
+            let folder = output.join(&record.id);
+            files::remove_leftovers(&folder);
+            files::remove(&folder, record.files.iter().map(|file| file.name.as_str()))?;
+            // A folder that is not empty has something of others in it, and stays.
+            let _ = fs::remove_dir(&folder);
+        }
+        let plan = self.plan;
+        self.families.retain(|record| plan.families.iter().any(|p| p.family.id == record.id));
+        Ok(())
+    }
+
+    /// What is known, the families in the order of the plan, those it does not have at the end.
+    fn run(&self) -> Run {
+        let mut run = Run::new(&self.plan.title);
+        let place = |record: &FamilyRecord| self.plan.families.iter().position(|p| p.family.id == record.id);
+        run.families = self.families.clone();
+        run.families.sort_by_key(|record| place(record).unwrap_or(usize::MAX));
+        run
+    }
+
+    /// Writes what is known, if the file does not say it yet.
+    fn save(&mut self) -> Result<Run, Error> {
+        let run = self.run();
+        let bytes = run.to_bytes();
+        if bytes != self.written {
+            write(&self.path, &bytes)?;
+            self.written = bytes;
+        }
+        Ok(run)
+    }
+
+    /// The finished record.
+    pub fn close(mut self) -> Result<Run, Error> {
+        self.save()
+    }
+}

@@ -1,0 +1,44 @@
+use crate::notation::{Fields, Value, normal};
+
+/// What a manifest says of that which a family's files are made from, in a form that does not tell how it was written.
+///
+/// Two manifests in which it is the same, read by the same version of the program, make the same files.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// All of it, but the formats.
+    pub family: String,
+    /// What the pages of some cells are drawn from, beside the cells' own values and their curves.
+    pub page: String,
+}
+
+/// Keys of [atlas] that say where files go, not what is in them.
+const PLACES: [&str; 2] = ["output", "formats"];
+/// Keys of a family that say the same.
+const FILES: [&str; 2] = ["formats", "limit"];
+/// Keys of a family, with [`FILES`], that come to the values of cells, their curves and their order.
+const CELLS: [&str; 7] = ["formats", "limit", "grid", "cases", "let", "where", "sort"];
+
+impl Inputs {
+    /// What a manifest says of a family's table in it.
+    pub(super) fn of(root: &Fields, family: &Value) -> Inputs {
+        let named = |key: &str, table: &Value| {
+            let name = table.get_ref().as_table().and_then(|table| table.get(key))?;
+            name.get_ref().as_str().map(str::to_owned)
+        };
+        let linkage = named("linkage", family);
+        // Whatever is in a manifest beside families and linkages goes for all of them.
+        let mut common = String::new();
+        for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage"].contains(key)) {
+            let leaving_out: &[&str] = if key == "atlas" { &PLACES } else { &[] };
+            common.push_str(&format!("{key:?}={},", normal(value, leaving_out)));
+        }
+        let linkages = root.get("linkage").and_then(|value| value.get_ref().as_array());
+        for own in linkages.into_iter().flatten().filter(|own| named("id", own) == linkage) {
+            common.push_str(&normal(own, &[]));
+        }
+        Inputs {
+            family: format!("{common}{}", normal(family, &FILES)),
+            page: format!("{common}{}", normal(family, &CELLS)),
+        }
+    }
+}

@@ -1,0 +1,513 @@
+//! A second run draws what has changed and nothing else, whatever happened to the first.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::SystemTime;
+
+use sha2::{Digest, Sha256};
+use tempfile::TempDir;
+
+/// Three pages of panels, one of charts, one with a cell that is not assembled.
+const MANIFEST: &str = r#"[atlas]
+title = "T"
+output = "out"
+formats = ["svg", "png"]
+[page]
+paper = { width = "120 mm", height = "90 mm" }
+dpi = 40
+[[family]]
+id = "evans"
+linkage = "evans"
+panels = [1, 1]
+sampling = { step = "10 deg" }
+cases = [{ p = 2, a = 2.5 }, { p = 3, a = 4.0 }, { p = 4, a = 5.6 }]
+[[family]]
+id = "over"
+linkage = "evans"
+sampling = { step = "10 deg" }
+grid = { p = [2, 3, 4] }
+let = { a = "(1 + p)^1.5 / 2" }
+layout = "chart"
+chart = { x = "p", y = ["length"] }
+[[family]]
+id = "far"
+linkage = "mine"
+panels = [1, 1]
+sampling = { samples = 20 }
+cases = [{ p = 4 }, { p = 90 }]
+[[linkage]]
+id = "mine"
+parameters = { p = { min = 0 } }
+caption = "p = {p:.1}"
+trace = ["M"]
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = ["p", 0] }
+A = { crank = "O", length = 1 }
+B = { dyad = ["A", "C"], lengths = [4, 3], side = "left" }
+M = { point = ["A", "B"], along = 2, across = 1 }
+"#;
+
+struct Atlas(TempDir);
+
+impl Atlas {
+    fn new(manifest: &str) -> Atlas {
+        let atlas = Atlas(TempDir::new().unwrap());
+        atlas.edit(manifest);
+        atlas
+    }
+
+    fn edit(&self, manifest: &str) {
+        fs::write(self.0.path().join("atlas.toml"), manifest).unwrap();
+    }
+
+    fn out(&self) -> std::path::PathBuf {
+        self.0.path().join("out")
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        command.current_dir(self.0.path()).arg("render").args(arguments);
+        command
+    }
+
+    /// The exit code, standard output and standard error of a run.
+    fn run(&self, arguments: &[&str]) -> (i32, String, String) {
+        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
+        (status.code().unwrap_or(-1), String::from_utf8(stdout).unwrap(), String::from_utf8(stderr).unwrap())
+    }
+
+    /// Renders, and tells what was said and which files were written or removed.
+    fn touched(&self, arguments: &[&str]) -> (String, Vec<String>) {
+        let before = times(&self.out());
+        let (code, out, err) = self.run(arguments);
+        assert_eq!(code, 0, "{err}");
+        let after = times(&self.out());
+        let names = before.keys().chain(after.keys().filter(|name| !before.contains_key(*name)));
+        let mut touched: Vec<String> = names.filter(|&name| before.get(name) != after.get(name)).cloned().collect();
+        touched.sort();
+        record_is_true(&self.out());
+        (out, touched)
+    }
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() {
+            found.extend(files(&path).into_iter().map(|file| format!("{name}/{file}")));
+        } else {
+            found.push(name);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn times(folder: &Path) -> BTreeMap<String, SystemTime> {
+    let time = |name: String| (name.clone(), fs::metadata(folder.join(name)).unwrap().modified().unwrap());
+    files(folder).into_iter().map(time).collect()
+}
+
+fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    files(folder).into_iter().map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
+}
+
+/// Every digest in `run.json` is that of the file; every page is whole. How many pages are claimed to be made.
+fn record_is_true(out: &Path) -> usize {
+    let mut claimed = 0;
+    if let Ok(text) = fs::read_to_string(out.join("run.json")) {
+        let record: serde_json::Value = serde_json::from_str(&text).unwrap();
+        for family in record["families"].as_array().unwrap() {
+            for file in family["files"].as_array().unwrap() {
+                let path = out.join(family["id"].as_str().unwrap()).join(file["name"].as_str().unwrap());
+                claimed += usize::from(!file["inputs_sha256"].is_null());
+                if let Some(sha256) = file["sha256"].as_str() {
+                    assert_eq!(format!("{:x}", Sha256::digest(fs::read(&path).unwrap())), sha256, "{}", path.display());
+                }
+            }
+        }
+    }
+    for (name, bytes) in tree(out) {
+        assert!(!name.ends_with(".svg") || bytes.ends_with(b"</svg>\n"), "{name} is not whole");
+        assert!(!name.ends_with(".csv") || bytes.ends_with(b"\n"), "{name} is not whole");
+    }
+    claimed
+}
+
+#[test]
+fn an_unchanged_atlas_is_left_alone() {
+    let atlas = Atlas::new(MANIFEST);
+    let (_, out, _) = atlas.run(&[]);
+    assert!(out.contains("evans: 3 cells, 3 curves, 3 pages\n"), "{out}");
+    let (out, touched) = atlas.touched(&[]);
+    assert_eq!(touched, [""; 0]);
+    assert!(out.contains("evans: 3 cells, 3 curves, 3 pages (unchanged)\n"), "{out}");
+    assert!(out.contains("over: 3 cells, 3 curves, 1 page (unchanged)\n"), "{out}");
+    // What says the same in other words changes nothing.
+    atlas.edit(&MANIFEST.replace("dpi = 40", "dpi = 40.0 # coarse").replace("p = 3, a = 4.0", "p=3,   a=4"));
+    assert_eq!(atlas.touched(&[]).1, [""; 0]);
+    // What falls short is told all the same.
+    let (code, out, err) = atlas.run(&["--strict"]);
+    assert_eq!(code, 1);
+    assert!(out.contains("far: 2 cells (1 not assembled), 1 curve, 2 pages (unchanged)\n"), "{out}");
+    assert!(err.contains("warning: far, cell 2: B cannot be placed: A and C are "), "{err}");
+}
+
+#[test]
+fn force_draws_everything() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let before = tree(&atlas.out());
+    let (out, touched) = atlas.touched(&["--force"]);
+    assert_eq!(touched.len(), before.len(), "{touched:?}");
+    assert!(!out.contains("unchanged") && !out.contains("drawn"), "{out}");
+    assert_eq!(tree(&atlas.out()), before);
+}
+
+#[test]
+fn a_changed_case_draws_its_page() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let changed = MANIFEST.replace("{ p = 3, a = 4.0 }", "{ p = 3, a = 4.1 }");
+    atlas.edit(&changed);
+    let (out, touched) = atlas.touched(&[]);
+    assert!(out.contains("evans: 3 cells, 3 curves, 3 pages (1 of 3 pages drawn)\n"), "{out}");
+    let expected = ["evans/cells.csv", "evans/evans-002.png", "evans/evans-002.svg", "evans/points.csv", "run.json"];
+    assert_eq!(touched, expected);
+    let fresh = Atlas::new(&changed);
+    fresh.run(&[]);
+    assert_eq!(tree(&atlas.out()), tree(&fresh.out()));
+}
+
+#[test]
+fn whatever_pages_are_made_from_draws_them() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let drawn = |from: &str, to: &str, pages: &[&str]| {
+        assert!(MANIFEST.contains(from), "{from}");
+        let changed = MANIFEST.replacen(from, to, 1);
+        atlas.edit(&changed);
+        let (_, touched) = atlas.touched(&[]);
+        let is_page = |name: &&String| name.ends_with(".svg");
+        assert_eq!(touched.iter().filter(is_page).collect::<Vec<_>>(), pages, "{from} -> {to}");
+        let fresh = Atlas::new(&changed);
+        fresh.run(&[]);
+        assert!(tree(&atlas.out()) == tree(&fresh.out()), "{from} -> {to}");
+        atlas.edit(MANIFEST);
+        atlas.touched(&[]);
+    };
+    let evans = ["evans/evans-001.svg", "evans/evans-002.svg", "evans/evans-003.svg"];
+    let far = ["far/far-001.svg", "far/far-002.svg"];
+    let over = ["over/over-001.svg"];
+    let all = [&evans[..], &far, &over].concat();
+    drawn("\"T\"", "\"U\"", &all);
+    drawn("dpi = 40", "dpi = 50", &all);
+    drawn("dpi = 40", "dpi = 40\ndash = \"10 deg\"", &all);
+    drawn("dpi = 40", "dpi = 40\ntheme = \"dark\"", &all);
+    drawn("width = \"120 mm\"", "width = \"130 mm\"", &all);
+    drawn("panels = [1, 1]", "panels = [1, 1]\ntitle = \"Evans\"", &evans);
+    drawn("\"10 deg\" }\ncases", "\"5 deg\" }\ncases", &evans);
+    drawn("along = 2", "along = 3", &far);
+    drawn("{p:.1}", "{p:.2}", &far);
+    drawn("p = [2, 3, 4]", "p = [2, 3, 5]", &over);
+    // Another number of pages is on all of them; what comes to the same cells and curves is on none.
+    drawn(", { p = 4, a = 5.6 }]", "]", &evans);
+    drawn("cases = [{ p = 2", "where = \"p > 1\"\ncases = [{ p = 2", &[]);
+    drawn("cases = [{ p = 2", "where = \"p > 2\"\ncases = [{ p = 2", &evans);
+    drawn("cases = [{ p = 2", "sort = \"-p\"\ncases = [{ p = 2", &[evans[0], evans[2]]);
+}
+
+#[test]
+fn a_file_that_is_not_as_it_was_left_is_restored() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let before = tree(&atlas.out());
+    let cut = |name: &str| before[name][..before[name].len() - 5].to_vec();
+    let mut edited = before["evans/evans-001.svg"].clone();
+    edited[100] ^= 1;
+    for (name, bytes) in [
+        ("evans/evans-001.svg", Some(edited)),
+        ("evans/evans-002.svg", None),
+        ("evans/evans-003.png", Some(cut("evans/evans-003.png"))),
+        ("evans/evans-003.png", Some(Vec::new())),
+        ("over/over-001.svg", Some(cut("over/over-001.svg"))),
+        ("far/points.csv", Some(cut("far/points.csv"))),
+        ("far/cells.csv", None),
+    ] {
+        let path = atlas.out().join(name);
+        match bytes {
+            Some(bytes) => fs::write(&path, bytes).unwrap(),
+            None => fs::remove_file(&path).unwrap(),
+        }
+        let (_, touched) = atlas.touched(&[]);
+        let family = name.split('/').next().unwrap();
+        let mut expected = vec![format!("{family}/cells.csv"), format!("{family}/points.csv"), name.to_owned()];
+        expected.push("run.json".to_owned());
+        expected.sort();
+        expected.dedup();
+        assert_eq!(touched, expected);
+        assert!(tree(&atlas.out()) == before, "{name}");
+    }
+}
+
+#[test]
+fn what_no_longer_belongs_is_removed_and_nothing_else() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let strangers = ["notes.txt", "evans/notes.txt", "evans/evans-009.png", "far/far-001.svg.bak"];
+    strangers.iter().for_each(|name| fs::write(atlas.out().join(name), "mine").unwrap());
+    let fewer = MANIFEST.replace(", { p = 4, a = 5.6 }]", "]").replace("\"over\"", "\"above\"");
+    atlas.edit(&fewer.replace("id = \"far\"", "id = \"near\""));
+    // Others' families are left alone where some are asked for, also those that are no more.
+    let (_, touched) = atlas.touched(&["--only", "evans"]);
+    assert!(touched.iter().all(|name| name.starts_with("evans/") || name == "run.json"), "{touched:?}");
+    assert!(touched.contains(&"evans/evans-003.svg".to_owned()) && !atlas.out().join("evans/evans-003.svg").exists());
+    atlas.touched(&[]);
+    let fresh = Atlas::new(&fewer.replace("id = \"far\"", "id = \"near\""));
+    fresh.run(&[]);
+    let mut left = tree(&atlas.out());
+    for name in strangers {
+        assert_eq!(left.remove(name).as_deref(), Some(&b"mine"[..]), "{name}");
+    }
+    assert!(left == tree(&fresh.out()));
+    assert!(!atlas.out().join("over").exists(), "an empty folder goes");
+    assert!(atlas.out().join("far").exists(), "one with something of others in it stays");
+    // Pages in other formats are asked for no longer, too.
+    atlas.touched(&["--format", "svg"]);
+    let images: Vec<String> = files(&atlas.out()).into_iter().filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(images, ["evans/evans-009.png"]);
+}
+
+#[test]
+fn a_record_that_cannot_be_read_removes_nothing() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let before = tree(&atlas.out());
+    for text in ["{", "{\"format\": 99}", "\u{0}", "{\"format\": 1, \"families\": 7}"] {
+        fs::write(atlas.out().join("run.json"), text).unwrap();
+        fs::write(atlas.out().join("evans/evans-004.svg"), "old").unwrap();
+        let (code, out, err) = atlas.run(&[]);
+        assert_eq!(code, 0);
+        assert!(err.contains("warning: out/run.json is no help: "), "{err}");
+        assert!(!out.contains("unchanged"), "{out}");
+        fs::remove_file(atlas.out().join("evans/evans-004.svg")).unwrap();
+        assert!(tree(&atlas.out()) == before);
+    }
+}
+
+/// Whoever can write `run.json` cannot make the program remove or trust what is not its own.
+#[test]
+fn a_record_is_not_trusted_with_other_folders() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let path = atlas.out().join("run.json");
+    let record: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    let outside = atlas.0.path().join("evans-001.svg");
+    let absolute = outside.to_string_lossy().into_owned();
+    fs::write(&outside, "mine").unwrap();
+    fs::create_dir_all(atlas.out().join("other/evans-007.svg")).unwrap();
+    for name in ["notes.txt", "evans/evans-notes.svg", "other/notes.txt", "other/other-1.svg"] {
+        fs::write(atlas.out().join(name), "mine").unwrap();
+    }
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../aside", atlas.out().join("linked")).unwrap();
+    fs::create_dir(atlas.0.path().join("aside")).unwrap();
+    fs::write(atlas.0.path().join("aside/cells.csv"), "mine").unwrap();
+    let kept = |atlas: &Atlas| {
+        let mut left = tree(atlas.0.path());
+        left.retain(|_, bytes| bytes == b"mine");
+        left.len()
+    };
+    let before = kept(&atlas);
+    let names = [
+        "../evans-001.svg",
+        "../../evans-001.svg",
+        "../notes.txt",
+        "evans-notes.svg",
+        "notes.txt",
+        "evans-007.svg",
+        "..",
+        ".",
+        "",
+        "/etc/hostname",
+        "..\\notes.txt",
+        "other-1.svg",
+        "cells.csv",
+        &absolute,
+    ];
+    for id in ["evans", "..", ".", "", "../..", "other", "linked", "evans/../..", "/tmp"] {
+        let mut evil = record.clone();
+        let mut family = evil["families"][0].clone();
+        let entry = |name: &&str| serde_json::json!({ "name": name, "sha256": "00", "inputs_sha256": "00" });
+        family["id"] = id.into();
+        family["pages"] = u64::MAX.into();
+        family["files"] = names.iter().map(entry).collect::<Vec<_>>().into();
+        evil["families"].as_array_mut().unwrap().insert(0, family);
+        fs::write(&path, evil.to_string()).unwrap();
+        let (code, _, err) = atlas.run(&[]);
+        assert_eq!(code, 0, "{err}");
+        assert_eq!(kept(&atlas), before, "{id}");
+    }
+    assert!(atlas.out().join("other/evans-007.svg").is_dir());
+}
+
+/// As many pages as it takes to be interrupted while some of them are drawn.
+fn many(step: &str, title: &str) -> String {
+    format!(
+        "[atlas]\ntitle = \"{title}\"\noutput = \"out\"\nformats = [\"svg\"]\n[[family]]\nid = \"few\"\nlinkage = \"evans\"\n\
+         sampling = {{ step = \"10 deg\" }}\ncases = [{{ p = 2, a = 2.5 }}]\n[[family]]\nid = \"many\"\n\
+         linkage = \"evans\"\npanels = [1, 1]\nsampling = {{ step = \"{step}\" }}\n\
+         grid = {{ p = {{ from = 2, to = 4, count = 30 }}, k = {{ from = 1, to = 2, count = 20 }} }}\n\
+         let = {{ a = \"(1 + p)^1.5 / 2\" }}\n"
+    )
+}
+
+/// Starts a run and waits until it has come to a point.
+fn started(atlas: &Atlas, mut has_come: impl FnMut() -> bool) -> Child {
+    let mut child = atlas.command(&[]).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while !has_come() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    child
+}
+
+fn has_drawn(atlas: &Atlas, count: usize) -> impl FnMut() -> bool {
+    let begun = SystemTime::now();
+    let folder = atlas.out().join("many");
+    let is_new = move |time: &SystemTime| *time >= begun;
+    move || {
+        let entries = fs::read_dir(&folder).into_iter().flatten().flatten();
+        let pages = entries.filter(|entry| entry.path().extension().is_some_and(|e| e == "svg"));
+        pages.filter_map(|page| page.metadata().ok()?.modified().ok()).filter(is_new).count() >= count
+    }
+}
+
+#[cfg(unix)]
+fn terminate(child: &Child) {
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_interrupted_is_gone_on_with() {
+    let manifest = many("10 deg", "T");
+    let fresh = Atlas::new(&manifest);
+    fresh.run(&[]);
+    let expected = tree(&fresh.out());
+    for moment in [1, 40, 300] {
+        let atlas = Atlas::new(&manifest);
+        let child = started(&atlas, has_drawn(&atlas, moment));
+        terminate(&child);
+        let Output { status, stderr, .. } = child.wait_with_output().unwrap();
+        assert_eq!(status.code(), Some(130));
+        let message = "error: interrupted: what is finished is kept, and the next run goes on from there\n";
+        assert_eq!(String::from_utf8(stderr).unwrap(), message);
+        // Nothing is left that is not finished, and everything that is finished is recorded.
+        let pages: Vec<String> = files(&atlas.out()).into_iter().filter(|name| name.ends_with(".svg")).collect();
+        assert!(pages.len() > moment && pages.len() < 601, "{}", pages.len());
+        assert_eq!(record_is_true(&atlas.out()), pages.len());
+        let others = files(&atlas.out()).into_iter().filter(|name| !name.ends_with(".svg")).collect::<Vec<_>>();
+        assert_eq!(others, ["few/cells.csv", "few/points.csv", "run.json"]);
+        let (out, touched) = atlas.touched(&[]);
+        assert!(touched.iter().all(|name| !pages.contains(name)), "{touched:?}");
+        assert!(out.contains(&format!("({} of 600 pages drawn)", 601 - pages.len())), "{out}");
+        assert!(tree(&atlas.out()) == expected);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_change_leaves_old_and_new_files_whole() {
+    let [old, new] = ["10 deg", "12 deg"].map(|step| {
+        let atlas = Atlas::new(&many(step, "T"));
+        atlas.run(&[]);
+        atlas
+    });
+    let (before, after) = (tree(&old.out()), tree(&new.out()));
+    old.edit(&many("12 deg", "T"));
+    let child = started(&old, has_drawn(&old, 100));
+    terminate(&child);
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+    record_is_true(&old.out());
+    let between = tree(&old.out());
+    assert!(between.keys().eq(after.keys()));
+    for (name, bytes) in between.iter().filter(|(name, _)| *name != "run.json") {
+        assert!(*bytes == before[name] || *bytes == after[name], "{name}");
+    }
+    // Both what has been drawn and what has not been touched is known: the way back is as short as the way on.
+    let drawn = between.iter().filter(|(name, bytes)| name.ends_with(".svg") && **bytes != before[*name]).count();
+    old.edit(&many("10 deg", "T"));
+    let (out, _) = old.touched(&[]);
+    let redrawn: usize = out.split(" of 600").next().unwrap().rsplit('(').next().unwrap().parse().unwrap();
+    assert!(redrawn >= drawn && redrawn < 400, "{redrawn} after {drawn}: {out}");
+    assert!(tree(&old.out()) == before);
+}
+
+#[test]
+fn a_run_that_is_killed_is_gone_on_with() {
+    let manifest = many("10 deg", "T");
+    let fresh = Atlas::new(&manifest);
+    fresh.run(&[]);
+    let expected = tree(&fresh.out());
+    let atlas = Atlas::new(&manifest);
+    for moment in [1, 50, 200] {
+        let mut child = started(&atlas, has_drawn(&atlas, moment));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        record_is_true(&atlas.out());
+    }
+    // What a run that was killed has left is removed by the next.
+    fs::write(atlas.out().join("many/.coupler-atlas-x1y2z3.tmp"), "half a pa").unwrap();
+    assert!(atlas.out().join(".coupler-atlas.lock").exists(), "the lock of a run that is no more");
+    let record = atlas.out().join("run.json");
+    let has_recorded = || fs::read_to_string(&record).is_ok_and(|text| text.contains("many-001.svg"));
+    let mut child = started(&atlas, has_recorded);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let claimed = record_is_true(&atlas.out());
+    assert!(claimed > 100, "pages are recorded on the way: {claimed}");
+    let (out, _) = atlas.touched(&[]);
+    assert!(out.contains(&format!("({} of 600 pages drawn)", 601 - claimed)), "{out}");
+    assert!(tree(&atlas.out()) == expected);
+}
+
+#[test]
+fn a_change_that_is_killed_claims_nothing_for_the_old_files() {
+    let atlas = Atlas::new(&many("10 deg", "T"));
+    atlas.run(&[]);
+    let before = tree(&atlas.out());
+    atlas.edit(&many("10 deg", "U"));
+    let mut child = started(&atlas, has_drawn(&atlas, 100));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(record_is_true(&atlas.out()) < 500);
+    atlas.edit(&many("10 deg", "T"));
+    atlas.touched(&[]);
+    assert!(tree(&atlas.out()) == before);
+}
+
+#[test]
+fn two_runs_do_not_write_to_one_folder() {
+    let atlas = Atlas::new(&many("10 deg", "T"));
+    fs::create_dir(atlas.out()).unwrap();
+    fs::write(atlas.out().join(".coupler-atlas.lock"), "").unwrap();
+    let mut child = started(&atlas, has_drawn(&atlas, 1));
+    let (code, out, err) = atlas.run(&[]);
+    assert_eq!((code, out.as_str()), (3, ""));
+    assert_eq!(err, "error: another run is writing to out: wait for its end, or name another folder with -o\n");
+    assert_eq!(atlas.run(&["-o", "elsewhere"]).0, 0);
+    assert!(child.wait().unwrap().success());
+    assert!(!atlas.out().join(".coupler-atlas.lock").exists());
+    assert!(tree(&atlas.out()) == tree(&atlas.0.path().join("elsewhere")));
+    // However many come one after the other, each finds the lock free or taken.
+    let mut children: Vec<Child> =
+        (0..8).map(|_| atlas.command(&["--quiet"]).stderr(Stdio::null()).spawn().unwrap()).collect();
+    let codes: Vec<_> = children.iter_mut().map(|child| child.wait().unwrap().code()).collect();
+    assert!(codes.iter().all(|code| [Some(0), Some(3)].contains(code)) && codes.contains(&Some(0)), "{codes:?}");
+    assert!(!atlas.out().join(".coupler-atlas.lock").exists());
+}
