@@ -127,6 +127,12 @@ impl Annulus {
         ring.radius.is_finite().then_some(ring)
     }
 
+    /// The circles about a centre that hold some points between them.
+    pub fn round(centre: Point, points: &[Point]) -> Annulus {
+        let [low, high] = extent(points, |p| (p - centre).norm_squared()).map(f64::sqrt);
+        Annulus { centre, radius: (low + high) / 2.0, width: high - low }
+    }
+
     /// The circles about a centre through two points.
     fn about(centre: Point, through: [Point; 2]) -> Annulus {
         let [a, b] = through.map(|p| (p - centre).norm());

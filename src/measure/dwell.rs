@@ -5,6 +5,8 @@
 //! or a little of it. Of all the one that spans the most input is the best. What fits an annulus fits with any part of it, so that it is found by moving both
 //! ends along the curve once, and then between samples.
 
+use std::cell::RefCell;
+
 use super::annulus::{Annulus, Turns};
 use super::course::{Course, Fit};
 use super::strip::{diameter, hull};
@@ -65,10 +67,16 @@ fn of(subject: &Subject, value: fn(&Dwell) -> f64) -> Value {
 /// The best circular portion of a curve; `None` of a point or a straight line.
 pub(super) fn dwell(course: &Course) -> Option<Dwell> {
     let extent = diameter(&hull(course.points[..=course.starts].to_vec()));
-    let search = Search { course, width: TOLERANCE * extent, largest: course.way[course.starts] };
+    let search =
+        Search { course, width: TOLERANCE * extent, largest: course.way[course.starts], fitting: RefCell::default() };
     let ends = search.longest()?;
     let points = course.portion(ends);
-    let Annulus { centre, radius, width } = Turns::default().within(&points, f64::INFINITY, search.largest)?;
+    // On a long arc the exchange of points may end at a ring that is not the narrowest: then the portion has a better one,
+    // by which it was found to fit.
+    let anew = Turns::default().within(&points, f64::INFINITY, search.largest);
+    let found = search.fitting.borrow().iter().rev().find(|(other, _)| *other == ends).map(|(_, centre)| *centre);
+    let rings = anew.into_iter().chain(found.map(|centre| Annulus::round(centre, &points)));
+    let Annulus { centre, radius, width } = rings.min_by(|a, b| a.width.total_cmp(&b.width))?;
     let (start, input) = (course.input(ends[0]), course.spanned(ends));
     Some(Dwell { centre, radius, deviation: width / 2.0, start, input, points })
 }
@@ -78,6 +86,8 @@ struct Search<'a> {
     course: &'a Course,
     width: f64,
     largest: f64,
+    /// The ends and the centres of portions that were found to fit between points.
+    fitting: RefCell<Vec<([f64; 2], Point)>>,
 }
 
 impl Search<'_> {
@@ -123,6 +133,9 @@ impl Search<'_> {
                 points.extend(passed(end, to - 1.0).into_iter().rev());
                 let ring = turns.within(&points, f64::INFINITY, self.largest);
                 let excess = ring.map_or(f64::INFINITY, |ring| ring.width) - self.width;
+                if let Some(ring) = ring.filter(|_| excess <= 0.0) {
+                    self.fitting.borrow_mut().push(([start, end], ring.centre));
+                }
                 Fit { size: before + course.spanned([from + 1.0, end]), excess }
             }
         };
