@@ -51,6 +51,7 @@ pub struct Subject<'a> {
     pub joint: JointId,
     /// What is asked of its straight portion.
     pub asked: Straight,
+    alone: OnceCell<(Linkage, JointId)>,
     trail: OnceCell<Rc<Trail>>,
     course: OnceCell<Course>,
     straight: OnceCell<Option<Portion>>,
@@ -63,7 +64,7 @@ pub struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
-        let (trail, course, straight, dwell, symmetry, transmission, cusps) = Default::default();
+        let (alone, trail, course, straight, dwell, symmetry, transmission, cusps) = Default::default();
         let asked = Straight::default();
         Subject {
             linkage,
@@ -71,6 +72,7 @@ impl<'a> Subject<'a> {
             circuit,
             joint,
             asked,
+            alone,
             trail,
             course,
             straight,
@@ -94,6 +96,12 @@ impl<'a> Subject<'a> {
     /// The least and the greatest transmission angle, in degrees.
     fn transmission(&self) -> Option<[f64; 2]> {
         *self.transmission.get_or_init(|| transmission::least_and_greatest(self))
+    }
+
+    /// The linkage without other traced points, and the joint in it: what is asked at many inputs is asked of this.
+    fn alone(&self) -> (&Linkage, JointId) {
+        let (linkage, joint) = self.alone.get_or_init(|| self.linkage.with_one_point(self.joint));
+        (linkage, *joint)
     }
 
     /// How often the path stands still and turns back.
