@@ -17,6 +17,7 @@ use crate::record::{BookRecord, FileRecord};
 use crate::render::{Format, pdf};
 use crate::scene::Scene;
 use crate::sweep::{self, Arrangement, Groups, Solved};
+use crate::template::Circuits;
 
 /// The program, as a book names it.
 const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
@@ -92,7 +93,10 @@ fn chapter<'a>(planned: &'a PlannedFamily, arrangement: &Arrangement, setting: &
         Cell { caption, page: setting.page_of(k) }
     };
     let cells = if planned.chart.is_none() { arrangement.order.iter().enumerate().map(cell).collect() } else { vec![] };
-    Chapter { title: &family.title, symbols: &family.names, curves: None, pages: setting.pages, cells }
+    // Points are counted for coupler grids; on the one circuit of the start each draws one curve.
+    let is_counted = planned.layout == Layout::CouplerGrid && family.template.circuits == Circuits::Start;
+    let curves = is_counted.then(|| arrangement.points.iter().sum());
+    Chapter { title: &family.title, symbols: &family.names, curves, pages: setting.pages, cells }
 }
 
 /// Composes all pages, adds them to the volumes in order, and writes these: their files, and how many pages they have.
