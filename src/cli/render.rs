@@ -20,7 +20,7 @@ pub struct Arguments {
     /// The folder to write to, relative to the current folder [default: the manifest's `output`, beside it].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The formats of all pages, in place of the manifest's; an earlier run's pages in others are removed.
+    /// The formats of pages, in place of the manifest's: svg, png, pdf (one book). What an earlier run drew in others stays.
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = format)]
     format: Option<Vec<Format>>,
     /// Render this family only, and leave the others' files as they are; may be given more than once.
