@@ -358,6 +358,15 @@ fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
     }
 }
 
+/// The weight of the dashes in the table beside a point.
+fn swatch_weight(group: &Group) -> f64 {
+    let dashes = group.items.iter().find_map(|item| match item {
+        Item::Path(path) if path.lines.len() == 2 => path.stroke,
+        _ => None,
+    });
+    dashes.unwrap().width
+}
+
 #[test]
 fn curves_of_one_ink_differ_in_every_theme() {
     for named in Theme::NAMED {
@@ -367,6 +376,13 @@ fn curves_of_one_ink_differ_in_every_theme() {
         let theme = &plan.page.theme;
         let inks: Vec<Color> = paths(&scene, &["curve"]).into_iter().map(color).collect();
         assert_eq!(inks, [theme.curves.clone(), theme.curves.clone()].concat(), "{}", named.name);
+        // The table shows each in its weight, the second five with a line under the dashes as well.
+        let weights = |class: &str| -> Vec<f64> {
+            paths(&scene, &[class]).iter().map(|path| path.stroke.unwrap().width).collect()
+        };
+        let dashes: Vec<f64> = groups(&scene, "swatch").iter().map(|group| swatch_weight(group)).collect();
+        assert_eq!(dashes, weights("curve"), "{}", named.name);
+        assert_eq!(weights("swatch").len(), 15);
         // The second five have a thin unbroken line under their dashes, and full points.
         let trails = paths(&scene, &["trail"]);
         assert_eq!(trails.iter().map(|path| color(path)).collect::<Vec<_>>(), theme.curves, "{}", named.name);
