@@ -29,6 +29,12 @@ impl Plot {
         Plot { page_from_plane: Similarity::page_from_plane(bounds, self.frame.centre(), scale), ..self }
     }
 
+    /// The frame less its foot, where the scale bar stands, and with what is kept free round the figure.
+    pub fn above_bar(&self, theme: &Theme) -> Frame {
+        let free = Vector::repeat(2.0 * theme.joint);
+        Frame { corner: self.frame.corner - free, size: self.frame.size + free * 2.0 }
+    }
+
     /// A scale bar under the frame: a round number of units, about a fifth of the frame's width.
     pub fn bar(&self, area: &Area, theme: &Theme) {
         let scale = self.page_from_plane.scale;

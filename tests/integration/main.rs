@@ -7,6 +7,7 @@ mod catalogue;
 mod charts;
 mod circuits;
 mod cognates;
+mod coupler_grid;
 mod design;
 mod house;
 mod instant;

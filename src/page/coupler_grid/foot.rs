@@ -13,7 +13,9 @@ pub(super) fn draw(area: &Area, sheet: &GridSheet, options: &Options, theme: &Th
     let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
     let at = Point::new(left, page.y - theme.border - 0.65 * theme.margin);
-    let ratios = theme.words(&sheet.panel.caption, at, Anchor::Start, theme.title, theme.ink);
+    // Of several spaces together, some programs that show an SVG keep one: a wide space they keep.
+    let ratios = sheet.panel.caption.replace("  ", "\u{2003}");
+    let ratios = theme.words(&ratios, at, Anchor::Start, theme.title, theme.ink);
     put(area, &ratios.italic(sheet.heading.symbols).fitted(half));
     let mut y = at.y;
     for text in [folio(sheet), facts(sheet, options)].into_iter().filter(|text| !text.is_empty()) {
@@ -38,9 +40,12 @@ fn facts(sheet: &GridSheet, options: &Options) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
 }
 
-/// The source, in as many lines as it takes, at the foot of the column.
+/// The source, if there is one, in as many lines as it takes, at the foot of the column.
 pub(super) fn source(area: &Area, side: Frame, sheet: &GridSheet, theme: &Theme) {
     let symbols = sheet.heading.symbols;
+    if sheet.heading.source.is_empty() {
+        return;
+    }
     let lines =
         theme.words(&sheet.heading.source, Point::origin(), Anchor::End, theme.note, theme.grey).wrapped(side.size.x);
     let right = side.corner.x + side.size.x;

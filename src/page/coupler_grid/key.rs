@@ -5,6 +5,7 @@ use super::super::element::{Area, Drawing, Words, draw as put};
 use super::super::mechanism::{Mechanism, drawn_links, ground, is_plate};
 use super::super::theme::Theme;
 use super::super::{GridSheet, Label};
+use super::labels::{self, Obstacles, Spot};
 use crate::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use crate::linkage::JointId;
 use crate::scene::{Anchor, Item, Line, Path};
@@ -36,6 +37,8 @@ pub(super) fn draw(area: &Area, side: Frame, sheet: &GridSheet, mechanism: &Mech
         let closed = is_plate(&points);
         path(vec![Line { points, closed }])
     }));
+    let mut obstacles = Obstacles::default();
+    obstacles.add(&items, false);
     put(area, &Drawing { class: "key", title: String::new(), items });
 
     let centre = page_from_plane.apply(bounds.centre());
@@ -43,19 +46,31 @@ pub(super) fn draw(area: &Area, side: Frame, sheet: &GridSheet, mechanism: &Mech
     // Of the frame, only what joins two pivots is a link.
     let is_link =
         |label: &&Label| !label.ends.iter().all(is_fixed) || label.ends.iter().all(|end| pivots.contains(end));
+    let mut placed: Vec<Spot> = Vec::new();
     for label in sheet.labels.iter().filter(is_link) {
-        let [a, b] = [at(&label.ends[0]), at(&label.ends[1])];
-        // On the side that is away from the middle of the linkage.
-        let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
-        let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
+        let ends = [at(&label.ends[0]), at(&label.ends[1])];
         let mut text = words(label, theme, letter).italic(sheet.heading.symbols);
         let half = Vector::new(text.text.width() / 2.0, 0.36 * letter);
-        // The box of the word touches the link with the corner or side that is nearest.
-        let away = half.x * outward.x.abs() + half.y * outward.y.abs() + 0.45 * letter;
-        text.text.at = nalgebra::center(&a, &b) + outward * away + Vector::new(0.0, half.y);
-        put(area, &text);
+        let free = |spot: &Spot| placed.iter().all(|other| spot.apart(other) > 0.25 * letter);
+        let spots = beside(ends, centre, half, 0.45 * letter).filter(free);
+        // A word that could only stand on another is left out.
+        if let Some((_, spot)) = labels::clearest(spots, |spot| obstacles.clearance(spot, 0.3 * letter)) {
+            placed.push(spot);
+            text.text.at = spot.middle + Vector::new(0.0, half.y);
+            put(area, &text);
+        }
     }
     Frame { corner: side.corner + Vector::new(0.0, height), size: side.size - Vector::new(0.0, height) }
+}
+
+/// Where a word may stand beside a link, the best place first: at its middle, on the side that is away from the middle of
+/// the linkage. The box of the word touches the link, but for a `gap`, with the corner or side that is nearest.
+fn beside([a, b]: [Point; 2], centre: Point, half: Vector, gap: f64) -> impl Iterator<Item = Spot> {
+    let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
+    let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
+    let away = outward * (half.x * outward.x.abs() + half.y * outward.y.abs() + gap);
+    let spot = move |(part, away): (f64, Vector)| Spot { middle: a + (b - a) * part + away, half };
+    [0.5, 0.35, 0.65, 0.2, 0.8].into_iter().flat_map(move |part| [(part, away), (part, -away)]).map(spot)
 }
 
 fn words(label: &Label, theme: &Theme, size: f64) -> Words {

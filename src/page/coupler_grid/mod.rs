@@ -22,8 +22,9 @@ use super::{GridSheet, Layout, Options, Panel, View, pose};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::linkage::Input;
 use crate::motion::{self, Dashes};
-use crate::scene::{Canvas, Circle, Color, Item, Path, Scene};
+use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene, Text};
 use crate::sweep::{Curve, Solved};
+use labels::Obstacles;
 
 /// What is read of a page, and in which ink: a curve, its coupler point and its row in the table.
 struct Shown<'a> {
@@ -45,11 +46,12 @@ impl Shown<'_> {
 
 pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
+    let theme = &legible(theme, size);
     let root = Canvas::new(scene).into_drawing_area();
     heading::border(&root, theme);
     let foot = foot::draw(&root, sheet, options, theme);
     let edge = theme.border + theme.margin;
-    let column = (0.19 * size.x).max(22.0 * theme.note);
+    let column = (0.19 * size.x).max(COLUMN * theme.note);
     let height = size.y - edge - foot;
     let figure = Frame { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge - column, height) };
     let side = Frame { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
@@ -68,6 +70,20 @@ pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, t
     }
     foot::source(&root, side, sheet, theme);
 }
+
+/// The theme with notes so large that all that is smaller by them can be read, as far as the paper has room for that.
+fn legible(theme: &Theme, paper: Vector) -> Theme {
+    /// The em of the least lettering of these pages, in millimetres: 5.5 points.
+    const LEAST: f64 = 5.5 * 25.4 / 72.0;
+    /// The em of the number at a scale bar, the least there is, in that of a note.
+    const OF_NOTE: f64 = 0.75;
+    let room = (0.3 * paper.x / COLUMN).min(0.0125 * paper.y);
+    let note = theme.note.max((LEAST / OF_NOTE).min(room));
+    Theme { note, source: theme.source.max(note), ..theme.clone() }
+}
+
+/// The least width of the column, in ems of a note.
+const COLUMN: f64 = 22.0;
 
 /// The curves of a page, numbered by their points.
 fn shown<'a>(solved: &'a Solved, places: &[usize]) -> Vec<Shown<'a>> {
@@ -109,28 +125,59 @@ fn draw_figure(
     let extents = Bounds::of(curves.chain(grid.points(&mechanism.pose))).union(mechanism.bounds());
     let plot = Plot::new(frame, theme).of(extents);
     plot.bar(area, theme);
-    let group = |class, items| draw(area, &Drawing { class, title: String::new(), items });
-    group("underlay", mechanism.underlay(&plot, theme));
-    group("grid", grid.items(&mechanism.pose, &plot, theme));
-
     let period = figure::dash(solved, options);
     let dashes = |k: usize| Dashes { period, drawn: theme.curve_drawn(shown[k].place) * period };
     let paths = figure::paths(solved, &sheet.shown, plot.page_from_plane, dashes);
-    let portions = shown.iter().filter_map(|s| marks::portion(solved, s.curve, s.ink(theme), &plot, theme));
-    group("straight", portions.collect());
+    let underlay = mechanism.underlay(&plot, theme);
+    let grid = grid.items(&mechanism.pose, &plot, theme);
+    let portion = |s: &Shown| marks::portion(solved, s.curve, s.ink(theme), &plot, theme);
+    let straight: Vec<Item> = shown.iter().filter_map(portion).collect();
+    let linkage = mechanism.items(&plot, theme, |_| theme.ink);
+    let points = points(mechanism, shown, &plot, theme);
+
+    let mut obstacles = Obstacles::default();
+    [&underlay, &grid, &straight].into_iter().for_each(|items| obstacles.add(items, true));
+    [&linkage, &points].into_iter().for_each(|items| obstacles.add(items, false));
+    for (shown, path) in shown.iter().zip(&paths) {
+        obstacles.add_points(&path.whole, theme.curve_stroke(shown.place).width, false);
+    }
+    let numbers = labels::place(numbers(mechanism, shown, &plot, theme), &obstacles, plot.above_bar(theme), theme);
+
+    let group = |class, items| draw(area, &Drawing { class, title: String::new(), items });
+    group("underlay", underlay);
+    group("grid", grid);
+    group("straight", straight);
     let lined = |(shown, path): (&Shown, &motion::Path)| {
         let line = || Path::stroked(path.whole.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine));
         shown.is_lined(theme).then(|| Item::Path(line()))
     };
     group("trail", shown.iter().zip(&paths).filter_map(lined).collect());
-    let lines: Vec<&[Point]> = paths.iter().map(|path| path.whole.as_slice()).collect();
-    let numbers = labels::place(&mechanism.pose, shown, &lines, &plot, (solved, frame), theme);
     for (shown, path) in shown.iter().zip(paths) {
         draw(area, &coupler_curve(sheet, shown, path, theme));
     }
-    group("linkage", mechanism.items(&plot, theme, |_| theme.ink));
-    group("coupler-point", points(mechanism, shown, &plot, theme));
+    group("linkage", linkage);
+    group("coupler-point", points);
     group("number", numbers);
+}
+
+/// The points of a page, each once, with their places on it.
+fn distinct<'a>(
+    mechanism: &Mechanism,
+    shown: &'a [Shown],
+    plot: &Plot,
+) -> impl Iterator<Item = (Point, &'a Shown<'a>)> {
+    let is_first = |k: usize| shown[..k].iter().all(|other| other.place != shown[k].place);
+    let first = (0..shown.len()).filter(move |&k| is_first(k)).map(|k| &shown[k]);
+    first.map(|s| (plot.page_from_plane.apply(mechanism.pose[s.curve.joint]), s))
+}
+
+/// The numbers of the points of a page, with the places of these.
+fn numbers(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+    let number = |s: &Shown| {
+        let words = s.curve.trace.to_string();
+        theme.words(&words, Point::origin(), Anchor::Middle, 0.85 * theme.note, s.ink(theme)).text
+    };
+    distinct(mechanism, shown, plot).map(|(centre, s)| (centre, number(s))).collect()
 }
 
 fn coupler_curve(sheet: &GridSheet, shown: &Shown, path: motion::Path, theme: &Theme) -> CouplerCurve {
@@ -150,16 +197,12 @@ fn coupler_curve(sheet: &GridSheet, shown: &Shown, path: motion::Path, theme: &T
 
 /// A small circle for each point of the page, once, where it is in the pose.
 fn points(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) -> Vec<Item> {
-    let mut items = Vec::new();
-    for (k, s) in shown.iter().enumerate() {
-        if shown[..k].iter().all(|other| other.place != s.place) {
-            let centre = plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
-            let stroke = Some(theme.stroke(s.ink(theme), theme.fine));
-            let fill = Some(if s.is_lined(theme) { s.ink(theme) } else { theme.paper });
-            items.push(Item::Circle(Circle { centre, radius: 0.8 * theme.joint, stroke, fill }));
-        }
-    }
-    items
+    let circle = |(centre, s): (Point, &Shown)| {
+        let stroke = Some(theme.stroke(s.ink(theme), theme.fine));
+        let fill = Some(if s.is_lined(theme) { s.ink(theme) } else { theme.paper });
+        Item::Circle(Circle { centre, radius: 0.8 * theme.joint, stroke, fill })
+    };
+    distinct(mechanism, shown, plot).map(circle).collect()
 }
 
 /// The unit of the input, as it is written after a number.

@@ -50,7 +50,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
     }
 }
 
-/// A dash of the curve, with its point.
+/// Two dashes of the curve in its manner, with its point.
 fn swatch(at: Point, shown: &Shown, theme: &Theme) -> Drawing {
     let ink = shown.ink(theme);
     let length = 2.4 * theme.note;
@@ -58,8 +58,9 @@ fn swatch(at: Point, shown: &Shown, theme: &Theme) -> Drawing {
         points: vec![at + Vector::new(from * length, 0.0), at + Vector::new(to * length, 0.0)],
         closed: false,
     };
-    let lines = vec![line(0.0, 0.3), line(0.5, 0.8)];
-    let mut items = vec![Item::Path(Path { lines, stroke: Some(theme.stroke(ink, theme.curve)), fill: None })];
+    let drawn = 0.5 * theme.curve_drawn(shown.place);
+    let lines = vec![line(0.0, drawn), line(0.5, 0.5 + drawn)];
+    let mut items = vec![Item::Path(Path { lines, stroke: Some(theme.curve_stroke(shown.place)), fill: None })];
     if shown.is_lined(theme) {
         let stroke = Some(theme.stroke(ink, 0.6 * theme.fine));
         items.insert(0, Item::Path(Path { lines: vec![line(0.0, 1.0)], stroke, fill: None }));

@@ -1,0 +1,529 @@
+//! Pages of coupler grids: how many, what is on them, and that nothing on them is cut off or runs into another thing.
+
+use std::fs;
+use std::process::Command;
+
+use coupler_atlas::catalogue;
+use coupler_atlas::family::{Family, Sampling};
+use coupler_atlas::geometry::{Point, Vector, distance_to_segment};
+use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::motion::{self, Sampler};
+use coupler_atlas::page::{self, GridSheet, Heading, Label, Layout, Options, Panel, Paper, Theme, View};
+use coupler_atlas::problem::report;
+use coupler_atlas::scene::{Circle, Color, Group, Item, Path, Scene, Text};
+use coupler_atlas::sweep::{self, Solved};
+use tempfile::TempDir;
+
+/// A crank-rocker, a change point and a case that cannot be assembled, with twelve points.
+const GOOD: &str = r#"[atlas]
+title = "T"
+output = "out"
+formats = ["svg"]
+[[linkage]]
+id = "twelve"
+parameters = { g = { min = 0 } }
+caption = "g = {g:.1}"
+trace = ["M"]
+continuation = "branch"
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = ["g", 0] }
+A = { crank = "O", length = 1 }
+B = { dyad = ["A", "C"], lengths = [2, 2], side = "left" }
+M = { point = ["A", "B"], along = { from = 0.5, to = 1.5, count = 3 }, across = { from = -1, to = 1, count = 4 } }
+[[family]]
+id = "grid"
+linkage = "twelve"
+layout = "coupler-grid"
+sampling = { step = "10 deg" }
+grid = { g = [2, 3, 9] }
+"#;
+
+/// Papers with a name, an upright one, and some that are small or narrow.
+const PAPERS: [(f64, f64); 9] = [
+    (297.0, 210.0),
+    (279.4, 215.9),
+    (431.8, 279.4),
+    (420.0, 297.0),
+    (200.0, 280.0),
+    (100.0, 70.0),
+    (50.0, 50.0),
+    (60.0, 400.0),
+    (400.0, 60.0),
+];
+
+fn plan(text: &str) -> Plan {
+    let loaded = manifest::load(text);
+    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
+}
+
+fn example() -> Plan {
+    plan(include_str!("../../examples/hrones-nelson.toml"))
+}
+
+fn on((width, height): (f64, f64)) -> Options {
+    Options::on(Paper { width, height })
+}
+
+fn labels(family: &Family, solved: &Solved) -> Vec<Label> {
+    let joint = |name: &str| solved.linkage.joints.iter().position(|joint| joint.name == name);
+    let label = |(ends, text): ([&str; 2], String)| Some(Label { ends: [joint(ends[0])?, joint(ends[1])?], text });
+    family.template.lengths().into_iter().filter_map(label).collect()
+}
+
+/// The pages of a cell, with the curves of each.
+fn pages(family: &Family, source: &str, solved: &Solved, options: &Options) -> Vec<(Scene, Vec<usize>)> {
+    let mut shown = solved.by_points(Layout::POINTS);
+    if shown.is_empty() {
+        shown.push(Vec::new());
+    }
+    let of = shown.len();
+    let labels = labels(family, solved);
+    let view = page::clearest_pose(solved).map_or(View::Clearest, View::At);
+    let compose = |(page, shown): (usize, Vec<usize>)| {
+        let [caption, note] = family.describe(&solved.cell, solved.measures());
+        let (title, symbols, source) = (family.title.as_str(), family.names.as_slice(), source.to_owned());
+        let heading = Heading { atlas: "The atlas", family: &family.id, title, source, symbols, page, of };
+        let panel = Panel { caption, note, facts: page::facts(solved), solved, view: view.clone(), inks: Vec::new() };
+        let sheet = GridSheet { heading, panel, shown: shown.clone(), labels: &labels };
+        (page::compose_grid(&sheet, options), shown)
+    };
+    (1..).zip(shown).map(compose).collect()
+}
+
+/// The cells of the first family of a plan, of which every so many are taken.
+fn solved(plan: &Plan, every: usize) -> Vec<Solved> {
+    let family = &plan.families[0].family;
+    let sampler = Sampler::new(family.sampling);
+    let kept = sweep::select(family);
+    kept.iter().step_by(every).map(|&k| sweep::solve(family, &sampler, k).unwrap()).collect()
+}
+
+/// All pages of some cells.
+fn all_pages(plan: &Plan, every: usize, options: &Options) -> Vec<Scene> {
+    let planned = &plan.families[0];
+    let scenes = |solved: &Solved| pages(&planned.family, &planned.source, solved, options);
+    solved(plan, every).iter().flat_map(scenes).map(|(scene, _)| scene).collect()
+}
+
+/// What is drawn on a page, each with the class of its group.
+fn leaves(scene: &Scene) -> Vec<(&'static str, &Item)> {
+    fn add<'s>(class: &'static str, items: &'s [Item], out: &mut Vec<(&'static str, &'s Item)>) {
+        for item in items {
+            match item {
+                Item::Group(group) => add(group.class, &group.items, out),
+                Item::Moving(_) => panic!("a page of a coupler grid stands still"),
+                leaf => out.push((class, leaf)),
+            }
+        }
+    }
+    let mut out = Vec::new();
+    add("", &scene.items, &mut out);
+    out
+}
+
+fn groups<'s>(scene: &'s Scene, class: &str) -> Vec<&'s Group> {
+    let group = |item: &'s Item| if let Item::Group(group) = item { Some(group) } else { None };
+    scene.items.iter().filter_map(group).filter(|group| group.class == class).collect()
+}
+
+fn texts<'s>(scene: &'s Scene) -> Vec<(&'static str, &'s Text)> {
+    let text =
+        |(class, item): (&'static str, &'s Item)| if let Item::Text(text) = item { Some((class, text)) } else { None };
+    leaves(scene).into_iter().filter_map(text).collect()
+}
+
+fn words(text: &Text) -> String {
+    text.runs.iter().map(|run| run.text.as_str()).collect()
+}
+
+fn circles<'s>(scene: &'s Scene, wanted: &[&str]) -> Vec<&'s Circle> {
+    let circle = |(class, item): (&str, &'s Item)| match item {
+        Item::Circle(circle) if wanted.contains(&class) => Some(circle),
+        _ => None,
+    };
+    leaves(scene).into_iter().filter_map(circle).collect()
+}
+
+fn paths<'s>(scene: &'s Scene, wanted: &[&str]) -> Vec<&'s Path> {
+    let path = |(class, item): (&str, &'s Item)| match item {
+        Item::Path(path) if wanted.contains(&class) => Some(path),
+        _ => None,
+    };
+    leaves(scene).into_iter().filter_map(path).collect()
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Rect {
+    low: Point,
+    high: Point,
+}
+
+impl Rect {
+    /// The box of a text that reaches so many ems above and below its baseline.
+    fn of(text: &Text, [above, below]: [f64; 2]) -> Rect {
+        assert_eq!(text.quarter_turns, 0);
+        let start = text.start();
+        let [above, below] = [above * text.size, below * text.size];
+        Rect { low: start - Vector::new(0.0, above), high: start + Vector::new(text.width(), below) }
+    }
+
+    /// The box of all that any letter of its face may take.
+    fn of_face(text: &Text) -> Rect {
+        let (above, below) = text.runs[0].face.extents();
+        Rect::of(text, [above, below])
+    }
+
+    fn is_in(&self, outer: &Rect) -> bool {
+        self.low.x >= outer.low.x
+            && self.low.y >= outer.low.y
+            && self.high.x <= outer.high.x
+            && self.high.y <= outer.high.y
+    }
+
+    fn meets(&self, other: &Rect) -> bool {
+        self.low.x < other.high.x && other.low.x < self.high.x && self.low.y < other.high.y && other.low.y < self.high.y
+    }
+
+    fn distance(&self, p: Point) -> f64 {
+        let off = |p: f64, low: f64, high: f64| (low - p).max(p - high).max(0.0);
+        Vector::new(off(p.x, self.low.x, self.high.x), off(p.y, self.low.y, self.high.y)).norm()
+    }
+
+    /// How far a segment is from it; 0 where it passes through.
+    fn distance_to(&self, a: Point, b: Point) -> f64 {
+        let [p, q] = [Point::new(self.low.x, self.high.y), Point::new(self.high.x, self.low.y)];
+        let crosses = |[c, d]: [Point; 2]| {
+            let side = |o: Point, u: Point, v: Point| (u - o).perp(&(v - o));
+            side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
+        };
+        // What passes through a box crosses one of its diagonals.
+        if [[self.low, self.high], [p, q]].into_iter().any(crosses) {
+            return 0.0;
+        }
+        let corners = [self.low, p, q, self.high].map(|corner| distance_to_segment(corner, a, b));
+        corners.into_iter().chain([self.distance(a), self.distance(b)]).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The middle of the border's line; it is drawn first.
+fn border(scene: &Scene) -> Rect {
+    let Some((_, Item::Path(path))) = leaves(scene).into_iter().next() else { panic!("a border comes first") };
+    let points = &path.lines[0].points;
+    let by = |pick: fn(&Point) -> f64| {
+        points.iter().map(pick).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
+    };
+    let ([left, right], [top, bottom]) = (by(|p| p.x), by(|p| p.y));
+    Rect { low: Point::new(left, top), high: Point::new(right, bottom) }
+}
+
+/// What of a page is not inside its border, with its line's weight.
+fn outside(scene: &Scene) -> Vec<String> {
+    let inner = border(scene);
+    let mut out = Vec::new();
+    for (class, item) in leaves(scene).into_iter().skip(1) {
+        let around = |p: Point, by: f64| Rect { low: p - Vector::repeat(by), high: p + Vector::repeat(by) };
+        let half = |stroke: Option<coupler_atlas::scene::Stroke>| stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+        let is_in = match item {
+            Item::Circle(circle) => around(circle.centre, circle.radius + half(circle.stroke)).is_in(&inner),
+            Item::Text(text) => text.runs.is_empty() || Rect::of_face(text).is_in(&inner),
+            Item::Path(path) => path.lines.iter().flat_map(|line| &line.points).all(|p| {
+                assert!(p.x.is_finite() && p.y.is_finite(), "{class}");
+                around(*p, half(path.stroke)).is_in(&inner)
+            }),
+            Item::Group(_) | Item::Moving(_) => unreachable!("leaves have none"),
+        };
+        if !is_in {
+            out.push(if let Item::Text(text) = item { format!("{class}: {}", words(text)) } else { class.to_owned() });
+        }
+    }
+    out
+}
+
+/// The texts of a page that run into one another.
+fn overlaps(scene: &Scene) -> Vec<String> {
+    // Capitals, figures and what hangs below the baseline: letters with accents are not on these pages.
+    let below = |class: &str| if class == "number" { 0.0 } else { 0.22 };
+    let boxed = |(class, text): (&'static str, &Text)| (class, words(text), Rect::of(text, [0.73, below(class)]));
+    let texts: Vec<(&str, String, Rect)> = texts(scene).into_iter().map(boxed).collect();
+    let mut out = Vec::new();
+    for (k, (class, a, rect)) in texts.iter().enumerate() {
+        for (other, b, _) in texts[..k].iter().filter(|(_, _, other)| other.meets(rect)) {
+            out.push(format!("{class} {a} and {other} {b}"));
+        }
+    }
+    out
+}
+
+#[test]
+fn all_is_drawn_inside_the_border_and_no_text_on_another() {
+    let plan = example();
+    for paper in PAPERS {
+        // Some of the pages only on the papers that are hardly used.
+        let every = if paper.0.min(paper.1) > 200.0 { 9 } else { 23 };
+        for (k, scene) in all_pages(&plan, every, &on(paper)).iter().enumerate() {
+            assert_eq!(outside(scene), [""; 0], "{paper:?} {k}");
+            assert_eq!(overlaps(scene), [""; 0], "{paper:?} {k}");
+        }
+    }
+}
+
+/// How a number stands: what it touches, if anything.
+fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
+    let numbers: Vec<Rect> = texts(scene)
+        .into_iter()
+        .filter(|(class, _)| *class == "number")
+        .map(|(_, text)| Rect::of(text, [0.73, 0.0]))
+        .collect();
+    let lines: Vec<(&'static str, &Path)> = ["curve", "trail", "linkage", "underlay", "grid", "straight"]
+        .into_iter()
+        .flat_map(|class| paths(scene, &[class]).into_iter().map(move |path| (class, path)))
+        .collect();
+    let points = circles(scene, &["coupler-point", "linkage"]);
+    let touch = |(k, number): (usize, &Rect)| {
+        if numbers.iter().enumerate().any(|(other, rect)| other != k && rect.meets(number)) {
+            return Some("number");
+        }
+        let is_on = |circle: &&Circle| {
+            number.distance(circle.centre) < circle.radius + circle.stroke.map_or(0.0, |stroke| stroke.width / 2.0)
+        };
+        if points.iter().any(is_on) {
+            return Some("point");
+        }
+        let crosses = |path: &Path| {
+            let half = path.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+            path.lines.iter().any(|line| line.points.windows(2).any(|p| number.distance_to(p[0], p[1]) < half))
+        };
+        lines.iter().find(|(_, path)| crosses(path)).map(|(class, _)| *class)
+    };
+    numbers.iter().enumerate().map(touch).collect()
+}
+
+#[test]
+fn numbers_stand_clear_of_all_that_is_drawn() {
+    let plan = example();
+    for paper in [PAPERS[0], PAPERS[2]] {
+        let scenes = all_pages(&plan, 1, &on(paper));
+        assert_eq!(scenes.len(), 780);
+        let all: Vec<Option<&str>> = scenes.iter().flat_map(touched).collect();
+        assert_eq!(all.len(), 7800);
+        // Where lines are that close there may be no free place; of 7,800 numbers that is one on A4.
+        let touching = all.iter().filter(|touched| touched.is_some()).count();
+        assert!(touching <= 8, "{paper:?}: {touching}");
+    }
+}
+
+#[test]
+fn no_type_is_too_small_to_read() {
+    let plan = example();
+    for (name, paper) in Paper::NAMED {
+        let scenes = all_pages(&plan, 40, &Options::on(paper));
+        let sizes = scenes.iter().flat_map(texts).map(|(_, text)| text.size * 72.0 / 25.4);
+        let least = sizes.fold(f64::INFINITY, f64::min);
+        // Points, to rounding.
+        assert!(least > 5.5 - 1e-9, "{name}: {least}");
+    }
+}
+
+/// The pages of the first cell of a manifest, on A4.
+fn first(text: &str) -> (Solved, Vec<(Scene, Vec<usize>)>) {
+    let plan = plan(text);
+    let planned = &plan.families[0];
+    let solved = sweep::solve(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
+    let pages = pages(&planned.family, &planned.source, &solved, &on(PAPERS[0]));
+    for (scene, _) in &pages {
+        assert_eq!(outside(scene), [""; 0]);
+        assert_eq!(overlaps(scene), [""; 0]);
+    }
+    (solved, pages)
+}
+
+fn color(path: &Path) -> Color {
+    path.stroke.unwrap().color
+}
+
+#[test]
+fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
+    let (solved, pages) = first(GOOD);
+    let sizes: Vec<usize> = pages.iter().map(|(_, shown)| shown.len()).collect();
+    assert_eq!((solved.curves.len(), sizes), (12, vec![10, 2]));
+    for (scene, shown) in &pages {
+        let ids: Vec<&str> = groups(scene, "curve").iter().map(|group| group.id.as_str()).collect();
+        let wanted: Vec<String> = shown.iter().map(|k| format!("grid-1-{}-1", k + 1)).collect();
+        assert_eq!(ids, wanted);
+        let numbers: Vec<String> =
+            texts(scene).iter().filter(|(class, _)| *class == "number").map(|(_, text)| words(text)).collect();
+        assert_eq!(numbers, shown.iter().map(|k| (k + 1).to_string()).collect::<Vec<_>>());
+        assert_eq!(circles(scene, &["coupler-point"]).len(), shown.len());
+    }
+}
+
+/// The weight of the dashes in the table beside a point.
+fn swatch_weight(group: &Group) -> f64 {
+    let dashes = group.items.iter().find_map(|item| match item {
+        Item::Path(path) if path.lines.len() == 2 => path.stroke,
+        _ => None,
+    });
+    dashes.unwrap().width
+}
+
+#[test]
+fn curves_of_one_ink_differ_in_every_theme() {
+    for named in Theme::NAMED {
+        let mut plan = plan(GOOD);
+        plan.page.theme = (named.theme)();
+        let scene = all_pages(&plan, 1, &plan.page).remove(0);
+        let theme = &plan.page.theme;
+        let inks: Vec<Color> = paths(&scene, &["curve"]).into_iter().map(color).collect();
+        assert_eq!(inks, [theme.curves.clone(), theme.curves.clone()].concat(), "{}", named.name);
+        // The table shows each in its weight, the second five with a line under the dashes as well.
+        let weights = |class: &str| -> Vec<f64> {
+            paths(&scene, &[class]).iter().map(|path| path.stroke.unwrap().width).collect()
+        };
+        let dashes: Vec<f64> = groups(&scene, "swatch").iter().map(|group| swatch_weight(group)).collect();
+        assert_eq!(dashes, weights("curve"), "{}", named.name);
+        assert_eq!(weights("swatch").len(), 15);
+        // The second five have a thin unbroken line under their dashes, and full points.
+        let trails = paths(&scene, &["trail"]);
+        assert_eq!(trails.iter().map(|path| color(path)).collect::<Vec<_>>(), theme.curves, "{}", named.name);
+        for (trail, curve) in trails.iter().zip(&paths(&scene, &["curve"])[5..]) {
+            assert_eq!((trail.lines.len(), curve.lines.len()), (1, 72));
+            assert!(trail.stroke.unwrap().width < 0.6 * curve.stroke.unwrap().width);
+        }
+        let fills: Vec<Color> = circles(&scene, &["coupler-point"]).iter().map(|circle| circle.fill.unwrap()).collect();
+        assert_eq!(fills, [vec![theme.paper; 5], theme.curves.clone()].concat(), "{}", named.name);
+    }
+}
+
+#[test]
+fn a_dash_begins_at_each_fifth_degree() {
+    let (solved, pages) = first(GOOD);
+    let pose = page::clearest_pose(&solved).unwrap();
+    let (scene, shown) = &pages[0];
+    // From the plane to the page, by two of the coupler points.
+    let at: Vec<Point> = circles(scene, &["coupler-point"]).iter().map(|circle| circle.centre).collect();
+    let place = |k: usize| pose[solved.curves[shown[k]].joint];
+    let scale = (at[9] - at[0]).norm() / (place(9) - place(0)).norm();
+    let on_page = |p: Point| {
+        let off = (p - place(0)) * scale;
+        at[0] + Vector::new(off.x, -off.y)
+    };
+    for (curve, &k) in paths(scene, &["curve"]).iter().zip(shown) {
+        assert_eq!(curve.lines.len(), 72);
+        let pass = &solved.circuit(&solved.curves[k]).passes[0];
+        for (dash, line) in curve.lines.iter().enumerate() {
+            let point = |input: f64| on_page(motion::pose(&solved.linkage, pass, input)[solved.curves[k].joint]);
+            let begins = 5.0 * dash as f64;
+            let ends = [(begins, line.points[0]), (begins + 3.0, *line.points.last().unwrap())];
+            for (input, end) in ends {
+                // In millimetres: rounding, and that of the page's places of the circles.
+                assert!((end - point(input)).norm() < 1e-6, "curve {k}, {input} degrees");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_page_has_ten_of_the_points_that_are_kept() {
+    let fifty = GOOD.replace(
+        "count = 3 }, across = { from = -1, to = 1, count = 4 }",
+        "count = 5 }, across = { from = -1, to = 1, count = 10 }",
+    );
+    let (solved, pages) = first(&format!("{fifty}where = \"length > 5.5\"\n"));
+    let kept = solved.curves.len();
+    assert!(kept > 10 && kept < 50 && solved.left_out == 50 - kept, "{kept}");
+    let sizes: Vec<usize> = pages.iter().map(|(_, shown)| shown.len()).collect();
+    assert_eq!(sizes.iter().sum::<usize>(), kept);
+    assert!(sizes.len() == kept.div_ceil(10) && sizes[..sizes.len() - 1].iter().all(|&size| size == 10), "{sizes:?}");
+    let all: Vec<usize> = pages.into_iter().flat_map(|(_, shown)| shown).collect();
+    assert_eq!(all, (0..kept).collect::<Vec<_>>());
+}
+
+#[test]
+fn both_circuits_of_a_point_are_on_its_page() {
+    let (solved, pages) = first(&GOOD.replace("continuation", "circuits = \"all\"\ncontinuation"));
+    assert_eq!((solved.motion.circuits.len(), solved.curves.len(), pages.len()), (2, 24, 2));
+    let (scene, shown) = &pages[0];
+    assert_eq!((shown.len(), circles(scene, &["coupler-point"]).len()), (20, 10));
+    // Curves of one point have one ink.
+    let inks: Vec<Color> = paths(scene, &["curve"]).into_iter().map(color).collect();
+    assert!(inks.chunks(2).all(|pair| pair[0] == pair[1]) && inks[0] != inks[2]);
+    let all: Vec<String> = texts(scene).iter().map(|(_, text)| words(text)).collect();
+    assert!(["1/1", "1/2", "10/2"].iter().all(|row| all.iter().any(|text| text == row)), "{all:?}");
+}
+
+#[test]
+fn long_captions_and_single_points_have_room() {
+    let long = "a caption that goes on and on, g = {g:.5}, which is the frame, and then on again to no end";
+    let (_, pages) = first(&GOOD.replace("g = {g:.1}", long));
+    assert_eq!(pages.len(), 2);
+    let grid = "along = { from = 0.5, to = 1.5, count = 3 }, across = { from = -1, to = 1, count = 4 }";
+    let (_, pages) = first(&GOOD.replace(grid, "along = 0.5, across = 0.25"));
+    assert_eq!((pages.len(), pages[0].1.len()), (1, 1));
+}
+
+/// Proportions for the parameters of the catalogue that have no default.
+const GIVEN: [(&str, &[(&str, f64)]); 5] = [
+    ("four-bar", &[("frame", 4.0), ("crank", 1.0), ("coupler", 3.0), ("rocker", 3.5)]),
+    ("evans", &[("p", 2.0), ("a", 2.59)]),
+    ("chebyshev", &[("p", 2.0), ("r", 2.5)]),
+    ("roberts", &[("p", 2.0), ("r", 1.2), ("a", 1.0), ("b", 1.2)]),
+    ("watt", &[("p", 4.0), ("r", 2.2), ("a", 1.0)]),
+];
+
+#[test]
+fn every_linkage_of_the_catalogue_has_its_page() {
+    let mut slides = 0;
+    for template in catalogue::all() {
+        slides += usize::from(template.is_driven_by_length());
+        let given = GIVEN.iter().find(|(id, _)| *id == template.id).map_or(&[][..], |(_, given)| given);
+        let given: Vec<(String, f64)> = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        let family = Family::single(template.clone(), &given, Sampling::Samples(72));
+        let family = family.unwrap_or_else(|wrong| panic!("{}: {wrong:?}", template.id));
+        let solved = sweep::solve(&family, &Sampler::new(family.sampling), 0).unwrap();
+        for paper in [PAPERS[0], PAPERS[2], PAPERS[4], PAPERS[5]] {
+            for (scene, shown) in pages(&family, template.source.as_str(), &solved, &on(paper)) {
+                let id = &template.id;
+                assert!(!shown.is_empty(), "{id}");
+                assert_eq!(groups(&scene, "curve").len(), shown.len(), "{id}");
+                assert_eq!(outside(&scene), [""; 0], "{id} {paper:?}");
+                assert_eq!(overlaps(&scene), [""; 0], "{id} {paper:?}");
+            }
+        }
+    }
+    assert!(slides > 0);
+}
+
+#[test]
+fn a_grid_has_no_panels() {
+    let text = format!("{GOOD}panels = [2, 2]\n");
+    let loaded = manifest::load(&text);
+    let said = report(&loaded.problems, "m", &text, false);
+    assert!(loaded.plan.is_none() && said.contains("a page of a coupler grid has one cell, and no panels"), "{said}");
+}
+
+/// The pages of a manifest as the program writes them, in order.
+fn rendered(text: &str) -> Vec<String> {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), text).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = |k: usize| fs::read_to_string(folder.path().join(format!("out/grid/grid-{k:03}.svg"))).ok();
+    (1..).map_while(page).collect()
+}
+
+#[test]
+fn pages_are_numbered_through_the_family() {
+    let pages = rendered(GOOD);
+    assert_eq!(pages.len(), 5);
+    for (k, page) in pages.iter().enumerate() {
+        assert!(page.contains(&format!("page {} of 5<", k + 1)), "{k}");
+        assert_eq!(page.matches("class=\"curve\"").count(), [10, 2, 10, 2, 0][k], "{k}");
+    }
+    // A cell that cannot be assembled has one page, with the reason.
+    assert!(pages[4].contains("not assembled") && pages[4].contains("</tspan> = 9.0<"), "{}", pages[4]);
+    assert!(!pages[..4].iter().any(|page| page.contains("not assembled")));
+    let kept = rendered(&format!("{GOOD}where = \"is_crank_rocker or is_change_point\"\n"));
+    assert_eq!(kept.len(), 4);
+    assert!(kept[3].contains("page 4 of 4<") && kept[3].contains("change-point"));
+}
