@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::family::{Setting, arrangement};
+use super::family::{Setting, arrangement, told_on_pages};
 use super::inputs::Inputs;
 use super::journal::Journal;
 use super::pages::{Composer, leaves};
@@ -184,10 +184,12 @@ impl Part<'_> {
         let Part { composer, arrangement, setting, .. } = self;
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
-        let groups = Groups { cells: &arrangement.order, size: setting.size, bytes: BYTES_TO_A_PAGE };
+        let wanted = told_on_pages(family);
+        let wanted = Some(wanted.as_slice());
+        let groups = Groups { cells: &arrangement.order, size: setting.size, bytes: BYTES_TO_A_PAGE, wanted };
         if let Some(chart) = chart {
             let mut gathering = Gathering::new(chart, family);
-            let groups = Groups { cells: &arrangement.kept, ..groups };
+            let groups = Groups { cells: &arrangement.kept, wanted: None, ..groups };
             let gather = |_, solved: Vec<Solved>| solved.iter().flat_map(|s| chart.take(s)).collect::<Vec<_>>();
             sweep::run(family, groups, gather, |taken| {
                 super::stop_if(interrupt)?;

@@ -13,7 +13,8 @@ use super::{Error, Event, Options, earlier, stop_if};
 use crate::chart::{Gathering, Taken};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::Layout;
+use crate::measure::{self, Measure};
+use crate::page::{self, Layout};
 use crate::record::{Cells, FamilyRecord, FileRecord, Points, shortfalls};
 use crate::render::Format;
 use crate::sweep::{self, Arrangement, Groups, Solved, Status};
@@ -135,6 +136,15 @@ fn blank(planned: &PlannedFamily, arrangement: &Arrangement, pages: usize) -> Fa
 pub(super) fn arrangement(planned: &PlannedFamily, interrupt: &AtomicBool) -> Result<Arrangement, Error> {
     let counts_points = planned.layout == Layout::CouplerGrid;
     sweep::arrange(&planned.family, counts_points, interrupt).ok_or(Error::Interrupted)
+}
+
+/// Which measures it takes to draw the cells of a family on pages of their own.
+pub(super) fn told_on_pages(family: &Family) -> Vec<bool> {
+    let is_in_a_caption = |name: &str| family.captions.iter().flatten().any(|caption| caption.uses(name));
+    let is_told = |(k, measure): (usize, &Measure)| {
+        page::MEASURES.contains(&measure.name) || family.asks_for(k) || is_in_a_caption(measure.name)
+    };
+    measure::ALL.iter().enumerate().map(is_told).collect()
 }
 
 /// How the cells of a family are put on pages.
@@ -272,7 +282,7 @@ impl Work<'_> {
                 shortfalls: solved.iter().filter_map(shortfall).collect(),
             })
         };
-        let groups = self.groups(&self.arrangement.kept);
+        let groups = self.groups(&self.arrangement.kept, None);
         sweep::run(family, groups, make, |made| -> Result<(), Error> {
             let made = made?;
             points.append(&made.points)?;
@@ -295,14 +305,15 @@ impl Work<'_> {
         let printer = self.printer;
         let begins = self.setting.begins.clone();
         let make = |group: usize, solved: Vec<Solved>| draw(&printer, &begins, group, &solved);
-        let groups = self.groups(&self.arrangement.order);
+        let wanted = told_on_pages(&self.planned.family);
+        let groups = self.groups(&self.arrangement.order, Some(&wanted));
         sweep::run(&self.planned.family, groups, make, |pages| -> Result<(), Error> {
             pages?.into_iter().try_for_each(|page| self.keep(page, journal, tell))
         })
     }
 
-    fn groups<'c>(&self, cells: &'c [usize]) -> Groups<'c> {
-        Groups { cells, size: self.setting.size, bytes: self.printer.bytes() }
+    fn groups<'c>(&self, cells: &'c [usize], wanted: Option<&'c [bool]>) -> Groups<'c> {
+        Groups { cells, size: self.setting.size, bytes: self.printer.bytes(), wanted }
     }
 
     /// Records a page.

@@ -8,6 +8,9 @@ use crate::measure::{Axis, Portion, Symmetry, Value};
 use crate::scene::{Color, Item, Line, Path};
 use crate::sweep::{Curve, Solved};
 
+/// The measures that pages tell of, and the index of a book; what captions tell of is their own affair.
+pub const MEASURES: [&str; 6] = ["class", "mu_min_deg", "mu_max_deg", "length", "straight_length", "symmetry"];
+
 /// The facts of a cell: its class and the range of its transmission angle; its longest straight portion. Either may be empty.
 pub fn facts(solved: &Solved) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };

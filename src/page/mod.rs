@@ -15,7 +15,7 @@ mod pose;
 mod theme;
 
 pub use heading::Heading;
-pub use marks::facts;
+pub use marks::{MEASURES, facts};
 pub use theme::{Manner, Named as NamedTheme, Theme};
 
 use crate::chart::{Chart, Series};

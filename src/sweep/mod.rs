@@ -205,6 +205,9 @@ pub struct Groups<'a> {
     pub size: usize,
     /// How many bytes the work on a group holds at a time, beside the group itself.
     pub bytes: usize,
+    /// Which measures are taken, by their places in [`measure::ALL`], those that `where` asks for among them; all, where
+    /// nothing is said.
+    pub wanted: Option<&'a [bool]>,
 }
 
 /// About how many bytes are held at once.
@@ -240,9 +243,11 @@ pub fn run<T: Send, E>(
     let at_once = groups.at_once(family, sampler);
     let stopped = &AtomicBool::new(false);
     let work = &work;
+    let is_wanted = move |measure: usize| groups.wanted.is_none_or(|wanted| wanted[measure]);
+    let solve = move |cell: usize| solve_for(family, sampler, cell, |subject| measure::take_some(subject, is_wanted));
     let solve_group = move |group: usize, cells: &[usize]| {
         let goes_on = |_: &&usize| !stopped.load(Ordering::Relaxed);
-        let solved = cells.iter().take_while(goes_on).filter_map(|&cell| solve(family, sampler, cell)).collect();
+        let solved = cells.iter().take_while(goes_on).filter_map(|&cell| solve(cell)).collect();
         (!stopped.load(Ordering::Relaxed)).then(|| work(group, solved))
     };
     let mut coming = groups.cells.chunks(groups.size.max(1)).enumerate();

@@ -38,7 +38,7 @@ fn series(text: &str) -> Vec<Series> {
     let mut gathering = Gathering::new(chart, &planned.family);
     let kept = sweep::select(&planned.family);
     let take = |_, solved: Vec<sweep::Solved>| solved.iter().flat_map(|solved| chart.take(solved)).collect::<Vec<_>>();
-    let groups = sweep::Groups { cells: &kept, size: 4, bytes: 0 };
+    let groups = sweep::Groups { cells: &kept, size: 4, bytes: 0, wanted: None };
     sweep::run(&planned.family, groups, take, |taken| -> Result<(), ()> {
         taken.into_iter().for_each(|taken| gathering.add(taken));
         Ok(())

@@ -46,7 +46,7 @@ fn solved(plan: &Plan) -> Vec<Vec<Solved>> {
             found.append(&mut solved);
             Ok(())
         };
-        let groups = sweep::Groups { cells: &kept, size: 1, bytes: 0 };
+        let groups = sweep::Groups { cells: &kept, size: 1, bytes: 0, wanted: None };
         sweep::run(&planned.family, groups, |_, solved| solved, take).unwrap();
         found
     };
