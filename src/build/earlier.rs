@@ -7,6 +7,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::{Error, Event, files};
+use crate::page::book::Volume;
 use crate::record::{FamilyRecord, FileRecord, ReadError, Run};
 use crate::render::Format;
 
@@ -16,6 +17,22 @@ const TABLES: [&str; 2] = ["cells.csv", "points.csv"];
 /// The name of a page.
 pub(super) fn page_name(family: &str, page: usize, format: Format) -> String {
     format!("{family}-{page:03}.{}", format.name())
+}
+
+/// The number of a page, from its name.
+pub(super) fn page_number(family: &str, name: &str, format: Format) -> Option<usize> {
+    let number = name.strip_prefix(family)?.strip_prefix('-')?.strip_suffix(format.name())?.strip_suffix('.')?;
+    let is_number = number.len() >= 3 && number.bytes().all(|b| b.is_ascii_digit());
+    if is_number { number.parse().ok() } else { None }
+}
+
+/// The name of the book, or of a volume of it.
+pub(super) fn volume_name(volume: &Volume) -> String {
+    let Volume { number, of, .. } = *volume;
+    match of.to_string().len() {
+        _ if of == 1 => "atlas.pdf".to_owned(),
+        digits => format!("atlas-{number:0digits$}.pdf"),
+    }
 }
 
 /// The record of an earlier run, if there was one. Where other families are to stay as they are it must be a good one.
@@ -47,6 +64,9 @@ fn trusted(mut run: Run) -> Run {
         ids.push(family.id.clone());
         is_first && is_slug(&family.id)
     });
+    if let Some(book) = &mut run.book {
+        book.files.retain(|file| is_volume(&file.name));
+    }
     for family in &mut run.families {
         let id = family.id.clone();
         family.files.retain(|file| is_file_of(&id, &file.name));
@@ -56,12 +76,15 @@ fn trusted(mut run: Run) -> Run {
 
 /// Whether this program gives such a name to a file of a family.
 fn is_file_of(family: &str, name: &str) -> bool {
-    let page = || {
-        let (number, extension) = name.strip_prefix(family)?.strip_prefix('-')?.split_once('.')?;
-        let is_format = Format::ALL.iter().any(|format| format.name() == extension);
-        (is_format && number.bytes().all(|b| b.is_ascii_digit())).then_some(number)
-    };
-    TABLES.contains(&name) || page().is_some_and(|number| number.len() >= 3)
+    let formats = Format::ALL.into_iter().filter(|format| format.has_a_file_for_each_page());
+    TABLES.contains(&name) || formats.into_iter().any(|format| page_number(family, name, format).is_some())
+}
+
+/// Whether this program gives such a name to a volume.
+fn is_volume(name: &str) -> bool {
+    let number = name.strip_prefix("atlas-").and_then(|rest| rest.strip_suffix(".pdf"));
+    let is_number = |number: &str| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
+    name == "atlas.pdf" || number.is_some_and(is_number)
 }
 
 /// The record of a family all of whose files are as they would be if they were made from these inputs now: those it

@@ -39,6 +39,9 @@ pub enum Error {
         /// Why.
         error: render::PngError,
     },
+    /// The book cannot be made.
+    #[error("cannot bind the book: {0}")]
+    Book(render::pdf::Error),
     /// Another run has not ended.
     #[error("another run is writing to {}: wait for its end, or name another folder with -o", folder.display())]
     Busy {

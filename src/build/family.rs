@@ -1,19 +1,21 @@
 //! Builds a family: its tables, and its pages where they are not there yet as they would be.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use super::claims::Claims;
 use super::files::{self, Growing};
 use super::inputs::Inputs;
 use super::journal::Journal;
 use super::pages::{Printed, Printer};
-use super::{Error, Event, Options, earlier};
+use super::{Error, Event, Options, earlier, stop_if};
 use crate::chart::{Gathering, Taken};
 use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::page::Layout;
 use crate::record::{Cells, FamilyRecord, FileRecord, Points, shortfalls};
+use crate::render::Format;
 use crate::sweep::{self, Arrangement, Groups, Solved, Status};
 
 /// Builds a family into its folder, unless all of it is there as it would be.
@@ -26,20 +28,25 @@ pub(super) fn build(
 ) -> Result<(), Error> {
     let family = &planned.family;
     let folder = output.join(&family.id);
-    let formats = options.formats.as_ref().unwrap_or(&planned.formats);
+    let mut formats = options.formats.as_ref().unwrap_or(&planned.formats).clone();
+    formats.retain(|format| format.has_a_file_for_each_page());
     let inputs = Inputs::new(planned);
     let inputs_sha256 = inputs.of_family();
     let earlier = journal.of(&family.id).cloned();
     files::remove_leftovers(&folder);
-    let unchanged = |record: &FamilyRecord| earlier::unchanged(record, &inputs_sha256, formats, &folder);
-    if let Some(record) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
+    let unchanged = |record: &FamilyRecord| earlier::unchanged(record, &inputs_sha256, &formats, &folder);
+    if let Some(mut record) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
+        record.files.extend(others_left(earlier.as_ref(), &record, &formats, options));
+        // In the order they had.
+        let known = earlier.iter().flat_map(|earlier| &earlier.files);
+        let places: HashMap<&str, usize> = known.zip(0..).map(|(file, place)| (file.name.as_str(), place)).collect();
+        record.files.sort_by_key(|file| places.get(file.name.as_str()).copied());
         tell_shortfalls(&record, &folder, tell)?;
         remove_others(earlier, &record, &folder)?;
         tell(Event::End { record: &record, drawn: None });
         return journal.put(record);
     }
-    let arrangement = sweep::arrange(family, planned.layout == Layout::CouplerGrid, &options.interrupt);
-    let arrangement = arrangement.ok_or(Error::Interrupted)?;
+    let arrangement = arrangement(planned, &options.interrupt)?;
     let setting = Setting::new(planned, &arrangement);
     tell(Event::Begin { family: &family.id, pages: setting.pages });
     files::create_folder(&folder)?;
@@ -54,11 +61,12 @@ pub(super) fn build(
         journal.put(FamilyRecord { inputs_sha256: None, files: claims.lasting(), ..earlier.clone() })?;
     }
     let (interrupt, of) = (&*options.interrupt, setting.pages);
-    let printer = Printer { plan, planned, formats, inputs, claims: &claims, interrupt, of };
+    let printer = Printer { plan, planned, formats: &formats, inputs, claims: &claims, interrupt, of };
     let mut work = Work { planned, printer, arrangement: &arrangement, setting, folder, record, drawn: 0, since: 0 };
     match work.all(journal, tell) {
         Ok(()) => {
-            let record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..work.record };
+            let mut record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..work.record };
+            record.files.extend(others_left(earlier.as_ref(), &record, &formats, options));
             remove_others(earlier, &record, &work.folder)?;
             tell(Event::End { record: &record, drawn: Some(work.drawn) });
             journal.put(record)
@@ -88,6 +96,23 @@ fn remove_others(earlier: Option<FamilyRecord>, record: &FamilyRecord, folder: &
     files::remove(folder, known.iter().map(|file| file.name.as_str()).filter(|name| !stay.contains(name)))
 }
 
+/// The pages that an earlier run drew in formats which the command line leaves out this time: they stay.
+fn others_left(
+    earlier: Option<&FamilyRecord>,
+    record: &FamilyRecord,
+    formats: &[Format],
+    options: &Options,
+) -> Vec<FileRecord> {
+    let known = earlier.filter(|_| options.formats.is_some()).map(|earlier| earlier.files.as_slice());
+    let others: Vec<Format> = Format::ALL.into_iter().filter(|format| !formats.contains(format)).collect();
+    let is_of_page = |file: &&FileRecord| {
+        others.iter().any(|&format| {
+            earlier::page_number(&record.id, &file.name, format).is_some_and(|page| (1..=record.pages).contains(&page))
+        })
+    };
+    known.unwrap_or_default().iter().filter(is_of_page).cloned().collect()
+}
+
 /// What is known of a family before any of it is made.
 fn blank(planned: &PlannedFamily, arrangement: &Arrangement, pages: usize) -> FamilyRecord {
     let family = &planned.family;
@@ -106,11 +131,17 @@ fn blank(planned: &PlannedFamily, arrangement: &Arrangement, pages: usize) -> Fa
     }
 }
 
+/// Which cells of a family are shown, and in what order.
+pub(super) fn arrangement(planned: &PlannedFamily, interrupt: &AtomicBool) -> Result<Arrangement, Error> {
+    let counts_points = planned.layout == Layout::CouplerGrid;
+    sweep::arrange(&planned.family, counts_points, interrupt).ok_or(Error::Interrupted)
+}
+
 /// How the cells of a family are put on pages.
-struct Setting {
+pub(super) struct Setting {
     /// How many cells are worked on together: those of a page, or one with all its pages.
-    size: usize,
-    pages: usize,
+    pub size: usize,
+    pub pages: usize,
     /// The numbers of the first pages of cells that have several.
     begins: Vec<usize>,
 }
@@ -119,7 +150,7 @@ struct Setting {
 const CELLS_TO_A_GROUP: usize = 16;
 
 impl Setting {
-    fn new(planned: &PlannedFamily, arrangement: &Arrangement) -> Setting {
+    pub fn new(planned: &PlannedFamily, arrangement: &Arrangement) -> Setting {
         let kept = arrangement.kept.len();
         let cells_to_a_page = planned.layout.cells();
         let begins = match planned.layout {
@@ -133,6 +164,11 @@ impl Setting {
             Some(chart) => (CELLS_TO_A_GROUP, chart.y.len().div_ceil(cells_to_a_page)),
         };
         Setting { size, pages, begins }
+    }
+
+    /// The first page of the k-th cell in the order of pages.
+    pub fn page_of(&self, k: usize) -> usize {
+        self.begins.get(k).copied().unwrap_or(k / self.size + 1)
     }
 }
 
@@ -214,7 +250,7 @@ impl Work<'_> {
         let (planned, printer, interrupt) = (self.planned, self.printer, self.printer.interrupt);
         let family = &planned.family;
         let draws = planned.chart.is_none() && family.sort.is_none();
-        let begins = std::mem::take(&mut self.setting.begins);
+        let begins = self.setting.begins.clone();
         let make = |group: usize, solved: Vec<Solved>| -> Result<Made, Error> {
             let (mut points, mut cells) = (Vec::new(), Vec::new());
             for solved in &solved {
@@ -257,7 +293,7 @@ impl Work<'_> {
     /// Draws pages in an order of their own, that of the tables being that of the cells.
     fn sorted_pages(&mut self, journal: &mut Journal, tell: &mut dyn FnMut(Event)) -> Result<(), Error> {
         let printer = self.printer;
-        let begins = std::mem::take(&mut self.setting.begins);
+        let begins = self.setting.begins.clone();
         let make = |group: usize, solved: Vec<Solved>| draw(&printer, &begins, group, &solved);
         let groups = self.groups(&self.arrangement.order);
         sweep::run(&self.planned.family, groups, make, |pages| -> Result<(), Error> {
@@ -291,10 +327,6 @@ fn draw(printer: &Printer, begins: &[usize], group: usize, solved: &[Solved]) ->
         (Layout::CouplerGrid, [solved]) => printer.grids(begins[group], solved),
         _ => Ok(vec![printer.panels(group + 1, solved)?]),
     }
-}
-
-fn stop_if(interrupt: &AtomicBool) -> Result<(), Error> {
-    if interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
 }
 
 /// How many two-valued joints the linkages of a family have.

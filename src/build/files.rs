@@ -45,14 +45,17 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     file.keep()
 }
 
-/// Whether a file of a folder is what its record says: a text by its bytes; an image, whose bytes no record has, by
-/// being whole.
+/// Whether a file of a folder is what its record says: a text by its bytes; an image or a book, whose bytes no record has,
+/// by being whole.
 pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
     let path = folder.join(&record.name);
     let is_file = fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file());
     let holds = || -> io::Result<bool> {
         let mut file = fs::File::open(&path)?;
-        let Some(sha256) = &record.sha256 else { return ends_as_png(&mut file) };
+        let Some(sha256) = &record.sha256 else {
+            let end: &[u8] = if record.name.ends_with(".pdf") { b"%%EOF" } else { PNG_END };
+            return ends_with(&mut file, end);
+        };
         let mut digest = RunningDigest::default();
         io::copy(&mut file, &mut digest)?;
         Ok(digest.finish() == *sha256)
@@ -60,13 +63,15 @@ pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
     is_file && holds().unwrap_or(false)
 }
 
-/// Whether a file has the last chunk of a PNG at its end, as none has that was cut short.
-fn ends_as_png(file: &mut fs::File) -> io::Result<bool> {
-    const END: [u8; 12] = *b"\0\0\0\0IEND\xaeB`\x82";
-    let mut end = [0; END.len()];
-    file.seek(io::SeekFrom::End(-(END.len() as i64)))?;
-    file.read_exact(&mut end)?;
-    Ok(end == END)
+/// The last chunk of a PNG.
+const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
+
+/// Whether a file ends as none does that was cut short.
+fn ends_with(file: &mut fs::File, end: &[u8]) -> io::Result<bool> {
+    let mut found = vec![0; end.len()];
+    file.seek(io::SeekFrom::End(-(end.len() as i64)))?;
+    file.read_exact(&mut found)?;
+    Ok(found == end)
 }
 
 /// Removes files of a folder, those of them that are there. Neither the folder nor a file may be a link to another.

@@ -47,6 +47,14 @@ impl<'a> Inputs<'a> {
         digest.finish()
     }
 
+    /// The digest of those of a book of families, in volumes of so many pages.
+    pub fn of_book(families: &[&PlannedFamily], volume_pages: usize) -> String {
+        let mut digest = RunningDigest::default();
+        digest.add(format!("book in volumes of {volume_pages}\n").as_bytes());
+        families.iter().for_each(|planned| digest.add(format!("{}\n", Inputs::new(planned).of_family()).as_bytes()));
+        digest.finish()
+    }
+
     fn digest(self, kind: &str, manifest: &str) -> RunningDigest {
         let mut digest = RunningDigest::default();
         digest.add(format!("{} {}\n{kind}\n{manifest}\n", env!("CARGO_PKG_NAME"), self.version).as_bytes());

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use super::Error;
 use super::files::{self, write};
 use crate::manifest::Plan;
-use crate::record::{FamilyRecord, Run};
+use crate::record::{BookRecord, FamilyRecord, Run};
 
 /// `run.json` as it grows: at any time it says no more than what is so, whatever comes next.
 #[derive(Debug)]
@@ -13,6 +13,8 @@ pub(super) struct Journal<'a> {
     path: PathBuf,
     /// What is known of families, done in this run or an earlier one.
     families: Vec<FamilyRecord>,
+    /// What is known of the book.
+    book: Option<BookRecord>,
     /// What is in the file.
     written: Vec<u8>,
 }
@@ -23,7 +25,20 @@ impl<'a> Journal<'a> {
         let path = output.join("run.json");
         // Where it cannot be read there is none, or it is one that is replaced.
         let written = fs::read(&path).unwrap_or_default();
-        Journal { plan, path, families: earlier.map(|run| run.families).unwrap_or_default(), written }
+        let (families, book) = earlier.map(|run| (run.families, run.book)).unwrap_or_default();
+        Journal { plan, path, families, book, written }
+    }
+
+    /// What is known of the book.
+    pub fn book(&self) -> Option<&BookRecord> {
+        self.book.as_ref()
+    }
+
+    /// Replaces what is known of the book, on disk too.
+    pub fn put_book(&mut self, record: Option<BookRecord>) -> Result<(), Error> {
+        self.book = record;
+        self.save()?;
+        Ok(())
     }
 
     /// What is known of a family.
@@ -65,6 +80,7 @@ impl<'a> Journal<'a> {
         let mut run = Run::new(&self.plan.title);
         let place = |record: &FamilyRecord| self.plan.families.iter().position(|p| p.family.id == record.id);
         run.families = self.families.clone();
+        run.book = self.book.clone();
         run.families.sort_by_key(|record| place(record).unwrap_or(usize::MAX));
         run
     }

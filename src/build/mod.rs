@@ -1,5 +1,6 @@
 //! Runs a [`Plan`]: names the files, and writes each whole or not at all; what is there already it leaves alone.
 
+mod book;
 mod claims;
 mod earlier;
 mod error;
@@ -19,7 +20,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::manifest::{Plan, PlannedFamily};
 use crate::problem::Problem;
-use crate::record::{FamilyRecord, ReadError, Run};
+use crate::record::{BookRecord, FamilyRecord, ReadError, Run};
 use crate::render::Format;
 use crate::sweep;
 use journal::Journal;
@@ -56,6 +57,13 @@ pub enum Event<'a> {
         record: &'a FamilyRecord,
         /// How many of its pages were drawn; none where nothing of it was even solved, for nothing has changed.
         drawn: Option<usize>,
+    },
+    /// The book is done.
+    Bound {
+        /// What there is of it.
+        record: &'a BookRecord,
+        /// Whether it was made, for something in it has changed.
+        is_drawn: bool,
     },
     /// A cell was not assembled, or not over the whole range asked for.
     Shortfall {
@@ -94,15 +102,18 @@ pub fn run(plan: &Plan, output: &Path, options: &Options, tell: &mut dyn FnMut(E
     let earlier = earlier::read(output, !options.only.is_empty(), tell)?;
     let mut journal = Journal::open(plan, output, earlier);
     for planned in plan.families.iter().filter(is_asked) {
-        if options.interrupt.load(Ordering::Relaxed) {
-            return Err(Error::Interrupted);
-        }
+        stop_if(&options.interrupt)?;
         family::build((plan, planned), output, options, &mut journal, tell)?;
     }
     if options.only.is_empty() {
         journal.drop_others(output)?;
     }
+    book::build(plan, output, options, &mut journal, tell)?;
     journal.close()
+}
+
+fn stop_if(interrupt: &AtomicBool) -> Result<(), Error> {
+    if interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
 }
 
 /// A warning for each family whose `where` keeps nothing: found by a sweep, or, of what was built, in its record.

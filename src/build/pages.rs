@@ -1,6 +1,7 @@
 //! The pages of a family, composed, rendered and written: those that are not there yet as they would be.
 
 use std::cell::LazyCell;
+use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Error;
@@ -55,48 +56,52 @@ fn labels(family: &Family, solved: &Solved) -> Vec<Label> {
     family.template.lengths().into_iter().filter_map(label).collect()
 }
 
-impl Printer<'_> {
+/// What the pages of a family show, before they are printed.
+#[derive(Clone, Copy)]
+pub(super) struct Composer<'a> {
+    pub plan: &'a Plan,
+    pub planned: &'a PlannedFamily,
+    /// How many pages there are.
+    pub of: usize,
+}
+
+impl Composer<'_> {
     /// A page of panels; pages are counted from 1.
-    pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Printed, Error> {
-        let Printer { plan, planned, .. } = *self;
-        let family = &planned.family;
-        let inputs = self.inputs.of_page((page, self.of), solved, &[]);
-        self.print(page, &inputs, || {
-            let sheet = Sheet {
-                heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
-                layout: planned.layout,
-                panels: solved.iter().map(|solved| panel(family, solved)).collect(),
+    pub fn panels(&self, page: usize, solved: &[Solved]) -> Scene {
+        let Composer { plan, planned, .. } = *self;
+        let sheet = Sheet {
+            heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
+            layout: planned.layout,
+            panels: solved.iter().map(|solved| panel(&planned.family, solved)).collect(),
+        };
+        page::compose(&sheet, &plan.page)
+    }
+
+    /// The pages of a coupler grid, of which the first has this number: for each, its number, the places of the curves on
+    /// it, and how it is composed.
+    pub fn grids<'s>(
+        &'s self,
+        page: usize,
+        solved: &'s Solved,
+    ) -> impl Iterator<Item = (usize, Vec<usize>, impl FnOnce() -> Scene)> {
+        let Composer { plan, planned, .. } = *self;
+        let labels = Rc::new(labels(&planned.family, solved));
+        // One pose for all pages of a cell, sought for the first that is drawn.
+        let view = Rc::new(LazyCell::new(|| page::clearest_pose(solved).map_or(View::Clearest, View::At)));
+        (page..).zip(leaves(solved)).map(move |(page, shown)| {
+            let (labels, view, places) = (Rc::clone(&labels), Rc::clone(&view), shown.clone());
+            let compose = move || {
+                let heading = self.heading(page, planned.source.clone());
+                let panel = Panel { view: View::clone(&view), ..panel(&planned.family, solved) };
+                page::compose_grid(&GridSheet { heading, panel, shown, labels: &labels }, &plan.page)
             };
-            page::compose(&sheet, &plan.page)
+            (page, places, compose)
         })
     }
 
-    /// The pages of a coupler grid, of which the first has this number.
-    pub fn grids(&self, page: usize, solved: &Solved) -> Result<Vec<Printed>, Error> {
-        let Printer { plan, planned, .. } = *self;
-        let mut shown = solved.by_points(Layout::POINTS);
-        if shown.is_empty() {
-            // A cell that is not assembled has a page that says so.
-            shown.push(Vec::new());
-        }
-        let labels = labels(&planned.family, solved);
-        // One pose for all pages of a cell, sought for the first that is drawn.
-        let view = LazyCell::new(|| page::clearest_pose(solved).map_or(View::Clearest, View::At));
-        let draw = |(page, shown): (usize, Vec<usize>)| {
-            let inputs = self.inputs.of_page((page, self.of), std::slice::from_ref(solved), &shown);
-            self.print(page, &inputs, || {
-                let heading = self.heading(page, planned.source.clone());
-                let panel = Panel { view: view.clone(), ..panel(&planned.family, solved) };
-                let sheet = GridSheet { heading, panel, shown, labels: &labels };
-                page::compose_grid(&sheet, &plan.page)
-            })
-        };
-        (page..).zip(shown).map(draw).collect()
-    }
-
     /// A page of charts.
-    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Printed, Error> {
-        let Printer { plan, planned, .. } = *self;
+    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Scene {
+        let Composer { plan, planned, .. } = *self;
         let first = (page - 1) * planned.layout.cells();
         let mut source = vec![planned.source.clone()];
         if gathered.left_out > 0 {
@@ -111,13 +116,56 @@ impl Printer<'_> {
             shown: first..(first + planned.layout.cells()).min(chart.y.len()),
             series: &gathered.series,
         };
-        self.print(page, &self.inputs.of_charts(page), || page::compose_charts(&sheet, &plan.page))
+        page::compose_charts(&sheet, &plan.page)
+    }
+
+    /// A plate of one cell for a title page: of a coupler grid, with the curves of one page.
+    pub fn frontispiece<'s>(&'s self, solved: &'s Solved) -> Sheet<'s> {
+        let heading = self.heading(1, String::new());
+        Sheet {
+            heading,
+            layout: Layout::Panels { columns: 1, rows: 1 },
+            panels: vec![panel(&self.planned.family, solved)],
+        }
     }
 
     fn heading(&self, page: usize, source: String) -> Heading<'_> {
-        let Printer { plan, planned, of, .. } = *self;
+        let Composer { plan, planned, of } = *self;
         let Family { id, title, names, .. } = &planned.family;
         Heading { atlas: &plan.title, family: id, title, source, symbols: names, page, of }
+    }
+}
+
+/// The curves of a cell, by the pages of a coupler grid they are on; a cell that is not assembled has a page that says so.
+pub(super) fn leaves(solved: &Solved) -> Vec<Vec<usize>> {
+    let shown = solved.by_points(Layout::POINTS);
+    if shown.is_empty() { vec![Vec::new()] } else { shown }
+}
+
+impl Printer<'_> {
+    fn composer(&self) -> Composer<'_> {
+        Composer { plan: self.plan, planned: self.planned, of: self.of }
+    }
+
+    /// A page of panels; pages are counted from 1.
+    pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Printed, Error> {
+        let inputs = self.inputs.of_page((page, self.of), solved, &[]);
+        self.print(page, &inputs, || self.composer().panels(page, solved))
+    }
+
+    /// The pages of a coupler grid, of which the first has this number.
+    pub fn grids(&self, page: usize, solved: &Solved) -> Result<Vec<Printed>, Error> {
+        let composer = self.composer();
+        let print = |(page, shown, compose): (usize, Vec<usize>, _)| {
+            let inputs = self.inputs.of_page((page, self.of), std::slice::from_ref(solved), &shown);
+            self.print(page, &inputs, compose)
+        };
+        composer.grids(page, solved).map(print).collect()
+    }
+
+    /// A page of charts.
+    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Printed, Error> {
+        self.print(page, &self.inputs.of_charts(page), || self.composer().charts(page, chart, gathered))
     }
 
     /// A page in each format, drawn where it is not there as it would be.
@@ -142,6 +190,8 @@ impl Printer<'_> {
                 let png = render::png(&scene, self.plan.dpi).map_err(|error| Error::Image { name, error })?;
                 self.claims.write(record, &png)
             }
+            // A book has its pages from elsewhere.
+            (None, Format::Pdf) => Ok(FileRecord::of_name(name)),
         };
         let files = names.into_iter().zip(kept).map(draw).collect::<Result<_, Error>>()?;
         Ok(Printed { files, is_drawn: true })

@@ -20,7 +20,7 @@ pub struct Arguments {
     /// The folder to write to, relative to the current folder [default: the manifest's `output`, beside it].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The formats of all pages, in place of the manifest's; an earlier run's pages in others are removed.
+    /// The formats of pages, in place of the manifest's: svg, png, pdf (one book). What an earlier run drew in others stays.
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = format)]
     format: Option<Vec<Format>>,
     /// Render this family only, and leave the others' files as they are; may be given more than once.
@@ -122,6 +122,16 @@ impl Teller {
                 self.named = 0;
                 lines.push_str(&summary(record, drawn));
             }
+            Event::Bound { record, is_drawn } => {
+                self.bar.finish_and_clear();
+                let names: Vec<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
+                let named = match &names[..] {
+                    [first, .., last] => format!("{first} to {last}"),
+                    _ => names.concat(),
+                };
+                let unchanged = if is_drawn { "" } else { " (unchanged)" };
+                lines.push_str(&format!("{named}: {}{unchanged}\n", count(record.pages, "page")));
+            }
             Event::Unreadable { record, error } => {
                 let record = record.display();
                 say(&format!("warning: {record} is no help: {error}; everything is drawn, and nothing removed\n"));
@@ -145,7 +155,8 @@ fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
     line.push_str(&format!(", {}", count(record.pages, "page")));
     match drawn {
         None => line.push_str(" (unchanged)"),
-        Some(drawn) if drawn < record.pages => {
+        // Pages that are bound only are not drawn one by one.
+        Some(drawn) if drawn < record.pages && record.files.len() > record.pages => {
             line.push_str(&format!(" ({drawn} of {} drawn)", count(record.pages, "page")));
         }
         Some(_) => {}

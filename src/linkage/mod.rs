@@ -416,6 +416,34 @@ impl Linkage {
         Input::Angle { turns }
     }
 
+    /// The linkage without the points at its end that nothing stands on, but for a joint, and that joint's place in it: what
+    /// is asked of one point of a grid need not place the others. The joints before those points keep their places.
+    pub fn with_one_point(&self, joint: JointId) -> (Linkage, JointId) {
+        let mut first = self.joints.len();
+        let mut base_of_all = self.seen_from.map_or(0, |[origin, end]| origin.max(end));
+        while let Some(Step::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].step) {
+            base_of_all = base_of_all.max(p).max(q);
+            if base_of_all >= first - 1 {
+                break;
+            }
+            first -= 1;
+        }
+        let kept: Vec<JointId> = (0..first).chain((joint >= first).then_some(joint)).collect();
+        let place = |old: JointId| kept.iter().position(|&kept| kept == old);
+        let link = |link: &Link| Link {
+            joints: link.joints.iter().filter_map(|&(joint, at)| Some((place(joint)?, at))).collect(),
+        };
+        let linkage = Linkage {
+            joints: kept.iter().map(|&joint| self.joints[joint].clone()).collect(),
+            links: self.links.iter().map(link).collect(),
+            traced: place(joint).into_iter().collect(),
+            seen_from: self.seen_from,
+            placement: self.placement,
+            travel: self.travel.clone(),
+        };
+        (linkage, joint.min(first))
+    }
+
     /// How many two-valued joints there are.
     pub fn dyads(&self) -> usize {
         self.joints.iter().filter(|joint| joint.step.index().is_some()).count()

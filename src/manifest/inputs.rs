@@ -12,7 +12,7 @@ pub struct Inputs {
 }
 
 /// Keys of [atlas] that say where files go, not what is in them.
-const PLACES: [&str; 2] = ["output", "formats"];
+const PLACES: [&str; 3] = ["output", "formats", "volume_pages"];
 /// Keys of a family that say the same.
 const FILES: [&str; 2] = ["formats", "limit"];
 /// Keys of a family, with [`FILES`], that come to the values of cells, their curves and their order.

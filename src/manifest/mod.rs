@@ -28,6 +28,8 @@ pub struct Plan {
     pub title: String,
     /// The folder results go to, as the manifest gives it.
     pub output: String,
+    /// How many pages go into a volume of the book.
+    pub volume_pages: usize,
     /// What all pages have in common.
     pub page: page::Options,
     /// The resolution of PNG images, in pixels to the inch.
@@ -128,6 +130,7 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
     Some(Plan {
         title: atlas.title,
         output: atlas.output,
+        volume_pages: atlas.volume_pages,
         page: page.options,
         dpi: page.dpi,
         text: page.text,

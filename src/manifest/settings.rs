@@ -11,7 +11,11 @@ pub(super) struct Atlas {
     pub title: String,
     pub output: String,
     pub formats: Vec<Format>,
+    pub volume_pages: usize,
 }
+
+/// The most pages a volume may have: readers and the memory of a run bear no more.
+const MAX_VOLUME: usize = 10_000;
 
 pub(super) struct Page {
     pub options: Options,
@@ -23,7 +27,7 @@ pub(super) struct Page {
 const MAX_PIXELS: f64 = 4e8;
 
 pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Atlas> {
-    let fields = Fields::of(value, "[atlas]", &["title", "output", "formats"], reader)?;
+    let fields = Fields::of(value, "[atlas]", &["title", "output", "formats", "volume_pages"], reader)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", reader);
     let output = match fields.get("output") {
         None => Some("output".to_owned()),
@@ -38,7 +42,8 @@ pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<At
         None => Some(vec![Format::Svg, Format::Png]),
         Some(value) => formats(value, reader),
     };
-    Some(Atlas { title: title?, output: output?, formats: formats? })
+    let volume_pages = fields.get("volume_pages").map_or(Some(1000), |value| reader.count(value, 1, MAX_VOLUME));
+    Some(Atlas { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
 }
 
 /// A list of formats, each once.

@@ -1,4 +1,8 @@
-use crate::geometry::{Point, Vector, cross};
+use std::borrow::Cow;
+
+use super::exchange::exchanged;
+use super::strip::extent;
+use crate::geometry::{Point, cross, left_normal};
 
 /// The golden section.
 pub(super) const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -14,86 +18,104 @@ pub(super) struct Annulus {
     pub width: f64,
 }
 
-impl Annulus {
+/// The points that the circles of an annulus go through by turns: for another row much like the last they are a good
+/// guess.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Turns {
+    four: Option<[usize; 4]>,
+    three: Option<[usize; 3]>,
+}
+
+impl Turns {
     /// The narrowest annulus of a row of at least four points, which lie on an arc of a circle or nearly so.
     ///
     /// Its circles go through four of the points by turns, outer and inner (de la Vallée Poussin): of any four the ring is
     /// no wider than that of all, and four are exchanged for others until it is no narrower. Given up as soon as it must be
     /// wider than `most`, and done as soon as it is known to be no wider. `None` where there is no such circle.
-    pub fn of(points: &[Point], most: f64) -> Option<Annulus> {
-        const ROUNDS: usize = 12;
-        let last = points.len().checked_sub(1)?;
-        // Where a polynomial of the third degree has its extremes: the first guess is good. Of a row that goes nearly round
-        // the ends are nearly one point, and tell the less.
-        let [near, far] = [last, last / 2].map(|k| (points[k] - points[0]).norm_squared());
-        let goes_round = near < far / 4.0;
-        let mut four =
-            if goes_round { [1, 3, 5, 7].map(|k| k * last / 8) } else { [0, last / 4, last - last / 4, last] };
-        // A row that goes there and back on one arc has pairs of points in one place.
-        if Annulus::through(four.map(|k| points[k])).is_none() {
-            four = [1, 6, 11, 17].map(|k| k * last / 20);
+    fn of(&mut self, points: &[Point], most: f64) -> Option<Annulus> {
+        if let Some(four) = &mut self.four
+            && let Some(ring) = exchange(points, four, most, Annulus::through)
+        {
+            return Some(ring);
         }
-        let mut best: Option<Annulus> = None;
-        for _ in 0..ROUNDS {
-            let ring = Annulus::through(four.map(|k| points[k]))?;
-            if ring.width > most {
-                return None;
-            }
-            let [(low, at_low), (high, at_high)] = ring.extremes(points);
-            let found = Annulus { radius: ring.radius + (low + high) / 2.0, width: high - low, ..ring };
-            if best.is_none_or(|best| found.width < best.width) {
-                best = Some(found);
-            }
-            let is_done = found.width <= ring.width * (1.0 + 1e-9) || (most.is_finite() && found.width <= most);
-            let outermost = if -low > high { at_low } else { at_high };
-            if is_done || four.contains(&outermost) {
-                break;
-            }
-            four = exchanged(four, outermost, |k| (points[k] - ring.centre).norm() > ring.radius);
+        let four = self.four.insert(guess(points)?);
+        if Annulus::through(four.map(|k| points[k]))?.width > most {
+            return None;
         }
-        best.filter(|best| best.width <= most)
+        if most.is_finite() {
+            sift(points, four, most);
+        }
+        exchange(points, four, most, Annulus::through)
     }
 
-    /// The narrowest annulus of a row of points whose radius is no more than `largest`; as [`Annulus::of`] otherwise.
-    pub fn within(points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
-        let free = Annulus::of(points, most)?;
+    /// The narrowest annulus of a row of points whose radius is no more than `largest`; as [`Turns::of`] otherwise.
+    pub fn within(&mut self, points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
+        let free = self.of(points, most)?;
         if free.radius <= largest {
             return Some(free);
         }
         // The row is flatter than the largest circle, which touches it best somewhere between its ends. About a point in
-        // the middle the centre is turned to where the ring is narrowest.
-        let (middle, chord) = (points[points.len() / 2], points[points.len() - 1] - points[0]);
-        let side = if cross(chord, free.centre - middle) < 0.0 { -1.0 } else { 1.0 };
-        let arm = Vector::new(-chord.y, chord.x).try_normalize(0.0)? * (side * largest);
-        let turned = |slope: f64| {
-            let centre = middle + (arm + Vector::new(-arm.y, arm.x) * slope) / (1.0 + slope * slope).sqrt();
-            let ring = Annulus { centre, radius: largest, width: 0.0 };
-            let [(low, _), (high, _)] = ring.extremes(points);
-            Annulus { width: high - low, ..ring }
+        // the middle the centre is turned to where the ring is narrowest: three points tell.
+        let middle = points[points.len() / 2];
+        let points = &*one_way(points);
+        let last = points.len() - 1;
+        let is_left = cross(points[last] - points[0], free.centre - middle) >= 0.0;
+        let through = |[a, b, c]: [Point; 3]| {
+            // As far from the middle as it may be, and as far from the first as from the third.
+            let along = (c - a).try_normalize(0.0)?;
+            let normal = if is_left { left_normal(along) } else { -left_normal(along) };
+            let rest = along.dot(&(nalgebra::center(&a, &c) - middle));
+            let centre = middle + along * rest + normal * (largest * largest - rest * rest).max(0.0).sqrt();
+            Some(Annulus::about(centre, [a, b]))
         };
-        let straight = turned(0.0);
-        if most.is_finite() && straight.width <= most {
-            return Some(straight);
-        }
-        // The ends go as far with it as it is wide, at most. To half a hundredth of that, by golden sections.
-        let reach = 2.0 * straight.width / chord.norm();
-        let [mut low, mut high] = [-reach, reach];
-        let [mut a, mut b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-        let [mut at_a, mut at_b] = [turned(a).width, turned(b).width];
-        for _ in 0..12 {
-            if at_a < at_b {
-                (high, b, at_b) = (b, a, at_a);
-                a = high - GOLDEN * (high - low);
-                at_a = turned(a).width;
-            } else {
-                (low, a, at_a) = (a, b, at_b);
-                b = low + GOLDEN * (high - low);
-                at_b = turned(b).width;
-            }
-        }
-        Some(turned((low + high) / 2.0)).filter(|ring| ring.width <= most)
+        exchange(points, self.three.get_or_insert([0, last / 2, last]), most, through)
     }
+}
 
+/// The points of a nearly straight row in the order in which they lie along it, should it go there and back.
+fn one_way(points: &[Point]) -> Cow<'_, [Point]> {
+    let along = points[points.len() - 1] - points[0];
+    let reach = along.norm_squared();
+    let [low, high] = extent(points, |p| along.dot(&(p - points[0])));
+    if low >= -1e-3 * reach && high <= 1.001 * reach {
+        return points.into();
+    }
+    let square = |p: &Point| (p - points[0]).norm_squared();
+    let furthest = points.iter().copied().reduce(|far, p| if square(&p) > square(&far) { p } else { far });
+    let along = furthest.unwrap_or(points[0]) - points[0];
+    let mut row = points.to_vec();
+    row.sort_by(|a, b| along.dot(&a.coords).total_cmp(&along.dot(&b.coords)));
+    row.into()
+}
+
+/// Four points of a row where those of a narrow annulus may be.
+fn guess(points: &[Point]) -> Option<[usize; 4]> {
+    let last = points.len().checked_sub(1)?;
+    // Where a polynomial of the third degree has its extremes: the first guess is good. Of a row that goes nearly round
+    // the ends are nearly one point, and tell the less.
+    let [near, far] = [last, last / 2].map(|k| (points[k] - points[0]).norm_squared());
+    let four = if near < far / 4.0 { [1, 3, 5, 7].map(|k| k * last / 8) } else { [0, last / 4, last - last / 4, last] };
+    // A row that goes there and back on one arc has pairs of points in one place.
+    let is_one = Annulus::through(four.map(|k| points[k])).is_some();
+    Some(if is_one { four } else { [1, 6, 11, 17].map(|k| k * last / 20) })
+}
+
+/// Exchanges four points of a long row for better ones, of a few of its points only.
+fn sift(points: &[Point], four: &mut [usize; 4], most: f64) {
+    const FEW: usize = 16;
+    let last = points.len() - 1;
+    if last < 2 * FEW {
+        return;
+    }
+    let few: [Point; FEW + 1] = std::array::from_fn(|k| points[k * last / FEW]);
+    let mut among = four.map(|k| k * FEW / last);
+    exchange(&few, &mut among, most, Annulus::through);
+    if Annulus::through(among.map(|k| few[k])).is_some() {
+        *four = among.map(|k| k * last / FEW);
+    }
+}
+
+impl Annulus {
     /// The circles through the first and third of four points, and through the second and fourth.
     fn through([a, b, c, d]: [Point; 4]) -> Option<Annulus> {
         // The centre is as far from the one as from the other of each pair.
@@ -101,44 +123,78 @@ impl Annulus {
         let by = [(c - a).dot(&(c + a.coords).coords) / 2.0, (d - b).dot(&(d + b.coords).coords) / 2.0];
         let turn = cross(u, v);
         let centre = Point::new((by[0] * v.y - by[1] * u.y) / turn, (u.x * by[1] - v.x * by[0]) / turn);
-        let [outer, inner] = [a, b].map(|p| (p - centre).norm());
-        let ring = Annulus { centre, radius: (outer + inner) / 2.0, width: (outer - inner).abs() };
+        let ring = Annulus::about(centre, [a, b]);
         ring.radius.is_finite().then_some(ring)
     }
 
-    /// How far the innermost and the outermost point are from the circle halfway, and which they are.
-    fn extremes(&self, points: &[Point]) -> [(f64, usize); 2] {
-        let mut found = [(f64::INFINITY, 0), (f64::NEG_INFINITY, 0)];
-        for (k, p) in points.iter().enumerate() {
-            let by: Vector = p - self.centre;
-            let far = by.norm() - self.radius;
-            if far < found[0].0 {
-                found[0] = (far, k);
-            }
-            if far > found[1].0 {
-                found[1] = (far, k);
-            }
-        }
-        found
+    /// The circles about a centre that hold some points between them.
+    pub fn round(centre: Point, points: &[Point]) -> Annulus {
+        let [low, high] = extent(points, |p| (p - centre).norm_squared()).map(f64::sqrt);
+        Annulus { centre, radius: (low + high) / 2.0, width: high - low }
+    }
+
+    /// The circles about a centre through two points.
+    fn about(centre: Point, through: [Point; 2]) -> Annulus {
+        let [a, b] = through.map(|p| (p - centre).norm());
+        Annulus { centre, radius: (a + b) / 2.0, width: (a - b).abs() }
     }
 }
 
-/// Four points by turns outside and inside with one of them exchanged for another point.
-fn exchanged(four: [usize; 4], new: usize, is_outside: impl Fn(usize) -> bool) -> [usize; 4] {
-    let [a, b, c, d] = four;
-    let is_like = |k: usize| is_outside(four[k]) == is_outside(new);
-    match four.iter().filter(|&&k| k < new).count() {
-        0 if is_like(0) => [new, b, c, d],
-        0 => [new, a, b, c],
-        1 if is_like(0) => [new, b, c, d],
-        1 => [a, new, c, d],
-        2 if is_like(1) => [a, new, c, d],
-        2 => [a, b, new, d],
-        3 if is_like(2) => [a, b, new, d],
-        3 => [a, b, c, new],
-        _ if is_like(3) => [a, b, c, new],
-        _ => [b, c, d, new],
+/// The narrowest annulus of a row of points, by some of them that are by turns on its two circles, which go `through`
+/// those; given up and done with as [`Turns::of`] says. The points are those of the narrowest afterwards.
+fn exchange<const N: usize>(
+    points: &[Point],
+    turns: &mut [usize; N],
+    most: f64,
+    through: impl Fn([Point; N]) -> Option<Annulus>,
+) -> Option<Annulus> {
+    const ROUNDS: usize = 24;
+    let of = |turns: [usize; N]| through(turns.map(|k| points[k]));
+    let mut best: Option<Annulus> = None;
+    let mut ring = of(*turns)?;
+    for _ in 0..ROUNDS {
+        if ring.width > most {
+            return None;
+        }
+        let square = |p: &Point| (p - ring.centre).norm_squared();
+        let squares = extent(points, square);
+        let [low, high] = squares.map(f64::sqrt);
+        let found = Annulus { radius: (low + high) / 2.0, width: high - low, ..ring };
+        if best.is_none_or(|best| found.width < best.width) {
+            best = Some(found);
+        }
+        if found.width <= ring.width * (1.0 + 1e-9) || (most.is_finite() && found.width <= most) {
+            break;
+        }
+        let is_inside = ring.radius - low > high - ring.radius;
+        let outermost = squares[usize::from(!is_inside)];
+        let Some(new) = points.iter().position(|p| square(p) == outermost) else { break };
+        if turns.contains(&new) {
+            break;
+        }
+        let own = turns.map(|k| (points[k] - ring.centre).norm() < ring.radius);
+        let next = exchanged(*turns, new, |k| own[k] == is_inside);
+        let wider = of(next).filter(|next| next.width > ring.width).map(|ring| (ring, next));
+        // On a long arc it may be another that goes: one that lies within the ring of the rest.
+        let other = || {
+            let each = (0..N).filter_map(|gone| Some((of(with(*turns, gone, new))?, gone)));
+            let fits =
+                |ring: &Annulus, p: Point| ((p - ring.centre).norm() - ring.radius).abs() <= ring.width * (0.5 + 1e-9);
+            let fitting = each.filter(|(ring, gone)| fits(ring, points[turns[*gone]]));
+            let (ring, gone) = fitting.min_by(|a, b| a.0.width.total_cmp(&b.0.width))?;
+            Some((ring, with(*turns, gone, new)))
+        };
+        let Some(next) = wider.or_else(other) else { break };
+        (ring, *turns) = next;
     }
+    best.filter(|best| best.width <= most)
+}
+
+/// Places in order, with another for one of them.
+fn with<const N: usize>(mut turns: [usize; N], gone: usize, new: usize) -> [usize; N] {
+    turns[gone] = new;
+    turns.sort_unstable();
+    turns
 }
 
 #[cfg(test)]
@@ -155,10 +211,10 @@ mod tests {
             Point::new(5.0 + r * trig::cos(t), 1.0 + r * trig::sin(t))
         };
         let points: Vec<Point> = (0..=300).map(point).collect();
-        let ring = Annulus::of(&points, f64::INFINITY).expect("a ring");
+        let ring = Turns::default().of(&points, f64::INFINITY).expect("a ring");
         assert!((ring.width - 0.02).abs() < 1e-9 && (ring.radius - 2.0).abs() < 1e-9, "{ring:?}");
         assert!((ring.centre - Point::new(5.0, 1.0)).norm() < 1e-9, "{ring:?}");
-        assert!(Annulus::of(&points, 0.019).is_none());
-        assert!(Annulus::of(&points, 0.021).is_some_and(|ring| ring.width <= 0.021));
+        assert!(Turns::default().of(&points, 0.019).is_none());
+        assert!(Turns::default().of(&points, 0.021).is_some_and(|ring| ring.width <= 0.021));
     }
 }

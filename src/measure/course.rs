@@ -1,3 +1,5 @@
+use std::rc::Rc;
+
 use super::annulus::GOLDEN;
 use super::trail::Trail;
 use crate::geometry::{Point, cross};
@@ -16,8 +18,8 @@ pub(super) struct Fit {
 /// A *place* on it is a number: place 2.5 is between points 2 and 3. A closed curve is gone round twice, so that a portion
 /// that goes over its first point is a row of points too.
 #[derive(Clone, Debug)]
-pub(super) struct Course<'a> {
-    trail: &'a Trail,
+pub(super) struct Course {
+    trail: Rc<Trail>,
     /// Where its first point is among the trail's, and how far its points are apart there.
     first: f64,
     apart: f64,
@@ -25,8 +27,6 @@ pub(super) struct Course<'a> {
     pub points: Vec<Point>,
     /// How far the input has gone, there and back, at each point.
     pub travel: Vec<f64>,
-    /// The curvature at each point.
-    bends: Vec<f64>,
     /// At how many points a portion may begin.
     pub starts: usize,
     /// Whether it goes on at its first point after its last.
@@ -37,33 +37,38 @@ pub(super) struct Course<'a> {
     pub longest_chord: f64,
 }
 
-impl<'a> Course<'a> {
+impl Course {
     /// A whole curve, by its samples or, where they are few, more points.
-    pub fn of(trail: &'a Trail) -> Course<'a> {
+    pub fn of(trail: Rc<Trail>) -> Course {
         /// Portions are found between so many points, and then between those.
         const POINTS: usize = 360;
         let fold = POINTS.div_ceil(trail.points.len().max(1));
         let once = trail.intervals() * fold;
-        let count = if trail.closed { 2 * once } else { once + 1 };
-        Course::sampled(trail, [0.0, 1.0 / fold as f64], count, trail.closed.then_some(once))
+        let is_closed = trail.closed;
+        let mut course = Course::sampled(trail, [0.0, 1.0 / fold as f64], once + usize::from(!is_closed));
+        if is_closed {
+            course.go_round_again();
+        }
+        course
     }
 
     /// A piece of it, by many points.
-    pub fn piece(&self, [from, to]: [f64; 2]) -> Course<'a> {
+    pub fn piece(&self, [from, to]: [f64; 2]) -> Course {
         const INTERVALS: usize = 96;
         let apart = (to - from) * self.apart / INTERVALS as f64;
-        Course::sampled(self.trail, [self.first + from * self.apart, apart], INTERVALS + 1, None)
+        Course::sampled(self.trail.clone(), [self.first + from * self.apart, apart], INTERVALS + 1)
     }
 
-    fn sampled(trail: &'a Trail, [first, apart]: [f64; 2], count: usize, round: Option<usize>) -> Course<'a> {
-        let once = round.unwrap_or(count);
-        let place = |k: usize| first + k as f64 * apart;
-        let mut points: Vec<Point> = (0..once).map(|k| trail.place(place(k)).0).collect();
-        for k in once..count {
-            points.push(points[k - once]);
+    /// So many points, as far apart, of an open row.
+    fn sampled(trail: Rc<Trail>, [first, apart]: [f64; 2], count: usize) -> Course {
+        let start = trail.travelled(first);
+        let (mut points, mut travel) = (Vec::with_capacity(2 * count), Vec::with_capacity(2 * count));
+        for k in 0..count {
+            let (point, travelled) = trail.arrived(first + k as f64 * apart);
+            points.push(point);
+            travel.push(travelled - start);
         }
-        let travel = (0..count).map(|k| trail.travelled(place(k)) - trail.travelled(first)).collect();
-        let mut way = Vec::with_capacity(count);
+        let mut way = Vec::with_capacity(2 * count);
         way.push(0.0);
         let mut longest_chord = f64::MIN_POSITIVE;
         for pair in points.windows(2) {
@@ -71,15 +76,32 @@ impl<'a> Course<'a> {
             longest_chord = longest_chord.max(chord);
             way.push(way[way.len() - 1] + chord);
         }
-        let bend = |k: usize| {
-            let k = k.clamp(1, count.max(3) - 2);
-            let [a, b, c] = [k - 1, k, k + 1].map(|k| points[k.min(count - 1)]);
-            let bend = 2.0 * cross(b - a, c - b) / ((b - a).norm() * (c - b).norm() * (c - a).norm());
-            if bend.is_finite() { bend } else { 0.0 }
-        };
-        let bends = (0..count).map(bend).collect();
-        let starts = round.unwrap_or(count - 1);
-        Course { trail, first, apart, points, travel, bends, starts, is_closed: round.is_some(), way, longest_chord }
+        let starts = count.saturating_sub(1);
+        Course { trail, first, apart, points, travel, starts, is_closed: false, way, longest_chord }
+    }
+
+    /// Closes the row, and goes round a second time.
+    fn go_round_again(&mut self) {
+        let once = self.points.len();
+        let turn = self.trail.travel[self.trail.points.len()];
+        let closing = (self.points[0] - self.points[once - 1]).norm();
+        let round = self.way[once - 1] + closing;
+        self.points.extend_from_within(..);
+        self.travel.extend_from_within(..);
+        self.way.extend_from_within(..);
+        self.travel[once..].iter_mut().for_each(|travel| *travel += turn);
+        self.way[once..].iter_mut().for_each(|way| *way += round);
+        (self.starts, self.is_closed) = (once, true);
+        self.longest_chord = self.longest_chord.max(closing);
+    }
+
+    /// The signed curvature at a point, by its neighbours.
+    fn bend(&self, k: usize) -> f64 {
+        let count = self.points.len();
+        let k = k.clamp(1, count.max(3) - 2);
+        let [a, b, c] = [k - 1, k, k + 1].map(|k| self.points[k.min(count - 1)]);
+        let bend = 2.0 * cross(b - a, c - b) / ((b - a).norm() * (c - b).norm() * (c - a).norm());
+        if bend.is_finite() { bend } else { 0.0 }
     }
 
     /// The last point a portion may end at that begins at a place.
@@ -94,11 +116,7 @@ impl<'a> Course<'a> {
 
     /// The last point no further on than some way, of those after another.
     pub fn way_on(&self, from: usize, way: f64) -> usize {
-        let mut to = from;
-        while to + 1 < self.way.len() && self.way[to + 1] - self.way[from] <= way {
-            to += 1;
-        }
-        to
+        from + self.way[from + 1..].partition_point(|far| far - self.way[from] <= way)
     }
 
     /// A place, moved round a closed curve, or to the end of an open one, so that it is one of its own.
@@ -135,7 +153,11 @@ impl<'a> Course<'a> {
 
     /// The place a span of input after another.
     pub fn after_input(&self, from: f64, span: f64) -> Option<f64> {
-        let first = from.floor() as usize;
+        let round = self.starts as f64;
+        if self.is_closed && from >= round {
+            return Some(self.after_input(from - round, span)? + round);
+        }
+        let first = from as usize;
         let start = self.spanned([0.0, from]);
         // All of a closed curve ends where it begins.
         let last = if self.is_closed { first + self.starts } else { self.last(first) };
@@ -154,6 +176,10 @@ impl<'a> Course<'a> {
 
     /// The first place a distance away from another.
     pub fn after_length(&self, from: f64, length: f64) -> Option<f64> {
+        let round = self.starts as f64;
+        if self.is_closed && from >= round {
+            return Some(self.after_length(from - round, length)? + round);
+        }
         let start = self.point(from);
         let first = from as usize;
         let mut to = first + 1;
@@ -192,19 +218,22 @@ impl<'a> Course<'a> {
     /// little as any part of it does.
     pub fn bend_between(&self, [from, to]: [usize; 2]) -> f64 {
         let chord = self.distance([from, to]);
-        let bends = &self.bends[from..=to];
-        let least = bends.iter().fold(f64::INFINITY, |least, bend| least.min(bend.abs()));
-        let is_one_way = bends.iter().all(|bend| (*bend > 0.0) == (bends[0] > 0.0));
-        if is_one_way { least * chord * chord / 8.0 } else { 0.0 }
+        let (mut least, mut left) = (f64::INFINITY, 0);
+        for bend in (from..=to).map(|k| self.bend(k)) {
+            least = least.min(bend.abs());
+            left += usize::from(bend > 0.0);
+        }
+        if left == 0 || left == to - from + 1 { least * chord * chord / 8.0 } else { 0.0 }
     }
 
     /// The points at which it bends less than at their neighbours, the straightest first.
     pub fn flattest(&self) -> Vec<usize> {
-        let bend = |k: usize| self.bends[k].abs();
         let n = self.starts;
+        let bends: Vec<f64> = (0..=n.min(self.points.len() - 1)).map(|k| self.bend(k).abs()).collect();
+        let bend = |k: usize| bends[k];
         let is_least = |&k: &usize| {
             let before = if k > 0 { bend(k - 1) } else { bend(if self.is_closed { n - 1 } else { 1 }) };
-            bend(k) <= before && bend(k) <= bend((k + 1).min(self.bends.len() - 1))
+            bend(k) <= before && bend(k) <= bend((k + 1).min(bends.len() - 1))
         };
         let mut found: Vec<usize> = (0..n).filter(is_least).collect();
         found.sort_by(|&a, &b| bend(a).total_cmp(&bend(b)));
@@ -212,14 +241,18 @@ impl<'a> Course<'a> {
     }
 
     /// The size and the ends of a portion whose ends are moved, by a point at most, to where it is largest and still fits;
-    /// `None` where nothing fits.
-    pub fn drawn_out(&self, ends: [f64; 2], fit: impl Fn([f64; 2]) -> Fit) -> Option<(f64, [f64; 2])> {
+    /// `None` where nothing fits. What begins at a place is asked how it fits up to some ends.
+    pub fn drawn_out<F: FnMut(f64) -> Fit>(
+        &self,
+        ends: [f64; 2],
+        beginning: impl Fn(f64) -> F,
+    ) -> Option<(f64, [f64; 2])> {
         /// Golden sections of the two points between which it begins: to a tenth of the way between points. About the
         /// largest the size changes by the square of that.
         const ROUNDS: usize = 6;
         /// How near to its furthest its end is taken, by the way between points, on the way and at last.
         const NEAR: [f64; 2] = [1e-2, 1e-5];
-        let whole = fit(ends);
+        let whole = beginning(ends[0])(ends[1]);
         let whole = (whole.excess <= 0.0).then_some((whole.size, ends));
         if ends[1] - ends[0] < 3.0 {
             return whole;
@@ -227,7 +260,10 @@ impl<'a> Course<'a> {
         let [low, high] = self.clamp([ends[0] - 1.0, ends[1] + 1.0]);
         let shift = if low > ends[0] { self.starts as f64 } else { 0.0 };
         let [from, to] = ends.map(|place| place + shift);
-        let end_of = |start: f64, near| furthest(near, [to - 1.0, high], |end| fit([start - shift, end - shift]));
+        let end_of = |start: f64, near| {
+            let mut fit = beginning(start - shift);
+            furthest(near, [to - 1.0, high], |end| fit(end - shift))
+        };
         let (mut a, mut b) = (low, from + 1.0);
         let (mut c, mut d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
         let (mut at_c, mut at_d) = (end_of(c, NEAR[0]), end_of(d, NEAR[0]));
@@ -256,7 +292,7 @@ impl<'a> Course<'a> {
 
 /// The furthest end, of those between two, up to which a portion fits, and its size there; where none does, the end at
 /// which it fits best, and for its size by how much it does not, less than nothing.
-fn furthest(near: f64, [mut low, mut high]: [f64; 2], fit: impl Fn(f64) -> Fit) -> (f64, f64) {
+fn furthest(near: f64, [mut low, mut high]: [f64; 2], mut fit: impl FnMut(f64) -> Fit) -> (f64, f64) {
     let (mut first, last) = (fit(low), fit(high));
     if last.excess <= 0.0 {
         return (high, last.size);

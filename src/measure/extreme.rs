@@ -2,13 +2,13 @@ use super::Subject;
 use crate::geometry::Point;
 use crate::motion::{self, Pass};
 
-/// The least and the greatest value of a quantity of the pose over a circuit, by its samples and then by parabolas between
+/// The least and the greatest value over a circuit of a quantity of the pose, of joints that something stands on, by its samples and then by parabolas between
 /// them. An extreme is as flat as it is smooth: what a parabola misses of its place is missed twice over in its value.
 pub(super) fn extremes(subject: &Subject, quantity: impl Fn(&dyn Fn(usize) -> Point) -> f64) -> [f64; 2] {
     let circuit = subject.circuit;
     let values: Vec<f64> = (0..circuit.len()).map(|i| quantity(&|joint| circuit.places.point(joint, i))).collect();
     let at = |pass: &Pass, input: f64| {
-        let pose = motion::pose(subject.linkage, pass, input);
+        let pose = motion::pose(subject.alone().0, pass, input);
         quantity(&|joint| pose[joint])
     };
     [1.0, -1.0].map(|sign| {

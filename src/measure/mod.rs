@@ -1,10 +1,13 @@
 //! Numbers read off a motion, one measure a file; each is a column of `cells.csv` and a name in `where`.
 
 mod annulus;
+mod between;
 mod class;
 mod column;
 mod course;
+mod crossings;
 mod dwell;
+mod exchange;
 mod extreme;
 mod input_range;
 mod kind;
@@ -28,9 +31,11 @@ pub use straight::{Portion, Straight};
 pub use symmetry::Symmetry;
 
 use std::cell::OnceCell;
+use std::rc::Rc;
 
 use crate::linkage::{Class, JointId, Linkage};
 use crate::motion::{Circuit, Motion};
+use course::Course;
 use trail::Trail;
 
 /// What a measure is taken of: a traced joint on a circuit.
@@ -46,7 +51,9 @@ pub struct Subject<'a> {
     pub joint: JointId,
     /// What is asked of its straight portion.
     pub asked: Straight,
-    trail: OnceCell<Trail>,
+    alone: OnceCell<(Linkage, JointId)>,
+    trail: OnceCell<Rc<Trail>>,
+    course: OnceCell<Course>,
     straight: OnceCell<Option<Portion>>,
     dwell: OnceCell<Option<Dwell>>,
     symmetry: OnceCell<Option<Symmetry>>,
@@ -57,9 +64,23 @@ pub struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
-        let (trail, straight, dwell, symmetry, transmission, cusps) = Default::default();
+        let (alone, trail, course, straight, dwell, symmetry, transmission, cusps) = Default::default();
         let asked = Straight::default();
-        Subject { linkage, motion, circuit, joint, asked, trail, straight, dwell, symmetry, transmission, cusps }
+        Subject {
+            linkage,
+            motion,
+            circuit,
+            joint,
+            asked,
+            alone,
+            trail,
+            course,
+            straight,
+            dwell,
+            symmetry,
+            transmission,
+            cusps,
+        }
     }
 
     /// The same, of which another straight portion is wanted.
@@ -69,12 +90,18 @@ impl<'a> Subject<'a> {
 
     /// The straight portion asked for.
     pub fn straight(&self) -> Option<&Portion> {
-        self.straight.get_or_init(|| straight::portion(self.trail(), self.asked)).as_ref()
+        self.straight.get_or_init(|| straight::portion(self.course(3)?, self.asked)).as_ref()
     }
 
     /// The least and the greatest transmission angle, in degrees.
     fn transmission(&self) -> Option<[f64; 2]> {
         *self.transmission.get_or_init(|| transmission::least_and_greatest(self))
+    }
+
+    /// The linkage without other traced points, and the joint in it: what is asked at many inputs is asked of this.
+    fn alone(&self) -> (&Linkage, JointId) {
+        let (linkage, joint) = self.alone.get_or_init(|| self.linkage.with_one_point(self.joint));
+        (linkage, *joint)
     }
 
     /// How often the path stands still and turns back.
@@ -94,12 +121,22 @@ impl<'a> Subject<'a> {
 
     /// The best circular portion.
     pub fn dwell(&self) -> Option<&Dwell> {
-        self.dwell.get_or_init(|| dwell::dwell(self.trail())).as_ref()
+        self.dwell.get_or_init(|| dwell::dwell(self.course(5)?)).as_ref()
     }
 
     /// The curve, made once for all measures.
     fn trail(&self) -> &Trail {
-        self.trail.get_or_init(|| Trail::of(self.circuit, self.joint, self.linkage.input()))
+        self.trail.get_or_init(|| self.new_trail())
+    }
+
+    fn new_trail(&self) -> Rc<Trail> {
+        Rc::new(Trail::of(self.circuit, self.joint, self.linkage.input()))
+    }
+
+    /// The curve as a row of points, made once for all portions; `None` of fewer samples than so many.
+    fn course(&self, samples: usize) -> Option<&Course> {
+        let course = || Course::of(self.trail.get_or_init(|| self.new_trail()).clone());
+        (self.trail().points.len() >= samples).then(|| self.course.get_or_init(course))
     }
 }
 

@@ -78,6 +78,7 @@ fn at_limit(subject: &Subject, i: usize) -> bool {
 /// The greatest extent in a direction between a sample and its neighbours, by the poses there.
 fn posed(subject: &Subject, direction: Vector, top: usize) -> f64 {
     let (trail, circuit) = (subject.trail(), subject.circuit);
+    let (linkage, joint) = subject.alone();
     let mut most = f64::NEG_INFINITY;
     for (from, to) in [(trail.at(top, -1), Some(top)), (Some(top), trail.at(top, 1))] {
         let (Some(from), Some(to)) = (from, to) else { continue };
@@ -89,7 +90,7 @@ fn posed(subject: &Subject, direction: Vector, top: usize) -> f64 {
         };
         let Some(pass) = circuit.passes.iter().find(is_way) else { continue };
         let height = |input: f64| {
-            let at = motion::poses(subject.linkage, pass, &[input]).point(subject.joint, 0);
+            let at = motion::poses(linkage, pass, &[input]).point(joint, 0);
             direction.dot(&at.coords)
         };
         let (mut a, mut b) = (low, high);

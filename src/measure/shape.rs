@@ -42,8 +42,9 @@ pub const CURVATURE_MAX: Measure = Measure {
 /// Speed and curvature of the path at an input of the pass that a sample is on.
 fn speed_and_curvature(subject: &Subject, sample: usize, input: f64) -> [f64; 2] {
     let stop = Stop::of(subject.linkage.input(), input);
-    let jets = Jets::of(subject.linkage, stop, subject.circuit.signs(sample), Flat::NONE);
-    let (v, a) = (jets.velocity(subject.joint), jets.acceleration(subject.joint));
+    let (linkage, joint) = subject.alone();
+    let jets = Jets::of(linkage, stop, subject.circuit.signs(sample), Flat::NONE);
+    let (v, a) = (jets.velocity(joint), jets.acceleration(joint));
     let speed = v.norm();
     [speed, (cross(v, a) / (speed * speed * speed)).abs()]
 }

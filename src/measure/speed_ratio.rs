@@ -19,15 +19,16 @@ fn ratio(subject: &Subject) -> Option<f64> {
     if subject.linkage.input() == Input::Length {
         return None;
     }
+    let (linkage, joint) = subject.alone();
     let mut lengths: Vec<f64> = Vec::new();
     for pass in &subject.circuit.passes {
         let [low, high] = pass.range();
         let (first, last) = ((low / PERIOD).ceil() as i64, ((high - DRAWN) / PERIOD).floor() as i64);
         let place = |k: i64, i: usize| k as f64 * PERIOD + DRAWN * i as f64 / (PLACES - 1) as f64;
         let inputs: Vec<f64> = (first..=last).flat_map(|k| (0..PLACES).map(move |i| place(k, i))).collect();
-        let columns = motion::poses(subject.linkage, pass, &inputs);
+        let columns = motion::poses(linkage, pass, &inputs);
         for k in 0..inputs.len() / PLACES {
-            let at = |i: usize| columns.point(subject.joint, k * PLACES + i);
+            let at = |i: usize| columns.point(joint, k * PLACES + i);
             let chords =
                 |step: usize| (0..PLACES - 1).step_by(step).map(|i| (at(i + step) - at(i)).norm()).sum::<f64>();
             // What chords miss of an arc is a quarter for chords half as long, but for the fourth power of their length:

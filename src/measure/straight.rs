@@ -13,10 +13,9 @@
 //! between them. A portion may go over sample 0 of a closed curve, and over limits.
 
 use super::course::{Course, Fit};
-use super::strip::{Strip, hull};
-use super::trail::Trail;
+use super::strip::{Strip, height};
 use super::{Measure, Subject, Value};
-use crate::geometry::{Point, Vector, cross};
+use crate::geometry::Point;
 
 /// What is asked of the straight portion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,15 +82,11 @@ fn of(subject: &Subject, value: fn(&Portion) -> f64) -> Value {
 }
 
 /// The portion asked for, of a curve; `None` where there is none so long.
-pub(super) fn portion(trail: &Trail, asked: Straight) -> Option<Portion> {
-    if trail.points.len() < 3 {
-        return None;
-    }
-    let course = Course::of(trail);
+pub(super) fn portion(course: &Course, asked: Straight) -> Option<Portion> {
     let ends = match asked {
-        Straight::Tolerance(tolerance) => Search { course: &course, tolerance }.longest_of_all()?,
-        Straight::Input(span) => straightest(&course, |from| course.after_input(from, span))?,
-        Straight::Length(length) => straightest(&course, |from| course.after_length(from, length))?,
+        Straight::Tolerance(tolerance) => Search { course, tolerance }.longest_of_all()?,
+        Straight::Input(span) => straightest(course, |from| course.after_input(from, span))?,
+        Straight::Length(length) => straightest(course, |from| course.after_length(from, length))?,
     };
     let points = course.portion(ends);
     let Strip { width, length, .. } = Strip::of(points.clone());
@@ -110,7 +105,7 @@ const LOOSER: f64 = 1.02;
 
 /// For the longest portion in a strip no wider than a part of its length.
 struct Search<'a> {
-    course: &'a Course<'a>,
+    course: &'a Course,
     tolerance: f64,
 }
 
@@ -259,21 +254,7 @@ impl Search<'_> {
         if [[0, 2, 4], [0, 1, 3], [1, 3, 4]].iter().any(|corners| height(corners.map(|k| quarters[k])) > width) {
             return false;
         }
-        let is_within = |along: Vector| {
-            let [mut low, mut high] = [0.0f64; 2];
-            for p in points {
-                let area = along.x * (p.y - points[0].y) - along.y * (p.x - points[0].x);
-                low = if area < low { area } else { low };
-                high = if area > high { area } else { high };
-            }
-            high - low <= width * along.norm()
-        };
-        // Then along the chord, and along what is the best line of an inflection: of s^3 from -1 to 1 it is 3/4 s, which is
-        // two thirds of the chord and one of the line through the quarters.
-        let chord = points[last] - points[0];
-        is_within(chord)
-            || is_within(chord * 2.0 + (quarters[3] - quarters[1]) * 2.0)
-            || Strip::of(points.to_vec()).width <= width
+        Strip::of_row(points, &mut [0, last / 2, last], width).is_some()
     }
 
     /// The length and the ends of a portion drawn out between points.
@@ -305,27 +286,27 @@ impl Search<'_> {
     /// The length and the ends of a portion whose ends are moved, by a point at most, as far as its own length allows.
     fn drawn_out(&self, ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let [from, to] = self.course.clamp(ends);
-        let core = hull(self.course.portion([from + 1.0, to - 1.0]));
-        let fit = |[start, end]: [f64; 2]| {
-            let mut points = core.clone();
-            // What is passed on the way out is in the portion too.
-            for [end, inner] in [[start, from + 1.0], [end, to - 1.0]] {
-                let parts = [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|part| end + part * (inner - end));
-                points.extend(parts.map(|place| self.course.point(place)));
-            }
-            let strip = Strip::of(points);
-            Fit { size: strip.length, excess: strip.width - self.tolerance * strip.length }
+        let core = self.course.portion([from + 1.0, to - 1.0]);
+        // What is passed on the way out is in the portion too.
+        let passed = |end: f64, inner: f64| {
+            [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|part| self.course.point(end + part * (inner - end)))
         };
-        self.course.drawn_out([from, to], fit)
+        let beginning = |start: f64| {
+            let mut points = Vec::with_capacity(core.len() + 6);
+            points.extend(passed(start, from + 1.0));
+            points.extend_from_slice(&core);
+            let kept = points.len();
+            let mut three = [0, kept / 2, kept + 2];
+            move |end: f64| {
+                points.truncate(kept);
+                points.extend(passed(end, to - 1.0).into_iter().rev());
+                let strip = Strip::of_row(&points, &mut three, f64::INFINITY);
+                let strip = strip.unwrap_or_else(|| Strip::of(points.clone()));
+                Fit { size: strip.length, excess: strip.width - self.tolerance * strip.length }
+            }
+        };
+        self.course.drawn_out([from, to], beginning)
     }
-}
-
-/// The least height of a triangle.
-fn height([a, b, c]: [Point; 3]) -> f64 {
-    let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
-    let area = cross(b - a, c - a);
-    // A comparison with an infinite width is always lost.
-    if longest > 0.0 { area.abs() / longest.sqrt() } else { 0.0 }
 }
 
 /// The ends of the portion with the narrowest strip, of those that begin anywhere and end where `end` has it.

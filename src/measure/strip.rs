@@ -1,3 +1,4 @@
+use super::exchange::exchanged;
 use crate::geometry::{Point, Vector, cross};
 
 /// The narrowest band between two parallel lines that holds some points.
@@ -15,6 +16,42 @@ impl Strip {
     /// Of at least one point.
     pub fn of(points: Vec<Point>) -> Strip {
         Strip::of_corners(&hull(points))
+    }
+
+    /// Of a row of points that goes one way in the main; if it is wider than `most`, perhaps `None`.
+    ///
+    /// One edge goes through two of three points, and the other through the one between: three are exchanged for others
+    /// until no point is outside. Begun with `three`, which are those of the strip afterwards.
+    pub fn of_row(points: &[Point], three: &mut [usize; 3], most: f64) -> Option<Strip> {
+        const ROUNDS: usize = 12;
+        /// Of wider strips, by their length, the narrowest may go through other points.
+        const THIN: f64 = 1.0 / 300.0;
+        for _ in 0..ROUNDS {
+            let corners = three.map(|k| points[k]);
+            let least = height(corners);
+            if least > most {
+                return None;
+            }
+            let [a, b, c] = corners;
+            let (side, length) = (c - a, (c - a).norm());
+            let area = |p: &Point| cross(side, p - a);
+            let [low, high] = extent(points, area);
+            let width = (high - low) / length;
+            if width <= least * (1.0 + 1e-12) || (most.is_finite() && width <= most) {
+                let along = side / length;
+                let [near, far] = extent(points, |p| along.dot(&(p - a)));
+                if width > THIN * (far - near) {
+                    break;
+                }
+                return Some(Strip { width, length: far - near, along });
+            }
+            // The one that is furthest outside.
+            let own = area(&b);
+            let outside = if high - own.max(0.0) > own.min(0.0) - low { high } else { low };
+            let Some(new) = points.iter().position(|p| area(p) == outside) else { break };
+            *three = exchanged(*three, new, |k| (k == 1) == ((outside > 0.0) == (own > 0.0)));
+        }
+        Some(Strip::of(points.to_vec())).filter(|strip| strip.width <= most)
     }
 
     /// Of a convex polygon: one of its sides lies on an edge of the strip.
@@ -50,6 +87,31 @@ impl Strip {
         let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
         Strip { length: high - low, ..best }
     }
+}
+
+/// The least height of a triangle.
+pub(super) fn height([a, b, c]: [Point; 3]) -> f64 {
+    let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
+    let area = cross(b - a, c - a);
+    // A comparison with an infinite width is always lost.
+    if longest > 0.0 { area.abs() / longest.sqrt() } else { 0.0 }
+}
+
+/// The least and the greatest value of some points.
+pub(super) fn extent(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
+    // Four at a time, so that the compiler takes them by vectors.
+    let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+    let (fours, rest) = points.as_chunks::<4>();
+    let mut take = |k: usize, value: f64| {
+        low[k] = if value < low[k] { value } else { low[k] };
+        high[k] = if value > high[k] { value } else { high[k] };
+    };
+    for four in fours {
+        let values = [of(&four[0]), of(&four[1]), of(&four[2]), of(&four[3])];
+        (0..4).for_each(|k| take(k, values[k]));
+    }
+    rest.iter().for_each(|p| take(0, of(p)));
+    [low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// The corners of the convex hull of some points, counter-clockwise.

@@ -8,4 +8,4 @@ mod run;
 pub use cells::{Cells, shortfalls};
 pub use number::shortest;
 pub use points::Points;
-pub use run::{FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};
+pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};

@@ -19,6 +19,21 @@ pub struct Run {
     pub title: String,
     /// The families, in the order of the manifest.
     pub families: Vec<FamilyRecord>,
+    /// The book, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub book: Option<BookRecord>,
+}
+
+/// What was written of the book.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BookRecord {
+    /// SHA-256 of what it was made from; none while it is not finished.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inputs_sha256: Option<String>,
+    /// How many pages it has, with those that stand before and after those of the families.
+    pub pages: usize,
+    /// Its volumes, in the atlas's folder.
+    pub files: Vec<FileRecord>,
 }
 
 /// What was written of a family.
@@ -54,7 +69,7 @@ pub struct FamilyRecord {
 pub struct FileRecord {
     /// Its name.
     pub name: String,
-    /// SHA-256 of its bytes; none for an image, whose bytes may differ from machine to machine.
+    /// SHA-256 of its bytes; none for an image or a book, whose bytes may differ from machine to machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
     /// SHA-256 of what an image is drawn from: the page's SVG, and the resolution.
@@ -83,7 +98,7 @@ impl Run {
     /// An empty record of an atlas.
     pub fn new(title: &str) -> Run {
         let (program, version) = (env!("CARGO_PKG_NAME").to_owned(), env!("CARGO_PKG_VERSION").to_owned());
-        Run { format: FORMAT, program, version, title: title.to_owned(), families: Vec::new() }
+        Run { format: FORMAT, program, version, title: title.to_owned(), families: Vec::new(), book: None }
     }
 
     /// Reads a record.

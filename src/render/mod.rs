@@ -14,17 +14,25 @@ pub enum Format {
     Svg,
     /// Portable Network Graphics.
     Png,
+    /// Portable Document Format: all pages in one book.
+    Pdf,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Format; 2] = [Format::Svg, Format::Png];
+    pub const ALL: [Format; 3] = [Format::Svg, Format::Png, Format::Pdf];
+
+    /// Whether each page is a file of its own.
+    pub fn has_a_file_for_each_page(self) -> bool {
+        self != Format::Pdf
+    }
 
     /// Its name, which is also the extension of its files.
     pub fn name(self) -> &'static str {
         match self {
             Format::Svg => "svg",
             Format::Png => "png",
+            Format::Pdf => "pdf",
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Everything the library and the program promise, seen from outside; a topic a file.
 
 mod atlas;
+mod binding;
 mod book;
 mod catalogue;
 mod charts;

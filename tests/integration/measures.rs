@@ -2,7 +2,7 @@
 
 use coupler_atlas::geometry::{Point, trig};
 use coupler_atlas::linkage::{Assembly, Circuits, FourBar, Linkage, Placement, Side, Travel};
-use coupler_atlas::measure::{self, Subject, Value};
+use coupler_atlas::measure::{self, Straight, Subject, Value};
 use coupler_atlas::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
@@ -221,6 +221,26 @@ fn the_straight_portion_of_a_circle_is_that_of_its_strip() {
         assert!((found[0] - length).abs() < 2e-3 * length, "{samples}: {found:?} {length}");
         assert!((found[1] - 0.0005 * length).abs() < 1e-2 * 0.0005 * length, "{samples}: {found:?}");
         assert!((found[2] - trig::degrees(angle)).abs() < 2e-3 * trig::degrees(angle), "{samples}: {found:?}");
+    }
+}
+
+/// The straightest portion of a given span may begin between the last sample and the first, or just beyond the first.
+#[test]
+fn a_portion_of_a_given_span_may_begin_about_the_first_sample() {
+    let linkage = four_bar([3.211, 2.818, 3.872, 0.787], (1.753, 0.0));
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(120)));
+    for circuit in &motion.circuits {
+        let portion = |asked: Straight| {
+            let subject = Subject::new(&linkage, &motion, circuit, linkage.traced[2]).asking(asked);
+            subject.straight().cloned().expect("a portion")
+        };
+        for span in [20.0, 60.0] {
+            let by_input = portion(Straight::Input(span));
+            assert!((by_input.input - span).abs() < 1e-9, "{by_input:?}");
+            let far = portion(Straight::Length(by_input.length));
+            // One that is as long and straighter may span another input.
+            assert!(far.deviation <= by_input.deviation * (1.0 + 1e-6), "{far:?} {by_input:?}");
+        }
     }
 }
 

@@ -1,7 +1,11 @@
 //! What the README shows is so.
 
+use std::sync::atomic::AtomicBool;
+
 use coupler_atlas::manifest;
+use coupler_atlas::page::Layout;
 use coupler_atlas::problem::report;
+use coupler_atlas::sweep;
 
 #[test]
 fn the_readmes_manifest_is_one() {
@@ -48,5 +52,26 @@ fn the_readme_names_every_command_and_linkages_are_listed_by_the_program() {
     let readme = include_str!("../../README.md");
     for command in ["`render ", "`validate ", "`inspect ", "`design ", "`list ", "`init ", "`completions ", "`man`"] {
         assert!(readme.contains(command), "{command}");
+    }
+}
+
+#[test]
+fn the_examples_are_what_the_readme_says() {
+    let readme = include_str!("../../README.md");
+    let cases = [
+        (include_str!("../../examples/hrones-nelson.toml"), "7,800 curves on 780 pages", 7_800, 780),
+        (include_str!("../../examples/hrones-nelson-fine.toml"), "77,680 on 7,768", 77_680, 7_768),
+    ];
+    for (text, said, curves, pages) in cases {
+        assert!(readme.contains(said), "{said}");
+        let loaded = manifest::load(text);
+        let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "example", text, false)));
+        let [planned] = &plan.families[..] else { panic!("one family") };
+        assert_eq!(planned.layout, Layout::CouplerGrid);
+        // Whether a linkage is a crank-rocker or a change point is told without any of its curves.
+        let kept = sweep::arrange(&planned.family, true, &AtomicBool::new(false)).unwrap();
+        assert_eq!(kept.points.iter().sum::<usize>(), curves);
+        assert_eq!(kept.points.iter().map(|points| points.div_ceil(Layout::POINTS)).sum::<usize>(), pages);
+        assert!(planned.family.template.parameters.iter().map(|parameter| &*parameter.name).eq(["A", "B", "C"]));
     }
 }

@@ -1,5 +1,5 @@
 use super::columns::{Entry, Row};
-use super::{Atlas, Cell, Chapter, Volume, count};
+use super::{Atlas, Cell, Chapter, Volume};
 
 /// The most cells of a family that contents and outline name.
 const MOST: usize = 1000;
@@ -10,12 +10,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume) -> Vec<Row<'a>> {
     for (before, chapter) in atlas.placed() {
         rows.push(Row::Heading { text: chapter.title.to_owned(), page: (chapter.pages > 0).then_some(before + 1) });
         let (named, here) = named(before, chapter, volume);
-        let mut says =
-            vec![count(chapter.cells.len(), "geometry", "geometries"), count(chapter.pages, "page", "pages")];
-        if let Some(curves) = chapter.curves {
-            says.insert(1, count(curves, "curve", "curves"));
-        }
-        rows.push(Row::Note(says.join(", ")));
+        rows.push(Row::Note(chapter.counts(", ")));
         if named.len() < here {
             rows.push(Row::Note(format!("{} of {here} are named", named.len())));
         }

@@ -71,7 +71,8 @@ impl<'a> Section<'a> {
                 family: chapter.filter(|_| atlas.chapters.len() > 1).map(|chapter| chapter.title),
                 caption: &geometry.caption,
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
-                value: format!("{:.1}{unit}", scale * found.value),
+                // Without the sign of a zero that is rounded from below.
+                value: format!("{:.1}{unit}", (10.0 * scale * found.value).round() / 10.0 + 0.0),
                 curve: found.curve,
                 page: found.page,
             })

@@ -102,6 +102,16 @@ impl Atlas<'_> {
     }
 }
 
+impl Chapter<'_> {
+    /// How many geometries, curves and pages it has, as far as there are any and their number is known.
+    fn counts(&self, separator: &str) -> String {
+        let cells = (!self.cells.is_empty()).then(|| count(self.cells.len(), "geometry", "geometries"));
+        let curves = self.curves.map(|curves| count(curves, "curve", "curves"));
+        let pages = count(self.pages, "page", "pages");
+        cells.into_iter().chain(curves).chain([pages]).collect::<Vec<_>>().join(separator)
+    }
+}
+
 impl Volume {
     /// The numbers of its pages in the atlas.
     pub fn range(&self) -> Range<usize> {

@@ -6,7 +6,7 @@ use super::super::figure::Figure;
 use super::super::heading;
 use super::super::theme::Theme;
 use super::super::{Options, Sheet};
-use super::{Atlas, Volume, count, number};
+use super::{Atlas, Chapter, Volume, number};
 use crate::geometry::{Point, Vector};
 use crate::scene::{Anchor, Canvas, Color, Item, Label, Path, Scene};
 
@@ -54,21 +54,17 @@ pub(super) fn compose(
 
 /// What the atlas has, a line for each family.
 fn families(atlas: &Atlas) -> Vec<String> {
-    let line = |title: &str, cells: usize, curves: Option<usize>, pages: usize| {
-        let mut says = vec![title.to_owned(), count(cells, "geometry", "geometries")];
-        says.extend(curves.map(|curves| count(curves, "curve", "curves")));
-        says.push(count(pages, "page", "pages"));
-        says.join(" · ")
-    };
+    let line = |chapter: &Chapter| format!("{} · {}", chapter.title, chapter.counts(" · "));
     let chapters = &atlas.chapters;
     // The last line is for those that have no line of their own.
     let own = if chapters.len() > MOST { MOST - 1 } else { chapters.len() };
-    let named = chapters[..own].iter().map(|c| line(c.title, c.cells.len(), c.curves, c.pages));
+    let named = chapters[..own].iter().map(line);
     let rest = &chapters[own..];
     let others = (!rest.is_empty()).then(|| {
-        let cells = rest.iter().map(|chapter| chapter.cells.len()).sum();
-        let curves = rest.iter().map(|chapter| chapter.curves).sum();
-        line(&format!("{} more families", rest.len()), cells, curves, rest.iter().map(|chapter| chapter.pages).sum())
+        let cells = rest.iter().flat_map(|chapter| chapter.cells.iter().cloned()).collect();
+        let (curves, pages) =
+            (rest.iter().map(|chapter| chapter.curves).sum(), rest.iter().map(|chapter| chapter.pages).sum());
+        line(&Chapter { title: &format!("{} more families", rest.len()), symbols: &[], curves, pages, cells })
     });
     named.chain(others).collect()
 }

@@ -1,0 +1,191 @@
+//! The book as `render` binds it: its files, its record, when it is made anew and when it is left alone.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::{Command, Output};
+use std::time::SystemTime;
+
+use tempfile::TempDir;
+
+const MANIFEST: &str = r#"
+[atlas]
+title = "Two families"
+formats = ["svg", "pdf"]
+output = "out"
+[page]
+paper = "a4"
+[[family]]
+id = "evans"
+linkage = "evans"
+title = "Evans linkage"
+panels = [2, 1]
+sampling = { samples = 60 }
+grid = { p = [2, 3, 4, 5, 6] }
+let = { a = "(1 + p)^1.5 / 2" }
+[[family]]
+id = "points"
+linkage = "hrones-nelson"
+title = "Coupler points"
+layout = "coupler-grid"
+sampling = { samples = 60 }
+sort = "-A"
+cases = [{ A = 2.5, B = 3, C = 2 }, { A = 3, B = 2, C = 3.5 }, { A = 1, B = 1, C = 4 }]
+"#;
+
+struct Atlas(TempDir);
+
+impl Atlas {
+    fn new(manifest: &str) -> Atlas {
+        let atlas = Atlas(TempDir::new().unwrap());
+        atlas.edit(manifest);
+        atlas
+    }
+
+    fn edit(&self, manifest: &str) {
+        fs::write(self.0.path().join("atlas.toml"), manifest).unwrap();
+    }
+
+    /// What is said of a run that goes well.
+    fn render(&self, arguments: &[&str]) -> String {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let Output { status, stdout, stderr } =
+            command.current_dir(self.0.path()).arg("render").args(arguments).output().unwrap();
+        assert!(status.success(), "{}", String::from_utf8_lossy(&stderr));
+        String::from_utf8(stdout).unwrap()
+    }
+
+    /// The books there are, with the times they were written and their bytes.
+    fn books(&self) -> BTreeMap<String, (SystemTime, Vec<u8>)> {
+        let mut found = BTreeMap::new();
+        for entry in fs::read_dir(self.0.path().join("out")).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "pdf") {
+                let name = path.file_name().unwrap().to_string_lossy().into_owned();
+                found.insert(name, (fs::metadata(&path).unwrap().modified().unwrap(), fs::read(&path).unwrap()));
+            }
+        }
+        found
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.books().into_keys().collect()
+    }
+
+    fn record(&self) -> serde_json::Value {
+        serde_json::from_str(&fs::read_to_string(self.0.path().join("out/run.json")).unwrap()).unwrap()
+    }
+}
+
+/// How many pages a book has: each has a size.
+fn pages(bytes: &[u8]) -> usize {
+    let size = b"/MediaBox";
+    bytes.windows(size.len()).filter(|window| window == size).count()
+}
+
+#[test]
+fn an_atlas_is_bound_once() {
+    let atlas = Atlas::new(MANIFEST);
+    let said = atlas.render(&[]);
+    // Three pages of panels, and one of each cell of the grid; title page and contents before them, the index behind.
+    assert!(said.contains("atlas.pdf: 9 pages\n"), "{said}");
+    let books = atlas.books();
+    assert_eq!(atlas.names(), ["atlas.pdf"]);
+    let (time, bytes) = &books["atlas.pdf"];
+    assert_eq!(pages(bytes), 9);
+    assert!(bytes.starts_with(b"%PDF-1.") && bytes.ends_with(b"%%EOF"));
+    assert_eq!(atlas.record()["book"]["files"][0]["name"], "atlas.pdf");
+    assert!(atlas.record()["book"]["files"][0]["sha256"].is_null());
+    assert!(atlas.render(&[]).contains("atlas.pdf: 9 pages (unchanged)\n"));
+    assert_eq!(atlas.books()["atlas.pdf"].0, *time);
+    // The same bytes in another folder and on other threads.
+    let other = Atlas::new(MANIFEST);
+    other.render(&["--jobs", "3", "--format", "pdf"]);
+    assert!(other.books()["atlas.pdf"].1 == *bytes);
+    assert!(fs::read_dir(other.0.path().join("out/evans")).unwrap().count() == 2, "tables, and no pages");
+}
+
+#[test]
+fn a_book_in_which_anything_changes_is_bound_anew() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.render(&[]);
+    let whole = atlas.books()["atlas.pdf"].1.clone();
+    let cases: [(&str, &str); 4] =
+        [("A = 3, ", "A = 3.1, "), ("\"a4\"", "\"letter\""), ("Two families", "Another title"), ("sort = \"-A\"", "")];
+    for (from, to) in cases {
+        atlas.edit(&MANIFEST.replace(from, to));
+        assert!(atlas.render(&[]).contains("atlas.pdf: 9 pages\n"), "{from}");
+        assert!(atlas.books()["atlas.pdf"].1 != whole, "{from}");
+    }
+    atlas.edit(MANIFEST);
+    atlas.render(&[]);
+    assert!(atlas.books()["atlas.pdf"].1 == whole);
+    // One that was cut short, or is gone.
+    let path = atlas.0.path().join("out/atlas.pdf");
+    fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+    atlas.render(&[]);
+    assert!(fs::read(&path).unwrap() == whole);
+    fs::remove_file(&path).unwrap();
+    atlas.render(&[]);
+    assert!(fs::read(&path).unwrap() == whole);
+}
+
+#[test]
+fn a_longer_book_is_written_as_volumes() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.render(&[]);
+    atlas.edit(&MANIFEST.replace("output =", "volume_pages = 4\noutput ="));
+    let said = atlas.render(&[]);
+    // Four and two pages, in each with title page, contents and index.
+    assert!(said.contains("atlas-1.pdf to atlas-2.pdf: 12 pages\n"), "{said}");
+    let books = atlas.books();
+    assert_eq!(atlas.names(), ["atlas-1.pdf", "atlas-2.pdf"], "the one book goes");
+    assert_eq!(books.values().map(|(_, bytes)| pages(bytes)).collect::<Vec<_>>(), [7, 5]);
+    // As many volumes as pages: their names sort.
+    atlas.edit(
+        &MANIFEST
+            .replace("output =", "volume_pages = 1\noutput =")
+            .replace("p = [2, 3, 4, 5, 6]", "p = { from = 2, to = 10, step = 0.5 }"),
+    );
+    atlas.render(&[]);
+    let names = atlas.names();
+    assert_eq!((names.len(), names[0].as_str(), names[11].as_str()), (12, "atlas-01.pdf", "atlas-12.pdf"));
+}
+
+#[test]
+fn a_book_that_is_asked_for_no_longer_goes_and_others_stay() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.render(&[]);
+    fs::write(atlas.0.path().join("out/notes.pdf"), "mine").unwrap();
+    let whole = atlas.books()["atlas.pdf"].clone();
+    // Of other formats, and of other families, it is not asked.
+    atlas.render(&["--format", "png"]);
+    atlas.render(&["--only", "evans"]);
+    assert_eq!(atlas.books()["atlas.pdf"], whole);
+    // In so many words it is: then it has what is asked for.
+    assert!(atlas.render(&["--only", "points", "--format", "pdf"]).contains("atlas.pdf: 6 pages\n"));
+    assert!(atlas.render(&[]).contains("atlas.pdf: 9 pages\n"));
+    assert_eq!(atlas.books()["atlas.pdf"].1, whole.1);
+    atlas.edit(&MANIFEST.replace("[\"svg\", \"pdf\"]", "[\"svg\"]"));
+    atlas.render(&[]);
+    assert_eq!(atlas.names(), ["notes.pdf"]);
+    assert!(atlas.record()["book"].is_null());
+    // A record that names what is not a book's removes nothing.
+    atlas.edit(MANIFEST);
+    atlas.render(&[]);
+    let path = atlas.0.path().join("out/run.json");
+    fs::write(&path, fs::read_to_string(&path).unwrap().replace("\"atlas.pdf\"", "\"notes.pdf\"")).unwrap();
+    atlas.edit(&MANIFEST.replace("[\"svg\", \"pdf\"]", "[\"svg\"]"));
+    atlas.render(&[]);
+    assert_eq!(atlas.names(), ["atlas.pdf", "notes.pdf"]);
+}
+
+#[test]
+fn a_volume_has_a_page_at_least() {
+    for wrong in ["0", "-3", "1.5", "\"many\"", "20000"] {
+        let atlas = Atlas::new(&MANIFEST.replace("output =", &format!("volume_pages = {wrong}\noutput =")));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let output = command.current_dir(atlas.0.path()).arg("validate").output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && said.contains("atlas.toml:5:16"), "{said}");
+    }
+}
