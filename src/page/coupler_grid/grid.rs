@@ -1,5 +1,6 @@
 //! The grid of points on a link: hairlines that join its points, and its axis.
 
+use super::super::mechanism::drawn_links;
 use super::super::plot::Plot;
 use super::super::theme::Theme;
 use crate::geometry::{Bounds, Point, Vector, left_normal};
@@ -19,10 +20,11 @@ struct Sheet {
 }
 
 impl Grid {
-    /// The grids that some traced joints stand on.
+    /// The grids that some traced joints stand on; a joint that a link is drawn to needs none.
     pub fn of(linkage: &Linkage, joints: impl Iterator<Item = JointId>) -> Grid {
+        let drawn = drawn_links(linkage).concat();
         let mut sheets: Vec<Sheet> = Vec::new();
-        for joint in joints {
+        for joint in joints.filter(|joint| !drawn.contains(joint)) {
             let Step::Rigid { base, along, across } = linkage.joints[joint].step else { continue };
             let known = sheets.iter().position(|sheet| sheet.base == base);
             let at = known.unwrap_or_else(|| {

@@ -135,16 +135,21 @@ pub(super) fn place(numbers: Vec<(Point, Text)>, obstacles: &Obstacles, frame: F
     let mut items = Vec::new();
     for (centre, text) in numbers {
         let half = Vector::new(text.width() / 2.0, 0.37 * text.size);
-        let near = obstacles.near(centre, (FURTHEST + 1.0) * theme.joint + 2.0 * half.x);
         // What is that far from everything is as good as what is further.
         let enough = 0.6 * theme.joint;
-        let clearance = |spot: Spot| {
-            let others = placed.iter().map(|other| spot.apart(other)).fold(enough, f64::min);
-            near.clearance(spot, enough).min(1.25 * others)
-        };
         let is_free = |spot: &Spot| spot.is_in(frame) && placed.iter().all(|other| spot.apart(other) > 0.0);
-        let candidates = |ring| round(centre, half, ring * theme.joint).filter(is_free);
-        let Some(spot) = best(candidates, clearance, 1.25 * enough) else { continue };
+        let within = |radii: f64| (radii + 1.0) * theme.joint + 2.0 * half.x;
+        let around = obstacles.near(centre, within(RINGS[RINGS.len() - 1]));
+        let ring = |radii: f64| {
+            // Most numbers stand near their points: no more is looked at than is near the ring.
+            let near = around.near(centre, within(radii));
+            let clearance = |spot: Spot| {
+                let others = placed.iter().map(|other| spot.apart(other)).fold(enough, f64::min);
+                near.clearance(spot, enough).min(1.25 * others)
+            };
+            clearest(round(centre, half, radii * theme.joint).filter(is_free), clearance)
+        };
+        let Some(spot) = best(ring, 1.25 * enough) else { continue };
         placed.push(spot);
         items.push(Item::Text(Text { at: spot.middle + Vector::new(0.0, half.y), ..text }));
     }
@@ -152,19 +157,13 @@ pub(super) fn place(numbers: Vec<(Point, Text)>, obstacles: &Obstacles, frame: F
 }
 
 /// The distances from a point at which its number may stand, in radii of a joint.
-const RINGS: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, FURTHEST];
-const FURTHEST: f64 = 6.8;
+const RINGS: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, 6.8];
 
-/// The clearest of the places of the nearest ring that has one that is clear enough; of all, where none has.
-fn best<I: Iterator<Item = Spot>>(
-    ring: impl Fn(f64) -> I,
-    clearance: impl Fn(Spot) -> f64,
-    enough: f64,
-) -> Option<Spot> {
+/// The clearest place of the nearest ring that has one that is clear enough; of all, where none has.
+fn best(ring: impl Fn(f64) -> Option<(f64, Spot)>, enough: f64) -> Option<Spot> {
     let mut best: Option<(f64, Spot)> = None;
-    for distance in RINGS {
-        let here = clearest(ring(distance), &clearance);
-        best = [best, here].into_iter().flatten().reduce(clearer);
+    for radii in RINGS {
+        best = [best, ring(radii)].into_iter().flatten().reduce(clearer);
         if best.is_some_and(|(clear, _)| clear >= enough * (1.0 - 1e-9)) {
             break;
         }
