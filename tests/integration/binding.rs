@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::SystemTime;
 
-use tempfile::TempDir;
+use crate::folder::Atlas;
 
 const MANIFEST: &str = r#"
 [atlas]
@@ -32,32 +32,18 @@ sort = "-A"
 cases = [{ A = 2.5, B = 3, C = 2 }, { A = 3, B = 2, C = 3.5 }, { A = 1, B = 1, C = 4 }]
 "#;
 
-struct Atlas(TempDir);
-
 impl Atlas {
-    fn new(manifest: &str) -> Atlas {
-        let atlas = Atlas(TempDir::new().unwrap());
-        atlas.edit(manifest);
-        atlas
-    }
-
-    fn edit(&self, manifest: &str) {
-        fs::write(self.0.path().join("atlas.toml"), manifest).unwrap();
-    }
-
     /// What is said of a run that goes well.
     fn render(&self, arguments: &[&str]) -> String {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let Output { status, stdout, stderr } =
-            command.current_dir(self.0.path()).arg("render").args(arguments).output().unwrap();
-        assert!(status.success(), "{}", String::from_utf8_lossy(&stderr));
-        String::from_utf8(stdout).unwrap()
+        let (code, out, err) = self.run(arguments);
+        assert_eq!(code, 0, "{err}");
+        out
     }
 
     /// The books there are, with the times they were written and their bytes.
     fn books(&self) -> BTreeMap<String, (SystemTime, Vec<u8>)> {
         let mut found = BTreeMap::new();
-        for entry in fs::read_dir(self.0.path().join("out")).unwrap() {
+        for entry in fs::read_dir(self.out()).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_some_and(|extension| extension == "pdf") {
                 let name = path.file_name().unwrap().to_string_lossy().into_owned();
@@ -72,7 +58,7 @@ impl Atlas {
     }
 
     fn record(&self) -> serde_json::Value {
-        serde_json::from_str(&fs::read_to_string(self.0.path().join("out/run.json")).unwrap()).unwrap()
+        serde_json::from_str(&fs::read_to_string(self.out().join("run.json")).unwrap()).unwrap()
     }
 }
 
@@ -101,7 +87,7 @@ fn an_atlas_is_bound_once() {
     let other = Atlas::new(MANIFEST);
     other.render(&["--jobs", "3", "--format", "pdf"]);
     assert!(other.books()["atlas.pdf"].1 == *bytes);
-    assert!(fs::read_dir(other.0.path().join("out/evans")).unwrap().count() == 2, "tables, and no pages");
+    assert!(fs::read_dir(other.out().join("evans")).unwrap().count() == 2, "tables, and no pages");
 }
 
 #[test]
@@ -120,7 +106,7 @@ fn a_book_in_which_anything_changes_is_bound_anew() {
     atlas.render(&[]);
     assert!(atlas.books()["atlas.pdf"].1 == whole);
     // One that was cut short, or is gone.
-    let path = atlas.0.path().join("out/atlas.pdf");
+    let path = atlas.out().join("atlas.pdf");
     fs::write(&path, &whole[..whole.len() / 2]).unwrap();
     atlas.render(&[]);
     assert!(fs::read(&path).unwrap() == whole);
@@ -155,7 +141,7 @@ fn a_longer_book_is_written_as_volumes() {
 fn a_book_that_is_asked_for_no_longer_goes_and_others_stay() {
     let atlas = Atlas::new(MANIFEST);
     atlas.render(&[]);
-    fs::write(atlas.0.path().join("out/notes.pdf"), "mine").unwrap();
+    fs::write(atlas.out().join("notes.pdf"), "mine").unwrap();
     let whole = atlas.books()["atlas.pdf"].clone();
     // Of other formats, and of other families, it is not asked.
     atlas.render(&["--format", "png"]);
@@ -172,7 +158,7 @@ fn a_book_that_is_asked_for_no_longer_goes_and_others_stay() {
     // A record that names what is not a book's removes nothing.
     atlas.edit(MANIFEST);
     atlas.render(&[]);
-    let path = atlas.0.path().join("out/run.json");
+    let path = atlas.out().join("run.json");
     fs::write(&path, fs::read_to_string(&path).unwrap().replace("\"atlas.pdf\"", "\"notes.pdf\"")).unwrap();
     atlas.edit(&MANIFEST.replace("[\"svg\", \"pdf\"]", "[\"svg\"]"));
     atlas.render(&[]);

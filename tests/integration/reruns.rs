@@ -7,7 +7,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::SystemTime;
 
 use sha2::{Digest, Sha256};
-use tempfile::TempDir;
+
+use crate::folder::Atlas;
 
 /// Three pages of panels, one of charts, one with a cell that is not assembled.
 const MANIFEST: &str = r#"[atlas]
@@ -50,35 +51,7 @@ B = { dyad = ["A", "C"], lengths = [4, 3], side = "left" }
 M = { point = ["A", "B"], along = 2, across = 1 }
 "#;
 
-struct Atlas(TempDir);
-
 impl Atlas {
-    fn new(manifest: &str) -> Atlas {
-        let atlas = Atlas(TempDir::new().unwrap());
-        atlas.edit(manifest);
-        atlas
-    }
-
-    fn edit(&self, manifest: &str) {
-        fs::write(self.0.path().join("atlas.toml"), manifest).unwrap();
-    }
-
-    fn out(&self) -> std::path::PathBuf {
-        self.0.path().join("out")
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        command.current_dir(self.0.path()).arg("render").args(arguments);
-        command
-    }
-
-    /// The exit code, standard output and standard error of a run.
-    fn run(&self, arguments: &[&str]) -> (i32, String, String) {
-        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
-        (status.code().unwrap_or(-1), String::from_utf8(stdout).unwrap(), String::from_utf8(stderr).unwrap())
-    }
-
     /// Renders, and tells what was said and which files were written or removed.
     fn touched(&self, arguments: &[&str]) -> (String, Vec<String>) {
         let before = times(&self.out());

@@ -1,6 +1,7 @@
 //! The `coupler-grid` layout: a linkage with a grid of points on its coupler, and the curves of ten of them.
 //!
-//! All pages of a cell have one pose, and each the largest scale at which linkage and curves fit its frame. To the right of the figure stands a column: the key, which says what the letters are, and a table of the points.
+//! All pages of a cell have one pose, and each the largest scale at which linkage and curves fit its frame. To the right
+//! of the figure stands a column: the key, which says what the letters are, and a table of the points.
 
 mod foot;
 mod grid;
