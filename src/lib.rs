@@ -57,4 +57,7 @@ pub mod scene;
 pub mod manifest;
 pub mod record;
 
+pub mod press;
+
 pub mod build;
+pub mod check;

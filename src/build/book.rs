@@ -4,15 +4,14 @@
 
 use std::path::Path;
 
-use super::family::{Setting, arrangement, told_on_pages};
 use super::inputs::Inputs;
 use super::journal::Journal;
-use super::pages::{Composer, leaves};
 use super::{Error, Event, Options, earlier, files};
 use crate::chart::Gathering;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
 use crate::page::{Layout, Sheet};
+use crate::press::{Composer, Press, Setting, leaves, told_on_pages};
 use crate::record::{BookRecord, FileRecord};
 use crate::render::{Format, pdf};
 use crate::scene::Scene;
@@ -77,9 +76,7 @@ fn remove_others(earlier: Option<&BookRecord>, stay: &[FileRecord], output: &Pat
 
 /// A family, and where its cells go.
 struct Part<'a> {
-    composer: Composer<'a>,
-    arrangement: Arrangement,
-    setting: Setting,
+    press: Press<'a>,
     /// How many pages of the atlas stand before its own.
     before: usize,
 }
@@ -111,20 +108,18 @@ fn bind(
     let mut chapters = Vec::new();
     let mut before = 0;
     for &planned in bound {
-        let arrangement = arrangement(planned, &options.interrupt)?;
-        let setting = Setting::new(planned, &arrangement);
-        chapters.push(chapter(planned, &arrangement, &setting));
-        let composer = Composer { plan, planned, of: setting.pages };
-        let pages = setting.pages;
-        parts.push(Part { composer, arrangement, setting, before });
+        let press = Press::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
+        chapters.push(chapter(planned, &press.arrangement, &press.setting));
+        let pages = press.setting.pages;
+        parts.push(Part { press, before });
         before += pages;
     }
     let atlas = Atlas { title: &plan.title, program: PROGRAM, chapters };
-    let first = parts.iter().find(|part| part.composer.planned.chart.is_none()).and_then(first_cell);
+    let first = parts.iter().find(|part| part.press.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
     let volumes = atlas.volumes(plan.volume_pages);
     tell(Event::Begin { family: "book", pages: before });
-    let mut press = Press {
+    let mut bindery = Bindery {
         plan,
         atlas: &atlas,
         frontispiece: frontispiece.as_ref(),
@@ -135,33 +130,33 @@ fn bind(
         found: Vec::new(),
         files: Vec::new(),
     };
-    press.turn()?;
+    bindery.turn()?;
     for (number, part) in parts.iter().enumerate() {
         part.pages(number, options, &mut |leaf: Leaf| {
-            press.found.extend(leaf.found);
+            bindery.found.extend(leaf.found);
             for scene in leaf.scenes {
-                press.add(scene)?;
+                bindery.add(scene)?;
                 tell(Event::Page);
             }
             Ok(())
         })?;
     }
-    press.close()?;
-    Ok(press.files)
+    bindery.close()?;
+    Ok(bindery.files)
 }
 
 /// The first cell of a family that has a curve, of a coupler grid with those of the page in the middle.
 fn first_cell<'a>(part: &'a Part) -> Option<(&'a Composer<'a>, Solved)> {
-    let family = &part.composer.planned.family;
+    let family = &part.press.composer.planned.family;
     let sampler = crate::motion::Sampler::new(family.sampling);
-    let solved = part.arrangement.order.iter().filter_map(|&cell| sweep::solve(family, &sampler, cell));
+    let solved = part.press.arrangement.order.iter().filter_map(|&cell| sweep::solve(family, &sampler, cell));
     let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
-    if part.composer.planned.layout == Layout::CouplerGrid {
+    if part.press.composer.planned.layout == Layout::CouplerGrid {
         let leaves = leaves(&solved);
         let shown = &leaves[leaves.len() / 2];
         solved.curves = shown.iter().map(|&k| solved.curves[k].clone()).collect();
     }
-    Some((&part.composer, solved))
+    Some((&part.press.composer, solved))
 }
 
 /// Pages that follow each other, and what the index will say of their cells.
@@ -181,7 +176,7 @@ impl Part<'_> {
         options: &Options,
         take: &mut dyn FnMut(Leaf) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let Part { composer, arrangement, setting, .. } = self;
+        let Press { composer, arrangement, setting } = &self.press;
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
         let wanted = told_on_pages(family);
@@ -210,7 +205,7 @@ impl Part<'_> {
 
     /// The pages of a group of cells.
     fn leaf(&self, number: usize, group: usize, solved: &[Solved]) -> Leaf {
-        let Part { composer, setting, before, .. } = self;
+        let Part { press: Press { composer, setting, .. }, before } = self;
         let family = &composer.planned.family;
         let geometry = |solved: &Solved, page: &dyn Fn(usize) -> usize| {
             let [caption, _] = family.describe(&solved.cell, solved.measures());
@@ -233,7 +228,7 @@ impl Part<'_> {
 }
 
 /// Where volumes are made, one after the other.
-struct Press<'a> {
+struct Bindery<'a> {
     plan: &'a Plan,
     atlas: &'a Atlas<'a>,
     frontispiece: Option<&'a Sheet<'a>>,
@@ -256,7 +251,7 @@ struct Open<'a> {
     front: usize,
 }
 
-impl<'a> Press<'a> {
+impl<'a> Bindery<'a> {
     /// Adds a page of a family.
     fn add(&mut self, mut scene: Scene) -> Result<(), Error> {
         if self.open.as_ref().is_some_and(|open| open.book.pages() == open.front + open.volume.pages) {

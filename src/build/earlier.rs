@@ -8,16 +8,12 @@ use rayon::prelude::*;
 
 use super::{Error, Event, files};
 use crate::page::book::Volume;
+use crate::press::page_name;
 use crate::record::{FamilyRecord, FileRecord, ReadError, Run};
 use crate::render::Format;
 
 /// The tables of a family, which every one has.
 const TABLES: [&str; 2] = ["cells.csv", "points.csv"];
-
-/// The name of a page.
-pub(super) fn page_name(family: &str, page: usize, format: Format) -> String {
-    format!("{family}-{page:03}.{}", format.name())
-}
 
 /// The number of a page, from its name.
 pub(super) fn page_number(family: &str, name: &str, format: Format) -> Option<usize> {

@@ -1,21 +1,14 @@
-//! The pages of a family, composed, rendered and written: those that are not there yet as they would be.
+//! The tables and pages of a family, rendered and written: those pages that are not there yet as they would be.
 
-use std::cell::LazyCell;
-use std::rc::Rc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use super::Error;
 use super::claims::Claims;
-use super::earlier::page_name;
 use super::inputs::Inputs;
-use crate::chart::{Chart, Gathered};
-use crate::family::Family;
-use crate::manifest::{Plan, PlannedFamily};
-use crate::page::{self, ChartSheet, GridSheet, Heading, Label, Layout, Panel, Sheet, View};
-use crate::record::FileRecord;
+use super::{Error, stop_if};
+use crate::press::{Composer, Hand, Leaf, Matter, page_name};
+use crate::record::{Cells, FileRecord, Points};
 use crate::render::{self, Format};
-use crate::scene::Scene;
-use crate::sweep::Solved;
+use crate::sweep::{Solved, Status};
 
 /// A page in each format.
 pub(super) struct Printed {
@@ -25,169 +18,74 @@ pub(super) struct Printed {
     pub is_drawn: bool,
 }
 
-/// How the pages of a family are made, on any number of threads.
+/// Rows of the tables, and what is counted of their cells.
+pub(super) struct Rows {
+    pub points: Vec<u8>,
+    pub cells: Vec<u8>,
+    pub curves: usize,
+    pub left_out: usize,
+    pub shortfalls: Vec<(usize, String)>,
+}
+
+/// How the tables and pages of a family are made, on any number of threads.
 #[derive(Clone, Copy)]
 pub(super) struct Printer<'a> {
-    pub plan: &'a Plan,
-    pub planned: &'a PlannedFamily,
+    pub composer: Composer<'a>,
     pub formats: &'a [Format],
     pub inputs: Inputs<'a>,
+    pub tables: (Points<'a>, Cells<'a>),
     /// What is said of the files.
     pub claims: &'a Claims,
     /// Becomes true when no more pages are to be begun.
     pub interrupt: &'a AtomicBool,
-    /// How many pages there are.
-    pub of: usize,
 }
 
-/// A cell with its lines.
-fn panel<'s>(family: &Family, solved: &'s Solved) -> Panel<'s> {
-    let [caption, note] = family.describe(&solved.cell, solved.measures());
-    Panel { inks: Vec::new(), caption, note, facts: page::facts(solved), solved, view: View::Clearest }
-}
+impl Hand for Printer<'_> {
+    type Cells = Rows;
+    type Page = Printed;
+    type Error = Error;
 
-/// What the links of a cell are called.
-fn labels(family: &Family, solved: &Solved) -> Vec<Label> {
-    let joint = |name: &str| solved.linkage.joints.iter().position(|joint| joint.name == name);
-    let label = |(ends, text): ([&str; 2], String)| {
-        let [from, to] = ends.map(joint);
-        Some(Label { ends: [from?, to?], text })
-    };
-    family.template.lengths().into_iter().filter_map(label).collect()
-}
-
-/// What the pages of a family show, before they are printed.
-#[derive(Clone, Copy)]
-pub(super) struct Composer<'a> {
-    pub plan: &'a Plan,
-    pub planned: &'a PlannedFamily,
-    /// How many pages there are.
-    pub of: usize,
-}
-
-impl Composer<'_> {
-    /// A page of panels; pages are counted from 1.
-    pub fn panels(&self, page: usize, solved: &[Solved]) -> Scene {
-        let Composer { plan, planned, .. } = *self;
-        let sheet = Sheet {
-            heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
-            layout: planned.layout,
-            panels: solved.iter().map(|solved| panel(&planned.family, solved)).collect(),
-        };
-        page::compose(&sheet, &plan.page)
-    }
-
-    /// The pages of a coupler grid, of which the first has this number: for each, its number, the places of the curves on
-    /// it, and how it is composed.
-    pub fn grids<'s>(
-        &'s self,
-        page: usize,
-        solved: &'s Solved,
-    ) -> impl Iterator<Item = (usize, Vec<usize>, impl FnOnce() -> Scene)> {
-        let Composer { plan, planned, .. } = *self;
-        let labels = Rc::new(labels(&planned.family, solved));
-        // One pose for all pages of a cell, sought for the first that is drawn.
-        let view = Rc::new(LazyCell::new(|| page::clearest_pose(solved).map_or(View::Clearest, View::At)));
-        (page..).zip(leaves(solved)).map(move |(page, shown)| {
-            let (labels, view, places) = (Rc::clone(&labels), Rc::clone(&view), shown.clone());
-            let compose = move || {
-                let heading = self.heading(page, planned.source.clone());
-                let panel = Panel { view: View::clone(&view), ..panel(&planned.family, solved) };
-                page::compose_grid(&GridSheet { heading, panel, shown, labels: &labels }, &plan.page)
-            };
-            (page, places, compose)
+    fn cells(&self, solved: &[Solved]) -> Result<Rows, Error> {
+        let (mut points, mut cells) = (Vec::new(), Vec::new());
+        for solved in solved {
+            stop_if(self.interrupt)?;
+            self.tables.0.rows(solved, &mut points);
+            self.tables.1.rows(solved, &mut cells);
+        }
+        let shortfall =
+            |s: &Solved| Some((s.cell.number, s.motion.shortfall.clone()?)).filter(|_| s.status() != Status::Ok);
+        Ok(Rows {
+            points,
+            cells,
+            curves: solved.iter().map(|s| s.curves.len()).sum(),
+            left_out: solved.iter().map(|s| s.left_out).sum(),
+            shortfalls: solved.iter().filter_map(shortfall).collect(),
         })
     }
 
-    /// A page of charts.
-    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Scene {
-        let Composer { plan, planned, .. } = *self;
-        let first = (page - 1) * planned.layout.cells();
-        let mut source = vec![planned.source.clone()];
-        if gathered.left_out > 0 {
-            let Gathered { curves, left_out, .. } = gathered;
-            source.push(format!("only the first {} of {curves} curves are drawn", curves - left_out));
-        }
-        source.retain(|part| !part.is_empty());
-        let sheet = ChartSheet {
-            heading: self.heading(page, source.join(" · ")),
-            layout: planned.layout,
-            chart,
-            shown: first..(first + planned.layout.cells()).min(chart.y.len()),
-            series: &gathered.series,
-        };
-        page::compose_charts(&sheet, &plan.page)
-    }
-
-    /// A plate of one cell for a title page: of a coupler grid, with the curves of one page.
-    pub fn frontispiece<'s>(&'s self, solved: &'s Solved) -> Sheet<'s> {
-        let heading = self.heading(1, String::new());
-        Sheet {
-            heading,
-            layout: Layout::Panels { columns: 1, rows: 1 },
-            panels: vec![panel(&self.planned.family, solved)],
-        }
-    }
-
-    fn heading(&self, page: usize, source: String) -> Heading<'_> {
-        let Composer { plan, planned, of } = *self;
-        let Family { id, title, names, .. } = &planned.family;
-        Heading { atlas: &plan.title, family: id, title, source, symbols: names, page, of }
-    }
-}
-
-/// The curves of a cell, by the pages of a coupler grid they are on; a cell that is not assembled has a page that says so.
-pub(super) fn leaves(solved: &Solved) -> Vec<Vec<usize>> {
-    let shown = solved.by_points(Layout::POINTS);
-    if shown.is_empty() { vec![Vec::new()] } else { shown }
-}
-
-impl Printer<'_> {
-    fn composer(&self) -> Composer<'_> {
-        Composer { plan: self.plan, planned: self.planned, of: self.of }
-    }
-
-    /// A page of panels; pages are counted from 1.
-    pub fn panels(&self, page: usize, solved: &[Solved]) -> Result<Printed, Error> {
-        let inputs = self.inputs.of_page((page, self.of), solved, &[]);
-        self.print(page, &inputs, || self.composer().panels(page, solved))
-    }
-
-    /// The pages of a coupler grid, of which the first has this number.
-    pub fn grids(&self, page: usize, solved: &Solved) -> Result<Vec<Printed>, Error> {
-        let composer = self.composer();
-        let print = |(page, shown, compose): (usize, Vec<usize>, _)| {
-            let inputs = self.inputs.of_page((page, self.of), std::slice::from_ref(solved), &shown);
-            self.print(page, &inputs, compose)
-        };
-        composer.grids(page, solved).map(print).collect()
-    }
-
-    /// A page of charts.
-    pub fn charts(&self, page: usize, chart: &Chart, gathered: &Gathered) -> Result<Printed, Error> {
-        self.print(page, &self.inputs.of_charts(page), || self.composer().charts(page, chart, gathered))
-    }
-
     /// A page in each format, drawn where it is not there as it would be.
-    fn print(&self, page: usize, inputs: &str, compose: impl FnOnce() -> Scene) -> Result<Printed, Error> {
-        if self.interrupt.load(Ordering::Relaxed) {
-            return Err(Error::Interrupted);
-        }
-        let named = |&format: &Format| (format, page_name(&self.planned.family.id, page, format));
+    fn page(&self, leaf: Leaf) -> Result<Printed, Error> {
+        stop_if(self.interrupt)?;
+        let Composer { plan, planned, of } = self.composer;
+        let inputs = &match leaf.matter {
+            Matter::Cells { cells, shown } => self.inputs.of_page((leaf.page, of), cells, shown),
+            Matter::Charts => self.inputs.of_charts(leaf.page),
+        };
+        let named = |&format: &Format| (format, page_name(&planned.family.id, leaf.page, format));
         let names: Vec<(Format, String)> = self.formats.iter().map(named).collect();
         let kept: Vec<Option<FileRecord>> = names.iter().map(|(_, name)| self.claims.kept(name, inputs)).collect();
         if kept.iter().all(Option::is_some) {
             return Ok(Printed { files: kept.into_iter().flatten().collect(), is_drawn: false });
         }
-        let scene = compose();
+        let scene = leaf.compose();
         // An image is recorded by its SVG, too.
-        let svg = render::svg(&scene, self.plan.text);
+        let svg = render::svg(&scene, plan.text);
         let draw = |((format, name), kept): ((Format, String), Option<FileRecord>)| match (kept, format) {
             (Some(kept), _) => Ok(kept),
             (None, Format::Svg) => self.claims.write(FileRecord::of_bytes(name, &svg).made_from(inputs), &svg),
             (None, Format::Png) => {
-                let record = FileRecord::of_drawing(&name, &svg, self.plan.dpi).made_from(inputs);
-                let png = render::png(&scene, self.plan.dpi).map_err(|error| Error::Image { name, error })?;
+                let record = FileRecord::of_drawing(&name, &svg, plan.dpi).made_from(inputs);
+                let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name, error })?;
                 self.claims.write(record, &png)
             }
             // A book has its pages from elsewhere.
@@ -197,20 +95,10 @@ impl Printer<'_> {
         Ok(Printed { files, is_drawn: true })
     }
 
-    /// About how many bytes it takes to draw a page: the pixels of an image, and what they are encoded to.
-    pub fn bytes(&self) -> usize {
-        let Printer { plan, formats, .. } = *self;
+    /// The pixels of an image, and what they are encoded to.
+    fn bytes(&self) -> usize {
+        let plan = self.composer.plan;
         let pixels = plan.page.paper.width * plan.page.paper.height * (plan.dpi / 25.4) * (plan.dpi / 25.4);
-        if formats.contains(&Format::Png) { 4 * pixels as usize } else { 0 }
+        if self.formats.contains(&Format::Png) { 4 * pixels as usize } else { 0 }
     }
-}
-
-/// Where the linkage comes from, and how a page is to be read.
-fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
-    let dashes = match planned.family.template.is_driven_by_length() {
-        true => "a dash and its gap span equal lengths of the actuator".to_owned(),
-        false => format!("one dash and its gap = {dash_deg}° of input"),
-    };
-    let key = format!("{dashes} · scale bars in units of length");
-    if planned.source.is_empty() { key } else { format!("{} · {key}", planned.source) }
 }

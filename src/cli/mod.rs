@@ -1,5 +1,6 @@
 //! Arguments, one file a subcommand, progress and exit codes. Every print is here.
 
+mod check;
 mod design;
 mod init;
 mod inspect;
@@ -15,7 +16,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use coupler_atlas::build;
 
-const EXIT_CODES: &str = "Exit codes: 0 done; 1 with --strict, a cell is not assembled; 2 the input was wrong; \
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 the check found a difference, or with --strict a cell is not assembled; 2 the input was wrong; \
                           3 the machine failed, or another run is writing there; 130 interrupted.";
 
 /// Atlases of coupler curves: solves families of planar linkages and draws them as pages.
@@ -30,6 +31,7 @@ struct Arguments {
 enum Command {
     Render(render::Arguments),
     Validate(validate::Arguments),
+    Check(check::Arguments),
     Inspect(inspect::Arguments),
     Design(Box<design::Arguments>),
     List(list::Arguments),
@@ -61,6 +63,7 @@ pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
@@ -88,7 +91,8 @@ fn failure(error: &anyhow::Error) -> ExitCode {
         let _ = writeln!(io::stderr(), "error: {message}");
     }
     let is_input = error.downcast_ref::<WrongInput>().is_some()
-        || matches!(error.downcast_ref(), Some(build::Error::Read { .. } | build::Error::Record { .. }));
+        || matches!(error.downcast_ref(), Some(build::Error::Read { .. } | build::Error::Record { .. }))
+        || matches!(error.downcast_ref(), Some(coupler_atlas::check::Error::Record { .. }));
     let is_interrupted = matches!(error.downcast_ref(), Some(build::Error::Interrupted));
     ExitCode::from(match () {
         () if is_interrupted => INTERRUPTED,

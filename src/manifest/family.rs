@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::names::{given, names, read_expressions};
-use super::{Inputs, PlannedFamily, Templates, chart, settings};
+use super::{tolerance, Inputs, PlannedFamily, Templates, chart, settings};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
 use crate::notation::{self, Fields, Reader, Value};
@@ -12,7 +12,7 @@ use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::{Placement, Template};
 
-const KEYS: [&str; 23] = [
+const KEYS: [&str; 24] = [
     "id",
     "linkage",
     "title",
@@ -36,6 +36,7 @@ const KEYS: [&str; 23] = [
     "place",
     "columns",
     "straight",
+    "check",
 ];
 
 /// The id of a table and its place, if it has one.
@@ -69,6 +70,7 @@ pub(super) fn read<'t>(
         None => Some(Straight::default()),
         Some(value) => straight(value, template.as_deref(), reader),
     };
+    let tolerances = tolerance::read(fields.get("check"), "`check`", reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
         None => {
@@ -108,7 +110,8 @@ pub(super) fn read<'t>(
         source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
     let filter_span = fields.get("where").map(Value::span);
     let (layout, chart, formats) = (layout?, chart?, formats?);
-    Some(PlannedFamily { family, layout, chart, formats, source, inputs: Inputs::default(), filter_span })
+    let inputs = Inputs::default();
+    Some(PlannedFamily { family, layout, chart, formats, source, inputs, tolerances, span: value.span(), filter_span })
 }
 
 /// The template with what the family says otherwise.

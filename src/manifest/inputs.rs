@@ -13,10 +13,10 @@ pub struct Inputs {
 
 /// Keys of [atlas] that say where files go, not what is in them.
 const PLACES: [&str; 3] = ["output", "formats", "volume_pages"];
-/// Keys of a family that say the same.
-const FILES: [&str; 2] = ["formats", "limit"];
+/// Keys of a family that say the same, or what it is held against.
+const FILES: [&str; 3] = ["formats", "limit", "check"];
 /// Keys of a family, with [`FILES`], that come to the values of cells, their curves and their order.
-const CELLS: [&str; 7] = ["formats", "limit", "grid", "cases", "let", "where", "sort"];
+const CELLS: [&str; 8] = ["formats", "limit", "check", "grid", "cases", "let", "where", "sort"];
 
 impl Inputs {
     /// What a manifest says of a family's table in it.
@@ -28,7 +28,7 @@ impl Inputs {
         let linkage = named("linkage", family);
         // Whatever is in a manifest beside families and linkages goes for all of them.
         let mut common = String::new();
-        for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage"].contains(key)) {
+        for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage", "check"].contains(key)) {
             let leaving_out: &[&str] = if key == "atlas" { &PLACES } else { &[] };
             common.push_str(&format!("{key:?}={},", normal(value, leaving_out)));
         }

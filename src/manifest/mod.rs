@@ -7,8 +7,10 @@ mod inputs;
 mod names;
 mod settings;
 mod theme;
+mod tolerance;
 
 pub use inputs::Inputs;
+pub use tolerance::{GivenTolerances, Tolerances};
 
 use std::sync::Arc;
 
@@ -55,6 +57,10 @@ pub struct PlannedFamily {
     pub source: String,
     /// What its files are made from.
     pub inputs: Inputs,
+    /// By how much it may differ from a recorded atlas.
+    pub tolerances: GivenTolerances,
+    /// Where its table stands in the manifest.
+    pub span: Span,
     /// Where its `where` stands in the manifest.
     pub filter_span: Option<Span>,
 }
@@ -95,7 +101,7 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
         reader.note(Problem::error(0..0, "the manifest is empty").help(help));
         return None;
     }
-    let root = Fields::of(&document, "a manifest", &["atlas", "page", "family", "linkage"], reader)?;
+    let root = Fields::of(&document, "a manifest", &["atlas", "page", "check", "family", "linkage"], reader)?;
     let atlas = match root.get("atlas") {
         Some(value) => settings::atlas(value, reader),
         None => {
@@ -105,6 +111,7 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
         }
     };
     let page = settings::page(root.get("page"), reader);
+    let tolerances = tolerance::read(root.get("check"), "[check]", reader);
     let templates = Templates::read(&root, reader);
     let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
     let tables = root.tables("family", reader);
@@ -124,7 +131,10 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
             }
             ids.push(id);
         }
-        families.extend(read.map(|read| PlannedFamily { inputs: Inputs::of(&root, value), ..read }));
+        let tolerances = |own: GivenTolerances| own.or(tolerances);
+        families.extend(read.map(|read| {
+            PlannedFamily { inputs: Inputs::of(&root, value), tolerances: tolerances(read.tolerances), ..read }
+        }));
     }
     let (atlas, page) = (atlas?, page?);
     Some(Plan {

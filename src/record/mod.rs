@@ -4,8 +4,10 @@ mod cells;
 mod number;
 mod points;
 mod run;
+mod table;
 
 pub use cells::{Cells, shortfalls};
 pub use number::shortest;
 pub use points::Points;
+pub use table::{Flaw, Row, Table, rows};
 pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};

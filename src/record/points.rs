@@ -16,8 +16,10 @@ pub struct Points<'a> {
 }
 
 impl<'a> Points<'a> {
-    /// The table of a family whose linkages have that many two-valued joints.
-    pub fn new(family: &'a Family, dyads: usize) -> Points<'a> {
+    /// The table of a family.
+    pub fn new(family: &'a Family) -> Points<'a> {
+        // All its linkages have as many two-valued joints.
+        let dyads = family.linkage(&family.cell(0)).map_or(0, |linkage| linkage.dyads());
         let input = if family.template.is_driven_by_length() { "input_length" } else { "input_deg" };
         Points { dyads, input, columns: &family.columns }
     }

@@ -1,0 +1,118 @@
+//! How far two curves are apart as sets of points, whatever their samples.
+
+use super::track::Track;
+use crate::geometry::{Point, Vector, cross, distance_to_segment};
+use crate::linkage::JointId;
+use crate::motion::{Circuit, Pass, poses};
+use crate::sweep::Solved;
+
+/// How far recorded points are from the curve that comes out now at most, or the samples of that from the recorded
+/// curve, whichever is more.
+///
+/// The one is found from the linkage itself: the place on its curve that is nearest to a recorded point, to rounding but
+/// near a limit. The other is found from the recorded samples, between which the curve may bend as their neighbours do.
+pub(super) fn apart(was: &Track, is: &Track, (solved, joint, circuit): (&Solved, JointId, &Circuit)) -> f64 {
+    let nearest = Nearest { solved, joint, circuit, is };
+    let out = few(was, is.len()).map(|p| nearest.distance(p));
+    let back = few(is, was.len()).map(|p| from_samples(p, was, circuit.closed));
+    out.chain(back).filter(|far| !far.is_nan()).fold(0.0, f64::max)
+}
+
+/// The samples of a curve that have a place; of very many, as many as can be held against so many of another.
+fn few(track: &Track, others: usize) -> impl Iterator<Item = Point> {
+    /// So many pairs are looked at in a few hundredths of a second.
+    const PAIRS: usize = 4_000_000;
+    let step = (track.len() * others).div_ceil(PAIRS).max(1);
+    track.points.iter().copied().step_by(step).filter(|p| !p.x.is_nan() && !p.y.is_nan())
+}
+
+/// For the places on a curve that are nearest to others.
+struct Nearest<'a> {
+    solved: &'a Solved,
+    joint: JointId,
+    circuit: &'a Circuit,
+    is: &'a Track,
+}
+
+impl Nearest<'_> {
+    fn distance(&self, point: Point) -> f64 {
+        /// So many samples are gone out from: a curve may come near a point more than once.
+        const BEGUN: usize = 2;
+        let square = |k: usize| (self.is.points[k] - point).norm_squared();
+        let mut order: Vec<usize> = (0..self.is.len()).filter(|&k| !square(k).is_nan()).collect();
+        let begun = BEGUN.min(order.len());
+        if begun > 0 && begun < order.len() {
+            order.select_nth_unstable_by(begun - 1, |&a, &b| square(a).total_cmp(&square(b)));
+        }
+        order[..begun].iter().map(|&k| self.from_sample(k, point)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// From the place that is nearest about a sample.
+    fn from_sample(&self, k: usize, point: Point) -> f64 {
+        let at = self.is.input[k];
+        let mut best = (self.is.points[k] - point).norm();
+        let holds = |pass: &&Pass| (pass.range()[0]..=pass.range()[1]).contains(&at);
+        for pass in self.circuit.passes.iter().filter(holds) {
+            best = best.min(self.on_pass(pass, at, point));
+        }
+        best
+    }
+
+    fn on_pass(&self, pass: &Pass, mut at: f64, point: Point) -> f64 {
+        const STEPS: usize = 5;
+        let [low, high] = pass.range();
+        // Near enough for differences of the second order, and far enough for them to be more than rounding.
+        let by = 1e-4 * (high - low).min(1.0);
+        let mut best = f64::INFINITY;
+        for _ in 0..STEPS {
+            let middle = at.clamp(low + by, high - by);
+            let places = poses(&self.solved.linkage, pass, &[middle - by, middle, middle + by, at]);
+            let [a, b, c, own] = [0, 1, 2, 3].map(|k| places.point(self.joint, k));
+            let (rate, bend) = ((c - a) / (2.0 * by), ((c - b) - (b - a)) / (by * by));
+            best = best.min(off(own, rate + bend * (at - middle), point));
+            let from = b - point;
+            // To where the way to the point is square to the curve.
+            let step = from.dot(&rate) / (rate.norm_squared() + from.dot(&bend));
+            let next = (middle - step).clamp(low, high);
+            if !next.is_finite() || next == at {
+                break;
+            }
+            at = next;
+        }
+        best
+    }
+}
+
+/// How far a point is from a curve at a place near it: along the normal, where it is nearly opposite.
+fn off(place: Point, rate: Vector, point: Point) -> f64 {
+    let way = point - place;
+    match rate.try_normalize(0.0) {
+        Some(along) if along.dot(&way).abs() < 1e-6 * rate.norm() => cross(along, way).abs(),
+        _ => way.norm(),
+    }
+}
+
+/// How far a point is from the curve through some samples, by no more than is certain.
+fn from_samples(point: Point, samples: &Track, closed: bool) -> f64 {
+    let n = samples.len();
+    let at = |k: usize| samples.points[k % n];
+    let chords = if closed { n } else { n.saturating_sub(1) };
+    let from_chord = |k: usize| {
+        let (a, b) = (at(k), at(k + 1));
+        let far = distance_to_segment(point, a, b);
+        if far.is_nan() {
+            return f64::INFINITY;
+        }
+        // Between two samples the curve leaves their chord as far as a circle through them and a neighbour does, or twice that.
+        let before = if k > 0 || closed { bend_at([at(k + n - 1), a, b]) } else { 0.0 };
+        let after = if k + 2 < n || closed { bend_at([a, b, at(k + 2)]) } else { 0.0 };
+        (far - (b - a).norm_squared() * before.max(after) / 4.0).max(0.0)
+    };
+    (0..chords).map(from_chord).fold(if n == 1 { (at(0) - point).norm() } else { f64::INFINITY }, f64::min)
+}
+
+/// How much the circle through three points bends.
+fn bend_at([a, b, c]: [Point; 3]) -> f64 {
+    let bend = 2.0 * cross(b - a, c - b) / ((b - a).norm() * (c - b).norm() * (c - a).norm());
+    if bend.is_finite() { bend.abs() } else { 0.0 }
+}

@@ -1,0 +1,177 @@
+//! A fresh run held against a recorded one: what has changed, where and by how much.
+//!
+//! The manifest is run afresh in memory. What comes off the press is held against the recorded tables and pages: to the
+//! byte first, and what differs there by its numbers. A recorded atlas is input like any other: whatever is in it, there
+//! is a finding and no panic, and memory stays bounded.
+
+mod apart;
+mod cells;
+mod circuits;
+mod curve;
+mod family;
+mod finding;
+mod numbering;
+mod pages;
+mod tables;
+mod track;
+
+pub use finding::{Change, Finding, Move, Place};
+
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use serde::Serialize;
+
+use crate::manifest::{GivenTolerances, Plan, PlannedFamily};
+use crate::press::{Off, Press};
+use crate::record::{FamilyRecord, ReadError, Run};
+use family::Checked;
+
+/// What is to be checked, and how strictly.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The families to check; all where empty.
+    pub only: Vec<String>,
+    /// Tolerances that count in place of the manifest's.
+    pub tolerances: GivenTolerances,
+}
+
+/// Something that happened while checking.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// A family with so many pages is begun.
+    Begin {
+        /// Its id.
+        family: &'a str,
+        /// Its pages.
+        pages: usize,
+    },
+    /// A page is done.
+    Page,
+    /// A family is done.
+    End,
+}
+
+/// What a check has found.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// How many families were held against their records.
+    pub families: usize,
+    /// How many curves.
+    pub curves: usize,
+    /// How many pages.
+    pub pages: usize,
+    /// How many findings there are of each kind.
+    pub counts: BTreeMap<&'static str, usize>,
+    /// What was found, the worst first; of very many, the worst of each family.
+    pub findings: Vec<Finding>,
+}
+
+/// Why nothing could be checked.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The record of the atlas cannot be used.
+    #[error("cannot use {}: {source}", path.display())]
+    Record {
+        /// The record.
+        path: PathBuf,
+        /// Why.
+        source: ReadError,
+    },
+}
+
+impl Report {
+    /// Whether anything differs.
+    pub fn has_differences(&self) -> bool {
+        self.findings.iter().any(|finding| finding.change.is_difference())
+    }
+
+    /// How many findings there are, those that are not kept among them.
+    pub fn total(&self) -> usize {
+        self.counts.values().sum()
+    }
+
+    /// So many findings of a family are kept.
+    const KEPT: usize = 20_000;
+
+    fn add(&mut self, mut findings: Vec<Finding>) {
+        for finding in &findings {
+            *self.counts.entry(finding.change.kind()).or_default() += 1;
+        }
+        worst_first(&mut findings);
+        findings.truncate(Report::KEPT);
+        self.findings.extend(findings);
+    }
+}
+
+fn worst_first(findings: &mut [Finding]) {
+    findings.sort_by(|a, b| {
+        let ((rank, size), (other_rank, other_size)) = (a.change.severity(), b.change.severity());
+        rank.cmp(&other_rank).then(size.total_cmp(&other_size))
+    });
+}
+
+/// Runs a plan and holds what comes of it against the atlas recorded in a folder.
+///
+/// # Errors
+/// A record of the atlas that cannot be read.
+pub fn run(plan: &Plan, recorded: &Path, options: &Options, tell: &mut dyn FnMut(Event)) -> Result<Report, Error> {
+    let path = recorded.join("run.json");
+    let record = Run::read(&path).map_err(|source| Error::Record { path, source })?;
+    let is_asked = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
+    let mut report = Report::default();
+    for family in record.families.iter().filter(|family| is_asked(&family.id)) {
+        if plan.families.iter().all(|planned| planned.family.id != family.id) {
+            report.add(vec![Place::family(&family.id).has(Change::FamilyRemoved)]);
+        }
+    }
+    for planned in plan.families.iter().filter(|planned| is_asked(&planned.family.id)) {
+        match record.families.iter().find(|family| family.id == planned.family.id) {
+            Some(of) => family_of(plan, planned, of, recorded, options, &mut report, tell),
+            None => report.add(vec![Place::family(&planned.family.id).has(Change::FamilyAdded)]),
+        }
+    }
+    worst_first(&mut report.findings);
+    Ok(report)
+}
+
+fn family_of(
+    plan: &Plan,
+    planned: &PlannedFamily,
+    record: &FamilyRecord,
+    recorded: &Path,
+    options: &Options,
+    report: &mut Report,
+    tell: &mut dyn FnMut(Event),
+) {
+    // Nobody stops this.
+    let Some(press) = Press::new(plan, planned, &AtomicBool::new(false)) else { return };
+    tell(Event::Begin { family: &planned.family.id, pages: press.setting.pages });
+    let tolerances = options.tolerances.or(planned.tolerances).complete();
+    let mut findings = Vec::new();
+    let checked = Checked::open(&press, record, recorded, tolerances, &mut findings);
+    let (mut changed, mut pages) = (Vec::new(), Vec::new());
+    let result = press.run(&checked, |off| {
+        match off {
+            Off::Cells(held) => {
+                findings.extend(held.findings);
+                changed.extend(held.changed);
+                report.curves += held.curves;
+            }
+            Off::Page(page) => {
+                pages.push(page);
+                tell(Event::Page);
+            }
+        }
+        Ok::<(), Infallible>(())
+    });
+    // There is nothing that could go wrong.
+    let Ok(()) = result;
+    report.families += 1;
+    report.pages += pages.len();
+    findings.extend(checked.on_pages(pages, &changed));
+    report.add(findings);
+    tell(Event::End);
+}

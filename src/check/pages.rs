@@ -1,0 +1,138 @@
+//! The pages of a family, held against what is drawn now, and against the recorded points.
+
+use std::collections::HashMap;
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use super::finding::{Change, Finding, Place};
+use super::tables::altered;
+use super::track::Track;
+use crate::press::{Leaf, Matter, Press, page_name};
+use crate::record::{FamilyRecord, FileRecord, RunningDigest};
+use crate::render::{self, Format};
+
+/// The recorded pages of a family.
+pub(super) struct Pages<'a> {
+    press: &'a Press<'a>,
+    folder: PathBuf,
+    place: Place,
+    files: HashMap<&'a str, &'a FileRecord>,
+}
+
+/// What is found of a page.
+#[derive(Default)]
+pub(super) struct Page {
+    /// The cells on it; all that the family has, where none is named.
+    cells: Vec<usize>,
+    /// Its files that are not what would be drawn now, though they are what was recorded.
+    differing: Vec<String>,
+    findings: Vec<Finding>,
+}
+
+/// A page of more bytes is none of this program's.
+const MOST_BYTES: u64 = 1 << 28;
+
+impl<'a> Pages<'a> {
+    pub fn new(press: &'a Press<'a>, record: &'a FamilyRecord, output: &Path) -> Pages<'a> {
+        let id = &press.composer.planned.family.id;
+        let files = record.files.iter().map(|file| (file.name.as_str(), file)).collect();
+        Pages { press, folder: output.join(id), place: Place::family(id), files }
+    }
+
+    /// Holds the files of a page against what is drawn now, and against the recorded curves of its cells.
+    pub fn check(&self, leaf: Leaf, recorded: impl Fn(usize) -> Option<Vec<Track>>) -> Page {
+        let cells = match leaf.matter {
+            Matter::Cells { cells, .. } => cells.iter().map(|solved| solved.cell.number).collect(),
+            Matter::Charts => Vec::new(),
+        };
+        let mut page = Page { cells, ..Page::default() };
+        let plan = self.press.composer.plan;
+        let name = |format| page_name(&self.place.family, leaf.page, format);
+        let [svg_name, png_name] = [Format::Svg, Format::Png].map(name);
+        let (svg_record, png_record) = (self.files.get(svg_name.as_str()), self.files.get(png_name.as_str()));
+        if svg_record.is_none() && png_record.is_none() {
+            return page;
+        }
+        let svg = render::svg(&leaf.compose(), plan.text);
+        if let Some(record) = svg_record {
+            self.svg(record, &svg, &mut page, recorded);
+        }
+        if let Some(record) = png_record {
+            let drawn = FileRecord::of_drawing(&record.name, &svg, plan.dpi);
+            if record.drawn_from_sha256 != drawn.drawn_from_sha256 {
+                page.differing.push(record.name.clone());
+            }
+            if let Err(wrong) = read(&self.folder.join(&record.name)) {
+                page.findings.push(self.file(&record.name).has(Change::Damaged { wrong }));
+            }
+        }
+        page
+    }
+
+    fn svg(
+        &self,
+        record: &FileRecord,
+        fresh: &[u8],
+        page: &mut Page,
+        recorded: impl Fn(usize) -> Option<Vec<Track>>,
+    ) {
+        let place = self.file(&record.name);
+        let bytes = match read(&self.folder.join(&record.name)) {
+            Ok(bytes) => bytes,
+            Err(wrong) => {
+                page.findings.push(place.has(Change::Damaged { wrong }));
+                return;
+            }
+        };
+        let plain: Vec<u8> = bytes.iter().copied().filter(|&b| b != b'\r').collect();
+        let digests = [&bytes, &plain].map(|bytes| {
+            let mut digest = RunningDigest::default();
+            digest.add(bytes);
+            digest.finish()
+        });
+        let change = altered(Some(record), &digests);
+        if change.is_none() && bytes != fresh {
+            page.differing.push(record.name.clone());
+        }
+        page.findings.extend(change.map(|change| place.has(change)));
+        let _ = recorded;
+    }
+
+    /// What is found on pages: of those that differ, which do so though their cells have not changed.
+    pub fn findings(&self, pages: Vec<Page>, changed: &[usize]) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        for page in pages {
+            let is_due = match page.cells.is_empty() {
+                true => !changed.is_empty(),
+                false => page.cells.iter().any(|cell| changed.contains(cell)),
+            };
+            findings.extend(page.findings);
+            if !is_due {
+                findings.extend(page.differing.iter().map(|name| self.file(name).has(Change::Drawing)));
+            }
+        }
+        findings
+    }
+
+    fn file(&self, name: &str) -> Place {
+        self.place.file(&format!("{}/{name}", self.place.family))
+    }
+}
+
+/// The bytes of a file, or what is wrong with it.
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    let metadata = fs::symlink_metadata(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => "is not there".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    })?;
+    if !metadata.is_file() {
+        return Err("is no file".to_owned());
+    }
+    if metadata.len() > MOST_BYTES {
+        return Err(format!("has {} bytes, which no page of this program has", metadata.len()));
+    }
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes));
+    file.map(|_| bytes).map_err(|error| format!("cannot be read: {error}"))
+}

@@ -1,0 +1,27 @@
+use coupler_atlas::check::Report;
+use serde::Serialize;
+
+/// The version of the format of the report.
+const FORMAT: u32 = 1;
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format: u32,
+    program: &'static str,
+    version: &'static str,
+    has_differences: bool,
+    #[serde(flatten)]
+    report: &'a Report,
+}
+
+/// The report as JSON, as docs/check.md has it. What is infinite is null there.
+pub fn text(report: &Report) -> anyhow::Result<String> {
+    let document = Document {
+        format: FORMAT,
+        program: env!("CARGO_PKG_NAME"),
+        version: env!("CARGO_PKG_VERSION"),
+        has_differences: report.has_differences(),
+        report,
+    };
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
+}

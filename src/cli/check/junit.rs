@@ -1,0 +1,66 @@
+use std::collections::BTreeMap;
+
+use coupler_atlas::check::{Finding, Report};
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
+
+/// The report as JUnit XML: a suite for each family with a finding, in it a case for each place, and one for all else.
+pub fn text(report: &Report) -> anyhow::Result<String> {
+    let mut families: BTreeMap<&str, BTreeMap<String, Vec<&Finding>>> = BTreeMap::new();
+    for finding in &report.findings {
+        let cases = families.entry(&finding.place.family).or_default();
+        cases.entry(finding.place.to_string()).or_default().push(finding);
+    }
+    let differing = |findings: &Vec<&Finding>| findings.iter().any(|finding| finding.change.is_difference());
+    let failures: usize = families.values().flat_map(BTreeMap::values).filter(|found| differing(found)).count();
+    let cases: usize = families.values().map(BTreeMap::len).sum();
+    let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
+    writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let suites = counted(BytesStart::new("testsuites"), "coupler-atlas check", cases + 1, failures);
+    writer.write_event(Event::Start(suites))?;
+    for (family, cases) in &families {
+        let failed = cases.values().filter(|found| differing(found)).count();
+        let name = if family.is_empty() { "atlas" } else { family };
+        writer.write_event(Event::Start(counted(BytesStart::new("testsuite"), name, cases.len(), failed)))?;
+        for (place, findings) in cases {
+            case(&mut writer, name, place, findings)?;
+        }
+        writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
+    }
+    writer.write_event(Event::Start(counted(BytesStart::new("testsuite"), "all else", 1, 0)))?;
+    let held = format!("{} curves on {} pages of {} families", report.curves, report.pages, report.families);
+    case(&mut writer, "all else", &held, &[])?;
+    writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
+    writer.write_event(Event::End(BytesEnd::new("testsuites")))?;
+    Ok(String::from_utf8(writer.into_inner())? + "\n")
+}
+
+fn counted<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures: usize) -> BytesStart<'a> {
+    start.push_attribute(("name", name));
+    start.push_attribute(("tests", tests.to_string().as_str()));
+    start.push_attribute(("failures", failures.to_string().as_str()));
+    start
+}
+
+fn case(writer: &mut Writer<Vec<u8>>, family: &str, place: &str, findings: &[&Finding]) -> anyhow::Result<()> {
+    let mut start = BytesStart::new("testcase");
+    start.push_attribute(("classname", family));
+    start.push_attribute(("name", place));
+    writer.write_event(Event::Start(start))?;
+    let texts = |is_difference: bool| -> Vec<String> {
+        let ours = findings.iter().filter(|finding| finding.change.is_difference() == is_difference);
+        ours.map(|finding| format!("{}: {}", finding.change.kind(), finding.change)).collect()
+    };
+    for (name, texts) in [("failure", texts(true)), ("system-out", texts(false))] {
+        let Some(first) = texts.first() else { continue };
+        let mut start = BytesStart::new(name);
+        if name == "failure" {
+            start.push_attribute(("message", first.as_str()));
+        }
+        writer.write_event(Event::Start(start))?;
+        writer.write_event(Event::Text(BytesText::new(&texts.join("\n"))))?;
+        writer.write_event(Event::End(BytesEnd::new(name)))?;
+    }
+    writer.write_event(Event::End(BytesEnd::new("testcase")))?;
+    Ok(())
+}

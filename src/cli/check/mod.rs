@@ -1,0 +1,158 @@
+//! `check`: what has changed since an atlas was recorded.
+
+mod github;
+mod json;
+mod junit;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use coupler_atlas::build;
+use coupler_atlas::check::{self, Event, Report};
+use coupler_atlas::manifest::GivenTolerances;
+use coupler_atlas::problem::nearest_or_all;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::plan::{self, Source};
+use super::{Outcome, WrongInput, print, say};
+
+/// Run a manifest afresh, and tell what has changed since an atlas was recorded: which curve, where and by how much.
+///
+/// Nothing is written but the reports asked for. Exits with 0 if nothing has changed, and with 1 if anything has.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The manifest.
+    #[arg(default_value = "atlas.toml")]
+    manifest: PathBuf,
+    /// The folder of the recorded atlas, with its run.json.
+    #[arg(long, value_name = "DIR")]
+    against: PathBuf,
+    /// Check this family only; may be given more than once.
+    #[arg(long, value_name = "FAMILY")]
+    only: Vec<String>,
+    /// How far a point may move, in units of length, in place of the manifest's [default: 0].
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_negative_numbers = true)]
+    atol: Option<f64>,
+    /// How far a point may move, in parts of its curve's size [default: 1e-12]. The greater of both counts.
+    #[arg(long, value_name = "PART", value_parser = tolerance, allow_negative_numbers = true)]
+    rtol: Option<f64>,
+    /// How much a measure may change, in parts of itself [default: 1e-9].
+    #[arg(long, value_name = "PART", value_parser = tolerance, allow_negative_numbers = true)]
+    measure_rtol: Option<f64>,
+    /// Report as json, junit or github (annotations), to a file, or instead of the table; may be given more than once.
+    #[arg(long, value_name = "FORMAT[=FILE]", value_parser = wanted)]
+    report: Vec<Wanted>,
+    /// Make what comes out now the recorded atlas, after telling what that replaces.
+    #[arg(long)]
+    bless: bool,
+    /// How many threads to use [default: one for each processor].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Say nothing but what has changed.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// A report that is asked for.
+#[derive(Clone, Debug)]
+struct Wanted {
+    format: Format,
+    /// Where it goes; to standard output, in place of the table, where it is not said.
+    file: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Json,
+    Junit,
+    Github,
+}
+
+fn wanted(text: &str) -> Result<Wanted, String> {
+    const KNOWN: [(&str, Format); 3] = [("json", Format::Json), ("junit", Format::Junit), ("github", Format::Github)];
+    let (name, file) = text.split_once('=').map_or((text, None), |(name, file)| (name, Some(file)));
+    let names = KNOWN.map(|(name, _)| name);
+    let format = KNOWN.into_iter().find(|(known, _)| *known == name).map(|(_, format)| format);
+    let format = format.ok_or_else(|| format!("there is no report `{name}`: {}", nearest_or_all(name, &names)))?;
+    match file {
+        Some("") => Err(format!("there is no file after `=`: write {name}=report.{name}")),
+        file => Ok(Wanted { format, file: file.map(PathBuf::from) }),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "it is no number: give one such as 1e-9".to_owned())?;
+    if value >= 0.0 { Ok(value) } else { Err("a tolerance is 0 or more".to_owned()) }
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let source = plan::read(&arguments.manifest)?;
+    let ids: Vec<&str> = source.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
+    for id in arguments.only.iter().filter(|id| !ids.contains(&id.as_str())) {
+        return Err(WrongInput(format!("there is no family `{id}`: {}", nearest_or_all(id, &ids))).into());
+    }
+    if arguments.bless && !arguments.only.is_empty() {
+        let words = "--bless records all families: leave out --only, or `render --force --only` one of them";
+        return Err(WrongInput(words.to_owned()).into());
+    }
+    if let Some(jobs) = arguments.jobs {
+        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
+    }
+    let Arguments { atol, rtol, measure_rtol, .. } = *arguments;
+    let tolerances = GivenTolerances { atol, rtol, measure_rtol };
+    let options = check::Options { only: arguments.only.clone(), tolerances };
+    let mut bar = ProgressBar::hidden();
+    let report = check::run(&source.plan, &arguments.against, &options, &mut |event| match event {
+        Event::Begin { family, pages } if !arguments.quiet => {
+            let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
+            bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar.set_message(family.to_owned());
+        }
+        Event::Begin { .. } => {}
+        Event::Page => bar.inc(1),
+        Event::End => bar.finish_and_clear(),
+    })?;
+    tell(arguments, &source, &report)?;
+    if arguments.bless {
+        return bless(arguments, &source, &report);
+    }
+    Ok(if report.has_differences() { Outcome::Difference } else { Outcome::Done })
+}
+
+/// Writes the reports that are asked for, and the table unless another takes its place.
+fn tell(arguments: &Arguments, source: &Source, report: &Report) -> anyhow::Result<()> {
+    let mut has_table = true;
+    for wanted in &arguments.report {
+        let text = match wanted.format {
+            Format::Json => json::text(report)?,
+            Format::Junit => junit::text(report)?,
+            Format::Github => github::text(report, source),
+        };
+        match &wanted.file {
+            Some(file) => build::write_file(file, text.as_bytes())?,
+            None => {
+                has_table = false;
+                print(&text)?;
+            }
+        }
+    }
+    if has_table && (!arguments.quiet || !report.findings.is_empty()) {
+        print(&table::text(report))?;
+    }
+    Ok(())
+}
+
+/// Records what comes out now.
+fn bless(arguments: &Arguments, source: &Source, report: &Report) -> anyhow::Result<Outcome> {
+    if report.findings.is_empty() {
+        say("nothing has changed: the recorded atlas stays as it is\n");
+        return Ok(Outcome::Done);
+    }
+    let folder: &Path = &arguments.against;
+    say(&format!("recording the new state in {}\n", folder.display()));
+    let options = build::Options { force: true, ..build::Options::default() };
+    build::run(&source.plan, folder, &options, &mut |_| {})?;
+    Ok(Outcome::Done)
+}
