@@ -31,7 +31,11 @@ pub(super) fn open(path: &Path) -> Result<fs::File, Error> {
     fs::File::open(path).map_err(|source| Error::Read { path: path.to_owned(), source })
 }
 
-pub(super) fn create_folder(path: &Path) -> Result<(), Error> {
+/// Makes a folder, and those it is in.
+///
+/// # Errors
+/// A folder that cannot be made.
+pub fn create_folder(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).map_err(|source| Error::Write { path: path.to_owned(), source })
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use same_file::Handle;
 
 use super::Error;
+use crate::record::LOCK;
 
 /// A folder that no other run writes to as long as this lives.
 #[derive(Debug)]
@@ -21,7 +22,7 @@ impl Lock {
     /// # Errors
     /// Another run that has locked it; a lock that cannot be written.
     pub fn on(folder: &Path) -> Result<Lock, Error> {
-        let path = folder.join(".coupler-atlas.lock");
+        let path = folder.join(LOCK);
         let failed = |source: io::Error| Error::Write { path: path.clone(), source };
         loop {
             let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(failed)?;

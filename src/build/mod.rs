@@ -12,7 +12,7 @@ mod lock;
 mod pages;
 
 pub use error::Error;
-pub use files::{read_manifest, write as write_file, write_new};
+pub use files::{create_folder, read_manifest, write as write_file, write_new};
 
 use std::path::Path;
 use std::sync::Arc;

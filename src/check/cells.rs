@@ -106,7 +106,9 @@ impl Columns {
             }
             let (was_text, is_text) = (old.to_owned(), new.to_owned());
             // A word, now or then.
-            let is_number = |text: &str| text.is_empty() || text.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit() || c == 'i');
+            let is_number = |text: &str| {
+                text.is_empty() || text.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit() || c == 'i')
+            };
             if *name == "class" {
                 // All curves of a linkage have its class.
                 if !std::mem::replace(class_told, true) {
@@ -121,7 +123,12 @@ impl Columns {
                 f64::INFINITY
             };
             if relative > tolerances.measure_rtol {
-                findings.push(place.has(Change::Measure { name: (*name).to_owned(), was: was_text, is: is_text, relative }));
+                findings.push(place.has(Change::Measure {
+                    name: (*name).to_owned(),
+                    was: was_text,
+                    is: is_text,
+                    relative,
+                }));
             }
         }
         Ok(())

@@ -68,7 +68,13 @@ fn samples(
         let differing: Vec<usize> = (0..now.len()).filter(|&k| was[k] != now[k]).collect();
         if let Some(&sample) = differing.first() {
             let (samples, input) = (differing.len(), is.input[sample]);
-            changes.push(Change::Branch { sample: is.samples[sample], input, samples, was: was[sample], is: now[sample] });
+            changes.push(Change::Branch {
+                sample: is.samples[sample],
+                input,
+                samples,
+                was: was[sample],
+                is: now[sample],
+            });
         }
     }
     let far: Vec<f64> = was.points.iter().zip(&is.points).map(|(was, is)| distance(*was, *is)).collect();

@@ -12,9 +12,10 @@ use super::pages::{Page, Pages};
 use super::tables::Tables;
 use super::track::Track;
 use crate::manifest::Tolerances;
+use crate::motion::Sampler;
 use crate::press::{Hand, Leaf, Press};
 use crate::record::{FamilyRecord, Flaw, Row, rows};
-use crate::sweep::{Curve, Solved};
+use crate::sweep::{self, Curve, Solved};
 
 /// A family that is held against its record.
 pub(super) struct Checked<'a> {
@@ -134,13 +135,11 @@ impl<'a> Checked<'a> {
         traces.sort_unstable();
         traces.dedup();
         for trace in traces {
-            let of = |tracks: &[Track]| -> Vec<usize> {
-                (0..tracks.len()).filter(|&k| tracks[k].trace == trace).collect()
-            };
+            let of =
+                |tracks: &[Track]| -> Vec<usize> { (0..tracks.len()).filter(|&k| tracks[k].trace == trace).collect() };
             let (ours, theirs) = (of(&is), of(&was));
-            let tracks = |all: &[Track], places: &[usize]| -> Vec<Track> {
-                places.iter().map(|&k| all[k].clone()).collect()
-            };
+            let tracks =
+                |all: &[Track], places: &[usize]| -> Vec<Track> { places.iter().map(|&k| all[k].clone()).collect() };
             let (olds, news) = (tracks(&was, &theirs), tracks(&is, &ours));
             let matching = matched(&olds, &news);
             let lost = matching.lost.into_iter().map(|(a, change)| (olds[a].circuit, change));
@@ -159,6 +158,14 @@ impl<'a> Checked<'a> {
             }
         }
         Ok(pairs)
+    }
+
+    /// The recorded curves of a cell, by its present number, and that cell; nothing where they cannot be read.
+    pub fn both(&self, number: usize) -> Option<(Vec<Track>, Solved)> {
+        let Recorded::As(recorded) = self.numbering.recorded(number) else { return None };
+        let family = &self.press.composer.planned.family;
+        let solved = sweep::solve(family, &Sampler::new(family.sampling), number.checked_sub(1)?)?;
+        Some((self.tables.recorded_tracks(recorded)?, solved))
     }
 
     /// The findings on pages, when it is known which cells have changed.

@@ -361,20 +361,19 @@ impl fmt::Display for Change {
                 write!(f, "; the curves are apart {}", apart(*by))
             }
             Change::Branch { sample, input, samples, was, is } => {
-                write!(f, "{} on branch {is} instead of {was}, from sample {sample} at input {input}", count(*samples, "sample"))
+                write!(
+                    f,
+                    "{} on branch {is} instead of {was}, from sample {sample} at input {input}",
+                    count(*samples, "sample")
+                )
             }
             Change::Moved(by) => write!(
                 f,
-                "moved by {:.3e}, {:.3e} of its size, at sample {}, input {}: ({}, {}) -> ({}, {}); {} of {} samples; \
-                 the curves are apart {}",
+                "moved by {:.3e} ({:.1e} of its size) at sample {}, input {}; {} of {} samples; the curves are apart {}",
                 by.distance,
                 by.relative,
                 by.sample,
                 by.input,
-                by.was[0],
-                by.was[1],
-                by.is[0],
-                by.is[1],
                 by.moved,
                 by.of,
                 apart(by.apart)

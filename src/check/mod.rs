@@ -11,14 +11,17 @@ mod curve;
 mod family;
 mod finding;
 mod numbering;
+mod overlays;
 mod pages;
 mod tables;
 mod track;
 
 pub use finding::{Change, Finding, Move, Place};
+pub use overlays::{Overlay, overlays};
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
@@ -26,7 +29,7 @@ use serde::Serialize;
 
 use crate::manifest::{GivenTolerances, Plan, PlannedFamily};
 use crate::press::{Off, Press};
-use crate::record::{FamilyRecord, ReadError, Run};
+use crate::record::{FamilyRecord, LOCK, ReadError, Run};
 use family::Checked;
 
 /// What is to be checked, and how strictly.
@@ -80,6 +83,12 @@ pub enum Error {
         /// Why.
         source: ReadError,
     },
+    /// A run is writing to the atlas.
+    #[error("a run is writing to {}: wait for its end", folder.display())]
+    Busy {
+        /// The atlas's folder.
+        folder: PathBuf,
+    },
 }
 
 impl Report {
@@ -118,6 +127,9 @@ fn worst_first(findings: &mut [Finding]) {
 /// # Errors
 /// A record of the atlas that cannot be read.
 pub fn run(plan: &Plan, recorded: &Path, options: &Options, tell: &mut dyn FnMut(Event)) -> Result<Report, Error> {
+    if is_written_to(recorded) {
+        return Err(Error::Busy { folder: recorded.to_owned() });
+    }
     let path = recorded.join("run.json");
     let record = Run::read(&path).map_err(|source| Error::Record { path, source })?;
     let is_asked = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
@@ -135,6 +147,12 @@ pub fn run(plan: &Plan, recorded: &Path, options: &Options, tell: &mut dyn FnMut
     }
     worst_first(&mut report.findings);
     Ok(report)
+}
+
+/// Whether a run has locked a folder; a lock that is left behind locks nothing.
+fn is_written_to(folder: &Path) -> bool {
+    let lock = File::open(folder.join(LOCK));
+    lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 fn family_of(

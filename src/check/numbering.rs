@@ -40,9 +40,15 @@ impl Numbering {
             Some(values.into_iter().map(f64::to_bits).collect())
         };
         let names = tables.columns().map(|columns| &columns.parameters);
-        let slots: Vec<usize> = family.template.parameters.iter().enumerate().filter_map(|(slot, parameter)| {
-            names.is_some_and(|names| names.iter().any(|(name, _)| *name == parameter.name)).then_some(slot)
-        }).collect();
+        let slots: Vec<usize> = family
+            .template
+            .parameters
+            .iter()
+            .enumerate()
+            .filter_map(|(slot, parameter)| {
+                names.is_some_and(|names| names.iter().any(|(name, _)| *name == parameter.name)).then_some(slot)
+            })
+            .collect();
         let now = |number: usize| -> Vec<u64> {
             let cell = family.cell(number - 1);
             // As they are written: zero has no sign there.
@@ -83,9 +89,7 @@ impl Numbering {
             numbering.added.insert(number);
         }
         let place = Place::family(&family.id);
-        let is_gone = |number: &&usize| {
-            !taken.contains(number) && (!kept.contains(number) || differs.contains(number))
-        };
+        let is_gone = |number: &&usize| !taken.contains(number) && (!kept.contains(number) || differs.contains(number));
         findings.extend(numbers.iter().filter(is_gone).map(|&number| place.cell(number).has(Change::CellRemoved)));
         numbering.recorded = Some(recorded);
         numbering

@@ -70,13 +70,7 @@ impl<'a> Pages<'a> {
         page
     }
 
-    fn svg(
-        &self,
-        record: &FileRecord,
-        fresh: &[u8],
-        page: &mut Page,
-        recorded: impl Fn(usize) -> Option<Vec<Track>>,
-    ) {
+    fn svg(&self, record: &FileRecord, fresh: &[u8], page: &mut Page, recorded: impl Fn(usize) -> Option<Vec<Track>>) {
         let place = self.file(&record.name);
         let bytes = match read(&self.folder.join(&record.name)) {
             Ok(bytes) => bytes,

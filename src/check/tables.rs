@@ -24,19 +24,15 @@ pub(super) struct Tables<'a> {
 
 impl<'a> Tables<'a> {
     /// Opens the tables of a family in an atlas's folder, and tells what is wrong with them.
-    pub fn open(
-        press: &'a Press<'a>,
-        record: &FamilyRecord,
-        output: &Path,
-        findings: &mut Vec<Finding>,
-    ) -> Tables<'a> {
+    pub fn open(press: &'a Press<'a>, record: &FamilyRecord, output: &Path, findings: &mut Vec<Finding>) -> Tables<'a> {
         let family = &press.composer.planned.family;
         let writers = (Points::new(family), Cells::new(family));
         let headers = [writers.0.header(), writers.1.header()].map(|header| names(&header));
         // A table is as long as its samples make it; another may be some times as long before it is thought a mistake.
         const A_ROW: usize = 100;
         const TIMES: usize = 16;
-        let rows = Sampler::new(family.sampling).turn().len().max(360) * family.template.curves().max(1) * family.cells();
+        let rows =
+            Sampler::new(family.sampling).turn().len().max(360) * family.template.curves().max(1) * family.cells();
         let most = (1 << 26) + (TIMES * A_ROW * rows.max(record.curves)) as u64;
         let mut open = |name: &str, header: &[String]| -> Option<Table> {
             let place = Place::family(&family.id).file(&format!("{}/{name}", family.id));
@@ -55,7 +51,8 @@ impl<'a> Tables<'a> {
             }
             let [gone, new] = Columns::differing(&table.header, header);
             if !gone.is_empty() || !new.is_empty() {
-                let shown = |names: Vec<String>| if names.is_empty() { "no others".to_owned() } else { names.join(", ") };
+                let shown =
+                    |names: Vec<String>| if names.is_empty() { "none of these".to_owned() } else { names.join(", ") };
                 note(Change::FamilyChanged { what: "columns".to_owned(), was: shown(gone), is: shown(new) });
             }
             Some(table)
@@ -106,8 +103,12 @@ impl<'a> Tables<'a> {
         const TIMES: usize = 16;
         let text = table.text(cell).transpose()?;
         let (text, line) = text.unwrap_or_default();
+        if text.is_empty() && !fresh.is_empty() {
+            return Err(Flaw::Rows("points.csv"));
+        }
         if text.len() > TIMES * fresh.len() + (1 << 20) {
-            let wrong = format!("the rows of cell {cell} have {} bytes, where {} are expected", text.len(), fresh.len());
+            let wrong =
+                format!("the rows of cell {cell} have {} bytes, where {} are expected", text.len(), fresh.len());
             return Err(Flaw::Line { line, wrong });
         }
         let in_points = |flaw: Flaw| match flaw {

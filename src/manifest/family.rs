@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::names::{given, names, read_expressions};
-use super::{tolerance, Inputs, PlannedFamily, Templates, chart, settings};
+use super::{Inputs, PlannedFamily, Templates, chart, settings, tolerance};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
 use crate::notation::{self, Fields, Reader, Value};

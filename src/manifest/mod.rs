@@ -132,8 +132,10 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
             ids.push(id);
         }
         let tolerances = |own: GivenTolerances| own.or(tolerances);
-        families.extend(read.map(|read| {
-            PlannedFamily { inputs: Inputs::of(&root, value), tolerances: tolerances(read.tolerances), ..read }
+        families.extend(read.map(|read| PlannedFamily {
+            inputs: Inputs::of(&root, value),
+            tolerances: tolerances(read.tolerances),
+            ..read
         }));
     }
     let (atlas, page) = (atlas?, page?);

@@ -9,6 +9,7 @@ mod figure;
 mod heading;
 mod marks;
 mod mechanism;
+mod overlay;
 mod panels;
 mod plot;
 mod pose;
@@ -215,6 +216,37 @@ pub struct ChartSheet<'a> {
     pub shown: std::ops::Range<usize>,
     /// The lines of all charts.
     pub series: &'a [Series],
+}
+
+/// A page to be composed on which a curve lies over one that was recorded.
+#[derive(Clone, Debug)]
+pub struct OverlaySheet<'a> {
+    /// What stands at its head.
+    pub title: &'a str,
+    /// What stands under that.
+    pub lines: Vec<String>,
+    /// What stands at its foot.
+    pub foot: &'a str,
+    /// The recorded samples.
+    pub was: Vec<Point>,
+    /// The present samples.
+    pub is: Vec<Point>,
+    /// The present curve between its samples.
+    pub path: Vec<Point>,
+    /// Whether it comes back to where it began.
+    pub closed: bool,
+    /// The places that are furthest from where they were.
+    pub worst: Vec<Point>,
+}
+
+/// Draws a curve over one that was recorded.
+pub fn compose_overlay(sheet: &OverlaySheet, options: &Options) -> Scene {
+    let theme = options.theme.for_paper(options.paper);
+    let Paper { width, height } = options.paper;
+    let (paper, typeface, title) = (theme.paper, theme.typeface, sheet.title.to_owned());
+    let mut scene = Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() };
+    overlay::compose(&mut scene, sheet, &theme);
+    scene
 }
 
 /// Draws a page of panels.

@@ -1,5 +1,8 @@
 //! What is recorded of a run: `points.csv`, `cells.csv` and `run.json`.
 
+/// The name of the file by which a run keeps others from writing to its folder.
+pub const LOCK: &str = ".coupler-atlas.lock";
+
 mod cells;
 mod number;
 mod points;
@@ -9,5 +12,5 @@ mod table;
 pub use cells::{Cells, shortfalls};
 pub use number::shortest;
 pub use points::Points;
-pub use table::{Flaw, Row, Table, rows};
 pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};
+pub use table::{Flaw, Row, Table, rows};

@@ -59,6 +59,9 @@ pub enum Flaw {
     /// Columns are missing from its header.
     #[error("has no column {}", .0.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))]
     Columns(Vec<String>),
+    /// A cell has no rows.
+    #[error("has no rows in {0}")]
+    Rows(&'static str),
     /// A line is not what this program writes.
     #[error("line {line}: {wrong}")]
     Line {
@@ -102,7 +105,13 @@ impl Table {
         })?;
         let kind = metadata.file_type();
         if !kind.is_file() {
-            let name = if kind.is_symlink() { "a link" } else if kind.is_dir() { "a folder" } else { "a device" };
+            let name = if kind.is_symlink() {
+                "a link"
+            } else if kind.is_dir() {
+                "a folder"
+            } else {
+                "a device"
+            };
             return Err(Flaw::NoFile(name));
         }
         if metadata.len() > most {
@@ -210,9 +219,8 @@ impl Row {
     /// A field that is none.
     pub fn whole(&self, column: usize, name: &str) -> Result<i64, Flaw> {
         let text = self.field(column);
-        let wrong = || {
-            Flaw::Line { line: self.line, wrong: format!("{name} is {}, which is no whole number", quoted(text)) }
-        };
+        let wrong =
+            || Flaw::Line { line: self.line, wrong: format!("{name} is {}, which is no whole number", quoted(text)) };
         text.parse().map_err(|_| wrong())
     }
 

@@ -28,13 +28,13 @@ const HOUSE: [(&str, &str); 22] = [
     ("render", "geometry scene"),
     ("manifest", "problem expression notation catalogue family page render template chart scene"),
     ("record", "family sweep measure"),
-    ("press", "family measure sweep chart scene page manifest"),
+    ("press", "family measure sweep chart scene page render manifest"),
     (
         "build",
         "geometry problem expression linkage motion measure template notation catalogue family sweep chart scene page \
          render manifest record press",
     ),
-    ("check", "geometry linkage motion measure sweep manifest press record render"),
+    ("check", "geometry linkage motion measure sweep page manifest press record render"),
     (
         "cli",
         "build check catalogue design expression family geometry linkage manifest measure motion page problem record render sweep template",

@@ -5,6 +5,7 @@ mod binding;
 mod book;
 mod catalogue;
 mod charts;
+mod check;
 mod circuits;
 mod cognates;
 mod coupler_grid;

@@ -17,7 +17,10 @@ pub fn text(report: &Report, source: &Source) -> String {
         let level = if finding.change.is_difference() { "error" } else { "notice" };
         let (line, title) = (line_of(&finding.place.family), format!("{}: {}", finding.change.kind(), finding.place));
         let (file, title) = (property(&file), property(&title));
-        text.push_str(&format!("::{level} file={file},line={line},title={title}::{}\n", data(&finding.change.to_string())));
+        text.push_str(&format!(
+            "::{level} file={file},line={line},title={title}::{}\n",
+            data(&finding.change.to_string())
+        ));
     }
     let left = report.total().saturating_sub(SHOWN);
     if left > 0 {

@@ -3,6 +3,7 @@
 mod github;
 mod json;
 mod junit;
+mod overlays;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -43,6 +44,9 @@ pub struct Arguments {
     /// Report as json, junit or github (annotations), to a file, or instead of the table; may be given more than once.
     #[arg(long, value_name = "FORMAT[=FILE]", value_parser = wanted)]
     report: Vec<Wanted>,
+    /// Draw a page for each curve that has moved into this folder, old and new, and an index.html of them.
+    #[arg(long, value_name = "DIR")]
+    diff: Option<PathBuf>,
     /// Make what comes out now the recorded atlas, after telling what that replaces.
     #[arg(long)]
     bless: bool,
@@ -115,6 +119,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Event::End => bar.finish_and_clear(),
     })?;
     tell(arguments, &source, &report)?;
+    if let Some(folder) = &arguments.diff {
+        overlays::write(folder, &source.plan, &arguments.against, (&options, &report))?;
+    }
     if arguments.bless {
         return bless(arguments, &source, &report);
     }

@@ -1,4 +1,6 @@
-use coupler_atlas::check::{Finding, Report};
+use std::collections::HashMap;
+
+use coupler_atlas::check::{Change, Finding, Report};
 
 use super::super::count;
 
@@ -8,18 +10,18 @@ const SHOWN: usize = 20;
 /// The findings for people: the worst one by one, the rest counted.
 pub fn text(report: &Report) -> String {
     let mut text = String::new();
-    let shown = &report.findings[..report.findings.len().min(SHOWN)];
-    let width = |of: fn(&Finding) -> usize| shown.iter().map(of).max().unwrap_or(0);
+    let lines = lines(&report.findings);
+    let shown: Vec<&Finding> = lines.iter().take(SHOWN).map(|(finding, _)| *finding).collect();
+    let width = |of: fn(&Finding) -> usize| shown.iter().map(|finding| of(finding)).max().unwrap_or(0);
     let (kinds, places) = (width(|f| f.change.kind().len()), width(|f| f.place.to_string().chars().count()));
-    for Finding { place, change } in shown {
-        text.push_str(&format!("{:kinds$}  {:places$}  {change}\n", change.kind(), place.to_string()));
+    let mut counts = report.counts.clone();
+    for (Finding { place, change }, like) in lines.iter().take(SHOWN) {
+        let more = if *like > 0 { format!("; and {} of it", count(*like, "more measure")) } else { String::new() };
+        text.push_str(&format!("{:kinds$}  {:places$}  {change}{more}\n", change.kind(), place.to_string()));
+        counts.entry(change.kind()).and_modify(|count| *count -= 1 + like);
     }
-    let left = report.total() - shown.len();
+    let left: usize = counts.values().sum();
     if left > 0 {
-        let mut counts = report.counts.clone();
-        for finding in shown {
-            counts.entry(finding.change.kind()).and_modify(|count| *count -= 1);
-        }
         let counted = counts.into_iter().filter(|(_, count)| *count > 0);
         let counted: Vec<String> = counted.map(|(kind, count)| format!("{count} {kind}")).collect();
         text.push_str(&format!("and {left} more: {}\n", counted.join(", ")));
@@ -32,4 +34,21 @@ pub fn text(report: &Report) -> String {
     };
     text.push_str(&format!("{checked}: {found}\n"));
     text
+}
+
+/// The findings in their order, those on the measures of one curve together: the worst, and how many more there are.
+fn lines(findings: &[Finding]) -> Vec<(&Finding, usize)> {
+    let mut lines: Vec<(&Finding, usize)> = Vec::new();
+    let mut measured: HashMap<String, usize> = HashMap::new();
+    for finding in findings {
+        if let Change::Measure { .. } = finding.change {
+            let line = *measured.entry(finding.place.to_string()).or_insert(lines.len());
+            if let Some((_, like)) = lines.get_mut(line) {
+                *like += 1;
+                continue;
+            }
+        }
+        lines.push((finding, 0));
+    }
+    lines
 }

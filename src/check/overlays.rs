@@ -1,0 +1,87 @@
+//! Pages that show how curves have moved.
+
+use std::sync::atomic::AtomicBool;
+
+use super::family::Checked;
+use super::{Change, Finding, Options, Report};
+use crate::geometry::Point;
+use crate::manifest::Plan;
+use crate::motion::{self, Dashes};
+use crate::page::{self, OverlaySheet};
+use crate::press::Press;
+use crate::record::Run;
+use crate::render;
+use std::path::Path;
+
+/// A page that shows how a curve has moved.
+#[derive(Clone, Debug)]
+pub struct Overlay<'r> {
+    /// The name of its file.
+    pub name: String,
+    /// Its SVG.
+    pub svg: Vec<u8>,
+    /// What has been found of the curve.
+    pub finding: &'r Finding,
+}
+
+/// Draws a page for each curve that has moved, or is sampled otherwise, in a report on an atlas: of the worst, so many.
+pub fn overlays<'r>(
+    plan: &Plan,
+    recorded: &Path,
+    (options, report): (&Options, &'r Report),
+    most: usize,
+    mut take: impl FnMut(Overlay<'r>),
+) {
+    let is_of_a_curve = |finding: &&Finding| matches!(finding.change, Change::Moved(_) | Change::Samples { .. });
+    let mut wanted: Vec<&Finding> = report.findings.iter().filter(is_of_a_curve).collect();
+    // A curve that is sampled otherwise and has moved is one.
+    let mut seen = std::collections::HashSet::new();
+    wanted.retain(|finding| seen.insert(format!("{}", finding.place)));
+    wanted.truncate(most);
+    let Ok(run) = Run::read(&recorded.join("run.json")) else { return };
+    for planned in &plan.families {
+        let ours: Vec<&Finding> = wanted.iter().copied().filter(|f| f.place.family == planned.family.id).collect();
+        let record = run.families.iter().find(|record| record.id == planned.family.id);
+        let (Some(record), false) = (record, ours.is_empty()) else { continue };
+        // Nobody stops this.
+        let Some(press) = Press::new(plan, planned, &AtomicBool::new(false)) else { continue };
+        let tolerances = options.tolerances.or(planned.tolerances).complete();
+        let checked = Checked::open(&press, record, recorded, tolerances, &mut Vec::new());
+        for finding in ours {
+            if let Some(overlay) = overlay(plan, &checked, finding) {
+                take(overlay);
+            }
+        }
+    }
+}
+
+fn overlay<'r>(plan: &Plan, checked: &Checked, finding: &'r Finding) -> Option<Overlay<'r>> {
+    let place = &finding.place;
+    let (cell, trace, circuit) = (place.cell?, place.trace?, place.circuit?);
+    let (tracks, solved) = checked.both(cell)?;
+    let was = tracks.into_iter().find(|track| track.trace == trace && track.circuit == circuit)?;
+    let curve = solved.curves.iter().find(|curve| curve.trace == trace && curve.circuit == circuit)?;
+    let sampled = solved.circuit(curve);
+    let is: Vec<Point> = sampled.points(curve.joint).collect();
+    let worst = match &finding.change {
+        Change::Moved(by) => vec![by.was.into(), by.is.into()],
+        _ => Vec::new(),
+    };
+    // As fine as the paper shows it, as if the curve filled it.
+    let size = was.size().max(f64::MIN_POSITIVE);
+    let dashes = Dashes { period: 360.0, drawn: 360.0 };
+    let path = motion::paths(&solved.linkage, sampled, &[curve.joint], dashes, 5e-5 * size).pop()?.whole;
+    let title = place.to_string();
+    let sheet = OverlaySheet {
+        title: &title,
+        lines: vec![finding.change.to_string()],
+        foot: &plan.title,
+        was: was.points,
+        is,
+        path,
+        closed: sampled.closed,
+        worst,
+    };
+    let svg = render::svg(&page::compose_overlay(&sheet, &plan.page), plan.text);
+    Some(Overlay { name: format!("{}-{cell}-{trace}-{circuit}.svg", place.family), svg, finding })
+}

@@ -1,0 +1,495 @@
+//! `check`: what has changed is found and named, and nothing else is.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// Three families: turning cranks, rockers with both branches and several circuits, and a length as input.
+const MANIFEST: &str = r#"[atlas]
+title = "Atlas <of> \"curves\""
+formats = ["svg"]
+
+[[family]]
+id = "evans"
+linkage = "evans"
+title = "Evans"
+panels = [2, 2]
+sampling = { step = "2 deg" }
+columns = ["psi_deg", "vx"]
+cases = [{ p = 2, s = 2.59, a = 2.59 }, { p = 3, s = 4, a = 4 }, { p = 3, s = 4.1, a = 4.1 }]
+
+[[family]]
+id = "bars"
+linkage = "four-bar"
+title = "Four-bars"
+sampling = { samples = 90 }
+circuits = "all"
+cases = [{ frame = 4, crank = 3, coupler = 2, rocker = 3.4 }, { frame = 4, crank = 2, coupler = 4, rocker = 3.5 }]
+let = { along = 1, across = 0.7 }
+
+[[family]]
+id = "actuator"
+linkage = "linear-actuator"
+title = "Actuator"
+sampling = { samples = 40 }
+cases = [{ g = 2, r = 1, e = 0.2 }]
+let = { along = 1.75, across = 0.5 }
+"#;
+
+/// A manifest and the atlas recorded from it.
+struct Recorded {
+    folder: TempDir,
+}
+
+impl Recorded {
+    fn new() -> Recorded {
+        let recorded = Recorded { folder: tempfile::tempdir().unwrap() };
+        recorded.manifest(MANIFEST);
+        let output = recorded.command(&["render", "-q"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        recorded
+    }
+
+    fn path(&self, name: &str) -> std::path::PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn manifest(&self, text: &str) {
+        fs::write(self.path("atlas.toml"), text).unwrap();
+    }
+
+    fn command(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
+            .current_dir(self.folder.path())
+            .args(arguments)
+            .output()
+            .unwrap()
+    }
+
+    /// Checks, with more arguments, and gives the exit code and the findings of the JSON report.
+    fn check(&self, more: &[&str]) -> (i32, Vec<serde_json::Value>) {
+        let mut arguments = vec!["check", "--against", "output", "--report", "json"];
+        arguments.extend(more);
+        let output = self.command(&arguments);
+        let text = String::from_utf8(output.stdout).unwrap();
+        let report: serde_json::Value =
+            serde_json::from_str(&text).unwrap_or_else(|_| panic!("{text}{}", String::from_utf8_lossy(&output.stderr)));
+        let findings = report["findings"].as_array().unwrap().clone();
+        assert_eq!(report["has_differences"].as_bool().unwrap(), output.status.code() == Some(1));
+        (output.status.code().unwrap(), findings)
+    }
+
+    /// The kinds found, each once, in the order of the report.
+    fn kinds(&self) -> Vec<String> {
+        let mut kinds: Vec<String> = self.check(&[]).1.iter().map(|f| f["kind"].as_str().unwrap().to_owned()).collect();
+        kinds.dedup();
+        kinds
+    }
+
+    /// Changes the lines of a recorded file.
+    fn edit(&self, name: &str, change: impl FnOnce(&mut Vec<String>)) {
+        let path = self.path("output").join(name);
+        let text = fs::read_to_string(&path).unwrap();
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        change(&mut lines);
+        fs::write(path, lines.join("\n") + "\n").unwrap();
+    }
+
+    /// Writes the digests of tables anew, as somebody would who wants to fool the check.
+    fn forge(&self, family: &str, table: &str) {
+        use sha2::Digest;
+        let bytes = fs::read(self.path("output").join(family).join(table)).unwrap();
+        let digest = format!("{:x}", sha2::Sha256::digest(&bytes));
+        let path = self.path("output/run.json");
+        let mut run: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+        let families = run["families"].as_array_mut().unwrap();
+        let of = families.iter_mut().find(|f| f["id"] == family).unwrap();
+        let file = of["files"].as_array_mut().unwrap().iter_mut().find(|f| f["name"] == table).unwrap();
+        file["sha256"] = digest.into();
+        fs::write(path, serde_json::to_vec_pretty(&run).unwrap()).unwrap();
+    }
+}
+
+/// A row of points of a curve: cell, trace, circuit, sample.
+fn row(lines: &[String], of: [usize; 3], sample: usize) -> usize {
+    let start = format!("{},{},{},", of[0], of[1], of[2]);
+    let header: Vec<&str> = lines[0].split(',').collect();
+    let at = header.iter().position(|name| *name == "sample").unwrap();
+    let is_ours = |line: &String| line.starts_with(&start) && line.split(',').nth(at) == Some(&sample.to_string());
+    lines.iter().position(is_ours).unwrap()
+}
+
+fn field(lines: &mut [String], row: usize, name: &str, change: impl FnOnce(&str) -> String) {
+    let at = lines[0].split(',').position(|column| column == name).unwrap();
+    let mut fields: Vec<String> = lines[row].split(',').map(str::to_owned).collect();
+    fields[at] = change(&fields[at]);
+    lines[row] = fields.join(",");
+}
+
+fn by(distance: f64) -> impl Fn(&str) -> String {
+    move |text| (text.parse::<f64>().unwrap() + distance).to_string()
+}
+
+#[test]
+fn an_atlas_that_has_not_changed_is_found_to_be_so_every_time() {
+    let recorded = Recorded::new();
+    for jobs in ["1", "2", "7"].into_iter().cycle().take(12) {
+        assert_eq!(recorded.check(&["--jobs", jobs]), (0, vec![]));
+    }
+}
+
+#[test]
+fn a_point_that_has_moved_by_1e_8_is_named_with_its_distance() {
+    let recorded = Recorded::new();
+    recorded.edit("evans/points.csv", |lines| {
+        let at = row(lines, [2, 1, 1], 57);
+        field(lines, at, "x", by(1e-8));
+    });
+    recorded.forge("evans", "points.csv");
+    let (code, findings) = recorded.check(&[]);
+    assert_eq!((code, findings.len()), (1, 1), "{findings:?}");
+    let found = &findings[0];
+    assert_eq!(found["kind"], "moved");
+    assert_eq!((&found["family"], &found["cell"], &found["sample"]), (&"evans".into(), &2.into(), &57.into()));
+    assert_eq!(
+        (found["input"].as_f64(), found["moved"].as_u64(), found["of"].as_u64()),
+        (Some(114.0), Some(1), Some(180))
+    );
+    let distance = found["distance"].as_f64().unwrap();
+    // The coordinate is about 4, where doubles are 9e-16 apart.
+    assert!((distance - 1e-8).abs() < 2e-15, "{distance}");
+    // As sets the curves are apart by what the point has moved across the curve, no more.
+    let apart = found["apart"].as_f64().unwrap();
+    assert!(apart > 0.0 && apart <= distance * (1.0 + 1e-6), "{apart}");
+    // A tolerance that is more than that lets it pass: on the command line, in the manifest, or the family's own.
+    assert_eq!(recorded.check(&["--atol", "2e-8"]).0, 0);
+    assert_eq!(recorded.check(&["--rtol", "1e-8"]).0, 0);
+    recorded
+        .manifest(&MANIFEST.replace("[[family]]\nid = \"evans\"", "[check]\natol = 2e-8\n[[family]]\nid = \"evans\""));
+    assert_eq!(recorded.check(&[]).0, 0);
+    assert_eq!(recorded.check(&["--atol", "1e-9"]).0, 1, "the command line counts");
+    recorded.manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = 2e-8 }"));
+    assert_eq!(recorded.check(&[]).0, 0);
+}
+
+#[test]
+fn a_point_that_has_moved_along_its_curve_leaves_the_set_as_it_was() {
+    let recorded = Recorded::new();
+    // Every sample half a step on: other points of the same curve.
+    let shifted = MANIFEST.replacen("sampling = { step = \"2 deg\" }", "sampling = { step = \"3 deg\" }", 1);
+    recorded.manifest(&shifted);
+    let (_, findings) = recorded.check(&[]);
+    let samples: Vec<_> = findings.iter().filter(|f| f["kind"] == "samples").collect();
+    assert_eq!(samples.len(), 3);
+    for found in samples {
+        // The curves are some units in size: this is rounding.
+        assert!(found["apart"].as_f64().unwrap() < 1e-13, "{found}");
+        assert_eq!((found["was"].as_u64(), found["is"].as_u64()), (Some(180), Some(120)));
+    }
+    assert!(findings.iter().all(|f| f["kind"] != "moved"), "{findings:?}");
+}
+
+#[test]
+fn a_length_that_is_changed_is_named_and_what_it_moves() {
+    let recorded = Recorded::new();
+    recorded.manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 3, s = 4, a = 4.0000001 }"));
+    let (_, findings) = recorded.check(&[]);
+    assert!(findings.iter().all(|f| f["family"] == "evans" && f["cell"] == 2), "{findings:?}");
+    let kinds: Vec<&str> = findings.iter().map(|f| f["kind"].as_str().unwrap()).collect();
+    assert_eq!(&kinds[..2], ["parameter", "moved"]);
+    let moved = &findings[1];
+    assert!(moved["apart"].as_f64().unwrap() > 1e-8, "another curve, and not other points of one: {moved}");
+    assert!(kinds[2..].iter().all(|kind| ["measure", "column"].contains(kind)), "{kinds:?}");
+}
+
+#[test]
+fn cells_and_families_that_come_and_go_are_named() {
+    let recorded = Recorded::new();
+    recorded.manifest(&MANIFEST.replace("{ p = 2, s = 2.59, a = 2.59 }, ", ""));
+    assert_eq!(recorded.kinds(), ["cell-removed", "cell-renumbered"]);
+    recorded
+        .manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 2.2, s = 3, a = 3 }, { p = 3, s = 4, a = 4 }"));
+    let (_, findings) = recorded.check(&[]);
+    let told: Vec<(&str, u64)> =
+        findings.iter().map(|f| (f["kind"].as_str().unwrap(), f["cell"].as_u64().unwrap())).collect();
+    assert_eq!(told, [("cell-added", 2), ("cell-renumbered", 3), ("cell-renumbered", 4)]);
+    recorded.manifest(&MANIFEST.replace("id = \"bars\"", "id = \"bars-two\""));
+    assert_eq!(recorded.kinds(), ["family-removed", "family-added"]);
+    recorded.manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"hoeken\"").replace(
+        "cases = [{ p = 2, s = 2.59, a = 2.59 }, { p = 3, s = 4, a = 4 }, { p = 3, s = 4.1, a = 4.1 }]",
+        "cases = [{}]",
+    ));
+    assert!(recorded.kinds().contains(&"family-changed".to_owned()));
+}
+
+#[test]
+fn circuits_that_are_reversed_or_renumbered_or_gone_are_named() {
+    let recorded = Recorded::new();
+    let original = fs::read_to_string(recorded.path("output/bars/points.csv")).unwrap();
+    let circuits = |text: &str| {
+        let mut found: Vec<String> =
+            text.lines().filter(|l| l.starts_with("1,")).map(|l| l.split(',').nth(2).unwrap().to_owned()).collect();
+        found.dedup();
+        found
+    };
+    assert_eq!(circuits(&original), ["1", "2"], "the first four-bar has two circuits");
+    let restored = || {
+        fs::write(recorded.path("output/bars/points.csv"), &original).unwrap();
+        recorded.forge("bars", "points.csv");
+    };
+    // The values of a circuit's rows, the last first.
+    recorded.edit("bars/points.csv", |lines| {
+        let ours: Vec<usize> = (0..lines.len()).filter(|&k| lines[k].starts_with("1,1,1,")).collect();
+        let values: Vec<Vec<String>> = ours.iter().map(|&k| lines[k].split(',').map(str::to_owned).collect()).collect();
+        for (k, &line) in ours.iter().enumerate() {
+            let mut fields = values[ours.len() - 1 - k].clone();
+            fields[4].clone_from(&values[k][4]);
+            lines[line] = fields.join(",");
+        }
+    });
+    recorded.forge("bars", "points.csv");
+    let (_, findings) = recorded.check(&[]);
+    let told: Vec<(&str, u64)> =
+        findings.iter().map(|f| (f["kind"].as_str().unwrap(), f["circuit"].as_u64().unwrap_or(0))).collect();
+    assert_eq!(told, [("circuit-reversed", 1)], "{findings:?}");
+    // Two circuits with each other's number.
+    restored();
+    recorded.edit("bars/points.csv", |lines| {
+        for line in lines.iter_mut() {
+            if let Some(rest) = line.strip_prefix("1,1,1,") {
+                *line = format!("1,1,2,{rest}");
+            } else if let Some(rest) = line.strip_prefix("1,1,2,") {
+                *line = format!("1,1,1,{rest}");
+            }
+        }
+    });
+    recorded.forge("bars", "points.csv");
+    assert_eq!(recorded.kinds(), ["circuit-renumbered"]);
+    // One of them lost, or not recorded.
+    restored();
+    recorded.edit("bars/points.csv", |lines| lines.retain(|line| !line.starts_with("1,1,2,")));
+    recorded.forge("bars", "points.csv");
+    assert_eq!(recorded.kinds(), ["circuit-added"]);
+    // Both as one: there one circuit has become two.
+    restored();
+    recorded.edit("bars/points.csv", |lines| {
+        let many = lines.iter().filter(|line| line.starts_with("1,1,1,")).count();
+        for (k, line) in lines.iter_mut().filter(|line| line.starts_with("1,1,2,")).enumerate() {
+            let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+            fields[2] = "1".to_owned();
+            fields[4] = (many + k).to_string();
+            *line = fields.join(",");
+        }
+    });
+    recorded.forge("bars", "points.csv");
+    assert_eq!(recorded.kinds(), ["circuit-split"]);
+    // The other branch.
+    restored();
+    recorded.edit("bars/points.csv", |lines| {
+        let at = row(lines, [2, 1, 1], 10);
+        field(lines, at, "branch", |branch| if branch == "1" { "-1".to_owned() } else { "1".to_owned() });
+    });
+    recorded.forge("bars", "points.csv");
+    let (_, findings) = recorded.check(&[]);
+    assert_eq!((findings[0]["kind"].as_str(), findings[0]["sample"].as_u64()), (Some("branch"), Some(10)));
+}
+
+#[test]
+fn samples_measures_and_columns_that_differ_are_named() {
+    let recorded = Recorded::new();
+    recorded.edit("evans/points.csv", |lines| {
+        let at = row(lines, [1, 1, 1], 57);
+        lines.remove(at);
+        let at = row(lines, [2, 1, 1], 30);
+        field(lines, at, "vx", by(1e-3));
+    });
+    recorded.forge("evans", "points.csv");
+    recorded.edit("evans/cells.csv", |lines| {
+        field(lines, 3, "length", by(1e-6));
+        field(lines, 1, "class", |_| "drag-link".to_owned());
+    });
+    recorded.forge("evans", "cells.csv");
+    let (_, findings) = recorded.check(&[]);
+    let told: Vec<(&str, u64)> =
+        findings.iter().map(|f| (f["kind"].as_str().unwrap(), f["cell"].as_u64().unwrap())).collect();
+    assert_eq!(told, [("class", 1), ("samples", 1), ("measure", 3), ("column", 2)]);
+    assert_eq!(findings[1]["missing"], serde_json::json!([57]));
+    assert_eq!(findings[2]["name"], "length");
+    assert_eq!((findings[3]["name"].as_str(), findings[3]["sample"].as_u64()), (Some("vx"), Some(30)));
+    assert_eq!(recorded.check(&["--measure-rtol", "1e-2"]).1.len(), 2, "what is measured may differ more");
+}
+
+#[test]
+fn pages_that_are_drawn_otherwise_are_told_from_pages_that_were_edited() {
+    let recorded = Recorded::new();
+    recorded.manifest(
+        &MANIFEST.replace("[[family]]\nid = \"evans\"", "[page]\ndash = \"6 deg\"\n[[family]]\nid = \"evans\""),
+    );
+    let (code, findings) = recorded.check(&[]);
+    assert!(code == 1 && findings.iter().all(|f| f["kind"] == "drawing"), "{findings:?}");
+    assert_eq!(findings.len(), 2, "an actuator has dashes of its own: {findings:?}");
+    recorded.manifest(MANIFEST);
+    recorded.edit("bars/bars-001.svg", |lines| {
+        let at = lines.iter().position(|line| line.contains("<path")).unwrap();
+        lines[at] = lines[at].replacen("m", "m1 1", 1);
+    });
+    let (_, findings) = recorded.check(&[]);
+    assert!(findings.iter().any(|f| f["kind"] == "altered" && f["file"] == "bars/bars-001.svg"), "{findings:?}");
+    fs::remove_file(recorded.path("output/bars/bars-001.svg")).unwrap();
+    assert_eq!(recorded.kinds(), ["damaged"]);
+}
+
+#[test]
+fn a_recorded_atlas_may_be_anything() {
+    let recorded = Recorded::new();
+    let folder = recorded.path("output/evans");
+    let points = fs::read(folder.join("points.csv")).unwrap();
+    let cells = fs::read(folder.join("cells.csv")).unwrap();
+    let with = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).unwrap();
+    let text = String::from_utf8(points.clone()).unwrap();
+    let line = |k: usize| text.match_indices('\n').nth(k).unwrap().0 + 1;
+    type Case<'a> = (&'a str, Vec<u8>, &'a str);
+    let cases: Vec<Case> = vec![
+        ("truncated", points[..points.len() / 2].to_vec(), "damaged"),
+        ("empty", Vec::new(), "damaged"),
+        ("only a header", points[..line(0)].to_vec(), "damaged"),
+        ("a row twice", [&points[..line(5)], &points[line(4)..]].concat(), "damaged"),
+        (
+            "rows in another order",
+            [&points[..line(0)], &points[line(3)..line(4)], &points[line(0)..line(3)], &points[line(4)..]].concat(),
+            "damaged",
+        ),
+        ("not a number", text.replacen(",0,0,", ",0,zero,", 1).into_bytes(), "damaged"),
+        ("NaN", text.replacen(",0,0,", ",0,NaN,", 1).into_bytes(), "damaged"),
+        ("no text", [&points[..line(2)], b"1,1,1,1,\xff\xfe,0,0,0,0,0\n", &points[line(3)..]].concat(), "damaged"),
+        ("another column", text.replacen(",x,", ",abscissa,", 1).into_bytes(), "damaged"),
+        ("a column more", text.lines().map(|l| format!("{l},1\n")).collect::<String>().into_bytes(), "family-changed"),
+        ("a line without end", [&points[..line(2)], &vec![b'1'; 200_000][..]].concat(), "damaged"),
+        ("quotes without end", [&points[..line(2)], b"1,\"1,1,1", &points[line(2)..]].concat(), "damaged"),
+        ("strange cells", [&points[..], b"4000000000,1,1,1,0,0,0,0,0,0\nx,1\n-3,1\n"].concat(), "damaged"),
+        ("huge numbers", [&points[..], b"1,99999999999,1,1,99999999999,0,1e308,-1e308,0,0\n"].concat(), "damaged"),
+        ("nothing but zeros", vec![0; 100_000], "damaged"),
+    ];
+    for (name, bytes, kind) in cases {
+        with("points.csv", &bytes);
+        let (code, findings) = recorded.check(&[]);
+        assert_eq!(code, 1, "{name}");
+        assert!(findings.iter().any(|f| f["kind"] == kind), "{name}: {findings:?}");
+    }
+    // What has other line ends is the same atlas, and so is one with a byte order mark.
+    with("points.csv", text.replace('\n', "\r\n").as_bytes());
+    with("cells.csv", &[b"\xef\xbb\xbf", &cells[..]].concat());
+    let (code, findings) = recorded.check(&[]);
+    assert!(code == 0 && findings.iter().all(|f| f["kind"] == "rewritten"), "{findings:?}");
+    assert_eq!(findings.len(), 2);
+    // A folder, a link, a pipe in place of a file.
+    fs::remove_file(folder.join("points.csv")).unwrap();
+    fs::create_dir(folder.join("points.csv")).unwrap();
+    assert!(recorded.kinds().contains(&"damaged".to_owned()));
+    #[cfg(unix)]
+    {
+        fs::remove_dir(folder.join("points.csv")).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", folder.join("points.csv")).unwrap();
+        assert!(recorded.kinds().contains(&"damaged".to_owned()));
+    }
+    // Without its record there is nothing to hold against.
+    for bytes in [&b"{"[..], b"{\"format\": 99}", b"[]", b"\xff"] {
+        fs::write(recorded.path("output/run.json"), bytes).unwrap();
+        let output = recorded.command(&["check", "--against", "output"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("run.json"));
+    }
+    fs::remove_file(recorded.path("output/run.json")).unwrap();
+    assert_eq!(recorded.command(&["check", "--against", "output"]).status.code(), Some(2));
+    assert_eq!(recorded.command(&["check", "--against", "nowhere"]).status.code(), Some(2));
+}
+
+#[test]
+fn reports_and_pages_of_what_has_moved_are_well_formed() {
+    let recorded = Recorded::new();
+    recorded.manifest(&MANIFEST.replace("a = 4 }", "a = 4.001 }").replace("samples = 40", "samples = 41"));
+    let output = recorded.command(&[
+        "check",
+        "--against",
+        "output",
+        "--report",
+        "junit=report.xml",
+        "--report",
+        "json=report.json",
+        "--report",
+        "github",
+        "--diff",
+        "moved",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    let annotations = String::from_utf8(output.stdout).unwrap();
+    // The line on which the family stands.
+    let line = MANIFEST[..MANIFEST.find("id = \"evans\"").unwrap()].matches('\n').count();
+    let first = annotations.lines().next().unwrap();
+    assert!(
+        first.starts_with(&format!("::error file=atlas.toml,line={line},title=parameter%3A evans%2C cell 2::")),
+        "{first}"
+    );
+    let xml = fs::read_to_string(recorded.path("report.xml")).unwrap();
+    let mut reader = quick_xml::Reader::from_str(&xml);
+    let mut failures = 0;
+    loop {
+        match reader.read_event().unwrap() {
+            quick_xml::events::Event::Start(start) if start.name().as_ref() == "failure" => failures += 1,
+            quick_xml::events::Event::Eof => break,
+            _ => {}
+        }
+    }
+    assert!(failures >= 2, "{xml}");
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(recorded.path("report.json")).unwrap()).unwrap();
+    assert_eq!((report["format"].as_u64(), report["has_differences"].as_bool()), (Some(1), Some(true)));
+    let total: u64 = report["counts"].as_object().unwrap().values().map(|n| n.as_u64().unwrap()).sum();
+    assert_eq!(total as usize, report["findings"].as_array().unwrap().len());
+    let index = fs::read_to_string(recorded.path("moved/index.html")).unwrap();
+    assert!(index.contains("Atlas &lt;of&gt; &quot;curves&quot;") && !index.contains("<of>"));
+    for name in ["evans-2-1-1.svg", "actuator-1-1-1.svg"] {
+        assert!(index.contains(name) && recorded.path("moved").join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn blessing_records_what_comes_out_now() {
+    let recorded = Recorded::new();
+    recorded.manifest(&MANIFEST.replace("a = 4 }", "a = 4.001 }"));
+    assert_eq!(recorded.check(&[]).0, 1);
+    let output = recorded.command(&["check", "--against", "output", "--bless"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("parameter"), "it says what it replaces");
+    assert_eq!(recorded.check(&[]), (0, vec![]));
+    let before = fs::read(recorded.path("output/run.json")).unwrap();
+    let output = recorded.command(&["check", "--against", "output", "--bless"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("nothing has changed"));
+    assert_eq!(fs::read(recorded.path("output/run.json")).unwrap(), before);
+}
+
+#[test]
+fn wrong_arguments_are_told() {
+    let recorded = Recorded::new();
+    for (arguments, word) in [
+        (&["--only", "evens"][..], "did you mean `evans`"),
+        (&["--atol", "-1"], "0 or more"),
+        (&["--rtol", "much"], "no number"),
+        (&["--report", "xml"], "there is no report `xml`"),
+        (&["--report", "json="], "no file after"),
+        (&["--bless", "--only", "evans"], "--bless records all families"),
+    ] {
+        let mut all = vec!["check", "--against", "output"];
+        all.extend(arguments);
+        let output = recorded.command(&all);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && told.contains(word), "{arguments:?}: {told}");
+    }
+    recorded
+        .manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = -1, atoll = 2 }"));
+    let output = recorded.command(&["check", "--against", "output"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("less than nothing") && told.contains("atoll"), "{told}");
+    assert!(Path::new(&recorded.path("output/run.json")).is_file());
+}
