@@ -3,12 +3,13 @@
 //! Data goes one way:
 //!
 //! ```text
-//! manifest -> families x grid -> linkage -> motion -> measures -> pages -> scene -> svg / png
-//!                                              \-> points.csv, cells.csv, run.json
+//! manifest -> families x grid -> linkage -> motion -> measures -> pages -> scene -> svg / png / pdf
+//!                                              \-> points.csv, cells.csv, run.json -> check
 //! ```
 //!
 //! The modules stand here in reading order; none imports one that comes after it. Each stage is one public function:
-//! [`manifest::load`], [`sweep::run`], [`design::straight_line`], [`page::compose`], [`render::svg`], [`render::png`], [`build::run`].
+//! [`manifest::load`], [`sweep::run`], [`design::straight_line`], [`page::compose`], [`render::svg`], [`render::png`], [`build::run`],
+//! [`check::run`].
 //!
 //! A four-bar and its coupler curve, without a manifest:
 //!
