@@ -220,10 +220,12 @@ impl Words {
                     line.push(' ');
                     line.push_str(word);
                 }
+                // What parts two things parts them no less if a line ends there.
+                Some(_) if word == "·" => lines.push(String::new()),
                 _ => lines.push(word.to_owned()),
             }
         }
-        lines
+        lines.iter().map(|line| line.trim_start().to_owned()).collect()
     }
 
     fn item(&self, origin: Vector) -> Item {

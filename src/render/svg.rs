@@ -152,6 +152,10 @@ impl Writer {
         if text.quarter_turns != 0 {
             self.raw(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
         }
+        if text.runs.iter().any(|run| run.text.contains("  ")) {
+            // Readers take several spaces for one.
+            self.out.push_str(" xml:space=\"preserve\"");
+        }
         self.out.push('>');
         for run in &text.runs {
             if run.face.is_italic {
