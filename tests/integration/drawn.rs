@@ -154,27 +154,32 @@ fn a_sample_that_is_moved_is_found() {
     assert!(moved > 1_000, "{moved}");
 }
 
+/// Whether samples follow each other so closely that nothing near their curve can hide between them: their fourth
+/// differences are below 0.3 mm, of which the course takes 0.014 mm. At limits and change points they are not.
+fn is_fine(curve: &DrawnCurve, samples: &Samples) -> bool {
+    let mut places = samples.places.clone();
+    places.extend_from_within(..if samples.closed() { 4 } else { 0 });
+    let fourth = |p: &[Point]| p[0].coords - p[1].coords * 4.0 + p[2].coords * 6.0 - p[3].coords * 4.0 + p[4].coords;
+    places.windows(5).all(|p| fourth(p).norm() * curve.page_from_plane.scale < 0.3)
+}
+
 #[test]
 fn a_vertex_that_is_moved_is_found() {
-    let (mut moved, mut missed) = (0, 0);
-    for (curve, samples) in curves() {
+    let mut moved = 0;
+    for (curve, samples) in curves().filter(|(curve, samples)| is_fine(curve, samples)) {
         for (l, line) in curve.lines.iter().enumerate().step_by(5) {
-            for k in (0..line.len()).step_by(3) {
+            for k in 0..line.len() {
                 let Some(normal) = normal(line, k) else { continue };
                 let mut edited = curve.clone();
                 edited.lines[l][k] += normal * 0.05;
                 let is_off = edited.furthest(samples.pairs(), samples.closed()).is_some_and(|(_, d)| d > TOLERANCE);
                 let is_found = is_off || edited.strays(&samples.places, samples.closed()).is_some();
+                assert!(is_found, "{}: vertex {k} of line {l}", curve.id);
                 moved += 1;
-                if !is_found {
-                    println!("missed {} line {l} vertex {k}", curve.id);
-                }
-                missed += usize::from(!is_found);
             }
         }
     }
-    println!("{missed} of {moved}");
-    assert!(moved > 1_000 && missed == 0, "{missed} of {moved}");
+    assert!(moved > 200, "{moved}");
 }
 
 /// A page of the atlas with some curves.
