@@ -9,11 +9,13 @@ mod placement;
 mod polyline;
 mod similarity;
 pub mod trig;
+mod tubes;
 
 pub use bounds::Bounds;
 pub use placement::Placement;
 pub use polyline::thinned;
 pub use similarity::Similarity;
+pub use tubes::{Tube, Tubes};
 
 /// A point of the plane.
 pub type Point = nalgebra::Point2<f64>;

@@ -7,8 +7,8 @@ use plotters::drawing::DrawingArea;
 use plotters::element::{Drawable, PointCollection};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
 
-use crate::geometry::{Point, Vector};
-use crate::motion;
+use crate::geometry::{Point, Similarity, Vector};
+use crate::motion::{self, Dashes};
 use crate::scene::{Anchor, Canvas, Circle, Color, Face, Group, Item, Line, Moving, Path, Run, Stroke, Text, Typeface};
 
 /// A part of the page: its lengths are in 1/100 mm, its origin the upper left corner.
@@ -69,6 +69,10 @@ pub(super) struct CouplerCurve {
     pub class: &'static str,
     pub title: String,
     pub data: Vec<(&'static str, String)>,
+    /// From the plane to millimetres of the area.
+    pub page_from_plane: Similarity,
+    /// How the curve is cut into dashes.
+    pub dashes: Dashes,
     /// The dashes, already in millimetres of the area.
     pub strokes: Vec<motion::Stroke>,
     /// What belongs to the figure, and what is drawn beside it.
@@ -95,9 +99,17 @@ impl CouplerCurve {
             id: self.id.clone(),
             class: self.class,
             title: self.title.clone(),
-            data: self.data.clone(),
+            data: self.data.iter().cloned().chain(self.drawing(origin)).collect(),
             items: paths.chain(marks).collect(),
         })
+    }
+
+    /// How it was drawn: what it takes to compare the drawing with the samples. Numbers read back to the same f64.
+    fn drawing(&self, origin: Vector) -> [(&'static str, String); 3] {
+        let Similarity { scale, origin: at, .. } = self.page_from_plane;
+        let at = at + origin;
+        let Dashes { period, drawn } = self.dashes;
+        [("scale", scale.to_string()), ("origin", format!("{} {}", at.x, at.y)), ("dash", format!("{period} {drawn}"))]
     }
 }
 

@@ -14,8 +14,9 @@ use crate::motion::{self, Circuit, Dashes};
 use crate::scene::{Circle, Color, Item, Moving, Path};
 use crate::sweep::{Curve, Solved};
 
-/// A chord is nowhere further than this from its curve, in millimetres on paper.
-pub(super) const CHORD_ERROR: f64 = 0.015;
+/// A chord is nowhere further than this from its curve, in millimetres on paper: with the rounding to 1/1000 mm, a page
+/// can be compared with its samples to 0.01 mm.
+pub(super) const CHORD_ERROR: f64 = 0.009;
 
 /// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
 pub(super) fn dash(solved: &Solved, options: &Options) -> f64 {
@@ -107,7 +108,7 @@ impl<'a> Figure<'a> {
             let paths = self.paths(plot, period, theme);
             self.trail(area, &paths, theme.hair, theme);
             self.marks(area, plot, theme);
-            self.curves(area, plot, sheet, paths, theme);
+            self.curves(area, plot, sheet, (paths, period), theme);
         };
         let key = key.of(self.extents.key);
         key.bar(area, theme);
@@ -125,7 +126,14 @@ impl<'a> Figure<'a> {
     }
 
     /// The curves in dashes, each with its coupler point.
-    fn curves(&self, area: &Area, plot: &Plot, sheet: &Sheet, paths: Vec<motion::Path>, theme: &Theme) {
+    fn curves(
+        &self,
+        area: &Area,
+        plot: &Plot,
+        sheet: &Sheet,
+        (paths, period): (Vec<motion::Path>, f64),
+        theme: &Theme,
+    ) {
         let limits = self.limit_poses();
         for (curve, path) in self.solved.curves.iter().zip(paths) {
             let stroke = theme.curve_stroke(self.place(curve));
@@ -143,6 +151,8 @@ impl<'a> Figure<'a> {
                 class: "curve",
                 title: format!("{}, no. {cell}: {}", sheet.heading.title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
+                page_from_plane: plot.page_from_plane,
+                dashes: self.dashes(curve, period, theme),
                 strokes: path.dashes,
                 weights: [stroke, theme.stroke(theme.faded(ink), theme.fine)],
                 // A dot at each limit of the input.
@@ -176,12 +186,13 @@ impl<'a> Figure<'a> {
     /// The path of every curve, in the order of the curves.
     fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<motion::Path> {
         let all: Vec<usize> = (0..self.solved.curves.len()).collect();
-        // A dash is the first part of its period: of 5 degrees, as a rule, the first 3.
-        let dashes = |k: usize| {
-            let drawn = theme.curve_drawn(self.place(&self.solved.curves[k])) * period;
-            Dashes { period, drawn }
-        };
+        let dashes = |k: usize| self.dashes(&self.solved.curves[k], period, theme);
         paths(self.solved, &all, plot.page_from_plane, dashes)
+    }
+
+    /// The dashes of a curve: a dash is the first part of its period, of 5 degrees, as a rule, the first 3.
+    fn dashes(&self, curve: &Curve, period: f64, theme: &Theme) -> Dashes {
+        Dashes { period, drawn: theme.curve_drawn(self.place(curve)) * period }
     }
 
     /// Which ink and manner a curve has: curves of one traced joint are told apart by circuit, those of several by trace.

@@ -1,9 +1,13 @@
 //! A scene as bytes: a function for each format. The formats decide nothing and do not know each other.
+//!
+//! [`drawn_curves`] goes the other way: it reads the curves back from a page in SVG.
 
+mod drawn;
 pub mod pdf;
 mod png;
 mod svg;
 
+pub use drawn::{DrawnCurve, DrawnError, drawn_curves};
 pub use png::{Error as PngError, png};
 pub use svg::svg;
 

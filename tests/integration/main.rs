@@ -10,6 +10,7 @@ mod circuits;
 mod cognates;
 mod coupler_grid;
 mod design;
+mod drawn;
 mod folder;
 mod house;
 mod instant;

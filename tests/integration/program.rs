@@ -99,11 +99,9 @@ fn render_writes_pages_points_cells_and_a_record() {
     );
     let page = fs::read_to_string(pages.join("evans/evans-001.svg")).unwrap();
     assert!(page.contains("Evans &lt;linkage&gt; &amp; &quot;co&quot;"));
-    assert!(
-        page.contains(
-            "<g id=\"evans-1-1-1\" class=\"curve\" data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\"><title>"
-        )
-    );
+    assert!(page.contains(
+        "<g id=\"evans-1-1-1\" class=\"curve\" data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\" data-scale=\""
+    ));
     let far = fs::read_to_string(pages.join("far/far-001.svg")).unwrap();
     assert!(far.contains("not assembled"));
 }

@@ -20,7 +20,7 @@ use super::mechanism::Mechanism;
 use super::plot::Plot;
 use super::theme::Theme;
 use super::{GridSheet, Layout, Options, Panel, View, pose};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Similarity, Vector};
 use crate::linkage::Input;
 use crate::motion::{self, Dashes};
 use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene, Text};
@@ -153,8 +153,8 @@ fn draw_figure(
         shown.is_lined(theme).then(|| Item::Path(line()))
     };
     group("trail", shown.iter().zip(&paths).filter_map(lined).collect());
-    for (shown, path) in shown.iter().zip(paths) {
-        draw(area, &coupler_curve(sheet, shown, path, theme));
+    for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
+        draw(area, &coupler_curve(sheet, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
     group("linkage", linkage);
     group("coupler-point", points);
@@ -181,7 +181,13 @@ fn numbers(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) -
     distinct(mechanism, shown, plot).map(|(centre, s)| (centre, number(s))).collect()
 }
 
-fn coupler_curve(sheet: &GridSheet, shown: &Shown, path: motion::Path, theme: &Theme) -> CouplerCurve {
+fn coupler_curve(
+    sheet: &GridSheet,
+    shown: &Shown,
+    path: motion::Path,
+    (page_from_plane, dashes): (Similarity, Dashes),
+    theme: &Theme,
+) -> CouplerCurve {
     let Curve { trace, circuit, .. } = shown.curve;
     let cell = sheet.panel.solved.cell.number;
     let stroke = theme.curve_stroke(shown.place);
@@ -190,6 +196,8 @@ fn coupler_curve(sheet: &GridSheet, shown: &Shown, path: motion::Path, theme: &T
         class: "curve",
         title: format!("{}, no. {cell}: {}, point {trace}", sheet.heading.title, sheet.panel.caption),
         data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
+        page_from_plane,
+        dashes,
         strokes: path.dashes,
         weights: [stroke, theme.stroke(theme.faded(stroke.color), theme.fine)],
         marks: Vec::new(),

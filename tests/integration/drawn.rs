@@ -1,0 +1,350 @@
+//! What pages draw is what `points.csv` has, to 0.01 mm on paper; and pages that are not as they were written.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use coupler_atlas::geometry::{Point, Vector, left_normal};
+use coupler_atlas::render::{DrawnCurve, DrawnError, drawn_curves};
+
+use super::folder::Atlas;
+
+/// The samples of a curve: its inputs and its places in the plane.
+#[derive(Default)]
+struct Samples {
+    inputs: Vec<f64>,
+    places: Vec<Point>,
+}
+
+impl Samples {
+    fn pairs(&self) -> impl Iterator<Item = (f64, Point)> {
+        self.inputs.iter().copied().zip(self.places.iter().copied())
+    }
+
+    /// Whether the curve comes back to its first sample: no further from the last than others are from each other.
+    fn closed(&self) -> bool {
+        let step = |pair: &[Point]| (pair[1] - pair[0]).norm();
+        let longest = self.places.windows(2).map(step).fold(0.0, f64::max);
+        let [first, .., last] = self.places[..] else { return false };
+        (last - first).norm() <= 2.0 * longest
+    }
+}
+
+/// A page in SVG, and each of its curves with its samples.
+struct Page {
+    name: String,
+    svg: Vec<u8>,
+    curves: Vec<(DrawnCurve, Samples)>,
+}
+
+/// The curves of a family's `points.csv`.
+fn recorded(folder: &Path) -> BTreeMap<[usize; 3], Samples> {
+    let mut table = csv::Reader::from_path(folder.join("points.csv")).unwrap();
+    let header = table.headers().unwrap().clone();
+    let column = |names: &[&str]| header.iter().position(|name| names.contains(&name)).unwrap();
+    let key = [column(&["cell"]), column(&["trace"]), column(&["circuit"])];
+    let [input, x, y] = [column(&["input_deg", "input_length"]), column(&["x"]), column(&["y"])];
+    let mut curves: BTreeMap<[usize; 3], Samples> = BTreeMap::new();
+    for row in table.records() {
+        let row = row.unwrap();
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        let samples = curves.entry(key.map(|column| row[column].parse().unwrap())).or_default();
+        samples.inputs.push(number(input));
+        samples.places.push(Point::new(number(x), number(y)));
+    }
+    curves
+}
+
+/// All pages of curves that a manifest makes. Every curve of the points is on one of them.
+fn pages(manifest: &str) -> Vec<Page> {
+    let atlas = Atlas::new(manifest);
+    let (code, _, errors) = atlas.run(&["-q", "--format", "svg", "-o", "out"]);
+    assert_eq!(code, 0, "{errors}");
+    let mut pages = Vec::new();
+    for family in fs::read_dir(atlas.out()).unwrap().map(|entry| entry.unwrap().path()) {
+        if !family.join("points.csv").exists() {
+            continue;
+        }
+        let mut samples = recorded(&family);
+        let mut files: Vec<_> = fs::read_dir(&family).unwrap().map(|entry| entry.unwrap().path()).collect();
+        files.retain(|file| file.extension().is_some_and(|extension| extension == "svg"));
+        files.sort();
+        let count = pages.len();
+        for file in files {
+            let name = file.file_stem().unwrap().to_string_lossy().into_owned();
+            let svg = fs::read(&file).unwrap();
+            let drawn = drawn_curves(&svg).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let with_samples = |curve: DrawnCurve| {
+                let samples = samples.remove(&[curve.cell, curve.trace, curve.circuit]);
+                let samples = samples.unwrap_or_else(|| panic!("{name}: {} is drawn twice or not recorded", curve.id));
+                (curve, samples)
+            };
+            let curves: Vec<_> = drawn.into_iter().map(with_samples).collect();
+            if !curves.is_empty() {
+                pages.push(Page { name, svg, curves });
+            }
+        }
+        // A chart has the samples of its curves beside it, and draws none of them.
+        assert!(samples.is_empty() || pages.len() == count, "{}: {:?} are not drawn", family.display(), samples.keys());
+    }
+    pages
+}
+
+/// The pages of the atlas of this repository.
+fn atlas() -> &'static [Page] {
+    static PAGES: OnceLock<Vec<Page>> = OnceLock::new();
+    PAGES.get_or_init(|| pages(include_str!("../../atlas.toml")))
+}
+
+/// Some pages of the atlas of Hrones and Nelson.
+fn hrones_nelson() -> &'static [Page] {
+    static PAGES: OnceLock<Vec<Page>> = OnceLock::new();
+    PAGES.get_or_init(|| {
+        let manifest = include_str!("../../examples/hrones-nelson.toml");
+        let all = manifest.lines().find(|line| line.starts_with("grid = ")).unwrap();
+        pages(&manifest.replace(all, "grid = { A = [1.5, 4], B = [2.5, 3], C = [2.5, 4] }"))
+    })
+}
+
+fn curves() -> impl Iterator<Item = &'static (DrawnCurve, Samples)> {
+    atlas().iter().chain(hrones_nelson()).flat_map(|page| &page.curves)
+}
+
+/// What a comparison may find, in millimetres.
+const TOLERANCE: f64 = 0.01;
+
+#[test]
+fn curves_are_drawn_where_their_samples_are() {
+    assert!(atlas().len() > 20 && hrones_nelson().len() > 20);
+    for page in atlas().iter().chain(hrones_nelson()) {
+        for (curve, samples) in &page.curves {
+            let (sample, distance) = curve.furthest(samples.pairs(), samples.closed()).unwrap();
+            assert!(distance <= TOLERANCE, "{}: {} is {distance} mm off at {sample}", page.name, curve.id);
+            assert_eq!(curve.strays(&samples.places, samples.closed()), None, "{}: {}", page.name, curve.id);
+        }
+    }
+}
+
+/// The direction square to a polyline at one of its points; `None` at its ends and where it turns back.
+fn normal(points: &[Point], k: usize) -> Option<Vector> {
+    let [before, at, after] = points.get(k.checked_sub(1)?..=k + 1)? else { return None };
+    let is_ahead = (at - before).dot(&(after - at)) > 0.9 * (at - before).norm() * (after - at).norm();
+    left_normal(after - before).try_normalize(0.0).filter(|_| is_ahead)
+}
+
+#[test]
+fn a_sample_that_is_moved_is_found() {
+    let mut moved = 0;
+    for (curve, samples) in curves() {
+        let [period, drawn] = curve.dash;
+        let is_inside = |input: f64| (0.05 * drawn..0.95 * drawn).contains(&input.rem_euclid(period));
+        for k in (0..samples.inputs.len()).filter(|&k| is_inside(samples.inputs[k])).step_by(7) {
+            let Some(normal) = normal(&samples.places, k) else { continue };
+            let place = |(i, (input, at)): (usize, (f64, Point))| {
+                (input, if i == k { at + normal * (0.02 / curve.page_from_plane.scale) } else { at })
+            };
+            let found = curve.furthest(samples.pairs().enumerate().map(place), samples.closed());
+            let is_found = found.is_some_and(|(at, distance)| at == k && distance > TOLERANCE);
+            assert!(is_found, "{}: sample {k}: {found:?}", curve.id);
+            moved += 1;
+        }
+    }
+    assert!(moved > 1_000, "{moved}");
+}
+
+/// Whether samples follow each other so closely that nothing near their curve can hide between them: their fourth
+/// differences are below 0.3 mm, of which the course takes 0.014 mm. At limits and change points they are not.
+fn is_fine(curve: &DrawnCurve, samples: &Samples) -> bool {
+    let mut places = samples.places.clone();
+    places.extend_from_within(..if samples.closed() { 4 } else { 0 });
+    let fourth = |p: &[Point]| p[0].coords - p[1].coords * 4.0 + p[2].coords * 6.0 - p[3].coords * 4.0 + p[4].coords;
+    places.windows(5).all(|p| fourth(p).norm() * curve.page_from_plane.scale < 0.3)
+}
+
+#[test]
+fn a_vertex_that_is_moved_is_found() {
+    let mut moved = 0;
+    for (curve, samples) in curves().filter(|(curve, samples)| is_fine(curve, samples)) {
+        for (l, line) in curve.lines.iter().enumerate().step_by(5) {
+            for k in 0..line.len() {
+                let Some(normal) = normal(line, k) else { continue };
+                let mut edited = curve.clone();
+                edited.lines[l][k] += normal * 0.05;
+                let is_off = edited.furthest(samples.pairs(), samples.closed()).is_some_and(|(_, d)| d > TOLERANCE);
+                let is_found = is_off || edited.strays(&samples.places, samples.closed()).is_some();
+                assert!(is_found, "{}: vertex {k} of line {l}", curve.id);
+                moved += 1;
+            }
+        }
+    }
+    assert!(moved > 200, "{moved}");
+}
+
+/// A page of the atlas with some curves.
+fn page() -> &'static Page {
+    atlas().iter().find(|page| page.name == "evans-001").unwrap()
+}
+
+fn read(svg: &str) -> Result<Vec<DrawnCurve>, DrawnError> {
+    drawn_curves(svg.as_bytes())
+}
+
+#[test]
+fn a_vertex_that_is_moved_in_the_file_is_found() {
+    let text = std::str::from_utf8(&page().svg).unwrap();
+    let (curve, samples) = &page().curves[2];
+    let mut lines = curve.lines.clone();
+    let (l, k) = (0..lines.len())
+        .flat_map(|l| (1..lines[l].len()).map(move |k| (l, k)))
+        .find(|&(l, k)| normal(&lines[l], k).is_some())
+        .unwrap();
+    let normal = normal(&lines[l], k).unwrap();
+    for (by, is_right) in [(0.0, true), (0.05, false)] {
+        lines[l][k] = curve.lines[l][k] + normal * by;
+        let mut data = String::new();
+        for line in &lines {
+            for (k, p) in line.iter().enumerate() {
+                write!(data, "{}{:.3},{:.3}", if k == 0 { "M" } else { "L" }, p.x, p.y).unwrap();
+            }
+        }
+        let group = text.find(&format!("id=\"{}\"", curve.id)).unwrap();
+        let from = group + text[group..].find(" d=\"").unwrap() + 4;
+        let to = from + text[from..].find('"').unwrap();
+        let edited = read(&format!("{}{data}{}", &text[..from], &text[to..])).unwrap();
+        let edited = edited.iter().find(|edited| edited.id == curve.id).unwrap();
+        let (_, distance) = edited.furthest(samples.pairs(), true).unwrap();
+        let strays = edited.strays(&samples.places, true);
+        assert_eq!(distance <= TOLERANCE && strays.is_none(), is_right, "{by}: {distance}, {strays:?}");
+    }
+}
+
+#[test]
+fn a_page_says_how_it_was_drawn() {
+    let text = std::str::from_utf8(&page().svg).unwrap();
+    let (curve, _) = &page().curves[0];
+    assert_eq!((curve.id.as_str(), curve.cell, curve.trace, curve.circuit), ("evans-1-1-1", 1, 1, 1));
+    assert_eq!(curve.dash, [5.0, 3.0]);
+    let similarity = curve.page_from_plane;
+    let Point { coords: at, .. } = similarity.origin;
+    let facts = format!("data-scale=\"{}\" data-origin=\"{} {}\" data-dash=\"5 3\">", similarity.scale, at.x, at.y);
+    assert!(text.contains(&format!(
+        "<g id=\"evans-1-1-1\" class=\"curve\" data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\" {facts}"
+    )));
+    assert_eq!(text.matches("data-scale").count(), page().curves.len());
+}
+
+#[test]
+fn a_page_that_is_edited_reads_the_same_or_says_what_is_wrong() {
+    let text = std::str::from_utf8(&page().svg).unwrap();
+    let all = read(text).unwrap();
+    for same in [
+        format!("\u{feff}{text}"),
+        text.replace('\n', "\r\n"),
+        format!("<?xml version=\"1.0\"?><!-- a comment -->{text}<!-- and another -->"),
+        text.replace("class=\"curve\"", "class='&#99;urve'").replace("data-dash=\"5 3\"", "data-dash='\r\n5 &#x33; '"),
+    ] {
+        assert_eq!(read(&same).as_ref(), Ok(&all));
+    }
+    let group = "<g id=\"evans-1-1-1\"";
+    let first = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    };
+    for (edited, message) in [
+        (String::new(), "it is no SVG page"),
+        ("words".to_owned(), "it is no SVG page"),
+        (first("<svg", "<html").replace("</svg>", "</html>"), "it is no SVG page"),
+        (format!("{text}{text}"), "it is no SVG page"),
+        (format!("<!DOCTYPE svg [<!ENTITY a \"b\">]>{text}"), "it has a document type, which pages do not have"),
+        (first("<rect", "<style>g{transform:scale(2)}</style><rect"), "it has a style sheet, which pages do not have"),
+        (first("mm\" viewBox", "cm\" viewBox"), "its viewBox is not its width and height in millimetres"),
+        (first("data-cell=\"1\" ", ""), "curve 'evans-1-1-1' has no data-cell"),
+        (
+            first("data-trace=\"1\"", "data-trace=\"-1\""),
+            "data-trace=\"-1\" of curve 'evans-1-1-1' is not a whole number",
+        ),
+        (
+            first("data-dash=\"5 3\"", "data-dash=\"5\""),
+            "data-dash=\"5\" of curve 'evans-1-1-1' is not two positive numbers, the second not above the first",
+        ),
+        (
+            first("data-dash=\"5 3\"", "data-dash=\"5 3 1\""),
+            "data-dash=\"5 3 1\" of curve 'evans-1-1-1' is not two positive numbers, the second not above the first",
+        ),
+        (
+            first("data-scale=\"", "data-scale=\"inf\" data-x=\""),
+            "data-scale=\"inf\" of curve 'evans-1-1-1' is not a positive number",
+        ),
+        (first("data-origin=\"", "data-origin=\"a "), "is not two numbers"),
+        (
+            first(group, &format!("{group} transform=\"scale(2)\"")),
+            "curve 'evans-1-1-1' has a transform, on it or on what it is in",
+        ),
+        (
+            first(group, &format!("{group} style=\"display:none\"")),
+            "curve 'evans-1-1-1' has a style, on it or on what it is in",
+        ),
+        (
+            first("<svg ", "<svg transform=\"scale(2)\" "),
+            "curve 'evans-1-1-1' has a transform, on it or on what it is in",
+        ),
+        (
+            first("<rect", "<g transform=\"scale(2)\"><rect").replace("</svg>", "</g></svg>"),
+            "curve 'evans-1-1-1' has a transform, on it or on what it is in",
+        ),
+        (
+            first("<rect", "<defs><rect").replace("</svg>", "</defs></svg>"),
+            "curve 'evans-1-1-1' and <defs> are one in the other",
+        ),
+        (
+            first("data-dash=\"5 3\">", "data-dash=\"5 3\"><polyline points=\"0 0 9 9\"/>"),
+            "curve 'evans-1-1-1' and <polyline> are one in the other",
+        ),
+        (first(group, &format!("{group} id=\"b\"")), "an attribute stands twice"),
+        (first("data-cell=\"1\" ", "data-cell=\"&one;\" "), "is not well-formed XML"),
+    ] {
+        match read(&edited) {
+            Ok(_) => panic!("{message}"),
+            Err(error) => assert!(error.to_string().contains(message), "{error}\n{message}"),
+        }
+    }
+    assert_eq!(drawn_curves(b"\xff\xfe<\0s\0v\0g\0"), Err(DrawnError::NotText));
+}
+
+#[test]
+fn no_page_is_too_odd_to_be_refused() {
+    let svg = &page().svg;
+    // All but a last line break belongs to the page.
+    for end in (0..svg.len() - 1).step_by(97).chain([svg.len() - 2]) {
+        assert!(drawn_curves(&svg[..end]).is_err(), "{end}");
+    }
+    for at in (0..svg.len()).step_by(89) {
+        for flip in [1, 2, 0x10, 0x20, 0x80] {
+            let mut flipped = svg.clone();
+            flipped[at] ^= flip;
+            // Many a letter may be another; what counts is that each is read or refused.
+            let _ = drawn_curves(&flipped);
+        }
+    }
+    let page = |inside: &str| read(&format!("<svg width=\"1mm\" height=\"1mm\" viewBox=\"0 0 1 1\">{inside}</svg>"));
+    let nested = format!("{}{}", "<g>".repeat(100_000), "</g>".repeat(100_000));
+    assert_eq!(page(&nested), Ok(Vec::new()));
+    assert!(page(&"<g>".repeat(100_000)).is_err());
+    let long = "9".repeat(10_000_000);
+    assert_eq!(page(&format!("<g id=\"{long}\"/>")), Ok(Vec::new()));
+    let attributes: String = (0..500_000).fold(String::new(), |all, k| all + &format!(" a{k}=\"\""));
+    assert_eq!(page(&format!("<g{attributes}/>")), Ok(Vec::new()));
+    let curve = |data: &str| {
+        let facts = "data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\" data-scale=\"1\" data-origin=\"0 0\" data-dash=\"5 3\"";
+        page(&format!("<g id=\"a\" class=\"curve\" {facts}><path d=\"{data}\"/></g>"))
+    };
+    assert_eq!(curve("M0 0h1").unwrap()[0].lines, [[Point::new(0.0, 0.0), Point::new(1.0, 0.0)]]);
+    assert_eq!(curve(&long), Err(DrawnError::NotLines { curve: "a".to_owned() }));
+    assert_eq!(curve(&format!("M0 0h{long}")), Err(DrawnError::NotLines { curve: "a".to_owned() }));
+    assert_eq!(curve("M0 0A1e9 1 0 0 0 1 1"), Err(DrawnError::NotLines { curve: "a".to_owned() }));
+    assert_eq!(curve(&format!("M0 0{}", "h1".repeat(2_000_001))), Err(DrawnError::TooLarge { most: 2_000_000 }));
+    let error = page(&format!("<g id=\"{long}\" class=\"curve\"/>")).unwrap_err().to_string();
+    assert!(error.len() < 200, "{}", error.len());
+}
