@@ -150,3 +150,68 @@ fn cubic(four: [Point; 4], t: f64) -> Point {
     let sum: Vector = four.iter().zip(weights).map(|(p, weight)| p.coords * weight).sum();
     Point::from(sum)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Similarity, trig};
+
+    /// The place of a circle of 20 mm at an angle in degrees.
+    fn at(deg: f64) -> Point {
+        let (cos, sin) = trig::cos_sin_deg(deg);
+        Point::new(20.0 * cos, 20.0 * sin)
+    }
+
+    /// So much of the circle in dashes of 3 of 5 degrees, in chords of half a degree, which are off by 0.0002 mm.
+    fn circle(dashes: u32) -> DrawnCurve {
+        let page_from_plane = Similarity { scale: 1.0, flips_y: true, origin: Point::new(50.0, 40.0) };
+        let place = |k: u32, j: u32| page_from_plane.apply(at(f64::from(5 * k) + f64::from(j) / 2.0));
+        let lines = (0..dashes).map(|k| (0..=6).map(|j| place(k, j)).collect()).collect();
+        let id = "circle".to_owned();
+        DrawnCurve { id, cell: 1, trace: 1, circuit: 1, page_from_plane, dash: [5.0, 3.0], lines }
+    }
+
+    /// Samples every `step` degrees, one of them moved outward by half a millimetre.
+    fn samples(count: u32, step: f64, moved: Option<u32>) -> impl Iterator<Item = (f64, Point)> {
+        let place = move |k: u32| if moved == Some(k) { 1.025 } else { 1.0 };
+        (0..count).map(move |k| (f64::from(k) * step, at(f64::from(k) * step) * place(k)))
+    }
+
+    #[test]
+    fn a_sample_at_the_end_of_a_dash_counts_where_the_curve_goes_into_it() {
+        let found = |dashes, count, step, moved, closed| {
+            let (k, distance) = circle(dashes).furthest(samples(count, step, moved), closed).unwrap();
+            (distance > 0.01).then_some((k, (distance * 100.0).round()))
+        };
+        assert_eq!(found(72, 72, 5.0, None, true), None);
+        for k in [0, 1, 40, 71] {
+            assert_eq!(found(72, 72, 5.0, Some(k), true), Some((k as usize, 50.0)));
+        }
+        // The half ends where a dash would begin.
+        assert_eq!(found(36, 37, 5.0, None, false), None);
+        assert_eq!(found(36, 37, 5.0, Some(35), false), Some((35, 50.0)));
+        assert_eq!(found(36, 37, 5.0, Some(36), false), None);
+        // Of samples at every degree, those in gaps are not looked at, those at the ends of dashes are.
+        for (k, is_found) in [(2, true), (3, true), (4, false), (5, true)] {
+            assert_eq!(found(72, 360, 1.0, Some(k), true).is_some(), is_found, "{k}");
+        }
+        let empty = circle(0).furthest(samples(72, 5.0, None), true);
+        assert_eq!(empty, Some((0, f64::INFINITY)));
+    }
+
+    #[test]
+    fn a_detour_between_two_samples_is_found() {
+        let places: Vec<Point> = samples(72, 5.0, None).map(|(_, place)| place).collect();
+        let mut curve = circle(72);
+        assert_eq!(curve.strays(&places, true), None);
+        assert!(curve.strays(&places[..4], true).is_none());
+        let out = (curve.lines[9][3] - curve.page_from_plane.origin) / 20.0;
+        curve.lines[9][3] += out * 0.05;
+        let strays = curve.strays(&places, true).unwrap();
+        // All of it but what is allowed: 0.01 mm and hardly more on a circle.
+        assert!((0.035..=0.04).contains(&strays), "{strays}");
+        // The half has no way back from its last sample to its first, where the rest strays.
+        assert!(circle(72).strays(&places[..37], false).unwrap() > 10.0);
+        assert_eq!(circle(36).strays(&places[..37], false), None);
+    }
+}

@@ -78,12 +78,12 @@ impl Page {
             return self.part(element);
         }
         if name != "g" {
-            return self.bar(Barrier::Element(clipped(name)));
+            self.bar(Barrier::Element(clipped(name)));
+            return Ok(());
         }
         let [class, transform, style] = self.attributes(element, ["class", "transform", "style"])?;
-        let moved = moved(transform.is_some(), style.is_some());
-        if let Some(attribute) = moved {
-            self.bar(Barrier::Attribute(attribute))?;
+        if let Some(attribute) = moved(transform.is_some(), style.is_some()) {
+            self.bar(Barrier::Attribute(attribute));
         }
         if class.as_deref() == Some("curve") { self.curve(element) } else { Ok(()) }
     }
@@ -103,13 +103,15 @@ impl Page {
         }
         // The style of a page is one of its lettering.
         let is_style = style.is_some_and(|style| style.split(';').any(|part| !part.trim_start().starts_with("font-")));
-        moved(transform.is_some(), is_style).map_or(Ok(()), |attribute| self.bar(Barrier::Attribute(attribute)))
+        if let Some(attribute) = moved(transform.is_some(), is_style) {
+            self.bar(Barrier::Attribute(attribute));
+        }
+        Ok(())
     }
 
     /// Remembers that nothing in this element may be a curve, unless that is so already.
-    fn bar(&mut self, barrier: Barrier) -> Result<(), DrawnError> {
+    fn bar(&mut self, barrier: Barrier) {
         self.barrier.get_or_insert((self.depth, barrier));
-        Ok(())
     }
 
     /// The group of a curve.
@@ -164,7 +166,9 @@ impl Page {
                 Fault::NotLines => DrawnError::NotLines { curve },
                 Fault::NoRoom => DrawnError::TooLarge { most: MOST_POINTS },
             })?;
-            self.curves.last_mut().into_iter().for_each(|open| open.lines.extend_from_slice(&lines));
+            if let Some(open) = self.curves.last_mut() {
+                open.lines.extend(lines);
+            }
         }
         Ok(())
     }
