@@ -44,11 +44,11 @@ impl Nearest<'_> {
         if begun > 0 && begun < order.len() {
             order.select_nth_unstable_by(begun - 1, |&a, &b| square(a).total_cmp(&square(b)));
         }
-        order[..begun].iter().map(|&k| self.from_sample(k, point)).fold(f64::INFINITY, f64::min)
+        order[..begun].iter().map(|&k| self.about_sample(k, point)).fold(f64::INFINITY, f64::min)
     }
 
     /// From the place that is nearest about a sample.
-    fn from_sample(&self, k: usize, point: Point) -> f64 {
+    fn about_sample(&self, k: usize, point: Point) -> f64 {
         let at = self.is.input[k];
         let mut best = (self.is.points[k] - point).norm();
         let holds = |pass: &&Pass| (pass.range()[0]..=pass.range()[1]).contains(&at);

@@ -195,11 +195,8 @@ impl Hand for Checked<'_> {
     }
 
     fn page(&self, leaf: Leaf) -> Result<Page, Infallible> {
-        let recorded = |cell: usize| match self.numbering.recorded(cell) {
-            Recorded::As(recorded) => self.tables.recorded_tracks(recorded),
-            _ => None,
-        };
-        Ok(self.pages.check(leaf, recorded))
+        // Pages tell of cells by the numbers under which they are recorded.
+        Ok(self.pages.check(leaf, |cell| self.tables.recorded_tracks(cell)))
     }
 
     /// Two pages of text, and the rows of the cells on them.

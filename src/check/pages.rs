@@ -11,6 +11,7 @@ use super::track::Track;
 use crate::press::{Leaf, Matter, Press, page_name};
 use crate::record::{FamilyRecord, FileRecord, RunningDigest};
 use crate::render::{self, Format};
+use crate::sweep::Solved;
 
 /// The recorded pages of a family.
 pub(super) struct Pages<'a> {
@@ -29,6 +30,9 @@ pub(super) struct Page {
     differing: Vec<String>,
     findings: Vec<Finding>,
 }
+
+/// A curve is drawn where its points are if it is no further from them, in millimetres on paper.
+const DRAWN_OFF: f64 = 0.01;
 
 /// A page of more bytes is none of this program's.
 const MOST_BYTES: u64 = 1 << 28;
@@ -54,9 +58,13 @@ impl<'a> Pages<'a> {
         if svg_record.is_none() && png_record.is_none() {
             return page;
         }
+        let matter = leaf.matter;
         let svg = render::svg(&leaf.compose(), plan.text);
         if let Some(record) = svg_record {
-            self.svg(record, &svg, &mut page, recorded);
+            let found = self.svg(record, &svg, &mut page);
+            if let (Some(bytes), Matter::Cells { cells, .. }) = (found, matter) {
+                page.findings.extend(self.drawn(record, &bytes, cells, recorded));
+            }
         }
         if let Some(record) = png_record {
             let drawn = FileRecord::of_drawing(&record.name, &svg, plan.dpi);
@@ -70,13 +78,14 @@ impl<'a> Pages<'a> {
         page
     }
 
-    fn svg(&self, record: &FileRecord, fresh: &[u8], page: &mut Page, recorded: impl Fn(usize) -> Option<Vec<Track>>) {
+    /// Holds the bytes of a page against what is drawn now, and gives them.
+    fn svg(&self, record: &FileRecord, fresh: &[u8], page: &mut Page) -> Option<Vec<u8>> {
         let place = self.file(&record.name);
         let bytes = match read(&self.folder.join(&record.name)) {
             Ok(bytes) => bytes,
             Err(wrong) => {
                 page.findings.push(place.has(Change::Damaged { wrong }));
-                return;
+                return None;
             }
         };
         let plain: Vec<u8> = bytes.iter().copied().filter(|&b| b != b'\r').collect();
@@ -90,7 +99,44 @@ impl<'a> Pages<'a> {
             page.differing.push(record.name.clone());
         }
         page.findings.extend(change.map(|change| place.has(change)));
-        let _ = recorded;
+        Some(bytes)
+    }
+
+    /// Reads the curves of a page back, and holds them against the recorded points.
+    fn drawn(
+        &self,
+        record: &FileRecord,
+        bytes: &[u8],
+        cells: &[Solved],
+        recorded: impl Fn(usize) -> Option<Vec<Track>>,
+    ) -> Vec<Finding> {
+        let place = self.file(&record.name);
+        let curves = match render::drawn_curves(bytes) {
+            Ok(curves) => curves,
+            Err(error) => return vec![place.has(Change::Damaged { wrong: error.to_string() })],
+        };
+        let mut findings = Vec::new();
+        let mut of_cell: Option<(usize, Vec<Track>)> = None;
+        for curve in curves {
+            // The curves of a cell stand together.
+            if of_cell.as_ref().is_none_or(|(cell, _)| *cell != curve.cell) {
+                of_cell = Some((curve.cell, recorded(curve.cell).unwrap_or_default()));
+            }
+            let mut tracks = of_cell.iter().flat_map(|(_, tracks)| tracks);
+            let ours = |track: &&Track| (track.trace, track.circuit) == (curve.trace, curve.circuit);
+            let Some(track) = tracks.find(ours) else { continue };
+            let of = cells.iter().find(|solved| solved.cell.number == curve.cell).or(cells.first());
+            let circuit = of.and_then(|solved| solved.motion.circuits.get(curve.circuit.checked_sub(1)?));
+            let closed = circuit.is_none_or(|circuit| circuit.closed);
+            let samples = track.input.iter().copied().zip(track.points.iter().copied());
+            let off = curve.furthest(samples, closed).map_or(0.0, |(_, distance)| distance);
+            let off = off.max(curve.strays(&track.points, closed).map_or(0.0, |strays| strays + DRAWN_OFF));
+            if off > DRAWN_OFF {
+                let place = place.cell(curve.cell).curve(curve.trace, curve.circuit);
+                findings.push(place.has(Change::DrawnOff { distance_mm: off }));
+            }
+        }
+        findings
     }
 
     /// What is found on pages: of those that differ, which do so though their cells have not changed.
@@ -101,7 +147,12 @@ impl<'a> Pages<'a> {
                 true => !changed.is_empty(),
                 false => page.cells.iter().any(|cell| changed.contains(cell)),
             };
-            findings.extend(page.findings);
+            // Of a cell whose points have changed the page cannot be right.
+            let is_due_to_points = |finding: &Finding| {
+                let of_changed = finding.place.cell.is_some_and(|cell| changed.contains(&cell));
+                of_changed && matches!(finding.change, Change::DrawnOff { .. })
+            };
+            findings.extend(page.findings.into_iter().filter(|finding| !is_due_to_points(finding)));
             if !is_due {
                 findings.extend(page.differing.iter().map(|name| self.file(name).has(Change::Drawing)));
             }

@@ -337,6 +337,22 @@ fn pages_that_are_drawn_otherwise_are_told_from_pages_that_were_edited() {
     });
     let (_, findings) = recorded.check(&[]);
     assert!(findings.iter().any(|f| f["kind"] == "altered" && f["file"] == "bars/bars-001.svg"), "{findings:?}");
+    assert!(findings.iter().all(|f| f["kind"] != "drawn-off"), "that was the border: {findings:?}");
+    // A curve that is moved on its page, by somebody who knows of digests: by a tenth of a millimetre, and by a hundredth
+    // of that.
+    recorded.command(&["render", "-q", "--force"]);
+    let page = fs::read_to_string(recorded.path("output/evans/evans-001.svg")).unwrap();
+    let at = page.find("class=\"curve\"").unwrap();
+    let path = at + page[at..].find(" d=\"m").unwrap() + 5;
+    let end = path + page[path..].find(' ').unwrap();
+    let x: f64 = page[path..end].parse().unwrap();
+    for (by, kinds) in [(0.1, vec!["drawn-off", "drawing"]), (0.001, vec!["drawing"])] {
+        let moved = format!("{}{:.3}{}", &page[..path], x + by, &page[end..]);
+        fs::write(recorded.path("output/evans/evans-001.svg"), moved).unwrap();
+        recorded.forge("evans", "evans-001.svg");
+        assert_eq!(recorded.kinds(), kinds, "{by}");
+    }
+    recorded.command(&["render", "-q", "--force"]);
     fs::remove_file(recorded.path("output/bars/bars-001.svg")).unwrap();
     assert_eq!(recorded.kinds(), ["damaged"]);
 }

@@ -142,7 +142,7 @@ fn formats_files_and_prints_stay_in_their_rooms() {
         ("plotters", &["scene", "page"]),
         ("tiny_skia", &["render"]),
         ("krilla", &["render"]),
-        ("quick_xml", &["render"]),
+        ("quick_xml", &["cli", "render"]),
         ("svgtypes", &["render"]),
         ("skrifa", &["scene"]),
         ("annotate_snippets", &["problem"]),
