@@ -7,6 +7,7 @@ mod list;
 mod manual;
 mod plan;
 mod render;
+mod schema;
 mod validate;
 
 use std::io::{self, Write};

@@ -6,9 +6,13 @@ mod grid;
 mod inputs;
 mod names;
 mod settings;
+mod table;
 mod theme;
 
 pub use inputs::Inputs;
+pub use table::MANIFEST;
+
+pub use crate::notation::{Form, Key, Table};
 
 use std::sync::Arc;
 
@@ -95,7 +99,7 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
         reader.note(Problem::error(0..0, "the manifest is empty").help(help));
         return None;
     }
-    let root = Fields::of(&document, "a manifest", &["atlas", "page", "family", "linkage"], reader)?;
+    let root = Fields::of(&document, &MANIFEST, reader)?;
     let atlas = match root.get("atlas") {
         Some(value) => settings::atlas(value, reader),
         None => {

@@ -2,7 +2,7 @@
 
 use super::theme;
 use crate::expression::Dimension;
-use crate::notation::{Fields, Reader, Value};
+use crate::notation::{Fields, Form, Key, Reader, Table, Value, words};
 use crate::page::{Options, Paper, Theme};
 use crate::problem::Problem;
 use crate::render::{Format, TextMode};
@@ -26,8 +26,62 @@ pub(super) struct Page {
 /// The most pixels an image may have: 1.6 GB while it is drawn.
 const MAX_PIXELS: f64 = 4e8;
 
+/// The `[atlas]` table.
+pub(super) static ATLAS: Table = Table::new(
+    "[atlas]",
+    &[
+        Key::required("title", Form::Text, "The title of the atlas."),
+        Key::new("output", Form::Text, "The folder results go to, relative to the manifest.").or("\"output\""),
+        FORMATS.or("[\"svg\", \"png\"]"),
+        Key::new("volume_pages", Form::Count([1, MAX_VOLUME]), "The most pages of a volume of the book.").or("1000"),
+    ],
+);
+
+/// The `formats` of an atlas or a family.
+pub(super) const FORMATS: Key = Key::new(
+    "formats",
+    Form::List(&Form::Word(|| Format::ALL.map(Format::name).to_vec()), [1, usize::MAX]),
+    "The formats of pages: svg and png, a file for each page, and pdf, one book of all of them.",
+);
+
+/// The `[page]` table.
+pub(super) static PAGE: Table = Table::new(
+    "[page]",
+    &[
+        Key::new(
+            "paper",
+            Form::Either(&[Form::Word(|| words(&Paper::NAMED)), Form::Table(&PAPER)]),
+            "The paper, by its name or its sides.",
+        )
+        .or("\"tabloid\""),
+        Key::new("dpi", Form::Within(DPI), "The resolution of PNG images, in pixels to the inch.").or("100"),
+        Key::new("dash", Form::Quantity(Dimension::Angle), "How much input a dash and its gap span.").or("\"5 deg\""),
+        Key::new("text", Form::Word(|| words(&TEXT)), "How text stands in SVG: as text, or as outlines.")
+            .or("\"text\""),
+        Key::new(
+            "theme",
+            Form::Either(&[theme::NAME, Form::Table(&theme::THEME)]),
+            "What pages look like: a theme by its name, or one changed.",
+        )
+        .or("\"paper\""),
+    ],
+);
+
+static PAPER: Table = Table::new(
+    "a paper",
+    &[
+        Key::required("width", Form::Quantity(Dimension::Paper), "Its width, with a unit: mm, in or pt."),
+        Key::required("height", Form::Quantity(Dimension::Paper), "Its height, with a unit: mm, in or pt."),
+    ],
+);
+
+const DPI: [f64; 2] = [10.0, 2400.0];
+
+/// How text can stand in SVG.
+const TEXT: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
+
 pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Atlas> {
-    let fields = Fields::of(value, "[atlas]", &["title", "output", "formats", "volume_pages"], reader)?;
+    let fields = Fields::of(value, &ATLAS, reader)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", reader);
     let output = match fields.get("output") {
         None => Some("output".to_owned()),
@@ -70,16 +124,14 @@ pub(super) fn page<'t>(value: Option<&Value<'t>>, reader: &mut Reader<'t>) -> Op
     let tabloid = Paper::NAMED[1].1;
     let default = Page { options: Options::on(tabloid), dpi: 100.0, text: TextMode::default() };
     let Some(value) = value else { return Some(default) };
-    let fields = Fields::of(value, "[page]", &["paper", "dpi", "dash", "text", "theme"], reader)?;
+    let fields = Fields::of(value, &PAGE, reader)?;
     let paper = match fields.get("paper") {
         None => Some(tabloid),
         Some(value) => paper(value, reader),
     };
     let dpi = match fields.get("dpi") {
         None => Some(default.dpi),
-        Some(value) => {
-            within(value, reader, |value, reader| reader.constant(value), [10.0, 2400.0], "pixels to the inch")
-        }
+        Some(value) => within(value, reader, |value, reader| reader.constant(value), DPI, "pixels to the inch"),
     };
     if let (Some(paper), Some(dpi), Some(value)) = (paper, dpi, fields.get("dpi")) {
         let pixels = paper.width * paper.height * dpi * dpi / (25.4 * 25.4);
@@ -98,7 +150,7 @@ pub(super) fn page<'t>(value: Option<&Value<'t>>, reader: &mut Reader<'t>) -> Op
     };
     let text = match fields.get("text") {
         None => Some(TextMode::default()),
-        Some(value) => reader.word(value, &[("text", TextMode::Text), ("outlines", TextMode::Outlines)]),
+        Some(value) => reader.word(value, &TEXT),
     };
     let theme = fields.get("theme").map_or_else(Theme::default, |value| theme::read(value, reader));
     Some(Page { options: Options { paper: paper?, dash_deg: dash_deg?, theme }, dpi: dpi?, text: text? })
@@ -108,7 +160,7 @@ fn paper<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Paper> {
     if value.get_ref().is_str() {
         return reader.word(value, &Paper::NAMED);
     }
-    let fields = Fields::of(value, "a paper", &["width", "height"], reader)?;
+    let fields = Fields::of(value, &PAPER, reader)?;
     let mut side = |key: &str| {
         let value = fields.required(key, &format!("{key} = \"279 mm\""), reader)?;
         let read = |value: &Value<'t>, reader: &mut Reader<'t>| reader.measure(value, Dimension::Paper);

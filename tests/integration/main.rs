@@ -20,6 +20,7 @@ mod program;
 mod rates;
 mod readme;
 mod reruns;
+mod schema;
 mod sextic;
 mod straight_line;
 mod themes;
