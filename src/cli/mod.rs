@@ -89,7 +89,10 @@ fn failure(error: &anyhow::Error) -> ExitCode {
         let _ = writeln!(io::stderr(), "error: {message}");
     }
     let is_input = error.downcast_ref::<WrongInput>().is_some()
-        || matches!(error.downcast_ref(), Some(build::Error::Read { .. } | build::Error::Record { .. }));
+        || matches!(
+            error.downcast_ref(),
+            Some(build::Error::Read { .. } | build::Error::Record { .. } | build::Error::Format { .. })
+        );
     let is_interrupted = matches!(error.downcast_ref(), Some(build::Error::Interrupted));
     ExitCode::from(match () {
         () if is_interrupted => INTERRUPTED,

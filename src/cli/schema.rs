@@ -40,8 +40,8 @@ fn property(key: &Key) -> Value {
 
 /// A name that can be used in an expression.
 const NAME: &str = "^(?!(and|or|not|pi)$)[A-Za-z_][A-Za-z0-9_]*$";
-/// Lower-case letters and digits in words joined by hyphens.
-const SLUG: &str = "^[a-z0-9]+(-[a-z0-9]+)*$";
+/// Lower-case letters and digits in words joined by hyphens, and no device of Windows.
+const SLUG: &str = "^(?!(con|prn|aux|nul|(com|lpt)[0-9])$)[a-z0-9]+(-[a-z0-9]+)*$";
 const COLOR: &str = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$";
 
 fn form(form: &Form) -> Value {

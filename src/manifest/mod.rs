@@ -2,6 +2,7 @@
 
 mod chart;
 mod family;
+mod format;
 mod grid;
 mod inputs;
 mod names;
@@ -9,6 +10,7 @@ mod settings;
 mod table;
 mod theme;
 
+pub use format::FORMAT;
 pub use inputs::Inputs;
 pub use table::MANIFEST;
 
@@ -85,7 +87,8 @@ pub fn load(text: &str) -> Loaded {
 pub fn linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
     let mut reader = Reader::new(text);
     let document = reader.document();
-    let templates = match Fields::open(&document, "a manifest", &mut reader) {
+    let root = Fields::open(&document, "a manifest", &mut reader).filter(|_| format::is_known(&document, &mut reader));
+    let templates = match root {
         Some(root) => Templates::read(&root, &mut reader).own,
         None => Vec::new(),
     };
@@ -97,6 +100,9 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         let help = "`coupler-atlas init` writes one to start from";
         reader.note(Problem::error(0..0, "the manifest is empty").help(help));
+        return None;
+    }
+    if !format::is_known(&document, reader) {
         return None;
     }
     let root = Fields::of(&document, &MANIFEST, reader)?;

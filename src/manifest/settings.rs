@@ -1,6 +1,6 @@
 //! The tables `[atlas]` and `[page]`.
 
-use super::theme;
+use super::{FORMAT, theme};
 use crate::expression::Dimension;
 use crate::notation::{Fields, Form, Key, Reader, Table, Value, words};
 use crate::page::{Options, Paper, Theme};
@@ -30,8 +30,14 @@ const MAX_PIXELS: f64 = 4e8;
 pub(super) static ATLAS: Table = Table::new(
     "[atlas]",
     &[
+        Key::new("format", Form::Count([FORMAT, FORMAT]), "The version of the language of manifests.").or("1"),
         Key::required("title", Form::Text, "The title of the atlas."),
-        Key::new("output", Form::Text, "The folder results go to, relative to the manifest.").or("\"output\""),
+        Key::new(
+            "output",
+            Form::Text,
+            "The folder results go to, relative to the manifest; / and \\ both part folders, on every system.",
+        )
+        .or("\"output\""),
         FORMATS.or("[\"svg\", \"png\"]"),
         Key::new("volume_pages", Form::Count([1, MAX_VOLUME]), "The most pages of a volume of the book.").or("1000"),
     ],
@@ -85,11 +91,9 @@ pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<At
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", reader);
     let output = match fields.get("output") {
         None => Some("output".to_owned()),
-        Some(value) => reader.text(value).filter(|text| {
-            if text.is_empty() || text.contains('\0') {
-                reader.note(Problem::error(value.span(), "this names no folder").help("write output = \"output\""));
-            }
-            !text.is_empty()
+        Some(value) => reader.text(value).and_then(|text| {
+            let folder = folder(&text, cfg!(windows));
+            folder.map_err(|message| reader.note(Problem::error(value.span(), message).help(FOLDER_HELP))).ok()
         }),
     };
     let formats = match fields.get("formats") {
@@ -98,6 +102,23 @@ pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<At
     };
     let volume_pages = fields.get("volume_pages").map_or(Some(1000), |value| reader.count(value, 1, MAX_VOLUME));
     Some(Atlas { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
+}
+
+const FOLDER_HELP: &str = "write a folder relative to the manifest, as in output = \"output\", or give one with -o";
+
+/// The folder a manifest names, as this system writes it. Manifests go from system to system: `/` and `\` both part
+/// folders on all of them. What only Windows has, a drive or a share, cannot be had elsewhere.
+fn folder(text: &str, is_windows: bool) -> Result<String, &'static str> {
+    let has_drive = text.as_bytes().get(1) == Some(&b':') && text.as_bytes()[0].is_ascii_alphabetic();
+    if text.is_empty() || text.contains('\0') {
+        Err("this names no folder")
+    } else if is_windows {
+        Ok(text.to_owned())
+    } else if has_drive || text.starts_with("\\\\") {
+        Err("only Windows has such a folder")
+    } else {
+        Ok(text.replace('\\', "/"))
+    }
 }
 
 /// A list of formats, each once.
@@ -185,4 +206,27 @@ pub(super) fn within<'t>(
     let problem = Problem::error(value.span(), format!("{number} {what} is out of range"));
     reader.note(problem.help(format!("give {least} to {most} {what}")));
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_of_windows_are_folders_everywhere() {
+        for (text, elsewhere) in [
+            ("out", Ok("out")),
+            ("..\\out", Ok("../out")),
+            ("..\\a/b\\", Ok("../a/b/")),
+            ("/srv/out", Ok("/srv/out")),
+            ("C:\\out", Err("only Windows has such a folder")),
+            ("c:out", Err("only Windows has such a folder")),
+            ("\\\\server\\share", Err("only Windows has such a folder")),
+            ("", Err("this names no folder")),
+            ("a\0b", Err("this names no folder")),
+        ] {
+            assert_eq!(folder(text, false).as_deref(), elsewhere.as_deref(), "{text}");
+            assert_eq!(folder(text, true).is_ok(), elsewhere != Err("this names no folder"), "{text}");
+        }
+    }
 }

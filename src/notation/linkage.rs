@@ -136,12 +136,18 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
     (reader.noted() == before).then_some(template)
 }
 
-/// A name for folders and files: lower-case letters, digits and single hyphens.
+/// A name for folders and files: lower-case letters, digits and single hyphens, and no device of Windows.
 pub fn slug<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<String> {
     let text = reader.text(value)?;
     let parts_are_plain = text
         .split('-')
         .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()));
+    if is_device(&text) {
+        let problem =
+            Problem::error(value.span(), format!("Windows has no folder `{text}`, for it has a device of that name"));
+        reader.note(problem.help(format!("an id names folders and files: take another, as in \"{text}-1\"")));
+        return None;
+    }
     if parts_are_plain && text.len() <= 64 {
         return Some(text);
     }
@@ -155,6 +161,13 @@ pub fn slug<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<String> {
         )),
     );
     None
+}
+
+/// Whether Windows keeps a name for a device (Microsoft, *Naming files, paths, and namespaces*).
+fn is_device(name: &str) -> bool {
+    let port = name.strip_prefix("com").or_else(|| name.strip_prefix("lpt"));
+    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|b| b.is_ascii_digit()));
+    is_port || ["con", "prn", "aux", "nul"].contains(&name)
 }
 
 fn parameters<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Vec<Parameter> {

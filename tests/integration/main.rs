@@ -10,6 +10,7 @@ mod cognates;
 mod coupler_grid;
 mod design;
 mod folder;
+mod formats;
 mod house;
 mod instant;
 mod linkages;

@@ -171,5 +171,5 @@ fn defaults_are_what_holds_without_them() {
             seen += 1;
         }
     }
-    assert!(seen >= 24, "{seen} defaults were written out");
+    assert!(seen >= 25, "{seen} defaults were written out");
 }

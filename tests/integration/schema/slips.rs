@@ -6,11 +6,13 @@ use super::{EVERY_KEY, complaints, is_valid, json, objections, places, toml};
 
 /// Replacements in the manifest that has every key, at least one in each table: unknown keys, wrong types, words that
 /// are none, numbers out of range.
-const SLIPS: [(&str, &str); 58] = [
+const SLIPS: [(&str, &str); 62] = [
     ("[atlas]\n", "[atlass]\n[atlas]\n"),
     ("[atlas]\n", "families = 3\n[atlas]\n"),
     ("title = \"Every key\"", "titel = \"Every key\""),
     ("title = \"Every key\"", "title = 3"),
+    ("format = 1\n", "format = 2\n"),
+    ("format = 1\n", "format = \"1\"\n"),
     ("\"svg\", \"png\", \"pdf\"", "\"swg\""),
     ("\"svg\", \"png\", \"pdf\"", ""),
     ("volume_pages = 100", "volume_pages = 0"),
@@ -34,6 +36,8 @@ const SLIPS: [(&str, &str); 58] = [
     ("lettering = { title", "lettering = { titles"),
     ("source = \"3.8 mm\"", "source = 3.8"),
     ("id = \"panels\"", "id = \"Panels\""),
+    ("id = \"panels\"", "id = \"con\""),
+    ("id = \"panels\"", "id = \"lpt1\""),
     ("linkage = \"evans\"\n", "linkge = \"evans\"\n"),
     ("layout = \"panels\"", "layout = \"tiles\""),
     ("panels = [2, 1]", "panels = [2]"),
