@@ -8,6 +8,7 @@ mod charts;
 mod circuits;
 mod cognates;
 mod coupler_grid;
+mod dependencies;
 mod design;
 mod folder;
 mod formats;
