@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::names::{given, names, read_expressions};
-use super::table::{FAMILY, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing};
+use super::table::{FAMILY, LEAST_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing};
 use super::{Inputs, PlannedFamily, Templates, chart, settings};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
@@ -186,8 +186,6 @@ fn straight<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
         "input" => reader.measure(value, Dimension::Angle)?,
         _ => reader.constant(value)?,
     };
-    /// A portion as straight as that is not told from one that is straighter still.
-    const LEAST_TOLERANCE: f64 = 1e-8;
     let least = if key == "tolerance" { LEAST_TOLERANCE } else { 0.0 };
     let (most, straight) = match key {
         "tolerance" => (1.0, Straight::Tolerance(number)),

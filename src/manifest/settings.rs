@@ -104,7 +104,7 @@ pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<At
     Some(Atlas { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
 }
 
-const FOLDER_HELP: &str = "write a folder relative to the manifest, as in output = \"output\", or give one with -o";
+const FOLDER_HELP: &str = "write a folder relative to the manifest, as in output = \"output\"";
 
 /// The folder a manifest names, as this system writes it. Manifests go from system to system: `/` and `\` both part
 /// folders on all of them. What only Windows has, a drive or a share, cannot be had elsewhere.

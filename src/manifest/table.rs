@@ -131,11 +131,18 @@ pub(super) enum Spacing {
 pub(super) const SPACINGS: [(&str, Spacing); 3] =
     [("even", Spacing::Even), ("smooth", Spacing::Smooth), ("arc", Spacing::Arc)];
 
+/// A portion as straight as that is not told from one that is straighter still.
+pub(super) const LEAST_TOLERANCE: f64 = 1e-8;
+
 /// What is asked of the straight portion.
 pub(super) static STRAIGHT: Table = Table::new(
     "`straight`",
     &[
-        Key::new("tolerance", Form::Positive, "The longest in a strip of so many times its length, 1e-8 to 1."),
+        Key::new(
+            "tolerance",
+            Form::Within([LEAST_TOLERANCE, 1.0]),
+            "The longest in a strip of so many times its length.",
+        ),
         Key::new("input", Form::Input, "The straightest that spans so much input."),
         Key::new("length", Form::Positive, "The straightest that is so long."),
     ],

@@ -183,7 +183,7 @@ fn a_drive_is_a_problem_where_there_are_none() {
         let loaded = manifest::load(&MANIFEST.replace("\"out\"", output));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
         assert_eq!(problem.message, "only Windows has such a folder", "{output}");
-        assert!(problem.help.contains("relative to the manifest") && problem.help.contains("-o"), "{}", problem.help);
+        assert!(problem.help.contains("relative to the manifest"), "{}", problem.help);
     }
 }
 
