@@ -34,12 +34,13 @@ pub(super) fn volume_name(volume: &Volume) -> String {
 /// The record of an earlier run, if there was one. Where other families are to stay as they are it must be a good one.
 ///
 /// # Errors
-/// A record that is needed and cannot be used.
+/// A record that is needed and cannot be used; one of another format, which is not to be written over.
 pub(super) fn read(output: &Path, is_needed: bool, tell: &mut dyn FnMut(Event)) -> Result<Option<Run>, Error> {
     let path = output.join("run.json");
     match Run::read(&path) {
         Ok(run) => Ok(Some(trusted(run))),
         Err(ReadError::File(error)) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(source @ ReadError::Format { .. }) => Err(Error::Format { path, source }),
         Err(source) if is_needed => Err(Error::Record { path, source }),
         Err(error) => {
             tell(Event::Unreadable { record: &path, error: &error });

@@ -31,6 +31,17 @@ pub enum Error {
         /// Why.
         source: ReadError,
     },
+    /// The folder has a record that this program does not understand, and would write over.
+    #[error(
+        "cannot render over {}: {source}; render with the version that wrote it, or into another folder with -o",
+        path.display()
+    )]
+    Format {
+        /// The record.
+        path: PathBuf,
+        /// What format it has.
+        source: ReadError,
+    },
     /// A page makes no image.
     #[error("cannot draw {name}: {error}")]
     Image {

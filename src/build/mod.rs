@@ -92,14 +92,15 @@ pub enum Event<'a> {
 /// folder is whole, old or new, and the record says no more than what is so.
 ///
 /// # Errors
-/// A file that cannot be written; a record of an earlier run that is needed and cannot be read; another run into the
-/// same folder; an interruption. What is finished is then recorded, and the next run goes on from there.
+/// A file that cannot be written; a record of an earlier run that is needed and cannot be read, or of another format;
+/// another run into the same folder; an interruption. What is finished is then recorded, and the next run goes on from there.
 pub fn run(plan: &Plan, output: &Path, options: &Options, tell: &mut dyn FnMut(Event)) -> Result<Run, Error> {
     files::create_folder(output)?;
     let _lock = Lock::on(output)?;
-    files::remove_leftovers(output);
     let is_asked = |planned: &&PlannedFamily| options.only.is_empty() || options.only.contains(&planned.family.id);
+    // Nothing is touched in a folder of another format.
     let earlier = earlier::read(output, !options.only.is_empty(), tell)?;
+    files::remove_leftovers(output);
     let mut journal = Journal::open(plan, output, earlier);
     for planned in plan.families.iter().filter(is_asked) {
         stop_if(&options.interrupt)?;

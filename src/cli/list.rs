@@ -3,12 +3,12 @@ use coupler_atlas::page::{Layout, Theme};
 use coupler_atlas::template::Template;
 use coupler_atlas::{catalogue, measure};
 
-use super::{Outcome, print};
+use super::{Outcome, print, schema};
 
-/// List the built-in linkages, the measures, the further columns, the layouts and the themes.
+/// List the built-in linkages, the measures, the further columns, the layouts and the themes; print the schema.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// What to list [default: everything].
+    /// What to list [default: everything but the schema].
     what: Option<What>,
 }
 
@@ -24,9 +24,15 @@ enum What {
     Layouts,
     /// What pages can look like.
     Themes,
+    /// The JSON Schema (2020-12) of a manifest, for editors.
+    Schema,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    if arguments.what == Some(What::Schema) {
+        print(&schema::json())?;
+        return Ok(Outcome::Done);
+    }
     let wanted = |what| arguments.what.is_none_or(|given| given == what);
     let mut out = String::new();
     let mut section = |what, title: &str, rows: String| {

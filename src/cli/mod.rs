@@ -8,6 +8,7 @@ mod list;
 mod manual;
 mod plan;
 mod render;
+mod schema;
 mod validate;
 
 use std::io::{self, Write};
@@ -91,7 +92,10 @@ fn failure(error: &anyhow::Error) -> ExitCode {
         let _ = writeln!(io::stderr(), "error: {message}");
     }
     let is_input = error.downcast_ref::<WrongInput>().is_some()
-        || matches!(error.downcast_ref(), Some(build::Error::Read { .. } | build::Error::Record { .. }))
+        || matches!(
+            error.downcast_ref(),
+            Some(build::Error::Read { .. } | build::Error::Record { .. } | build::Error::Format { .. })
+        )
         || matches!(error.downcast_ref(), Some(coupler_atlas::check::Error::Record { .. }));
     let is_interrupted = matches!(error.downcast_ref(), Some(build::Error::Interrupted));
     ExitCode::from(match () {

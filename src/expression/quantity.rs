@@ -26,7 +26,8 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    fn units(self) -> &'static [(&'static str, Unit)] {
+    /// The units it is given in.
+    pub fn units(self) -> &'static [(&'static str, Unit)] {
         match self {
             Dimension::Angle => &[("deg", Unit::Deg), ("rad", Unit::Rad)],
             Dimension::Paper => &[("mm", Unit::Mm), ("in", Unit::In), ("pt", Unit::Pt)],

@@ -240,6 +240,11 @@ impl Family {
         measure::ALL.iter().filter(|measure| measure.is_word).map(|measure| measure.name)
     }
 
+    /// The measures that are numbers.
+    pub fn measures() -> impl Iterator<Item = &'static str> {
+        measure::ALL.iter().filter(|measure| !measure.is_word).map(|measure| measure.name)
+    }
+
     /// Whether a name is that of a column of `points.csv` or `cells.csv`, or of a measure.
     pub fn is_column(name: &str) -> bool {
         const COLUMNS: [&str; 8] = ["cell", "trace", "circuit", "branch", "sample", "input_deg", "status", "reason"];

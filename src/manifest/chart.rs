@@ -1,14 +1,39 @@
 //! The `chart` of a family.
 
 use super::names::Names;
+use super::table::measures;
 use crate::chart::{self, Chart, Over, Quantity};
 use crate::expression::{Bound, Expression};
 use crate::family::{MAX_CELLS, Space};
-use crate::notation::{Fields, Reader, Value};
+use crate::notation::{Fields, Form, Key, Reader, Table, Value};
 use crate::problem::{Problem, nearest_or_all};
 use crate::template::Template;
 
-const KEYS: [&str; 5] = ["x", "y", "by", "log", "range"];
+/// The `chart` of a family.
+pub(super) static CHART: Table = Table::new(
+    "`chart`",
+    &[
+        Key::required(
+            "x",
+            QUANTITY,
+            "What it is drawn over: an expression over the family's names and the measures, or input_deg or arc.",
+        ),
+        Key::required("y", Form::OneOrMore(&QUANTITY, 1), "What is drawn: a chart for each expression."),
+        Key::new(
+            "by",
+            Form::OneOrMore(&Form::Text, 0),
+            "The names that tell lines apart; the other axes of the grid where left out.",
+        ),
+        Key::new("log", Form::OneOrMore(&Form::Text, 0), "Which of x and y have logarithmic axes."),
+        Key::new(
+            "range",
+            Form::Entries(&Form::List(&Form::Number, [2, 2])),
+            "How far axes go: of x or y, the least and the greatest value.",
+        ),
+    ],
+);
+
+const QUANTITY: Form = Form::Like(&Form::Text, measures);
 const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
 
 /// The names that a chart's expressions use, whatever else is wrong with it; `None` where one cannot be read.
@@ -26,7 +51,7 @@ pub(super) fn used_names(fields: &Fields) -> Option<Vec<String>> {
 
 /// What can be said of a chart when the names it may use are not known: whether its expressions can be read.
 pub(super) fn read_expressions<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) {
-    let Some(fields) = fields.get("chart").and_then(|value| Fields::of(value, "`chart`", &KEYS, reader)) else {
+    let Some(fields) = fields.get("chart").and_then(|value| Fields::of(value, &CHART, reader)) else {
         return;
     };
     for value in ["x", "y"].into_iter().filter_map(|key| fields.get(key)) {
@@ -46,7 +71,7 @@ pub(super) fn read<'t>(
     names: &Names,
     reader: &mut Reader<'t>,
 ) -> Option<Chart> {
-    let fields = Fields::of(value, "`chart`", &KEYS, reader)?;
+    let fields = Fields::of(value, &CHART, reader)?;
     let x = fields.required("x", EXAMPLE, reader);
     let y = fields.required("y", EXAMPLE, reader);
     let x = x.and_then(|value| quantity(value, template, names, reader));

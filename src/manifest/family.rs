@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::names::{given, names, read_expressions};
+use super::table::{FAMILY, LEAST_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing};
 use super::{Inputs, PlannedFamily, Templates, chart, settings, tolerance};
 use crate::expression::Dimension;
 use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
@@ -11,33 +12,6 @@ use crate::page::{Layout, Options};
 use crate::problem::{Problem, Span, nearest_or_all};
 use crate::render::Format;
 use crate::template::{Placement, Template};
-
-const KEYS: [&str; 24] = [
-    "id",
-    "linkage",
-    "title",
-    "source",
-    "layout",
-    "chart",
-    "panels",
-    "sampling",
-    "grid",
-    "cases",
-    "let",
-    "where",
-    "sort",
-    "caption",
-    "note",
-    "formats",
-    "limit",
-    "circuits",
-    "continuation",
-    "coincident",
-    "place",
-    "columns",
-    "straight",
-    "check",
-];
 
 /// The id of a table and its place, if it has one.
 pub(super) fn id(value: &Value) -> Option<(String, Span)> {
@@ -51,7 +25,7 @@ pub(super) fn read<'t>(
     (formats, page): (&[Format], Option<&Options>),
     reader: &mut Reader<'t>,
 ) -> Option<PlannedFamily> {
-    let fields = Fields::of(value, "a [[family]]", &KEYS, reader)?;
+    let fields = Fields::of(value, &FAMILY, reader)?;
     let id = fields.required("id", "id = \"evans\"", reader).and_then(|value| notation::slug(value, reader));
     let template =
         fields.required("linkage", "linkage = \"evans\"", reader).and_then(|value| templates.find(value, reader));
@@ -70,7 +44,7 @@ pub(super) fn read<'t>(
         None => Some(Straight::default()),
         Some(value) => straight(value, template.as_deref(), reader),
     };
-    let tolerances = tolerance::read(fields.get("check"), "`check`", reader);
+    let tolerances = tolerance::read(fields.get("check"), &tolerance::OWN_CHECK, reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
         None => {
@@ -133,26 +107,17 @@ fn overridden<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader: &mut
 
 /// Where the linkages of a family are laid.
 fn placement<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Placement> {
-    let fields = Fields::of(value, "`place`", &["mirror", "rotate"], reader)?;
+    let fields = Fields::of(value, &PLACE, reader)?;
     let mirror = fields.get("mirror").map_or(Some(false), |value| reader.truth(value));
     let rotate = fields.get("rotate").map_or(Some(0.0), |value| reader.measure(value, Dimension::Angle));
     Some(Placement::new(mirror?, rotate?))
 }
 
-/// How a number of samples is spread.
-#[derive(Clone, Copy)]
-enum Spacing {
-    Even,
-    Smooth,
-    Arc,
-}
-
 fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Reader<'t>) -> Option<Sampling> {
-    let fields = Fields::of(value, "`sampling`", &["step", "samples", "spacing"], reader)?;
-    let spacings = [("even", Spacing::Even), ("smooth", Spacing::Smooth), ("arc", Spacing::Arc)];
+    let fields = Fields::of(value, &SAMPLING, reader)?;
     let spacing = match fields.get("spacing") {
         None => Spacing::Even,
-        Some(value) => reader.word(value, &spacings)?,
+        Some(value) => reader.word(value, &SPACINGS)?,
     };
     if let (Some(_), Some(value)) = (fields.get("step"), fields.get("spacing")) {
         let problem = Problem::error(value.span(), "samples by step are even in the input");
@@ -203,9 +168,8 @@ fn sampling<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
 
 /// What is asked of the straight portion.
 fn straight<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Reader<'t>) -> Option<Straight> {
-    const KEYS: [&str; 3] = ["tolerance", "input", "length"];
-    let fields = Fields::of(value, "`straight`", &KEYS, reader)?;
-    let given: Vec<&str> = KEYS.into_iter().filter(|key| fields.get(key).is_some()).collect();
+    let fields = Fields::of(value, &STRAIGHT, reader)?;
+    let given: Vec<&str> = STRAIGHT.names().into_iter().filter(|key| fields.get(key).is_some()).collect();
     let [key] = given[..] else {
         let problem =
             Problem::error(value.span(), "a straight portion is asked for by one of tolerance, input and length");
@@ -224,8 +188,6 @@ fn straight<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
         "input" => reader.measure(value, Dimension::Angle)?,
         _ => reader.constant(value)?,
     };
-    /// A portion as straight as that is not told from one that is straighter still.
-    const LEAST_TOLERANCE: f64 = 1e-8;
     let least = if key == "tolerance" { LEAST_TOLERANCE } else { 0.0 };
     let (most, straight) = match key {
         "tolerance" => (1.0, Straight::Tolerance(number)),

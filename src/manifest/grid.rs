@@ -1,7 +1,25 @@
 //! The values of a grid: lists, ranges by step and ranges by count.
 
-use crate::notation::{Fields, Reader, Value};
+use crate::notation::{Fields, Form, Key, Reader, Table, Value};
 use crate::problem::Problem;
+
+/// What a name of a grid may be given.
+pub(super) const VALUES: Form =
+    Form::Either(&[Form::List(&Form::Number, [1, usize::MAX]), Form::Table(&RANGE), Form::Number]);
+
+static RANGE: Table = Table::new(
+    "a range",
+    &[
+        Key::required("from", Form::Number, "The first value."),
+        Key::required("to", Form::Number, "The last value; by steps, where a step comes to it."),
+        Key::new("step", Form::Number, "From a value to the next."),
+        Key::new("count", Form::Count([1, MAX_COUNT]), "How many values."),
+    ],
+)
+.with_one_of(&["step", "count"]);
+
+/// More values than that are beyond counting.
+const MAX_COUNT: usize = usize::MAX >> 12;
 
 /// The values of one name before they are written out: their number is known first.
 pub(super) enum Values {
@@ -66,7 +84,7 @@ pub(super) fn values<'t>(name: &str, value: &Value<'t>, reader: &mut Reader<'t>)
 }
 
 fn range<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
-    let fields = Fields::of(value, "a range", &["from", "to", "step", "count"], reader)?;
+    let fields = Fields::of(value, &RANGE, reader)?;
     let mut end = |key: &str| {
         let value = fields.required(key, &format!("{key} = 2"), reader)?;
         Some((reader.constant(value)?, value))
@@ -92,7 +110,7 @@ fn range<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
             Some(Values::Range { from, to, count, step: Some(Step { value: step, decimals }) })
         }
         (None, Some(count)) => {
-            let count = reader.count(count, 1, usize::MAX >> 12)?;
+            let count = reader.count(count, 1, MAX_COUNT)?;
             let ((from, _), (to, _)) = (from?, to?);
             Some(Values::Range { from, to, count: count as f64, step: None })
         }

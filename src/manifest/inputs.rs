@@ -11,8 +11,8 @@ pub struct Inputs {
     pub page: String,
 }
 
-/// Keys of [atlas] that say where files go, not what is in them.
-const PLACES: [&str; 3] = ["output", "formats", "volume_pages"];
+/// Keys of [atlas] that say how it is written or where files go, not what is in them.
+const PLACES: [&str; 4] = ["format", "output", "formats", "volume_pages"];
 /// Keys of a family that say the same, or what it is held against.
 const FILES: [&str; 3] = ["formats", "limit", "check"];
 /// Keys of a family, with [`FILES`], that come to the values of cells, their curves and their order.

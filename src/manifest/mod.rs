@@ -2,15 +2,21 @@
 
 mod chart;
 mod family;
+mod format;
 mod grid;
 mod inputs;
 mod names;
 mod settings;
+mod table;
 mod theme;
 mod tolerance;
 
+pub use format::FORMAT;
 pub use inputs::Inputs;
+pub use table::MANIFEST;
 pub use tolerance::{GivenTolerances, Tolerances};
+
+pub use crate::notation::{Form, Key, Table};
 
 use std::sync::Arc;
 
@@ -87,7 +93,8 @@ pub fn load(text: &str) -> Loaded {
 pub fn linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
     let mut reader = Reader::new(text);
     let document = reader.document();
-    let templates = match Fields::open(&document, "a manifest", &mut reader) {
+    let root = Fields::open(&document, "a manifest", &mut reader).filter(|_| format::is_known(&document, &mut reader));
+    let templates = match root {
         Some(root) => Templates::read(&root, &mut reader).own,
         None => Vec::new(),
     };
@@ -101,7 +108,10 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
         reader.note(Problem::error(0..0, "the manifest is empty").help(help));
         return None;
     }
-    let root = Fields::of(&document, "a manifest", &["atlas", "page", "check", "family", "linkage"], reader)?;
+    if !format::is_known(&document, reader) {
+        return None;
+    }
+    let root = Fields::of(&document, &MANIFEST, reader)?;
     let atlas = match root.get("atlas") {
         Some(value) => settings::atlas(value, reader),
         None => {
@@ -111,7 +121,7 @@ fn read(text: &str, reader: &mut Reader) -> Option<Plan> {
         }
     };
     let page = settings::page(root.get("page"), reader);
-    let tolerances = tolerance::read(root.get("check"), "[check]", reader);
+    let tolerances = tolerance::read(root.get("check"), &tolerance::CHECK, reader);
     let templates = Templates::read(&root, reader);
     let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
     let tables = root.tables("family", reader);

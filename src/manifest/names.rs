@@ -153,6 +153,9 @@ fn filter<'t>(value: &Value<'t>, names: &[String], reader: &mut Reader<'t>) -> O
     reader.placed(value, bound)
 }
 
+/// The most cells that `limit` may allow.
+pub(super) const MAX_LIMIT: usize = 1_000_000_000;
+
 /// What `grid` or `cases` gives, by name.
 pub(super) enum Given {
     Grid(Vec<(String, Span, Vec<f64>)>),
@@ -179,7 +182,7 @@ impl Given {
 pub(super) fn given<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) -> Option<Given> {
     let limit = match fields.get("limit") {
         None => MAX_CELLS,
-        Some(value) => reader.count(value, 1, 1_000_000_000)?,
+        Some(value) => reader.count(value, 1, MAX_LIMIT)?,
     };
     match (fields.get("grid"), fields.get("cases")) {
         (Some(value), None) => read_grid(value, limit, reader),

@@ -2,38 +2,77 @@
 
 use super::settings::within;
 use crate::expression::Dimension;
-use crate::notation::{Fields, Reader, Value};
+use crate::notation::{Fields, Form, Key, Reader, Table, Value, words};
 use crate::page::Theme;
 use crate::problem::{Problem, Span};
 use crate::scene::{Color, Typeface};
 
-const KEYS: [&str; 11] =
-    ["base", "paper", "ink", "grey", "hairline", "curves", "monochrome", "face", "drawn", "weights", "lettering"];
+/// The name of a theme.
+pub(super) const NAME: Form = Form::Word(|| Theme::NAMED.map(|named| named.name).to_vec());
 
-/// A size of a theme, by its key.
-type Size = (&'static str, fn(&mut Theme) -> &mut f64);
+/// A theme that starts from another.
+pub(super) static THEME: Table = Table::new(
+    "a theme",
+    &[
+        Key::new("base", NAME, "The theme it starts from.").or("\"paper\""),
+        Key::new("paper", Form::Color, "The colour of the paper, and of all that is hollow."),
+        Key::new("ink", Form::Color, "The colour of links, joints, titles and captions."),
+        Key::new("grey", Form::Color, "The colour of the source line, notes, numbers, scale bars and axes."),
+        Key::new("hairline", Form::Color, "The colour of the frame and of grids."),
+        Key::new("curves", Form::List(&Form::Color, [1, usize::MAX]), "The inks of curves in turn: five or more."),
+        Key::new(
+            "monochrome",
+            Form::Truth,
+            "Whether every colour becomes the grey of its lightness; as the base has it where left out.",
+        ),
+        Key::new("face", Form::Word(|| words(&Typeface::NAMED)), "The typeface.").or("\"serif-condensed\""),
+        Key::new("drawn", Form::Within(DRAWN), "How much of a dash and its gap is dash.").or("0.6"),
+        Key::new("weights", WEIGHTS_FORM, "Line weights on tabloid paper, or how many times what they are."),
+        Key::new("lettering", LETTERING_FORM, "Sizes of lettering on tabloid paper, or how many times what they are."),
+    ],
+);
 
-const WEIGHTS: [Size; 5] = [
-    ("link", |theme| &mut theme.link),
-    ("curve", |theme| &mut theme.curve),
-    ("fine", |theme| &mut theme.fine),
-    ("hair", |theme| &mut theme.hair),
-    ("joint", |theme| &mut theme.joint),
-];
+const DRAWN: [f64; 2] = [0.05, 1.0];
+/// How many times what they are sizes may be.
+const TIMES: [f64; 2] = [0.5, 2.0];
+const WEIGHTS_FORM: Form = Form::Either(&[Form::Within(TIMES), Form::Table(&WEIGHTS)]);
+const LETTERING_FORM: Form = Form::Either(&[Form::Within(TIMES), Form::Table(&LETTERING)]);
+const SIZE: Form = Form::Quantity(Dimension::Paper);
 
-const LETTERING: [Size; 4] = [
-    ("title", |theme| &mut theme.title),
-    ("source", |theme| &mut theme.source),
-    ("caption", |theme| &mut theme.caption),
-    ("note", |theme| &mut theme.note),
-];
+static WEIGHTS: Table = Table::new(
+    "`weights`",
+    &[
+        Key::new("link", SIZE, "Of links."),
+        Key::new("curve", SIZE, "Of curves."),
+        Key::new("fine", SIZE, "Of joints, the border and light curves."),
+        Key::new("hair", SIZE, "Of the frame, grids and scale bars."),
+        Key::new("joint", SIZE, "The radius of a joint."),
+    ],
+);
+
+static LETTERING: Table = Table::new(
+    "`lettering`",
+    &[
+        Key::new("title", SIZE, "Of the title."),
+        Key::new("source", SIZE, "Of the source line and the folio."),
+        Key::new("caption", SIZE, "Of captions."),
+        Key::new("note", SIZE, "Of notes and numbers."),
+    ],
+);
+
+/// The sizes of a theme in the order of their table's keys.
+type Sizes = fn(&mut Theme) -> Vec<&mut f64>;
+
+const WEIGHT_SIZES: Sizes =
+    |theme| vec![&mut theme.link, &mut theme.curve, &mut theme.fine, &mut theme.hair, &mut theme.joint];
+const LETTERING_SIZES: Sizes = |theme| vec![&mut theme.title, &mut theme.source, &mut theme.caption, &mut theme.note];
 
 /// Reads a theme; what of it cannot be read is as in the theme it starts from.
 pub(super) fn read<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Theme {
     if value.get_ref().is_str() {
         return named(value, reader).unwrap_or_default();
     }
-    let Some(fields) = Fields::of(value, "a theme", &KEYS, reader) else { return Theme::default() };
+    let Some(fields) = Fields::of(value, &THEME, reader) else { return Theme::default() };
     let base = fields.get("base").map_or_else(|| Some(Theme::default()), |value| named(value, reader));
     let base_read = base.is_some();
     let mut theme = base.unwrap_or_default();
@@ -42,11 +81,11 @@ pub(super) fn read<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Theme {
         theme.typeface = reader.word(face, &Typeface::NAMED).unwrap_or_default();
     }
     if let Some(value) = fields.get("drawn") {
-        let drawn = within(value, reader, |value, reader| reader.constant(value), [0.05, 1.0], "of a dash's span");
+        let drawn = within(value, reader, |value, reader| reader.constant(value), DRAWN, "of a dash's span");
         theme.drawn = drawn.unwrap_or(theme.drawn);
     }
-    sizes(fields.get("weights"), ("weights", &WEIGHTS, [0.02, 5.0]), &mut theme, reader);
-    sizes(fields.get("lettering"), ("lettering", &LETTERING, [0.5, 20.0]), &mut theme, reader);
+    sizes(fields.get("weights"), (&WEIGHTS, WEIGHT_SIZES, [0.02, 5.0]), &mut theme, reader);
+    sizes(fields.get("lettering"), (&LETTERING, LETTERING_SIZES, [0.5, 20.0]), &mut theme, reader);
     // Of colours that could not be read nothing is asked.
     if colors_read {
         check_contrast(&fields, &theme, reader);
@@ -113,24 +152,23 @@ fn curves<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Color>> 
 /// Sizes on tabloid paper, each by its key; or a number, so many times what they are.
 fn sizes<'t>(
     value: Option<&Value<'t>>,
-    (key, known, range): (&str, &[Size], [f64; 2]),
+    (form, known, range): (&'static Table, Sizes, [f64; 2]),
     theme: &mut Theme,
     reader: &mut Reader<'t>,
 ) {
     let Some(value) = value else { return };
     let is_table = value.get_ref().is_table();
     if !is_table {
-        let times = within(value, reader, |value, reader| reader.constant(value), [0.5, 2.0], "times the size");
-        known.iter().for_each(|(_, size)| *size(theme) *= times.unwrap_or(1.0));
+        let times = within(value, reader, |value, reader| reader.constant(value), TIMES, "times the size");
+        known(theme).into_iter().for_each(|size| *size *= times.unwrap_or(1.0));
         return;
     }
-    let keys: Vec<&str> = known.iter().map(|(key, _)| *key).collect();
-    let Some(fields) = Fields::of(value, &format!("`{key}`"), &keys, reader) else { return };
-    for (key, size) in known {
+    let Some(fields) = Fields::of(value, form, reader) else { return };
+    for (key, size) in form.names().into_iter().zip(known(theme)) {
         let Some(value) = fields.get(key) else { continue };
         let read = |value: &Value<'t>, reader: &mut Reader<'t>| reader.measure(value, Dimension::Paper);
         let mm = within(value, reader, read, range, "mm");
-        *size(theme) = mm.unwrap_or(*size(theme));
+        *size = mm.unwrap_or(*size);
     }
 }
 

@@ -1,27 +1,11 @@
 //! One joint: how it is placed, and its numbers.
 
+use super::form::Table;
+use super::kinds::{KINDS, MAX_POINTS, RANGE, SIDES, WAYS};
 use super::reader::{Fields, Reader, Value};
 use crate::expression::{Bound, Kind};
 use crate::problem::{Problem, nearest_or_all};
 use crate::template::{Coordinate, InputValue, Placing, Side};
-
-/// A way to place a joint: the key it is known by, and the keys that go with it.
-const KINDS: [(&str, &[&str]); 11] = [
-    ("fixed", &["fixed"]),
-    ("crank", &["crank", "length"]),
-    ("gear", &["gear", "about", "length", "ratio", "phase"]),
-    ("piston", &["piston", "length", "offset", "side"]),
-    ("dyad", &["dyad", "lengths", "side"]),
-    ("slide", &["slide", "length", "line", "offset", "side"]),
-    ("yoke", &["yoke", "line", "offset", "angle"]),
-    ("slot", &["slot", "offset", "side"]),
-    ("parallelogram", &["parallelogram"]),
-    ("distances", &["point", "distances", "side"]),
-    ("point", &["point", "along", "across"]),
-];
-
-/// The most points a grid in one joint may have.
-const MAX_POINTS: usize = 10_000;
 
 /// How a joint is placed; `names` are those of all joints, `scope` the parameters.
 pub(super) fn joint<'t>(
@@ -32,13 +16,13 @@ pub(super) fn joint<'t>(
     reader: &mut Reader<'t>,
 ) -> Option<Placing> {
     let open = Fields::open(value, "a joint", reader)?;
-    let given = |key: &&(&str, &[&str])| open.get(key.0).is_some();
-    let Some((kind, keys)) = KINDS.iter().find(given) else {
+    let given = |(kind, _): &&(&str, Table)| open.get(kind).is_some();
+    let Some((kind, form)) = KINDS.iter().find(given) else {
         let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
         reader.note(problem.help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot`, `parallelogram` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
-    let fields = Fields::of(value, &format!("a joint with `{kind}`"), keys, reader)?;
+    let fields = Fields::of(value, form, reader)?;
     let two = |key: &str, reader: &mut Reader<'t>| {
         let value = fields.required(key, &format!("{key} = [2, 3]"), reader)?;
         let [a, b] = reader.pair(value)?;
@@ -85,7 +69,7 @@ pub(super) fn joint<'t>(
             let length = length(&fields, scope, reader);
             let line = fields.required("line", "line = [\"P\", \"Q\"]", reader).and_then(|v| base(v, names, reader));
             let offset = offset(&fields, scope, reader);
-            let side = side(&fields, &[("ahead", Side::Left), ("behind", Side::Right)], reader);
+            let side = side(&fields, &WAYS, reader);
             Some(Placing::Slide { from: from?, length: length?, line: line?, offset: offset?, side: side? })
         }
         "yoke" => {
@@ -140,7 +124,7 @@ fn coordinate<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader
     if value.get_ref().as_table().is_none() {
         return reader.bound(value, scope).map(Coordinate::One);
     }
-    let fields = Fields::of(value, "a range", &["from", "to", "count"], reader)?;
+    let fields = Fields::of(value, &RANGE, reader)?;
     let mut end = |key: &str| fields.required(key, &format!("{key} = 1"), reader).and_then(|v| reader.bound(v, scope));
     let (from, to) = (end("from"), end("to"));
     let count = fields.required("count", "count = 5", reader).and_then(|v| reader.count(v, 1, MAX_POINTS));
@@ -163,9 +147,6 @@ fn ratio<'t>(value: &Value<'t>, scope: &[(&str, Kind)], reader: &mut Reader<'t>)
     let (a, b) = (whole(a), whole(b));
     Some([a?, b?])
 }
-
-/// The sides of a line.
-const SIDES: [(&str, Side); 2] = [("left", Side::Left), ("right", Side::Right)];
 
 fn side<'t>(fields: &Fields<'_, 't>, words: &[(&str, Side)], reader: &mut Reader<'t>) -> Option<Side> {
     let value = fields.required("side", &format!("side = \"{}\"", words[0].0), reader)?;

@@ -1,26 +1,79 @@
+use super::form::{Form, Key, Table, words};
 use super::joints;
+use super::kinds::KINDS;
 use super::reader::{Fields, Reader, Value};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
 use crate::template::{Circuits, Coincident, Continuation, InputValue, Parameter, Placement, Template};
 
-const KEYS: [&str; 15] = [
-    "id",
-    "source",
-    "legend",
-    "parameters",
-    "caption",
-    "note",
-    "trace",
-    "joints",
+/// The name of a joint.
+const JOINT: Form = Form::Text;
+
+/// A `[[linkage]]`.
+pub(super) static LINKAGE: Table = Table::new(
+    "a [[linkage]]",
+    &[
+        Key::required("id", Form::Slug, "Its name, by which families call it; none of the catalogue's."),
+        Key::new("source", Form::Text, "Where it comes from: a book, a paper.").or("\"\""),
+        Key::new("legend", Form::Text, "What its parameters are, in a line under the title.").or("\"\""),
+        Key::new("parameters", Form::Names(&Form::Table(&PARAMETER)), "Its parameters, by their names.").or("{}"),
+        Key::new("caption", Form::Text, "The line under a cell, with values in braces: \"p = {p:.2}\"."),
+        Key::new("note", Form::Text, "A second, smaller line, with values in braces."),
+        Key::required("trace", Form::Set(&JOINT, [1, usize::MAX]), "The joints whose curves are drawn."),
+        Key::required("joints", Form::Entries(&Form::Kinds(&KINDS)), "Its joints, by their names, in any order."),
+        CIRCUITS_KEY.or("\"start\""),
+        CONTINUATION_KEY.or("\"smooth\""),
+        COINCIDENT_KEY.or("\"together\""),
+        Key::new("start", Form::Input, "The value of the input at which the sides of the joints hold."),
+        Key::new("input", Form::Table(&INPUT), "How far the input goes; as far as the linkage lets it where left out."),
+        Key::new(
+            "seen_from",
+            Form::Set(&JOINT, [2, 2]),
+            "Two joints of a link in whose frame everything is reported: its origin, and a joint on its x-axis.",
+        ),
+        Key::new(
+            "arc",
+            Form::Table(&ARC),
+            "The part of the curve that is drawn in full weight; all of it where left out.",
+        ),
+    ],
+);
+
+/// Which circuits are drawn.
+pub const CIRCUITS_KEY: Key = Key::new(
     "circuits",
+    Form::Word(|| words(&CIRCUITS)),
+    "Which circuits are drawn: the one through the start pose, or all.",
+);
+/// How a circuit goes on at a change point.
+pub const CONTINUATION_KEY: Key = Key::new(
     "continuation",
+    Form::Word(|| words(&CONTINUATIONS)),
+    "How a circuit goes on at a change point: smoothly, or on its branch.",
+);
+/// What dyads do that lie flat at one input.
+pub const COINCIDENT_KEY: Key = Key::new(
     "coincident",
-    "start",
-    "input",
-    "seen_from",
-    "arc",
-];
+    Form::Word(|| words(&COINCIDENTS)),
+    "Which of the dyads that lie flat at one input change their sides there.",
+);
+
+static PARAMETER: Table = Table::new(
+    "a parameter",
+    &[
+        Key::new("default", Form::Number, "Its value where a family gives none; it may use other parameters."),
+        Key::new("min", Form::Number, "The least value; a least of 0 is itself too little."),
+        Key::new("max", Form::Number, "The greatest value; a greatest of 0 is itself too great."),
+    ],
+);
+
+const FROM: Key = Key::required("from", Form::Input, "Where it begins.");
+const TO: Key = Key::required("to", Form::Input, "Where it ends.");
+static INPUT: Table = Table::new("an input", &[FROM, TO]);
+static ARC: Table = Table::new(
+    "an arc",
+    &[FROM, TO, Key::new("branch", Form::Within([-1.0, 1.0]), "The branch it is on: 1 is left, -1 right.").or("1")],
+);
 
 /// The words for [`Circuits`].
 pub const CIRCUITS: [(&str, Circuits); 2] = [("start", Circuits::Start), ("all", Circuits::All)];
@@ -36,7 +89,7 @@ pub const COINCIDENTS: [(&str, Coincident); 3] =
 /// The template a `[[linkage]]` table describes; `None` where a problem stands in the way of it.
 pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Template> {
     let before = reader.noted();
-    let fields = Fields::of(value, "a [[linkage]]", &KEYS, reader)?;
+    let fields = Fields::of(value, &LINKAGE, reader)?;
     let id = fields.required("id", "id = \"my-linkage\"", reader).and_then(|value| slug(value, reader));
     let parameters = fields.get("parameters").map(|value| parameters(value, reader)).unwrap_or_default();
     let scope: Vec<(&str, Kind)> = parameters.iter().map(|p| (p.name.as_str(), Kind::Number)).collect();
@@ -51,8 +104,7 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
     let coincident = fields.get("coincident").and_then(|value| reader.word(value, &COINCIDENTS)).unwrap_or_default();
     let is_length = joints::has_piston(&fields);
     let start = fields.get("start").and_then(|value| reader.input(value, is_length, &scope));
-    let keys = ["from", "to"];
-    let input = fields.get("input").and_then(|value| range(value, "an input", &keys, (is_length, &scope), reader));
+    let input = fields.get("input").and_then(|value| range(value, &INPUT, (is_length, &scope), reader));
     let arc = fields.get("arc").and_then(|value| arc(value, (is_length, &scope), reader));
     let joints = fields
         .required("joints", "a table [linkage.joints]", reader)
@@ -84,12 +136,18 @@ pub fn template<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Templa
     (reader.noted() == before).then_some(template)
 }
 
-/// A name for folders and files: lower-case letters, digits and single hyphens.
+/// A name for folders and files: lower-case letters, digits and single hyphens, and no device of Windows.
 pub fn slug<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<String> {
     let text = reader.text(value)?;
     let parts_are_plain = text
         .split('-')
         .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()));
+    if is_device(&text) {
+        let problem =
+            Problem::error(value.span(), format!("Windows has no folder `{text}`, for it has a device of that name"));
+        reader.note(problem.help(format!("an id names folders and files: take another, as in \"{text}-1\"")));
+        return None;
+    }
     if parts_are_plain && text.len() <= 64 {
         return Some(text);
     }
@@ -105,6 +163,13 @@ pub fn slug<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<String> {
     None
 }
 
+/// Whether Windows keeps a name for a device (Microsoft, *Naming files, paths, and namespaces*).
+fn is_device(name: &str) -> bool {
+    let port = name.strip_prefix("com").or_else(|| name.strip_prefix("lpt"));
+    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|b| b.is_ascii_digit()));
+    is_port || ["con", "prn", "aux", "nul"].contains(&name)
+}
+
 fn parameters<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Vec<Parameter> {
     let Some(table) = Fields::open(value, "`parameters`", reader) else { return Vec::new() };
     let names = table.keys();
@@ -112,7 +177,7 @@ fn parameters<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Vec<Parameter> 
     let mut out = Vec::new();
     for (name, span, value) in table.entries() {
         check_name(name, span, reader);
-        let Some(fields) = Fields::of(value, "a parameter", &["default", "min", "max"], reader) else { continue };
+        let Some(fields) = Fields::of(value, &PARAMETER, reader) else { continue };
         let default = fields.get("default").and_then(|value| {
             let expression = reader.expression(value)?;
             let bound = expression.bind(&scope, Kind::Number);
@@ -146,12 +211,11 @@ pub fn check_name(name: &str, span: Span, reader: &mut Reader) {
 
 fn range<'t>(
     value: &Value<'t>,
-    what: &str,
-    keys: &[&str],
+    form: &'static Table,
     (is_length, scope): (bool, &[(&str, Kind)]),
     reader: &mut Reader<'t>,
 ) -> Option<[InputValue; 2]> {
-    let fields = Fields::of(value, what, keys, reader)?;
+    let fields = Fields::of(value, form, reader)?;
     let mut angle = |key| {
         let value = fields.required(key, &format!("{key} = \"90 deg\""), reader)?;
         reader.input(value, is_length, scope)
@@ -165,7 +229,7 @@ fn arc<'t>(
     scope: (bool, &[(&str, Kind)]),
     reader: &mut Reader<'t>,
 ) -> Option<([InputValue; 2], i8)> {
-    let angles = range(value, "an arc", &["from", "to", "branch"], scope, reader)?;
+    let angles = range(value, &ARC, scope, reader)?;
     let fields = Fields::open(value, "an arc", reader)?;
     let branch = match fields.get("branch") {
         None => 1,

@@ -1,6 +1,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::form::Table;
 use crate::expression::{self, Bound, Caption, Dimension, Expression, Kind, Quantity};
 use crate::problem::{Problem, Span, nearest_or_all};
 use crate::template::InputValue;
@@ -307,17 +308,20 @@ pub struct Fields<'v, 't> {
     pub span: Span,
     /// What the table is, for messages.
     pub what: String,
+    /// The keys it may have; none where they are the writer's own.
+    form: Option<&'static Table>,
 }
 
 impl<'v, 't> Fields<'v, 't> {
-    /// The keys of a table, all of which must be `known`. `None` where the value is no table.
-    pub fn of(value: &'v Value<'t>, what: &str, known: &[&str], reader: &mut Reader<'t>) -> Option<Fields<'v, 't>> {
-        let fields = Fields::open(value, what, reader)?;
+    /// The keys of a table, all of which must be its form's. `None` where the value is no table.
+    pub fn of(value: &'v Value<'t>, form: &'static Table, reader: &mut Reader<'t>) -> Option<Fields<'v, 't>> {
+        let fields = Fields { form: Some(form), ..Fields::open(value, form.what, reader)? };
+        let known = form.names();
         for key in fields.table.keys() {
             let name = key.get_ref().as_ref();
             if !known.contains(&name) {
-                let problem = Problem::error(key.span(), format!("{what} has no key `{name}`"));
-                reader.note(problem.help(nearest_or_all(name, known)));
+                let problem = Problem::error(key.span(), format!("{} has no key `{name}`", form.what));
+                reader.note(problem.help(nearest_or_all(name, &known)));
             }
         }
         Some(fields)
@@ -326,7 +330,7 @@ impl<'v, 't> Fields<'v, 't> {
     /// The keys of a table whose keys are names of the writer's own.
     pub fn open(value: &'v Value<'t>, what: &str, reader: &mut Reader<'t>) -> Option<Fields<'v, 't>> {
         match value.get_ref() {
-            DeValue::Table(table) => Some(Fields { table, span: value.span(), what: what.to_owned() }),
+            DeValue::Table(table) => Some(Fields { table, span: value.span(), what: what.to_owned(), form: None }),
             _ => {
                 reader.wanted(value, "a table", "write it like { key = value }");
                 None
@@ -336,6 +340,8 @@ impl<'v, 't> Fields<'v, 't> {
 
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&'v Value<'t>> {
+        // A key that only its reader knew would be refused wherever it is written.
+        debug_assert!(self.form.is_none_or(|form| form.names().contains(&key)), "{} lacks {key}", self.what);
         self.table.get(key)
     }
 

@@ -41,7 +41,7 @@ fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_sni
 fn within(problem: &Problem, text: &str) -> std::ops::Range<usize> {
     let start = floor_char(text, problem.span.start);
     let end = floor_char(text, problem.span.end).max(start);
-    let end = text[start..end].find('\n').map_or(end, |n| start + n);
+    let end = text[start..end].find(['\r', '\n']).map_or(end, |n| start + n);
     start..end
 }
 

@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 /// The version of the format of `run.json`.
@@ -90,8 +91,50 @@ pub enum ReadError {
     #[error("it is no record of a run: {0}")]
     Syntax(#[from] serde_json::Error),
     /// It is of another format.
-    #[error("it has format {0}, and this program reads format {FORMAT}")]
-    Format(u32),
+    #[error(
+        "it has format {format} on line {line}, written by {writer}, and this is {} {}, which reads format {FORMAT}",
+        env!("CARGO_PKG_NAME"),
+        env!("CARGO_PKG_VERSION")
+    )]
+    Format {
+        /// The format, as it is written.
+        format: String,
+        /// The line it stands on, from 1.
+        line: usize,
+        /// The program that wrote it, and its version, as far as it says so.
+        writer: String,
+    },
+}
+
+/// What records of all formats say of themselves.
+#[derive(Deserialize)]
+struct Header {
+    format: Value,
+    #[serde(default)]
+    program: Value,
+    #[serde(default)]
+    version: Value,
+}
+
+/// No value at all.
+#[derive(Deserialize)]
+enum Never {}
+
+/// What cannot be read of any record, and no further than its format.
+#[derive(Deserialize)]
+struct UpToFormat {
+    #[serde(rename = "format")]
+    _format: Never,
+}
+
+impl Header {
+    /// What is wrong with a format that is not this program's.
+    fn objection(&self, bytes: &[u8]) -> ReadError {
+        let line = serde_json::from_slice::<UpToFormat>(bytes).err().map_or(1, |error| error.line());
+        let words: Vec<&str> = [&self.program, &self.version].into_iter().filter_map(Value::as_str).collect();
+        let writer = if words.is_empty() { "another program".to_owned() } else { words.join(" ") };
+        ReadError::Format { format: self.format.to_string(), line, writer }
+    }
 }
 
 impl Run {
@@ -106,16 +149,14 @@ impl Run {
     /// # Errors
     /// A file that cannot be read, or is no record of this format.
     pub fn read(path: &Path) -> Result<Run, ReadError> {
-        #[derive(Deserialize)]
-        struct Version {
-            format: u32,
-        }
         let bytes = std::fs::read(path)?;
-        let version: Version = serde_json::from_slice(&bytes)?;
-        if version.format != FORMAT {
-            return Err(ReadError::Format(version.format));
+        // An editor may have put a byte order mark before it.
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+        let header: Header = serde_json::from_slice(bytes)?;
+        if header.format != FORMAT {
+            return Err(header.objection(bytes));
         }
-        Ok(serde_json::from_slice(&bytes)?)
+        Ok(serde_json::from_slice(bytes)?)
     }
 
     /// The bytes of the record.

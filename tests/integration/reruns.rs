@@ -265,7 +265,7 @@ fn a_record_that_cannot_be_read_removes_nothing() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
     let before = tree(&atlas.out());
-    for text in ["{", "{\"format\": 99}", "\u{0}", "{\"format\": 1, \"families\": 7}"] {
+    for text in ["{", "{}", "\u{0}", "{\"format\": 1, \"families\": 7}"] {
         fs::write(atlas.out().join("run.json"), text).unwrap();
         fs::write(atlas.out().join("evans/evans-004.svg"), "old").unwrap();
         let (code, out, err) = atlas.run(&[]);

@@ -1,0 +1,32 @@
+//! The version of the language a manifest is written in.
+
+use crate::notation::{Reader, Value};
+use crate::problem::Problem;
+
+/// The version of the language of manifests that this program reads.
+pub const FORMAT: usize = 1;
+
+/// Whether a manifest is written in this language; if not, what is wrong is said.
+///
+/// Nothing else can then be said of it: what is no key in this format may be one in the other.
+pub(super) fn is_known<'t>(document: &Value<'t>, reader: &mut Reader<'t>) -> bool {
+    let atlas = document.get_ref().as_table().and_then(|root| root.get("atlas")?.get_ref().as_table());
+    let Some(value) = atlas.and_then(|atlas| atlas.get("format")) else { return true };
+    let is_number = value.get_ref().is_integer() || value.get_ref().is_float();
+    let number = reader.decimal(value).filter(|_| is_number).and_then(|written| written.parse::<f64>().ok());
+    let problem = match number {
+        Some(number) if number == FORMAT as f64 => return true,
+        Some(number) if number > FORMAT as f64 && number.fract() == 0.0 => {
+            let version = env!("CARGO_PKG_VERSION");
+            let message =
+                format!("the manifest has format {number}, and this is version {version}, which reads format {FORMAT}");
+            Problem::error(value.span(), message).help(format!(
+                "use a newer version; or write format = {FORMAT} if the manifest has nothing newer in it"
+            ))
+        }
+        _ => Problem::error(value.span(), "there is no such format")
+            .help(format!("write format = {FORMAT}, or leave it out, which means the same")),
+    };
+    reader.note(problem);
+    false
+}

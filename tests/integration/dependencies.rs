@@ -1,0 +1,154 @@
+//! What stands in docs/dependencies.md and deny.toml is so.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+use serde_json::Value;
+use toml::de::{DeTable, DeValue};
+
+fn parsed(text: &'static str) -> DeTable<'static> {
+    DeTable::parse(text).unwrap().into_inner()
+}
+
+fn table<'v>(table: &'v DeTable<'static>, key: &str) -> &'v DeTable<'static> {
+    table.get(key).and_then(|value| value.get_ref().as_table()).unwrap_or_else(|| panic!("no [{key}]"))
+}
+
+fn texts<'v>(table: &'v DeTable<'static>, key: &str) -> Vec<&'v str> {
+    let list = table.get(key).and_then(|value| value.get_ref().as_array());
+    list.into_iter().flatten().filter_map(|item| item.get_ref().as_str()).collect()
+}
+
+/// The features a dependency is taken with, as the table of docs/dependencies.md has them.
+fn features(dependency: &DeValue<'static>) -> String {
+    let Some(given) = dependency.as_table() else { return "default".to_owned() };
+    let has_default = given.get("default-features").is_none_or(|value| value.get_ref().as_bool() == Some(true));
+    let features = has_default.then_some("default").into_iter().chain(texts(given, "features"));
+    match features.collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => "none".to_owned(),
+        features => features,
+    }
+}
+
+/// The rows of the tables of docs/dependencies.md, each by its first cell.
+fn documented() -> BTreeMap<&'static str, Vec<&'static str>> {
+    let rows = include_str!("../../docs/dependencies.md").lines().filter(|line| line.starts_with("| `"));
+    let mut found = BTreeMap::new();
+    for row in rows {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        let name = cells[0].trim_matches('`');
+        assert!(found.insert(name, cells[1..].to_vec()).is_none(), "{name} stands there twice");
+    }
+    found
+}
+
+/// Every crate for this machine, with its licence.
+fn licences() -> BTreeMap<String, String> {
+    let version = Command::new("rustc").arg("-vV").output().unwrap();
+    let version = String::from_utf8(version.stdout).unwrap();
+    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
+    // Crates of other platforms are perhaps not here, and nothing is fetched for a test.
+    let metadata = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version", "1", "--locked", "--offline", "--filter-platform", host])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(metadata.status.success(), "{}", String::from_utf8_lossy(&metadata.stderr));
+    let metadata: Value = serde_json::from_slice(&metadata.stdout).unwrap();
+    let licence = |package: &Value| {
+        let text = |key: &str| package[key].as_str().unwrap_or_default().to_owned();
+        (text("name"), text("license"))
+    };
+    metadata["packages"].as_array().unwrap().iter().map(licence).collect()
+}
+
+#[test]
+fn every_direct_dependency_is_accounted_for_and_no_other() {
+    let cargo = parsed(include_str!("../../Cargo.toml"));
+    let direct = ["dependencies", "dev-dependencies"].map(|key| table(&cargo, key));
+    let direct: BTreeMap<&str, String> = direct
+        .into_iter()
+        .flatten()
+        .map(|(name, value)| (name.get_ref().as_ref(), features(value.get_ref())))
+        .collect();
+    let documented = documented();
+    assert_eq!(direct.keys().collect::<Vec<_>>(), documented.keys().collect::<Vec<_>>());
+    let licences = licences();
+    for (name, cells) in documented {
+        let [what, features, licence] = cells[..] else { panic!("{name}: {cells:?}") };
+        assert!(what.len() > 10, "{name} has no reason");
+        assert_eq!(features, direct[name], "the features of {name}");
+        assert_eq!(licence, licences[name], "the licence of {name}");
+    }
+}
+
+/// Whether a licence can be taken so that all it asks for is allowed.
+fn is_allowed(licence: &str, allowed: &BTreeSet<&str>) -> bool {
+    let licence = licence.replace('/', " OR ");
+    let is_one = |part: &str| part.trim_matches(['(', ')']).split(" OR ").any(|one| allowed.contains(one));
+    !licence.is_empty() && licence.split(" AND ").all(is_one)
+}
+
+#[test]
+fn every_licence_is_one_of_those_allowed() {
+    let deny = parsed(include_str!("../../deny.toml"));
+    let licenses = table(&deny, "licenses");
+    let allowed: BTreeSet<&str> = texts(licenses, "allow").into_iter().collect();
+    let excepted = |name: &str, licence: &str| {
+        let exceptions = licenses.get("exceptions").and_then(|value| value.get_ref().as_array()).unwrap();
+        exceptions.iter().filter_map(|one| one.get_ref().as_table()).any(|one| {
+            let is_meant = one.get("crate").and_then(|value| value.get_ref().as_str()) == Some(name);
+            is_meant && texts(one, "allow").contains(&licence)
+        })
+    };
+    let licences = licences();
+    assert!(licences.len() > 100);
+    for (name, licence) in &licences {
+        assert!(is_allowed(licence, &allowed) || excepted(name, licence), "{name} is under {licence}");
+    }
+    for licence in ["GPL-3.0", "MIT AND GPL-3.0", "AGPL-3.0-only", "", "MPL-2.0"] {
+        assert!(!is_allowed(licence, &allowed), "{licence}");
+    }
+    for licence in &allowed {
+        let is_needed = |other: &String| other.split([' ', '/', '(', ')']).any(|word| word == *licence);
+        assert!(licences.values().any(is_needed), "nothing is under {licence}");
+    }
+}
+
+/// Cargo.lock has the crates of all platforms.
+#[test]
+fn nothing_comes_from_elsewhere_and_no_banned_crate_comes_in() {
+    let lock = parsed(include_str!("../../Cargo.lock"));
+    let packages = lock.get("package").and_then(|value| value.get_ref().as_array()).unwrap();
+    let text = |package: &DeTable<'static>, key: &str| {
+        package.get(key).and_then(|value| value.get_ref().as_str()).map(str::to_owned)
+    };
+    let mut names = BTreeSet::new();
+    for package in packages.iter().filter_map(|package| package.get_ref().as_table()) {
+        let name = text(package, "name").unwrap();
+        let source = text(package, "source");
+        let is_own = name == "coupler-atlas" && source.is_none();
+        let is_of_crates_io = source.as_deref() == Some("registry+https://github.com/rust-lang/crates.io-index");
+        assert!(is_own || is_of_crates_io, "{name} comes from {source:?}");
+        names.insert(name);
+    }
+    assert!(names.len() > 100);
+    let deny = parsed(include_str!("../../deny.toml"));
+    let bans = table(&deny, "bans").get("deny").and_then(|value| value.get_ref().as_array()).unwrap();
+    let banned: Vec<String> = bans.iter().filter_map(|ban| text(ban.get_ref().as_table()?, "crate")).collect();
+    for expected in ["evalexpr", "exmex", "fasteval", "usvg@<0.48", "svg2pdf", "ttf-parser", "rustybuzz", "bincode"] {
+        assert!(banned.iter().any(|ban| ban == expected), "{expected}");
+    }
+    // Of usvg, which some versions are banned of, there is none at all.
+    let found: Vec<_> = banned.iter().filter(|ban| names.contains(ban.split('@').next().unwrap())).collect();
+    assert!(found.is_empty(), "{found:?}");
+}
+
+/// The lints of Cargo.toml go for the library, the program, tests, benches and examples alike.
+#[test]
+fn unsafe_code_is_forbidden() {
+    let cargo = parsed(include_str!("../../Cargo.toml"));
+    let level = table(table(&cargo, "lints"), "rust").get("unsafe_code").and_then(|value| value.get_ref().as_str());
+    assert_eq!(level, Some("forbid"));
+    assert!(cargo.get("workspace").is_none(), "one crate, to which the lints belong");
+}

@@ -1,0 +1,201 @@
+//! Manifests and records of other formats, and files as Windows writes them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use coupler_atlas::manifest;
+use coupler_atlas::record::{self, ReadError, Run};
+use tempfile::TempDir;
+
+use crate::folder::Atlas;
+
+const MANIFEST: &str = r#"[atlas]
+title = "T"
+output = "out"
+formats = ["svg"]
+[[family]]
+id = "evans"
+linkage = "evans"
+sampling = { step = "10 deg" }
+grid = { p = [2, 3] }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+
+/// All that is in a folder, by name.
+fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        match path.is_dir() {
+            true => found.extend(tree(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes))),
+            false => drop(found.insert(name, fs::read(&path).unwrap())),
+        }
+    }
+    found
+}
+
+fn with_format(format: &str) -> String {
+    MANIFEST.replacen("[atlas]\n", &format!("[atlas]\nformat = {format}\n"), 1)
+}
+
+#[test]
+fn a_manifest_of_another_format_is_refused_with_one_word() {
+    // What another format may have is no mistake of its own.
+    let newer = with_format("2").replace("[[family]]", "[[brood]]").replace("title", "name");
+    let atlas = Atlas::new(&newer);
+    for command in [&["validate"][..], &["inspect", "mine", "--manifest", "atlas.toml"]] {
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let output = program.current_dir(atlas.0.path()).args(command).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
+        let version = env!("CARGO_PKG_VERSION");
+        let message = format!("the manifest has format 2, and this is version {version}, which reads format 1");
+        assert!(said.contains(&message) && said.contains("atlas.toml:2:10\n"), "{said}");
+        assert!(said.contains("help: use a newer version; or write format = 1"), "{said}");
+        assert_eq!(said.matches("error: the manifest").count(), 1, "{said}");
+        assert!(!said.contains("has no key") && !said.contains("has no `"), "{said}");
+    }
+    for none in ["0", "-1", "1.5", "\"1\"", "true", "inf"] {
+        let loaded = manifest::load(&with_format(none));
+        assert!(loaded.plan.is_none());
+        let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
+        assert_eq!(problem.message, "there is no such format", "{none}");
+        assert!(problem.help.starts_with("write format = 1, or leave it out"), "{}", problem.help);
+    }
+}
+
+#[test]
+fn a_format_that_is_written_out_is_the_same_manifest() {
+    let inputs = |text: &str| manifest::load(text).plan.unwrap().families[0].inputs.clone();
+    let without = inputs(MANIFEST);
+    for one in ["1", "1.0"] {
+        assert_eq!(inputs(&with_format(one)), without, "nothing is drawn again");
+    }
+}
+
+/// Nothing in a folder is removed or written over that a version wrote whose record is not understood.
+#[test]
+fn a_folder_of_another_format_is_left_alone() {
+    let atlas = Atlas::new(MANIFEST);
+    assert_eq!(atlas.run(&["--quiet"]).0, 0);
+    fs::write(atlas.out().join(".coupler-atlas-a1.tmp"), "a newer version writes this").unwrap();
+    fs::write(atlas.out().join("evans/evans-001.svg"), "a newer page").unwrap();
+    let path = atlas.out().join("run.json");
+    for (record, format, line, writer) in [
+        (
+            "{\n  \"program\": \"coupler-atlas\",\n  \"format\": 2,\n  \"version\": \"0.9.0\"\n}",
+            "2",
+            3,
+            "coupler-atlas 0.9.0",
+        ),
+        ("{\"format\": 99999999999999, \"version\": [0, 9]}", "99999999999999", 1, "another program"),
+        ("\u{feff}{\r\n\"format\":\r\n\"two\", \"program\": \"coupler-atlas\"}", "\"two\"", 3, "coupler-atlas"),
+        ("{\"format\": 0}", "0", 1, "another program"),
+    ] {
+        fs::write(&path, record).unwrap();
+        let before = tree(&atlas.out());
+        for arguments in [&[][..], &["--force"], &["--only", "evans"]] {
+            let (code, out, err) = atlas.run(arguments);
+            assert_eq!((code, out.as_str()), (2, ""), "{err}");
+            let told =
+                format!("it has format {format} on line {line}, written by {writer}, and this is coupler-atlas ");
+            assert!(
+                err.contains("cannot render over out") && err.contains("run.json: ") && err.contains(&told),
+                "{err}"
+            );
+            assert!(err.contains("render with the version that wrote it, or into another folder with -o"), "{err}");
+            assert!(tree(&atlas.out()) == before, "{record}: the folder is as it was");
+        }
+        assert_eq!(atlas.run(&["-q", "-o", "other"]).0, 0, "another folder is a way out");
+    }
+}
+
+#[test]
+fn a_record_with_other_line_ends_is_read() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let path = atlas.out().join("run.json");
+    let text = fs::read_to_string(&path).unwrap();
+    let as_on_windows = format!("\u{feff}{}", text.replace('\n', "\r\n"));
+    fs::write(&path, &as_on_windows).unwrap();
+    assert_eq!(Run::read(&path).unwrap(), serde_json::from_str(&text).unwrap());
+    let (code, out, err) = atlas.run(&[]);
+    assert!(code == 0 && err.is_empty() && out.contains("(unchanged)"), "{out}{err}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), text, "it is written as it always is");
+    fs::write(&path, "{\"format\": 1}").unwrap();
+    assert!(matches!(Run::read(&path), Err(ReadError::Syntax(_))));
+    // The tables of cells are read back as well.
+    let cells = "cell,status,reason\n1,ok,\n2,none,\"too long, by far\"\n";
+    let as_on_windows = format!("\u{feff}{}", cells.replace('\n', "\r\n"));
+    let expected = [(2, "too long, by far".to_owned())];
+    assert_eq!(record::shortfalls(cells.as_bytes()), expected);
+    assert_eq!(record::shortfalls(as_on_windows.as_bytes()), expected);
+}
+
+/// What is wrong stands at the same lines and columns, underlined alike, whatever ends the lines.
+#[test]
+fn reports_are_the_same_for_files_of_windows() {
+    let spoilt = MANIFEST.replace("[2, 3]", "[2,\n  3]").replace("(1 + p)", "(1 + q)").replace("step", "stop");
+    let spoilt = spoilt.replace("title = \"T\"", "title = 3").replace("[\"svg\"]", "[\n\"svg\",\n'swg']")
+        + "note = \"\"\"\nμ {mu}\n{cell +}\"\"\"\nwhere = '''p > 2\n and q'''\n";
+    let folder = TempDir::new().unwrap();
+    let said = |text: &str| {
+        fs::write(folder.path().join("m.toml"), text).unwrap();
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let output = program.current_dir(folder.path()).args(["validate", "m.toml"]).output().unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let plain = said(&spoilt);
+    for place in ["m.toml:2:9", "m.toml:6:1", "m.toml:10:14", "m.toml:13:19", "m.toml:14:8", "m.toml:18:6"] {
+        assert!(plain.contains(place), "{place}: {plain}");
+    }
+    let crlf = spoilt.replace('\n', "\r\n");
+    for (text, what) in [
+        (format!("\u{feff}{spoilt}"), "a byte order mark"),
+        (crlf.clone(), "line ends"),
+        (format!("\u{feff}{crlf}"), "both"),
+    ] {
+        let report = said(&text);
+        assert!(!report.contains('\r'), "{what}: {report:?}");
+        assert_eq!(report, plain, "{what}");
+    }
+}
+
+#[test]
+fn a_folder_may_be_written_as_on_windows() {
+    for output in ["\"..\\\\there\\\\pages\"", "'..\\there\\pages'", "'../there\\pages'"] {
+        let folder = TempDir::new().unwrap();
+        let here = folder.path().join("here");
+        fs::create_dir(&here).unwrap();
+        fs::write(here.join("atlas.toml"), MANIFEST.replace("\"out\"", output).replace('\n', "\r\n")).unwrap();
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        assert!(program.current_dir(&here).args(["render", "-q"]).status().unwrap().success());
+        assert!(folder.path().join("there/pages/evans/evans-001.svg").exists(), "{output}");
+        assert_eq!(fs::read_dir(&here).unwrap().count(), 1, "{output}");
+    }
+}
+
+#[cfg(not(windows))]
+#[test]
+fn a_drive_is_a_problem_where_there_are_none() {
+    for output in ["'C:\\atlas'", "\"d:/atlas\"", "'\\\\server\\share'"] {
+        let loaded = manifest::load(&MANIFEST.replace("\"out\"", output));
+        let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
+        assert_eq!(problem.message, "only Windows has such a folder", "{output}");
+        assert!(problem.help.contains("relative to the manifest"), "{}", problem.help);
+    }
+}
+
+#[test]
+fn ids_are_no_devices_of_windows() {
+    for id in ["con", "prn", "aux", "nul", "com0", "com9", "lpt1"] {
+        let loaded = manifest::load(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\"")));
+        let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
+        assert_eq!(problem.message, format!("Windows has no folder `{id}`, for it has a device of that name"));
+        assert_eq!(problem.help, format!("an id names folders and files: take another, as in \"{id}-1\""));
+    }
+    for id in ["con-1", "cone", "com", "com10", "lpt", "lpta", "a-nul"] {
+        assert!(manifest::load(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\""))).plan.is_some(), "{id}");
+    }
+}

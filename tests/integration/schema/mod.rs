@@ -1,0 +1,98 @@
+//! The schema of manifests, held against what their reader accepts.
+
+mod corpus;
+mod keys;
+mod slips;
+
+use std::fmt::Write;
+use std::process::Command;
+use std::sync::LazyLock;
+
+use coupler_atlas::manifest;
+use jsonschema::Validator;
+use serde_json::{Map, Number, Value};
+use toml::de::{DeTable, DeValue};
+
+/// A manifest with every key there is.
+const EVERY_KEY: &str = include_str!("every-key.toml");
+
+/// What `list schema` prints.
+static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(["list", "schema"]).output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty());
+    serde_json::from_slice(&output.stdout).unwrap()
+});
+
+static VALIDATOR: LazyLock<Validator> = LazyLock::new(|| jsonschema::draft202012::new(&SCHEMA).unwrap());
+
+/// Whether the schema has nothing against a manifest.
+fn is_valid(manifest: &Value) -> bool {
+    VALIDATOR.is_valid(manifest)
+}
+
+/// What the schema has against a manifest.
+fn objections(manifest: &Value) -> String {
+    VALIDATOR.iter_errors(manifest).map(|error| format!("{}: {error}\n", error.instance_path())).collect()
+}
+
+/// What the reader has against a manifest; none where it makes a plan of it.
+fn complaints(text: &str) -> Option<Vec<(String, String)>> {
+    let loaded = manifest::load(text);
+    let said = loaded.problems.into_iter().filter(|problem| problem.is_error());
+    loaded.plan.is_none().then(|| said.map(|problem| (problem.message, problem.help)).collect())
+}
+
+/// TOML as editors' schemas see it.
+fn json(text: &str) -> Value {
+    let table = DeTable::parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    table_as_json(table.get_ref())
+}
+
+fn table_as_json(table: &DeTable) -> Value {
+    let entries = table.iter().map(|(key, value)| (key.get_ref().to_string(), as_json(value.get_ref())));
+    Value::Object(entries.collect::<Map<_, _>>())
+}
+
+fn as_json(value: &DeValue) -> Value {
+    match value {
+        DeValue::String(text) => Value::String(text.to_string()),
+        DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).unwrap().into(),
+        DeValue::Float(number) => Number::from_f64(number.as_str().parse().unwrap()).unwrap().into(),
+        DeValue::Boolean(truth) => (*truth).into(),
+        DeValue::Datetime(date) => date.to_string().into(),
+        DeValue::Array(items) => items.iter().map(|item| as_json(item.get_ref())).collect(),
+        DeValue::Table(table) => table_as_json(table),
+    }
+}
+
+/// A table as a TOML text; no table of manifests needs headers.
+fn toml(manifest: &Value) -> String {
+    let root = manifest.as_object().unwrap();
+    root.iter().map(|(key, value)| format!("{} = {}\n", Value::String(key.clone()), inline(value))).collect()
+}
+
+fn inline(value: &Value) -> String {
+    match value {
+        Value::Array(items) => format!("[{}]", items.iter().map(inline).collect::<Vec<_>>().join(", ")),
+        Value::Object(entries) => {
+            let mut out = String::from("{ ");
+            for (k, (key, value)) in entries.iter().enumerate() {
+                let comma = if k > 0 { ", " } else { "" };
+                write!(out, "{comma}{} = {}", Value::String(key.clone()), inline(value)).unwrap();
+            }
+            out + " }"
+        }
+        // JSON writes these as TOML does.
+        _ => value.to_string(),
+    }
+}
+
+/// The places of a value, each a JSON pointer: of the whole, and of all that is in it.
+fn places(value: &Value, at: &str, found: &mut Vec<String>) {
+    found.push(at.to_owned());
+    match value {
+        Value::Array(items) => items.iter().enumerate().for_each(|(k, item)| places(item, &format!("{at}/{k}"), found)),
+        Value::Object(entries) => entries.iter().for_each(|(key, value)| places(value, &format!("{at}/{key}"), found)),
+        _ => {}
+    }
+}
