@@ -84,7 +84,7 @@ fn of(subject: &Subject, value: fn(&Portion) -> f64) -> Value {
 /// The portion asked for, of a curve; `None` where there is none so long.
 pub(super) fn portion(course: &Course, asked: Straight) -> Option<Portion> {
     let ends = match asked {
-        Straight::Tolerance(tolerance) => Search { course, tolerance }.longest_of_all()?,
+        Straight::Tolerance(tolerance) => Search { course, tolerance, least: 1 }.longest_of_all()?,
         Straight::Input(span) => straightest(course, |from| course.after_input(from, span))?,
         Straight::Length(length) => straightest(course, |from| course.after_length(from, length))?,
     };
@@ -107,6 +107,8 @@ const LOOSER: f64 = 1.02;
 struct Search<'a> {
     course: &'a Course,
     tolerance: f64,
+    /// By points a portion goes at least so many points on: a single chord is always straight.
+    least: usize,
 }
 
 impl Search<'_> {
@@ -122,11 +124,12 @@ impl Search<'_> {
         let Some((found, width)) = self.by_points(LOOSER) else {
             return flattest().map(|(_, ends)| ends);
         };
-        // So short a portion is likelier where the curve is flattest than where its points are far apart.
+        // So few points say little: they may only be far apart. Likelier is a portion where the curve is flattest, or one of
+        // more points that is shorter than those seem.
         if found[1] - found[0] < FEW {
-            let by_points = self.refined(found, DEPTH);
-            let both = [flattest(), by_points].into_iter().flatten();
-            return both.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
+            let by_more = || Search { least: FEW, ..*self }.by_points(LOOSER).and_then(|(ends, _)| self.refined(ends, DEPTH));
+            let all = [flattest(), self.refined(found, DEPTH), by_more()].into_iter().flatten();
+            return all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
         }
         let longest = self.refined(found, DEPTH).or_else(|| self.stricter(DEPTH));
         // Where nothing is straight between points, those are all that is known.
@@ -183,7 +186,7 @@ impl Search<'_> {
             while needed + 1 < self.course.way.len() && self.course.way[needed] - self.course.way[from] <= best {
                 needed += 1;
             }
-            if let Some((to, length)) = self.longest_from([from, needed.max(from + 1)], width, best) {
+            if let Some((to, length)) = self.longest_from([from, needed.max(from + self.least)], width, best) {
                 (best, found) = (length, Some([from, to]));
             }
         }
@@ -214,7 +217,7 @@ impl Search<'_> {
         let course = self.course;
         let least = best - 2.0 * course.longest_chord;
         let from = (0..course.starts).filter_map(|from| {
-            let needed = course.way_on(from, least).max(from + 1);
+            let needed = course.way_on(from, least).max(from + self.least);
             Some((from, self.longest_from([from, needed], width, least)?))
         });
         let mut all: Vec<(f64, [usize; 2])> = from.map(|(from, (to, length))| (length, [from, to])).collect();
@@ -272,7 +275,7 @@ impl Search<'_> {
         let piece = self.course.piece([from, to]);
         let part = (to - from) / (piece.points.len() - 1) as f64;
         let depth = depth.checked_sub(1)?;
-        let search = Search { course: &piece, tolerance: self.tolerance };
+        let search = Search { course: &piece, tolerance: self.tolerance, least: 1 };
         let (length, ends) = match search.by_points(LOOSER) {
             Some((found, _)) => search.refined(found, depth).or_else(|| search.stricter(depth))?,
             None => {
