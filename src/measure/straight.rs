@@ -117,8 +117,7 @@ impl Search<'_> {
         /// So many portions are drawn out that might come to be the longest.
         const RIVALS: usize = 2;
         let flattest = || {
-            let about = self.course.flattest().into_iter().take(RIVALS + 1).map(|k| [k as f64 - 1.0, k as f64 + 1.0]);
-            let each = about.filter_map(|ends| self.finely(ends, DEPTH));
+            let each = self.course.flattest().into_iter().take(RIVALS + 1).filter_map(|k| self.about(k as f64));
             each.max_by(|a, b| a.0.total_cmp(&b.0))
         };
         let Some((found, width)) = self.by_points(LOOSER) else {
@@ -152,6 +151,27 @@ impl Search<'_> {
     /// The length and the ends of a portion that leaves something of the tolerance to the curve between its points.
     fn stricter(&self, depth: usize) -> Option<(f64, [f64; 2])> {
         [1.0, 0.99, 0.95, 0.85, 0.7].into_iter().find_map(|part| self.refined(self.by_points(part)?.0, depth))
+    }
+
+    /// The length and the ends of the longest portion about a point, as far as it goes.
+    fn about(&self, point: f64) -> Option<(f64, [f64; 2])> {
+        let mut found: Option<(f64, [f64; 2])> = None;
+        let mut round = 1.0;
+        while round <= FEW as f64 {
+            let window = [point - round, point + round];
+            let Some((length, ends)) = self.finely(window, DEPTH) else { break };
+            if found.is_none_or(|(longest, _)| length > longest) {
+                found = Some((length, ends));
+            }
+            let [from, to] = self.course.clamp(window);
+            // What fills the window may go on outside.
+            let near = 0.05 * round;
+            if ends[0] > from + near && ends[1] < to - near {
+                break;
+            }
+            round *= 2.0;
+        }
+        found
     }
 
     /// The points at the ends of the longest portion, and the width no portion may have more of.
