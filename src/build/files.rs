@@ -2,7 +2,7 @@ use std::fs;
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
 use crate::record::{FileRecord, RunningDigest};
@@ -20,15 +20,16 @@ pub fn read_manifest(path: &Path) -> Result<String, Error> {
 /// Writes a file that must not exist yet.
 ///
 /// # Errors
-/// A file that exists already (`AlreadyExists`) or cannot be written.
+/// A file that exists already (`AlreadyExists`) or cannot be written; there is none then if there was none.
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let written = fs::OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut f| f.write_all(bytes));
-    written.map_err(|source| Error::Write { path: path.to_owned(), source })
+    let mut file = Growing::open(path.to_owned())?;
+    file.put(bytes)?;
+    file.keep(TempPath::persist_noclobber)
 }
 
 /// A file to be read.
-pub(super) fn open(path: &Path) -> Result<fs::File, Error> {
-    fs::File::open(path).map_err(|source| Error::Read { path: path.to_owned(), source })
+pub(super) fn open(path: &Path) -> io::Result<fs::File> {
+    fs::File::open(path)
 }
 
 pub(super) fn create_folder(path: &Path) -> Result<(), Error> {
@@ -42,7 +43,7 @@ pub(super) fn create_folder(path: &Path) -> Result<(), Error> {
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut file = Growing::open(path.to_owned())?;
     file.put(bytes)?;
-    file.keep()
+    file.keep(TempPath::persist)
 }
 
 /// Whether a file of a folder is what its record says: a text by its bytes; an image or a book, whose bytes no record has,
@@ -87,16 +88,29 @@ pub(super) fn remove<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) ->
     Ok(())
 }
 
-/// Removes what a run that was killed had begun to write in a folder. No other run may be writing there.
-pub(super) fn remove_leftovers(folder: &Path) {
-    let entries = if is_folder(folder) { fs::read_dir(folder).ok() } else { None };
-    for entry in entries.into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let is_ours = name.to_str().is_some_and(|name| name.starts_with(UNFINISHED.0) && name.ends_with(UNFINISHED.1));
-        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
-            // One that cannot be removed is in nobody's way.
-            let _ = fs::remove_file(entry.path());
+/// Removes what a run that was killed had begun to write in a folder and in those within it, whosever they are: what is
+/// named so is nobody else's. No other run may be writing there.
+pub(super) fn remove_leftovers(output: &Path) {
+    for entry in entries(output) {
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            entries(&entry.path()).for_each(remove_leftover);
+        } else {
+            remove_leftover(entry);
         }
+    }
+}
+
+/// What is in a folder, as far as it can be read.
+fn entries(folder: &Path) -> impl Iterator<Item = fs::DirEntry> {
+    fs::read_dir(folder).into_iter().flatten().flatten()
+}
+
+fn remove_leftover(entry: fs::DirEntry) {
+    let name = entry.file_name();
+    let is_ours = name.to_str().is_some_and(|name| name.starts_with(UNFINISHED.0) && name.ends_with(UNFINISHED.1));
+    if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+        // One that cannot be removed is in nobody's way.
+        let _ = fs::remove_file(entry.path());
     }
 }
 
@@ -112,7 +126,9 @@ const UNFINISHED: (&str, &str) = (".coupler-atlas-", ".tmp");
 /// nothing is left behind if it never is.
 pub(super) struct Growing {
     path: PathBuf,
-    file: io::BufWriter<NamedTempFile>,
+    file: io::BufWriter<fs::File>,
+    /// Its other name, which goes with this unless it is exchanged for its own.
+    unfinished: TempPath,
     digest: RunningDigest,
 }
 
@@ -125,17 +141,15 @@ impl Growing {
     }
 
     fn open(path: PathBuf) -> Result<Growing, Error> {
-        let folder = path.parent().unwrap_or(Path::new("."));
+        let folder = path.parent().unwrap_or(Path::new(""));
         let mut builder = tempfile::Builder::new();
         builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // A temporary file is its owner's alone; a result is for everyone the umask allows.
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        match builder.tempfile_in(folder) {
-            Ok(file) => Ok(Growing { path, file: io::BufWriter::new(file), digest: RunningDigest::default() }),
+        // A temporary file would be its owner's alone; a result is for everyone the umask allows.
+        match builder.make_in(folder, |path| fs::File::create_new(path)) {
+            Ok(file) => {
+                let (file, unfinished) = file.into_parts();
+                Ok(Growing { path, file: io::BufWriter::new(file), unfinished, digest: RunningDigest::default() })
+            }
             Err(source) => Err(Error::Write { path, source }),
         }
     }
@@ -155,11 +169,12 @@ impl Growing {
         self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    fn keep(self) -> Result<(), Error> {
-        let Growing { path, file, .. } = self;
+    /// Closes the file and renames it.
+    fn keep(self, rename: fn(TempPath, PathBuf) -> Result<(), PathPersistError>) -> Result<(), Error> {
+        let Growing { path, file, unfinished, .. } = self;
         let kept = file.into_inner().map_err(io::IntoInnerError::into_error).and_then(|file| {
-            file.persist(&path).map_err(|error| error.error)?;
-            Ok(())
+            drop(file);
+            rename(unfinished, path.clone()).map_err(|error| error.error)
         });
         kept.map_err(|source| Error::Write { path, source })
     }
@@ -167,7 +182,7 @@ impl Growing {
     /// Gives the file its name.
     pub fn finish(self) -> Result<FileRecord, Error> {
         let record = self.digest.clone().record(self.name());
-        self.keep()?;
+        self.keep(TempPath::persist)?;
         Ok(record)
     }
 }

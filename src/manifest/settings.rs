@@ -32,7 +32,7 @@ pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<At
     let output = match fields.get("output") {
         None => Some("output".to_owned()),
         Some(value) => reader.text(value).filter(|text| {
-            if text.is_empty() || text.contains('\0') {
+            if text.is_empty() {
                 reader.note(Problem::error(value.span(), "this names no folder").help("write output = \"output\""));
             }
             !text.is_empty()

@@ -9,6 +9,7 @@ mod circuits;
 mod cognates;
 mod coupler_grid;
 mod design;
+mod faults;
 mod folder;
 mod house;
 mod instant;
