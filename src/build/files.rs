@@ -6,6 +6,7 @@ use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
 use crate::record::{FileRecord, RunningDigest};
+use crate::render::is_whole_png;
 
 /// The text of a manifest.
 ///
@@ -47,16 +48,16 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// Whether a file of a folder is what its record says: a text by its bytes; an image or a book, whose bytes no record has,
-/// by being whole.
+/// by being whole, an image also by the checksums in it.
 pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
     let path = folder.join(&record.name);
     let is_file = fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file());
     let holds = || -> io::Result<bool> {
-        let mut file = fs::File::open(&path)?;
         let Some(sha256) = &record.sha256 else {
-            let end: &[u8] = if record.name.ends_with(".pdf") { b"%%EOF" } else { PNG_END };
-            return ends_with(&mut file, end);
+            let is_book = record.name.ends_with(".pdf");
+            return if is_book { is_whole_book(&path) } else { Ok(is_whole_png(&fs::read(&path)?)) };
         };
+        let mut file = fs::File::open(&path)?;
         let mut digest = RunningDigest::default();
         io::copy(&mut file, &mut digest)?;
         Ok(digest.finish() == *sha256)
@@ -64,15 +65,14 @@ pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
     is_file && holds().unwrap_or(false)
 }
 
-/// The last chunk of a PNG.
-const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
-
-/// Whether a file ends as none does that was cut short.
-fn ends_with(file: &mut fs::File, end: &[u8]) -> io::Result<bool> {
-    let mut found = vec![0; end.len()];
-    file.seek(io::SeekFrom::End(-(end.len() as i64)))?;
+/// Whether a book ends as none does that was cut short.
+fn is_whole_book(path: &Path) -> io::Result<bool> {
+    const END: &[u8; 5] = b"%%EOF";
+    let mut file = fs::File::open(path)?;
+    let mut found = [0; END.len()];
+    file.seek(io::SeekFrom::End(-(END.len() as i64)))?;
     file.read_exact(&mut found)?;
-    Ok(found == end)
+    Ok(found == *END)
 }
 
 /// Removes files of a folder, those of them that are there. Neither the folder nor a file may be a link to another.

@@ -4,7 +4,7 @@ pub mod pdf;
 mod png;
 mod svg;
 
-pub use png::{Error as PngError, png};
+pub use png::{Error as PngError, is_whole_png, png};
 pub use svg::svg;
 
 /// A format pages are rendered in.

@@ -153,11 +153,18 @@ fn a_file_that_is_not_as_it_was_left_is_restored() {
     let cut = |name: &str| before[name][..before[name].len() - 5].to_vec();
     let mut edited = before["evans/evans-001.svg"].clone();
     edited[100] ^= 1;
+    // Spoilt in its midst: a bit, and a block that was never written.
+    let (mut turned, mut torn) = (before["evans/evans-002.png"].clone(), before["evans/evans-002.png"].clone());
+    let middle = turned.len() / 2;
+    turned[middle] ^= 1;
+    torn[middle..middle + 512].fill(0);
     for (name, bytes) in [
         ("evans/evans-001.svg", Some(edited)),
         ("evans/evans-002.svg", None),
         ("evans/evans-003.png", Some(cut("evans/evans-003.png"))),
         ("evans/evans-003.png", Some(Vec::new())),
+        ("evans/evans-002.png", Some(turned)),
+        ("evans/evans-002.png", Some(torn)),
         ("over/over-001.svg", Some(cut("over/over-001.svg"))),
         ("far/points.csv", Some(cut("far/points.csv"))),
         ("far/cells.csv", None),
