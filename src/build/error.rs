@@ -1,4 +1,4 @@
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::PathBuf;
 
 use crate::record::ReadError;
@@ -16,7 +16,7 @@ pub enum Error {
         source: io::Error,
     },
     /// A file or folder cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}; {}", path.display(), remedy(source.kind()))]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -62,4 +62,20 @@ pub enum Error {
     /// The run was asked to stop.
     #[error("interrupted: what is finished is kept, and the next run goes on from there")]
     Interrupted,
+}
+
+/// What to do about a file or folder that cannot be written.
+fn remedy(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "make room, and run it again: what is finished is kept",
+        ErrorKind::FileTooLarge => "raise the limit on the size of files, or write to a disk that takes larger ones",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "allow it to be written, or name another place for it"
+        }
+        ErrorKind::NotADirectory | ErrorKind::IsADirectory | ErrorKind::AlreadyExists => {
+            "something else is in its place: move that away, or name another place"
+        }
+        ErrorKind::NotFound => "its folder is gone: run it again",
+        _ => "mend that, and run it again: what is finished is kept",
+    }
 }

@@ -29,15 +29,20 @@ pub(super) fn build(
     let inputs = Inputs::new(planned);
     let inputs_sha256 = inputs.of_family();
     let earlier = journal.of(&family.id).cloned();
-    files::remove_leftovers(&folder);
-    let unchanged = |record: &FamilyRecord| earlier::unchanged(record, &inputs_sha256, &formats, &folder);
-    if let Some(mut record) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
+    let unchanged = |record: &FamilyRecord| {
+        let record = earlier::unchanged(record, &inputs_sha256, &formats, &folder)?;
+        let told = known_shortfalls(&record, &folder)?;
+        Some((record, told))
+    };
+    if let Some((mut record, told)) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
         record.files.extend(others_left(earlier.as_ref(), &record, &formats, options));
         // In the order they had.
         let known = earlier.iter().flat_map(|earlier| &earlier.files);
         let places: HashMap<&str, usize> = known.zip(0..).map(|(file, place)| (file.name.as_str(), place)).collect();
         record.files.sort_by_key(|file| places.get(file.name.as_str()).copied());
-        tell_shortfalls(&record, &folder, tell)?;
+        for (cell, reason) in &told {
+            tell(Event::Shortfall { family: &family.id, cell: *cell, reason });
+        }
         remove_others(earlier, &record, &folder)?;
         tell(Event::End { record: &record, drawn: None });
         return journal.put(record);
@@ -75,14 +80,12 @@ pub(super) fn build(
     }
 }
 
-/// Tells of the cells of a family that was left alone which are not assembled.
-fn tell_shortfalls(record: &FamilyRecord, folder: &Path, tell: &mut dyn FnMut(Event)) -> Result<(), Error> {
-    if record.not_assembled > 0 {
-        for (cell, reason) in shortfalls(&files::open(&folder.join("cells.csv"))?) {
-            tell(Event::Shortfall { family: &record.id, cell, reason: &reason });
-        }
+/// The cells of a family that was left alone which are not assembled; nothing where its table has gone since.
+fn known_shortfalls(record: &FamilyRecord, folder: &Path) -> Option<Vec<(usize, String)>> {
+    if record.not_assembled == 0 {
+        return Some(Vec::new());
     }
-    Ok(())
+    files::open(&folder.join("cells.csv")).ok().map(shortfalls)
 }
 
 /// Removes the files of an earlier run that are not among those of a record.

@@ -2,10 +2,11 @@ use std::fs;
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
 use crate::record::{FileRecord, RunningDigest};
+use crate::render::is_whole_png;
 
 /// The text of a manifest.
 ///
@@ -20,15 +21,16 @@ pub fn read_manifest(path: &Path) -> Result<String, Error> {
 /// Writes a file that must not exist yet.
 ///
 /// # Errors
-/// A file that exists already (`AlreadyExists`) or cannot be written.
+/// A file that exists already (`AlreadyExists`) or cannot be written; there is none then if there was none.
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let written = fs::OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut f| f.write_all(bytes));
-    written.map_err(|source| Error::Write { path: path.to_owned(), source })
+    let mut file = Growing::open(path.to_owned())?;
+    file.put(bytes)?;
+    file.keep(TempPath::persist_noclobber)
 }
 
 /// A file to be read.
-pub(super) fn open(path: &Path) -> Result<fs::File, Error> {
-    fs::File::open(path).map_err(|source| Error::Read { path: path.to_owned(), source })
+pub(super) fn open(path: &Path) -> io::Result<fs::File> {
+    fs::File::open(path)
 }
 
 /// Makes a folder, and those it is in.
@@ -46,20 +48,20 @@ pub fn create_folder(path: &Path) -> Result<(), Error> {
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut file = Growing::open(path.to_owned())?;
     file.put(bytes)?;
-    file.keep()
+    file.keep(TempPath::persist)
 }
 
 /// Whether a file of a folder is what its record says: a text by its bytes; an image or a book, whose bytes no record has,
-/// by being whole.
+/// by being whole, an image also by the checksums in it.
 pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
     let path = folder.join(&record.name);
     let is_file = fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file());
     let holds = || -> io::Result<bool> {
-        let mut file = fs::File::open(&path)?;
         let Some(sha256) = &record.sha256 else {
-            let end: &[u8] = if record.name.ends_with(".pdf") { b"%%EOF" } else { PNG_END };
-            return ends_with(&mut file, end);
+            let is_book = record.name.ends_with(".pdf");
+            return if is_book { is_whole_book(&path) } else { Ok(is_whole_png(&fs::read(&path)?)) };
         };
+        let mut file = fs::File::open(&path)?;
         let mut digest = RunningDigest::default();
         io::copy(&mut file, &mut digest)?;
         Ok(digest.finish() == *sha256)
@@ -67,15 +69,14 @@ pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
     is_file && holds().unwrap_or(false)
 }
 
-/// The last chunk of a PNG.
-const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
-
-/// Whether a file ends as none does that was cut short.
-fn ends_with(file: &mut fs::File, end: &[u8]) -> io::Result<bool> {
-    let mut found = vec![0; end.len()];
-    file.seek(io::SeekFrom::End(-(end.len() as i64)))?;
+/// Whether a book ends as none does that was cut short.
+fn is_whole_book(path: &Path) -> io::Result<bool> {
+    const END: &[u8; 5] = b"%%EOF";
+    let mut file = fs::File::open(path)?;
+    let mut found = [0; END.len()];
+    file.seek(io::SeekFrom::End(-(END.len() as i64)))?;
     file.read_exact(&mut found)?;
-    Ok(found == end)
+    Ok(found == *END)
 }
 
 /// Removes files of a folder, those of them that are there. Neither the folder nor a file may be a link to another.
@@ -91,16 +92,29 @@ pub(super) fn remove<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) ->
     Ok(())
 }
 
-/// Removes what a run that was killed had begun to write in a folder. No other run may be writing there.
-pub(super) fn remove_leftovers(folder: &Path) {
-    let entries = if is_folder(folder) { fs::read_dir(folder).ok() } else { None };
-    for entry in entries.into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let is_ours = name.to_str().is_some_and(|name| name.starts_with(UNFINISHED.0) && name.ends_with(UNFINISHED.1));
-        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
-            // One that cannot be removed is in nobody's way.
-            let _ = fs::remove_file(entry.path());
+/// Removes what a run that was killed had begun to write in a folder and in those within it, whosever they are: what is
+/// named so is nobody else's. No other run may be writing there.
+pub(super) fn remove_leftovers(output: &Path) {
+    for entry in entries(output) {
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            entries(&entry.path()).for_each(remove_leftover);
+        } else {
+            remove_leftover(entry);
         }
+    }
+}
+
+/// What is in a folder, as far as it can be read.
+fn entries(folder: &Path) -> impl Iterator<Item = fs::DirEntry> {
+    fs::read_dir(folder).into_iter().flatten().flatten()
+}
+
+fn remove_leftover(entry: fs::DirEntry) {
+    let name = entry.file_name();
+    let is_ours = name.to_str().is_some_and(|name| name.starts_with(UNFINISHED.0) && name.ends_with(UNFINISHED.1));
+    if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+        // One that cannot be removed is in nobody's way.
+        let _ = fs::remove_file(entry.path());
     }
 }
 
@@ -116,7 +130,9 @@ const UNFINISHED: (&str, &str) = (".coupler-atlas-", ".tmp");
 /// nothing is left behind if it never is.
 pub(super) struct Growing {
     path: PathBuf,
-    file: io::BufWriter<NamedTempFile>,
+    file: io::BufWriter<fs::File>,
+    /// Its other name, which goes with this unless it is exchanged for its own.
+    unfinished: TempPath,
     digest: RunningDigest,
 }
 
@@ -129,17 +145,15 @@ impl Growing {
     }
 
     fn open(path: PathBuf) -> Result<Growing, Error> {
-        let folder = path.parent().unwrap_or(Path::new("."));
+        let folder = path.parent().unwrap_or(Path::new(""));
         let mut builder = tempfile::Builder::new();
         builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // A temporary file is its owner's alone; a result is for everyone the umask allows.
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        match builder.tempfile_in(folder) {
-            Ok(file) => Ok(Growing { path, file: io::BufWriter::new(file), digest: RunningDigest::default() }),
+        // A temporary file would be its owner's alone; a result is for everyone the umask allows.
+        match builder.make_in(folder, |path| fs::File::create_new(path)) {
+            Ok(file) => {
+                let (file, unfinished) = file.into_parts();
+                Ok(Growing { path, file: io::BufWriter::new(file), unfinished, digest: RunningDigest::default() })
+            }
             Err(source) => Err(Error::Write { path, source }),
         }
     }
@@ -159,11 +173,12 @@ impl Growing {
         self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    fn keep(self) -> Result<(), Error> {
-        let Growing { path, file, .. } = self;
+    /// Closes the file and renames it.
+    fn keep(self, rename: fn(TempPath, PathBuf) -> Result<(), PathPersistError>) -> Result<(), Error> {
+        let Growing { path, file, unfinished, .. } = self;
         let kept = file.into_inner().map_err(io::IntoInnerError::into_error).and_then(|file| {
-            file.persist(&path).map_err(|error| error.error)?;
-            Ok(())
+            drop(file);
+            rename(unfinished, path.clone()).map_err(|error| error.error)
         });
         kept.map_err(|source| Error::Write { path, source })
     }
@@ -171,7 +186,7 @@ impl Growing {
     /// Gives the file its name.
     pub fn finish(self) -> Result<FileRecord, Error> {
         let record = self.digest.clone().record(self.name());
-        self.keep()?;
+        self.keep(TempPath::persist)?;
         Ok(record)
     }
 }

@@ -65,7 +65,6 @@ impl<'a> Journal<'a> {
         let is_planned = |record: &FamilyRecord| self.plan.families.iter().any(|p| p.family.id == record.id);
         for record in self.families.iter().filter(|record| !is_planned(record)) {
             let folder = output.join(&record.id);
-            files::remove_leftovers(&folder);
             files::remove(&folder, record.files.iter().map(|file| file.name.as_str()))?;
             // A folder that is not empty has something of others in it, and stays.
             let _ = fs::remove_dir(&folder);

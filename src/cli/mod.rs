@@ -86,8 +86,11 @@ fn failure(error: &anyhow::Error) -> ExitCode {
     if error.downcast_ref::<io::Error>().is_some_and(is_pipe) {
         return ExitCode::SUCCESS;
     }
-    // Each message names its cause itself.
-    let message = error.to_string();
+    // Each message names its cause itself, but for what cannot be printed.
+    let message = match error.downcast_ref::<io::Error>() {
+        Some(error) => format!("cannot write to standard output: {error}; the files that were written are whole"),
+        None => error.to_string(),
+    };
     if !message.is_empty() {
         let _ = writeln!(io::stderr(), "error: {message}");
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use coupler_atlas::build;
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::problem::{self, Problem};
+use coupler_atlas::problem::{self, Problem, nearest_or_all};
 
 use super::{WrongInput, count, say};
 
@@ -42,6 +42,15 @@ impl Source {
     /// Says more of what is wrong with the manifest.
     pub fn report(&self, problems: &[Problem]) {
         report(&self.path, &self.text, problems);
+    }
+
+    /// Complains of ids that are no family's.
+    pub fn has_families(&self, only: &[String]) -> Result<(), WrongInput> {
+        let ids: Vec<&str> = self.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
+        match only.iter().find(|id| !ids.contains(&id.as_str())) {
+            Some(id) => Err(WrongInput(format!("there is no family `{id}`: {}", nearest_or_all(id, &ids)))),
+            None => Ok(()),
+        }
     }
 
     /// The folder results go to: as given on the command line, or beside the manifest.

@@ -53,12 +53,7 @@ const NAMED: usize = 10;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let source = plan::read(&arguments.manifest)?;
-    let ids: Vec<&str> = source.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
-    for id in &arguments.only {
-        if !ids.contains(&id.as_str()) {
-            return Err(WrongInput(format!("there is no family `{id}`: {}", nearest_or_all(id, &ids))).into());
-        }
-    }
+    source.has_families(&arguments.only)?;
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }

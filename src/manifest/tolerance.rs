@@ -64,15 +64,12 @@ pub(super) static OWN_CHECK: Table = Table::new("`check`", &KEYS);
 static KEYS: [Key; 3] = [
     Key::new("atol", Form::Within([0.0, f64::MAX]), "How far a point may move, in units of length.").or("0"),
     Key::new("rtol", Form::Within([0.0, f64::MAX]), "How far a point may move, by the size of its curve.").or("1e-12"),
-    Key::new("measure_rtol", Form::Within([0.0, f64::MAX]), "How much a measure may differ, by its own size.").or("1e-9"),
+    Key::new("measure_rtol", Form::Within([0.0, f64::MAX]), "How much a measure may differ, by its own size.")
+        .or("1e-9"),
 ];
 
 /// The tolerances of a table.
-pub(super) fn read<'t>(
-    value: Option<&Value<'t>>,
-    table: &'static Table,
-    reader: &mut Reader<'t>,
-) -> GivenTolerances {
+pub(super) fn read<'t>(value: Option<&Value<'t>>, table: &'static Table, reader: &mut Reader<'t>) -> GivenTolerances {
     let fields = value.and_then(|value| Fields::of(value, table, reader));
     let Some(fields) = fields else { return GivenTolerances::default() };
     let mut tolerance = |key: &str| {

@@ -126,7 +126,8 @@ impl Search<'_> {
         // So few points say little: they may only be far apart. Likelier is a portion where the curve is flattest, or one of
         // more points that is shorter than those seem.
         if found[1] - found[0] < FEW {
-            let by_more = || Search { least: FEW, ..*self }.by_points(LOOSER).and_then(|(ends, _)| self.refined(ends, DEPTH));
+            let by_more =
+                || Search { least: FEW, ..*self }.by_points(LOOSER).and_then(|(ends, _)| self.refined(ends, DEPTH));
             let all = [flattest(), self.refined(found, DEPTH), by_more()].into_iter().flatten();
             return all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
         }

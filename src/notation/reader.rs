@@ -61,15 +61,24 @@ impl<'t> Reader<'t> {
         self.note(Problem::error(value.span(), format!("{wanted} is wanted here, and this is {found}")).help(help));
     }
 
-    /// Text.
+    /// Text on one line: line breaks and tabs count as spaces. Other control characters, which could not be written to an
+    /// SVG, are a problem.
     pub fn text(&mut self, value: &Value<'t>) -> Option<String> {
-        match value.get_ref() {
-            DeValue::String(text) => Some(text.to_string()),
-            _ => {
-                self.wanted(value, "text", "put it in quotes");
-                None
-            }
+        let DeValue::String(text) = value.get_ref() else {
+            self.wanted(value, "text", "put it in quotes");
+            return None;
+        };
+        let is_unreadable = |&(at, c): &(usize, char)| {
+            c.is_control() && !matches!(c, '\t' | '\n') && !text[at..].starts_with("\r\n")
+                || matches!(c, '\u{fffe}' | '\u{ffff}')
+        };
+        if let Some((at, c)) = text.char_indices().find(is_unreadable) {
+            let span = self.inside(value, at..at + c.len_utf8());
+            let problem = Problem::error(span, format!("a text cannot have the control character U+{:04X}", c as u32));
+            self.note(problem.help("leave it out; a line break or a tab counts as a space"));
+            return None;
         }
+        Some(text.replace("\r\n", " ").replace(['\n', '\t'], " "))
     }
 
     /// True or false, or one word of several.
@@ -285,13 +294,16 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The place in the text of a part of a string; the whole string where it is written with escapes.
+    /// The place in the text of a part of a string; the whole string where it is written with escapes, or over several
+    /// lines with a carriage return in each.
     fn inside(&self, value: &Value<'t>, inner: Span) -> Span {
         let whole = value.span();
         let DeValue::String(content) = value.get_ref() else { return whole };
         let written = self.written(value);
         let quotes = written.len().saturating_sub(content.len()) / 2;
-        let as_is = matches!(quotes, 1 | 3) && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
+        let as_is = matches!(quotes, 1 | 3)
+            && !content.contains('\r')
+            && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
         if as_is {
             let start = whole.start + quotes;
             start + inner.start..start + inner.end.max(inner.start)

@@ -6,17 +6,26 @@ use super::{Gravity, Problem};
 /// Draws problems for a person to read: each with file, line and column, the offending text underlined and `help:`.
 ///
 /// `path` is the name the text goes by. Spans beyond the text are brought to its end. With `styled` the report has
-/// a terminal's colours.
+/// a terminal's colours; it has no other control characters, whatever the text has.
 pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
     let mut ordered: Vec<&Problem> = problems.iter().collect();
     ordered.sort_by_key(|p| (p.gravity != Gravity::Error, p.span.start));
     let mut out = String::new();
     for problem in ordered {
-        out.push_str(&renderer.render(&[group(problem, path, text)]));
+        let Problem { message, label, help, .. } = problem;
+        let [message, label, help] = [message, label, help].map(|words| plain(words));
+        let shown = Problem { message, label, help, ..problem.clone() };
+        out.push_str(&renderer.render(&[group(&shown, path, text)]));
         out.push_str("\n\n");
     }
-    out
+    // Of the text itself the renderer shows those of ASCII by signs, and leaves the others, which terminals obey too.
+    out.replace(|c: char| ('\u{80}'..='\u{9f}').contains(&c), "\u{fffd}")
+}
+
+/// Words that may quote the text, without its control characters.
+fn plain(words: &str) -> String {
+    words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
 }
 
 fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_snippets::Group<'a> {

@@ -8,7 +8,7 @@ mod png;
 mod svg;
 
 pub use drawn::{DrawnCurve, DrawnError, drawn_curves};
-pub use png::{Error as PngError, png};
+pub use png::{Error as PngError, is_whole_png, png};
 pub use svg::svg;
 
 /// A format pages are rendered in.

@@ -1,8 +1,12 @@
-//! An atlas that is rendered for a test.
+//! An atlas that is rendered for a test, and what is in its folder.
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Output};
+use std::time::SystemTime;
 
+use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
 /// A manifest in a folder of its own, whose atlas goes to `out` beside it.
@@ -34,4 +38,67 @@ impl Atlas {
         let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
         (status.code().unwrap_or(-1), String::from_utf8(stdout).unwrap(), String::from_utf8(stderr).unwrap())
     }
+}
+
+/// The files below a folder, by their paths from there.
+pub fn files(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() {
+            found.extend(files(&path).into_iter().map(|file| format!("{name}/{file}")));
+        } else {
+            found.push(name);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// When each file below a folder was written.
+pub fn times(folder: &Path) -> BTreeMap<String, SystemTime> {
+    let time = |name: String| (name.clone(), fs::metadata(folder.join(name)).unwrap().modified().unwrap());
+    files(folder).into_iter().map(time).collect()
+}
+
+/// The bytes of each file below a folder.
+pub fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    files(folder).into_iter().map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
+}
+
+/// Every digest in `run.json` is that of the file, and every file that it claims is there; every file is whole. How many
+/// pages are claimed to be made.
+pub fn record_is_true(out: &Path) -> usize {
+    let found = tree(out);
+    let mut claimed = 0;
+    if let Some(text) = found.get("run.json") {
+        let record: serde_json::Value = serde_json::from_slice(text).unwrap();
+        let of_families = record["families"].as_array().unwrap().iter().flat_map(|family| {
+            let folder = format!("{}/", family["id"].as_str().unwrap());
+            family["files"].as_array().unwrap().iter().map(move |file| (folder.clone(), file))
+        });
+        let of_book = record["book"]["files"].as_array().into_iter().flatten().map(|file| (String::new(), file));
+        for (folder, file) in of_families.chain(of_book) {
+            let name = folder + file["name"].as_str().unwrap();
+            let is_claimed = !file["inputs_sha256"].is_null();
+            claimed += usize::from(is_claimed);
+            assert!(!is_claimed || found.contains_key(&name), "{name} is recorded and not there");
+            if let Some(sha256) = file["sha256"].as_str() {
+                assert_eq!(format!("{:x}", Sha256::digest(&found[&name])), sha256, "{name}");
+            }
+        }
+    }
+    // A test's own files are not pages, whatever they are called.
+    for (name, bytes) in found.iter().filter(|(_, bytes)| *bytes != b"mine") {
+        let end: &[u8] = match name.rsplit('.').next().unwrap() {
+            "svg" => b"</svg>\n",
+            "png" => b"IEND\xaeB`\x82",
+            "pdf" => b"%%EOF",
+            "csv" | "json" => b"\n",
+            _ => b"",
+        };
+        assert!(bytes.ends_with(end), "{name} is not whole");
+    }
+    claimed
 }

@@ -404,9 +404,50 @@ fn windows_line_ends_and_a_byte_order_mark_are_no_problem() {
     plan(&format!("\u{feff}{GOOD}"));
 }
 
+/// A name of the writer's own is a name like any other.
+#[test]
+fn another_name_makes_the_same_linkages() {
+    let linkages = |text: &str| {
+        let family = plan(text).families.remove(0).family;
+        (0..family.cells()).map(|k| format!("{:?}", family.linkage(&family.cell(k)))).collect::<Vec<_>>()
+    };
+    let text = OWN.replace("along = 1", "along = \"p / 2\"").replace("p = [4]", "p = [3, 4, 5]");
+    for name in ["q", "_", "the_frame", "P2", "sqrt", "deg"] {
+        let renamed = text
+            .replace("{ p = { min", &format!("{{ {name} = {{ min"))
+            .replace("\"p\"", &format!("\"{name}\""))
+            .replace("\"p / 2\"", &format!("\"{name} / 2\""))
+            .replace("{ p = [", &format!("{{ {name} = ["));
+        assert_eq!(linkages(&renamed), linkages(&text), "{name}");
+    }
+}
+
 mod properties {
     use super::*;
     use proptest::prelude::*;
+
+    /// The keys of a family, a line each.
+    const KEYS: [&str; 10] = [
+        "id = \"mine\"",
+        "linkage = \"mine\"",
+        "title = \"Mine\"",
+        "layout = \"panels\"",
+        "panels = [2, 2]",
+        "sampling = { samples = 12 }",
+        "grid = { p = [3, 4], h = [1, 2] }",
+        "let = { g = \"p + h\" }",
+        "where = \"g > 0\"",
+        "columns = [\"vx\"]",
+    ];
+
+    /// The joints of a linkage, a line each.
+    const JOINTS: [&str; 5] = [
+        "O = { fixed = [0, 0] }",
+        "C = { fixed = [\"p\", 0] }",
+        "A = { crank = \"O\", length = 1 }",
+        "B = { dyad = [\"A\", \"C\"], lengths = [3, 3.5], side = \"left\" }",
+        "M = { point = [\"A\", \"B\"], along = 1, across = 2 }",
+    ];
 
     proptest! {
         #![proptest_config(crate::random())]
@@ -425,6 +466,55 @@ mod properties {
             let text = if twice { format!("{}{}", &OWN[..b], &OWN[a..]) } else { format!("{}{}", &OWN[..a], &OWN[b..]) };
             let loaded = manifest::load(&text);
             report(&loaded.problems, "m", &text, false);
+        }
+
+        /// The order of keys counts where values are ranged over, and nowhere else.
+        #[test]
+        fn the_order_of_keys_changes_no_plan(
+            keys in Just(KEYS.to_vec()).prop_shuffle(),
+            joints in Just(JOINTS.to_vec()).prop_shuffle(),
+            tables in Just(vec![0, 1, 2, 3]).prop_shuffle(),
+        ) {
+            let text = |keys: &[&str], joints: &[&str], tables: &[usize]| {
+                let parts = [
+                    "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]".to_owned(),
+                    "[page]\ndpi = 50\npaper = \"a4\"".to_owned(),
+                    format!("[[family]]\n{}", keys.join("\n")),
+                    format!("[[linkage]]\nid = \"mine\"\nparameters = {{ p = {{}} }}\ntrace = [\"M\"]\n[linkage.joints]\n{}", joints.join("\n")),
+                ];
+                tables.iter().map(|&k| format!("{}\n", parts[k])).collect::<String>()
+            };
+            let meant = |text: &str| {
+                let plan = plan(text);
+                let planned = &plan.families[0];
+                let family = &planned.family;
+                let cells: Vec<_> = (0..family.cells()).map(|k| family.cell(k)).collect();
+                let values = |cell| ["p", "h", "g"].map(|name| family.value(name, cell).to_bits());
+                // Joints are numbered as they are written: the motion of the traced one tells that they are the same.
+                let sampler = coupler_atlas::motion::Sampler::new(family.sampling);
+                let curves = |k| {
+                    let solved = coupler_atlas::sweep::solve(family, &sampler, k).unwrap();
+                    let joint = solved.linkage.traced[0];
+                    solved.motion.circuits.iter().map(|c| c.points(joint).map(|p| [p.x.to_bits(), p.y.to_bits()]).collect()).collect::<Vec<Vec<_>>>()
+                };
+                let outside = format!("{} {} {} {:?} {:?} {:?}", plan.title, plan.output, plan.dpi, plan.page, planned.layout, planned.formats);
+                let inside = format!("{} {} {:?} {:?}", family.id, family.title, family.sampling, family.columns);
+                let cells: Vec<_> = cells.iter().map(values).collect();
+                (outside, inside, cells.clone(), (0..cells.len()).map(curves).collect::<Vec<_>>())
+            };
+            prop_assert_eq!(meant(&text(&keys, &joints, &tables)), meant(&text(&KEYS, &JOINTS, &[0, 1, 2, 3])));
+        }
+
+        /// Whatever stands in a manifest, what is wrong with it is at a place in it, and can be told on a terminal.
+        #[test]
+        fn every_problem_is_in_the_text(at in 0..OWN.len(), to in 0..OWN.len(), any: String, odd in "[é\u{0}\u{1b}\u{85}🦀\"'\\\\\r\n={}\\[\\]#]{0,6}") {
+            let (at, to) = (at.min(to), at.max(to).min(at.min(to) + 20));
+            for text in [any.clone(), format!("{}{any}{}", &OWN[..at], &OWN[to..]), format!("{}{odd}{}", &OWN[..at], &OWN[to..])] {
+                for problem in manifest::load(&text).problems {
+                    prop_assert!(text.get(problem.span.clone()).is_some(), "{problem:?} in {text:?}");
+                    prop_assert!(!problem.help.is_empty(), "{problem:?}");
+                }
+            }
         }
 
         #[test]

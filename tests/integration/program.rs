@@ -107,24 +107,6 @@ fn render_writes_pages_points_cells_and_a_record() {
 }
 
 #[test]
-fn the_same_bytes_with_any_number_of_jobs() {
-    let folder = folder_with(&MANIFEST.replace("\"svg\"", "\"svg\", \"png\""));
-    let trees: Vec<_> = ["1", "2", "8"]
-        .map(|jobs| {
-            let out = folder.path().join(jobs);
-            let (code, ..) = run(folder.path(), &["render", "-q", "--jobs", jobs, "-o", out.to_str().unwrap()]);
-            assert_eq!(code, 0);
-            tree(&out)
-                .into_iter()
-                .map(|(path, bytes)| (path.strip_prefix(&out).unwrap().to_owned(), bytes))
-                .collect::<Vec<_>>()
-        })
-        .into();
-    assert!(trees[0].len() > 8);
-    assert!(trees[0] == trees[1] && trees[1] == trees[2]);
-}
-
-#[test]
 fn png_records_its_resolution() {
     let folder =
         folder_with(&MANIFEST.replace("[[family]]\nid = \"evans\"", "[page]\ndpi = 60\n[[family]]\nid = \"evans\""));

@@ -92,10 +92,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let source = plan::read(&arguments.manifest)?;
-    let ids: Vec<&str> = source.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
-    for id in arguments.only.iter().filter(|id| !ids.contains(&id.as_str())) {
-        return Err(WrongInput(format!("there is no family `{id}`: {}", nearest_or_all(id, &ids))).into());
-    }
+    source.has_families(&arguments.only)?;
     if arguments.bless && !arguments.only.is_empty() {
         let words = "--bless records all families: leave out --only, or `render --force --only` one of them";
         return Err(WrongInput(words.to_owned()).into());

@@ -1,7 +1,7 @@
 //! The atlas as a book in PDF, read back.
 
 mod bound;
-mod reader;
+pub mod reader;
 
 use coupler_atlas::geometry::{Point, Vector};
 use coupler_atlas::render::pdf::{Book, Error};

@@ -153,7 +153,7 @@ impl Interpreter {
         let mut contents = Contents::default();
         let (mut matrix, mut width) = ([1.0, 0.0, 0.0, 1.0, 0.0, 0.0], 1.0);
         let (mut operands, mut lines, mut font, mut text) = (Vec::new(), Vec::<Drawn>::new(), String::new(), [0.0; 6]);
-        let mut size = 0.0;
+        let (mut size, mut name) = (0.0, String::new());
         let mut shown: Vec<u8> = Vec::new();
         let mm = |matrix: &[f64; 6], x: f64, y: f64, height: f64| {
             let [a, b, c, d, e, f] = *matrix;
@@ -186,7 +186,9 @@ impl Interpreter {
                     contents.paths.push((std::mem::take(&mut lines), word.clone(), width * scale * MM));
                 }
                 "Tm" => text = times(&operands, &matrix),
-                "Tf" => size = operands[0],
+                "Tf" => (size, font) = (operands[0], name.clone()),
+                // What marked contents are called is not drawn.
+                "BDC" => shown.clear(),
                 "TJ" | "Tj" => {
                     let glyphs = shown.chunks(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
                     let font = &self.fonts[&font];
@@ -195,7 +197,7 @@ impl Interpreter {
                     contents.texts.push((says, start, [end[0] - start[0], end[1] - start[1]]));
                     shown.clear();
                 }
-                name if name.starts_with('/') => name[1..].clone_into(&mut font),
+                word if word.starts_with('/') => word[1..].clone_into(&mut name),
                 _ => {}
             }
             if !word.starts_with('/') {
@@ -228,14 +230,16 @@ fn tokens(stream: &[u8]) -> Vec<Token> {
                 found.push(Token::String(string));
                 at += end;
             }
-            b'<' if stream.get(at + 1) != Some(&b'<') => {
+            // A dictionary, as of marked contents.
+            b'<' if stream.get(at + 1) == Some(&b'<') => at += 2,
+            b'<' => {
                 let end = at + stream[at..].iter().position(|b| *b == b'>').unwrap();
                 let digits = std::str::from_utf8(&stream[at + 1..end]).unwrap();
                 found
                     .push(Token::String((0..digits.len() / 2).map(|k| hex(&digits[2 * k..2 * k + 2]) as u8).collect()));
                 at = end + 1;
             }
-            b' ' | b'\n' | b'\r' | b'[' | b']' | b'<' | b'>' => at += 1,
+            b' ' | b'\n' | b'\r' | b'[' | b']' | b'>' => at += 1,
             _ => {
                 let ends = |b: &u8| b" \n\r[]()<>".contains(b);
                 let length =

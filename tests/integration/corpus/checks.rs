@@ -1,0 +1,63 @@
+//! What holds of any text: the fuzz targets and the test over their corpora ask the same.
+
+use coupler_atlas::expression::{Caption, Dimension, Error, Expression, Quantity};
+use coupler_atlas::family::Family;
+use coupler_atlas::manifest;
+use coupler_atlas::motion::{Sampler, Sampling};
+use coupler_atlas::problem::report;
+use coupler_atlas::sweep;
+
+/// A manifest is a plan or has problems: each at a place in it, with a remedy, and what is said of them is plain text.
+///
+/// Of a plan a cell of each family can be solved.
+pub fn manifest(text: &str) {
+    // Whoever allows a family more cells than usual has asked for the time it takes to look at all of them.
+    if text.contains("limit") {
+        return;
+    }
+    let loaded = manifest::load(text);
+    for problem in &loaded.problems {
+        assert!(text.get(problem.span.clone()).is_some(), "{problem:?} is not in the text");
+        assert!(!problem.message.is_empty() && !problem.help.is_empty(), "{problem:?}");
+    }
+    let said = report(&loaded.problems, "atlas.toml", text, false);
+    assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
+    assert_eq!(loaded.plan.is_none(), loaded.problems.iter().any(|problem| problem.is_error()), "{said}");
+    for planned in loaded.plan.iter().flat_map(|plan| &plan.families).take(3) {
+        solve(&planned.family);
+    }
+}
+
+/// Its last cell, coarsely, if few enough points are traced.
+fn solve(family: &Family) {
+    let Some(last) = family.cells().checked_sub(1) else { return };
+    let few = family.linkage(&family.cell(last)).is_ok_and(|linkage| linkage.traced.len() <= 20);
+    if few && let Some(solved) = sweep::solve(family, &Sampler::new(Sampling::Samples(12)), last) {
+        let circuits = &solved.motion.circuits;
+        assert!(circuits.iter().all(|circuit| circuit.input.iter().all(|input| input.is_finite())));
+        family.describe(&solved.cell, solved.measures());
+    }
+}
+
+/// An expression, a quantity or a caption is read, or has a mistake at a place in it.
+pub fn expression(text: &str) {
+    let read = Expression::parse(text);
+    if let Ok(read) = &read {
+        is_placed(read.check(&["p", "r"], |_| None), text);
+        read.evaluate(|k| 0.5 + k as f64);
+    }
+    is_placed(read, text);
+    is_placed(Quantity::parse(text, Dimension::Angle), text);
+    is_placed(Quantity::parse(text, Dimension::Paper), text);
+    match Caption::parse(text) {
+        Ok(caption) => drop(caption.format(|_| 2.5, |_| None)),
+        error => is_placed(error, text),
+    }
+}
+
+fn is_placed<T>(read: Result<T, Error>, text: &str) {
+    if let Err(Error { message, span, help }) = read {
+        assert!(text.get(span.clone()).is_some(), "{message} at {span:?} of {text:?}");
+        assert!(!message.is_empty() && !help.is_empty(), "{message}");
+    }
+}

@@ -1,0 +1,62 @@
+//! The corpora of the fuzz targets in `fuzz/`, each text and some changes of it.
+
+mod checks;
+mod mutator;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use mutator::Mutator;
+
+/// So many changes are made of each text; `CORPUS_CHANGES=10000` asks for more.
+fn changes() -> usize {
+    std::env::var("CORPUS_CHANGES").ok().and_then(|number| number.parse().ok()).unwrap_or(300)
+}
+
+/// The files of folders and single files, in order.
+fn texts(places: &[&str]) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for place in places.iter().map(|place| Path::new(env!("CARGO_MANIFEST_DIR")).join(place)) {
+        let files = match fs::read_dir(&place) {
+            Ok(entries) => entries.map(|entry| entry.unwrap().path()).collect(),
+            Err(_) => vec![place],
+        };
+        let is_text = |path: &PathBuf| path.extension().is_none_or(|extension| extension != "rs");
+        found.extend(files.into_iter().filter(is_text).map(|path| {
+            let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            (path, text)
+        }));
+    }
+    found.sort();
+    found
+}
+
+/// Runs a check on texts and their changes, and names the one that does not pass.
+fn run(texts: &[(PathBuf, String)], changes: usize, check: fn(&str)) {
+    let seeds = 1..;
+    for (seed, (path, text)) in seeds.zip(texts) {
+        let mut mutator = Mutator::new(seed);
+        let changed = std::iter::repeat_with(|| mutator.change(text)).take(changes);
+        for (k, text) in std::iter::once(text.clone()).chain(changed).enumerate() {
+            let passes = std::panic::catch_unwind(|| check(&text));
+            assert!(passes.is_ok(), "{}, change {k}:\n{text}", path.display());
+        }
+    }
+}
+
+#[test]
+fn any_manifest_is_a_plan_or_has_problems() {
+    let small = texts(&["fuzz/corpus/manifest", "src/cli/starter.toml", "src/catalogue"]);
+    assert!(small.len() > 20);
+    run(&small, changes(), checks::manifest);
+    let great = texts(&["atlas.toml", "examples"]);
+    assert!(great.len() > 2);
+    run(&great, changes() / 10, checks::manifest);
+}
+
+#[test]
+fn any_expression_is_read_or_has_a_mistake() {
+    let texts = texts(&["fuzz/corpus/expression"]);
+    assert!(texts.len() > 10);
+    run(&texts, changes(), checks::expression);
+}

@@ -1,0 +1,94 @@
+//! Small changes of a text, the same in every run.
+
+/// Makes changes from a seed.
+pub struct Mutator(u64);
+
+/// What is put into texts: what means something somewhere, and what hardly anything is prepared for.
+const TOKENS: [&str; 40] = [
+    "0",
+    "-1",
+    "1e308",
+    "1e-308",
+    "nan",
+    "inf",
+    "9223372036854775808",
+    "0x7f",
+    "1_0",
+    "\"",
+    "'",
+    "\"\"\"",
+    "[",
+    "]",
+    "{",
+    "}",
+    "=",
+    ",",
+    ".",
+    "#",
+    "\n",
+    "\r\n",
+    "\\u0000",
+    "\\U0010FFFF",
+    "é",
+    "\u{1f980}",
+    "\u{0}",
+    "\u{85}",
+    "\u{feff}",
+    "(",
+    ")",
+    "^",
+    "-",
+    " deg",
+    "[[family]]\n",
+    "[[linkage]]\n",
+    "true",
+    "[]",
+    "{}",
+    "not ",
+];
+
+impl Mutator {
+    pub fn new(seed: u64) -> Mutator {
+        Mutator(seed)
+    }
+
+    /// A number below another (Knuth's MMIX generator).
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % n.max(1)
+    }
+
+    /// A place between two characters.
+    fn place(&mut self, text: &str) -> usize {
+        let mut at = self.below(text.len() + 1);
+        while !text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    }
+
+    /// A short part of a text.
+    fn part(&mut self, text: &str) -> std::ops::Range<usize> {
+        let from = self.place(text);
+        let length = 1 + self.below(30);
+        let to = text[from..].char_indices().nth(length).map_or(text.len(), |(at, _)| from + at);
+        from..to
+    }
+
+    /// A text with a few changes.
+    pub fn change(&mut self, text: &str) -> String {
+        let mut out = text.to_owned();
+        for _ in 0..1 + self.below(3) {
+            let (part, at) = (self.part(&out), self.place(&out));
+            let word = out[part.clone()].to_owned();
+            match self.below(5) {
+                0 => out.replace_range(part, ""),
+                1 => out.insert_str(at, &word),
+                2 => out.insert_str(at, TOKENS[self.below(TOKENS.len())]),
+                3 => out.replace_range(part, TOKENS[self.below(TOKENS.len())]),
+                _ => out.truncate(at),
+            }
+        }
+        out
+    }
+}

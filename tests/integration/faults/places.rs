@@ -1,0 +1,100 @@
+use std::fs;
+use std::process::Stdio;
+use std::time::Duration;
+
+use super::{complete, is_sound, old_and_new, undisturbed};
+use crate::folder::{Atlas, tree};
+
+/// A folder where a file is to be, or a file where a folder is to be: a message, its remedy, and nothing spoilt.
+#[test]
+fn what_is_in_the_place_of_a_file_is_named_and_left() {
+    let [old, new] = old_and_new();
+    let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
+    let remedy = "something else is in its place: move that away, or name another place\n";
+    for name in ["evans/evans-003.svg", "evans/evans-003.png", "over/cells.csv", "run.json", "atlas.pdf"] {
+        let atlas = Atlas::new(&old);
+        complete(&atlas);
+        atlas.edit(&new);
+        let path = atlas.out().join(name);
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        fs::write(path.join("mine"), "mine").unwrap();
+        let (code, out, err) = atlas.run(&[]);
+        assert_eq!((code, out.as_str()), (3, ""), "{name}");
+        let said = format!("error: cannot write out/{name}: ");
+        assert!(err.contains(&said) && err.ends_with(remedy), "{err}");
+        assert_eq!(fs::read_to_string(path.join("mine")).unwrap(), "mine");
+        fs::remove_dir_all(&path).unwrap();
+        let there =
+            before.iter().filter(|(other, _)| *other != name).map(|(name, bytes)| (name.clone(), bytes.clone()));
+        is_sound(&atlas.out(), &there.collect(), &after);
+        complete(&atlas);
+        assert!(tree(&atlas.out()) == after, "{name}");
+    }
+    let atlas = Atlas::new(&old);
+    fs::create_dir(atlas.out()).unwrap();
+    for name in ["out/evans", "blocked"] {
+        let path = atlas.0.path().join(name);
+        fs::write(&path, "mine").unwrap();
+        let (code, _, err) = atlas.run(if name == "blocked" { &["-o", "blocked/deeper"] } else { &[] });
+        assert!(code == 3 && err.contains(&format!("cannot write {name}")) && err.ends_with(remedy), "{err}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+        fs::remove_file(&path).unwrap();
+    }
+    complete(&atlas);
+    assert!(tree(&atlas.out()) == before);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_without_permission_is_left_as_it_is() {
+    use std::os::unix::fs::PermissionsExt;
+    let [old, new] = old_and_new();
+    let atlas = Atlas::new(&old);
+    complete(&atlas);
+    let before = tree(&atlas.out());
+    let folder = atlas.out().join("evans");
+    let allow = |mode| fs::set_permissions(&folder, fs::Permissions::from_mode(mode)).unwrap();
+    allow(0o555);
+    if fs::write(folder.join("probe"), "").is_ok() {
+        eprintln!("skipped: this user may write where nobody is allowed to");
+        fs::remove_file(folder.join("probe")).unwrap();
+    } else {
+        atlas.edit(&new);
+        let (code, _, err) = atlas.run(&[]);
+        assert!(code == 3 && err.contains("cannot write out/evans/"), "{err}");
+        assert!(err.ends_with("; allow it to be written, or name another place for it\n"), "{err}");
+        is_sound(&atlas.out(), &before, &undisturbed(&new));
+    }
+    allow(0o755);
+    atlas.edit(&new);
+    complete(&atlas);
+    assert!(tree(&atlas.out()) == undisturbed(&new));
+}
+
+/// Somebody removes files, and whole folders, while they are being made.
+#[test]
+fn what_vanishes_meanwhile_is_made_by_the_next_run() {
+    let [old, new] = old_and_new();
+    let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
+    let atlas = Atlas::new(&old);
+    complete(&atlas);
+    let moments = ["evans/points.csv", "evans", "over/cells.csv", "evans", "run.json", "atlas.pdf", "over"];
+    for (k, name) in moments.into_iter().enumerate() {
+        let (manifest, expected) = if k % 2 == 0 { (&new, &after) } else { (&old, &before) };
+        atlas.edit(manifest);
+        let mut child = atlas.command(&["-q"]).stderr(Stdio::piped()).spawn().unwrap();
+        // Until it ends it is removed again and again, at other moments each time.
+        while child.try_wait().unwrap().is_none() {
+            let path = atlas.out().join(name);
+            let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+            std::thread::sleep(Duration::from_millis(1 + 7 * k as u64));
+        }
+        let output = child.wait_with_output().unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        let told = err.starts_with("error: cannot write out") && err.ends_with("its folder is gone: run it again\n");
+        assert!(output.status.success() || output.status.code() == Some(3) && told, "{name}: {err}");
+        complete(&atlas);
+        assert!(tree(&atlas.out()) == *expected, "{name}");
+    }
+}

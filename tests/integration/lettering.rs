@@ -1,0 +1,230 @@
+//! Whatever is written in titles, captions, notes and legends comes out as that text and nothing else, in well-formed
+//! files; what cannot be written is refused.
+
+use std::fs;
+
+use coupler_atlas::manifest;
+use coupler_atlas::problem::report;
+use coupler_atlas::render::{self, TextMode};
+use coupler_atlas::scene::{Group, Item, Scene, Typeface};
+use roxmltree::{Document, Node};
+
+use crate::book::reader::Pdf;
+use crate::folder::{Atlas, tree};
+
+/// Texts that a careless writer would not bring through: markup, quotes and escapes; right to left, and turned round;
+/// long words; what the typefaces have no glyph for; letters that are put together of several.
+const STRANGE: [&str; 10] = [
+    "<script>alert(1)</script> & \"two\" 'one' ]]> <!-- &amp; &#0; <![CDATA[ -- ?> %s {0} \\ $HOME",
+    "onload=\"alert(1)\" x='</text><svg onload=alert(1)>'",
+    "שלום עולם, מכונות; مرحبا بالعالم 123",
+    "a \u{202e}turned round\u{202c} b \u{2067}kept apart\u{2069} \u{200f}",
+    "Straßenbahnschienenritzenreinigungsgerät-und-dreihundert-Buchstaben-ohne-ein-einziges-Leerzeichen-das-eine-Trennung-\
+     erlauben-würde-auf-einer-Seite-von-hundertfünfzig-Millimetern-Breite-und-noch-immer-ist-kein-Ende-dieses-Wortes-zu-sehen",
+    "🦀 👩‍👩‍👧 漢字 ﷽ 𝔘𝔫𝔦 \u{10ffff}",
+    "e\u{301}\u{327}\u{30a} a\u{ad}b c\u{a0}d \u{200b}\u{2028}\u{2029}\u{feff}",
+    "\u{2400} \u{fffd} ￼",
+    "_^$#~%\\input{x}(\\)",
+    " ",
+];
+
+/// A text as TOML writes it without any character of its own.
+fn toml(text: &str) -> String {
+    let escape = |c: char| format!("\\U{:08X}", u32::from(c));
+    format!("\"{}\"", text.chars().map(escape).collect::<String>())
+}
+
+/// A manifest that says this wherever it can say anything.
+fn saying(text: &str, mode: &str) -> String {
+    let words = toml(text);
+    let caption = toml(&text.replace('{', "{{").replace('}', "}}"));
+    format!(
+        r#"[atlas]
+title = {words}
+output = "out"
+formats = ["svg", "png", "pdf"]
+[page]
+paper = {{ width = "150 mm", height = "110 mm" }}
+dpi = 30
+text = "{mode}"
+[[family]]
+id = "cells"
+linkage = "mine"
+title = {words}
+panels = [1, 1]
+sampling = {{ samples = 20 }}
+cases = [{{}}]
+[[family]]
+id = "source"
+linkage = "mine"
+title = {words}
+source = {words}
+caption = {caption}
+note = {caption}
+panels = [1, 1]
+sampling = {{ samples = 20 }}
+cases = [{{}}]
+[[linkage]]
+id = "mine"
+source = {words}
+legend = {words}
+caption = {caption}
+note = {caption}
+trace = ["M"]
+[linkage.joints]
+O = {{ fixed = [0, 0] }}
+C = {{ fixed = [4, 0] }}
+A = {{ crank = "O", length = 1 }}
+B = {{ dyad = ["A", "C"], lengths = [4, 3], side = "left" }}
+M = {{ point = ["A", "B"], along = 2, across = 1 }}
+"#
+    )
+}
+
+/// A page as a reader of XML finds it: nothing but drawing, and no attribute that does anything.
+fn check_svg(bytes: &[u8]) -> Document<'_> {
+    let document = Document::parse(std::str::from_utf8(bytes).unwrap()).unwrap();
+    let known = ["svg", "title", "rect", "g", "path", "circle", "text", "tspan"];
+    for node in document.descendants().filter(Node::is_element) {
+        assert!(known.contains(&node.tag_name().name()), "an element {:?}", node.tag_name());
+        assert!(node.attributes().all(|attribute| !attribute.name().starts_with("on")), "{node:?}");
+    }
+    assert!(document.descendants().all(|node| !node.is_comment() && !node.is_pi()));
+    document
+}
+
+fn plain(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn strange_texts_come_out_as_they_are() {
+    for (k, text) in STRANGE.into_iter().enumerate() {
+        let mode = if k % 3 == 2 { "outlines" } else { "text" };
+        let atlas = Atlas::new(&saying(text, mode));
+        let (code, _, err) = atlas.run(&[]);
+        assert_eq!(code, 0, "{text}: {err}");
+        let files = tree(&atlas.out());
+        let pages: Vec<Document> =
+            files.iter().filter(|(name, _)| name.ends_with(".svg")).map(|(_, bytes)| check_svg(bytes)).collect();
+        assert_eq!(pages.len(), 2);
+        for page in &pages {
+            let said = |node: Node| node.descendants().filter_map(|n| n.text()).collect::<String>();
+            let told: Vec<String> = page
+                .descendants()
+                .filter(|node| node.has_tag_name("text"))
+                .map(said)
+                .chain(page.descendants().filter_map(|node| node.attribute("aria-label").map(str::to_owned)))
+                .collect();
+            let title = page.root_element().children().find(|node| node.has_tag_name("title")).unwrap();
+            assert!(plain(&said(title)).contains(&plain(text)), "{text}: {title:?}");
+            // The title stands in the heading, or as much of it as there is room for.
+            let begin: String = plain(text).chars().take(12).collect();
+            assert!(told.iter().any(|line| plain(line).contains(&begin)), "{text}: {told:?}");
+        }
+        let record: serde_json::Value = serde_json::from_slice(&files["run.json"]).unwrap();
+        assert_eq!(record["title"], text);
+        assert_eq!(record["families"][0]["title"], text);
+        let book = Pdf::read(&files["atlas.pdf"]);
+        for page in 0..book.pages().len() {
+            book.contents(page);
+        }
+        assert!(book.outline().iter().any(|(_, title, _)| title.contains(text)), "{text}: {:?}", book.outline());
+    }
+}
+
+#[test]
+fn markup_is_text_in_the_book_too() {
+    let atlas = Atlas::new(&saying(STRANGE[0], "text"));
+    atlas.run(&["--format", "pdf"]);
+    let book = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let texts: Vec<String> =
+        (0..book.pages().len()).flat_map(|page| book.contents(page).texts).map(|(text, ..)| text).collect();
+    let begin = "<script>alert(1)</script> & \"two\"";
+    assert!(texts.iter().filter(|text| text.contains(begin)).count() >= 3, "{texts:?}");
+}
+
+/// Whoever makes a scene without a manifest gets a well-formed page as well: of what XML has no place for, a sign.
+#[test]
+fn every_character_there_is_makes_a_page() {
+    let any: String =
+        (0..0x1_1000).filter_map(char::from_u32).chain(['\u{1f980}', '\u{10fffe}', '\u{10ffff}']).collect();
+    let group = Group { id: any.clone(), title: any.clone(), data: vec![("cell", any.clone())], ..Group::default() };
+    let scene = Scene {
+        width: 100.0,
+        height: 100.0,
+        paper: coupler_atlas::scene::Color(255, 255, 255),
+        title: any.clone(),
+        items: vec![Item::Group(group)],
+        links: Vec::new(),
+        typeface: Typeface::Serif,
+    };
+    let svg = render::svg(&scene, TextMode::Text);
+    let document = check_svg(&svg);
+    let title = document.descendants().find(|node| node.has_tag_name("title")).unwrap().text().unwrap();
+    assert_eq!(title.chars().count(), any.chars().count());
+    for (written, meant) in title.chars().zip(any.chars()) {
+        let is_space = matches!(meant, '\t' | '\n') && written == ' ';
+        let is_no_xml = meant < ' ' || matches!(meant, '\u{7f}' | '\u{fffe}' | '\u{ffff}');
+        assert!(written == meant || is_space || is_no_xml && written == '\u{fffd}', "{meant:?} became {written:?}");
+    }
+}
+
+#[test]
+fn control_characters_are_refused_at_their_place() {
+    let good = saying("T", "text");
+    assert!(manifest::load(&good).plan.is_some());
+    let word = toml("T");
+    let places: Vec<usize> = good.match_indices(&word).map(|(at, _)| at).collect();
+    assert!(places.len() >= 10);
+    for c in ['\0', '\u{1b}', '\u{7}', '\r', '\u{7f}', '\u{85}', '\u{9b}', '\u{fffe}', '\u{ffff}'] {
+        for &at in &places {
+            let spoilt = toml(&format!("a{c}b"));
+            let text = format!("{}{spoilt}{}", &good[..at], &good[at + word.len()..]);
+            let loaded = manifest::load(&text);
+            assert!(loaded.plan.is_none(), "{c:?} in {}", &text[at - 10..]);
+            let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
+            let message = format!("a text cannot have the control character U+{:04X}", u32::from(c));
+            assert_eq!((problem.message.as_str(), problem.span.clone()), (message.as_str(), at..at + spoilt.len()));
+        }
+    }
+    // Where it stands in the manifest itself, just there.
+    let text = good.replacen(&word, "\"a\u{85}b\"", 1);
+    let span = manifest::load(&text).problems[0].span.clone();
+    assert_eq!(&text[span], "\u{85}");
+    // A line break and a tab are spaces, however lines end.
+    for breaks in ["\"\"\"\none\n\ttwo\"\"\"", "\"\"\"\r\none\r\n\ttwo\"\"\"", "\"one\\n\\ttwo\"", "'one \ttwo'"] {
+        let loaded = manifest::load(&good.replacen(&word, breaks, 1));
+        let plan = loaded.plan.unwrap_or_else(|| panic!("{breaks:?}: {:?}", loaded.problems));
+        assert_eq!(plan.title.replace("   ", "  "), "one  two", "{breaks:?}");
+    }
+}
+
+/// A manifest cannot speak to the terminal.
+#[test]
+fn no_report_has_a_control_character() {
+    let good = saying("T", "text");
+    let escape = "\\u001B[2J\\u0007\\u009B";
+    for text in [
+        format!("\"{escape}\" = 1\n{good}"),
+        good.replace("[atlas]", &format!("[atlas]\n\"{escape}\" = 1")),
+        good.replace("\"outlines\"", "").replace("text = \"text\"", &format!("text = \"{escape}\"")),
+        good.replace("cases = [{}]", &format!("cases = [{{ \"{escape}\" = 1 }}]")),
+        good.replace("cases = [{}]", &format!("cases = [{{ p = \"1 + {escape}\" }}]")),
+        good.replace("samples = 20", &format!("step = \"5 {escape}\"")),
+        good.replace("O = {", &format!("\"{escape}\" = {{")),
+        good.replace("trace = [\"M\"]", &format!("trace = [\"{escape}\"]")),
+        // The linkage that is not found is looked for among those there are.
+        good.replace("id = \"mine\"", &format!("id = \"min{escape}\"")),
+        good.replace("linkage = \"mine\"", &format!("linkage = \"{escape}\"")),
+        format!("# \u{1b}[2J\n{good}"),
+        format!("{good}\u{9b}2J"),
+        good.replace("side = \"left\"", "side = \"\u{9b}2J\""),
+    ] {
+        assert_ne!(text, good);
+        let loaded = manifest::load(&text);
+        assert!(loaded.plan.is_none(), "{text}");
+        let said = report(&loaded.problems, "atlas.toml", &text, false);
+        assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
+    }
+}

@@ -1,0 +1,103 @@
+//! The same manifest makes the same bytes with any number of threads, in any folder, language, time zone and terminal.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+use crate::folder::tree;
+
+/// Every format and layout, with numbers that a language would write otherwise and a cell that is not assembled.
+const MANIFEST: &str = r#"[atlas]
+title = "Ångström’s Atlas"
+output = "out"
+formats = ["svg", "png", "pdf"]
+[page]
+paper = { width = "150 mm", height = "110 mm" }
+dpi = 40
+[[family]]
+id = "evans"
+linkage = "evans"
+panels = [2, 1]
+sampling = { step = "5 deg" }
+grid = { p = [2.5, 3, 4, 90], k = [1, 2] }
+let = { a = "2.25" }
+sort = "-length"
+[[family]]
+id = "points"
+linkage = "hrones-nelson"
+layout = "coupler-grid"
+sampling = { samples = 40 }
+cases = [{ A = 2.5, B = 3, C = 2 }]
+[[family]]
+id = "over"
+linkage = "evans"
+sampling = { step = "5 deg" }
+grid = { p = { from = 2, to = 4, step = 0.1 } }
+let = { a = "(1 + p)^1.5 / 2" }
+layout = "chart"
+chart = { x = "p", y = ["length"] }
+"#;
+
+/// What a run says and makes, in a folder some way down, with a mask for new files and variables in the environment.
+fn made(depth: &str, mask: &str, jobs: &str, variables: &[(&str, &str)]) -> (Vec<u8>, BTreeMap<String, Vec<u8>>) {
+    let folder = TempDir::new().unwrap();
+    let deep = folder.path().join(depth);
+    fs::create_dir_all(&deep).unwrap();
+    fs::write(deep.join("atlas.toml"), MANIFEST).unwrap();
+    let output = program(mask).current_dir(&deep).envs(variables.iter().copied()).args(["--jobs", jobs]).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    ([output.stdout, output.stderr].concat(), tree(&deep.join("out")))
+}
+
+#[cfg(unix)]
+fn program(mask: &str) -> Command {
+    let mut command = Command::new("sh");
+    command.args(["-c", &format!("umask {mask}; exec \"$0\" render \"$@\""), env!("CARGO_BIN_EXE_coupler-atlas")]);
+    command
+}
+
+#[cfg(not(unix))]
+fn program(_mask: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    command.arg("render");
+    command
+}
+
+#[test]
+fn nothing_around_a_run_changes_what_it_makes() {
+    let first = made("", "022", "1", &[]);
+    let kind = |kind: &str| first.1.keys().filter(|name| name.ends_with(kind)).count();
+    assert_eq!(["svg", "png", "pdf", "csv", "json"].map(kind), [6, 6, 1, 6, 1]);
+    let home = TempDir::new().unwrap();
+    let home = home.path().to_str().unwrap();
+    let german = [("LANG", "de_DE.UTF-8"), ("LC_ALL", "de_DE.UTF-8"), ("LC_NUMERIC", "de_DE"), ("TZ", "Asia/Kolkata")];
+    let plain = [("LC_ALL", "C"), ("TZ", "America/St_Johns"), ("TERM", "dumb"), ("NO_COLOR", "1"), ("COLUMNS", "20")];
+    let turkish = [("LC_ALL", "tr_TR.UTF-8"), ("HOME", home), ("TMPDIR", home), ("TERM", "xterm-256color")];
+    let others = [
+        ("a/deeper/folder", "077", "2", &german[..]),
+        ("ümlaut and space", "002", "8", &plain[..]),
+        ("x", "000", "8", &turkish[..]),
+        ("y", "022", "3", &[("RAYON_NUM_THREADS", "1"), ("SOURCE_DATE_EPOCH", "1"), ("COLUMNS", "0")][..]),
+    ];
+    for (depth, mask, jobs, variables) in others {
+        let (said, files) = made(depth, mask, jobs, variables);
+        assert!(said == first.0, "{depth}: {}", String::from_utf8_lossy(&said));
+        assert!(files.keys().eq(first.1.keys()), "{depth}");
+        files.iter().for_each(|(name, bytes)| assert!(first.1[name] == *bytes, "{depth}: {name}"));
+    }
+}
+
+/// A text never says where or when it was made.
+#[test]
+fn no_file_tells_of_the_machine() {
+    let (_, files) = made("a-telling-name", "022", "2", &[("USER", "telling-user"), ("HOSTNAME", "telling-host")]);
+    let source = env!("CARGO_MANIFEST_DIR");
+    for (name, bytes) in &files {
+        for word in ["telling", "CreationDate", source] {
+            assert!(!bytes.windows(word.len()).any(|window| window == word.as_bytes()), "{name} has {word}");
+        }
+    }
+}
