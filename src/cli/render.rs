@@ -9,7 +9,7 @@ use coupler_atlas::record::FamilyRecord;
 use coupler_atlas::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{INTERRUPTED, Outcome, WrongInput, count, plan, print, say};
+use super::{INTERRUPTED, Outcome, count, plan, print, say};
 
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Debug, Args)]

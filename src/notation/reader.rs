@@ -235,13 +235,14 @@ impl<'t> Reader<'t> {
     /// A line of text with values of `scope` in it, and words that stand alone.
     pub fn caption(&mut self, value: &Value<'t>, scope: &[(&str, Kind)], words: &[&str]) -> Option<Caption> {
         let text = self.text(value)?;
-        let parsed = Caption::parse(&text);
+        let as_written = |error: expression::Error| expression::Error { span: unfolded(value, error.span), ..error };
+        let parsed = Caption::parse(&text).map_err(as_written);
         let caption = self.placed(value, parsed)?;
         for (expression, start) in caption.expressions() {
             let is_word = expression.as_name().is_some_and(|name| words.contains(&name));
             if let (Err(error), false) = (expression.bind(scope, Kind::Number), is_word) {
                 let span = start + error.span.start..start + error.span.end;
-                self.placed::<()>(value, Err(expression::Error { span, ..error }));
+                self.placed::<()>(value, Err(as_written(expression::Error { span, ..error })));
             }
         }
         Some(caption)
@@ -294,16 +295,13 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The place in the text of a part of a string; the whole string where it is written with escapes, or over several
-    /// lines with a carriage return in each.
+    /// The place in the text of a part of a string; the whole string where it is written with escapes.
     fn inside(&self, value: &Value<'t>, inner: Span) -> Span {
         let whole = value.span();
         let DeValue::String(content) = value.get_ref() else { return whole };
         let written = self.written(value);
         let quotes = written.len().saturating_sub(content.len()) / 2;
-        let as_is = matches!(quotes, 1 | 3)
-            && !content.contains('\r')
-            && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
+        let as_is = matches!(quotes, 1 | 3) && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
         if as_is {
             let start = whole.start + quotes;
             start + inner.start..start + inner.end.max(inner.start)
@@ -311,6 +309,16 @@ impl<'t> Reader<'t> {
             whole
         }
     }
+}
+
+/// A part of a text as it is in the string that [`Reader::text`] has made one line of: there a line end of two signs is one.
+fn unfolded(value: &Value, span: Span) -> Span {
+    let DeValue::String(content) = value.get_ref() else { return span };
+    let written = |at: usize| {
+        let ends = content.match_indices("\r\n").zip(0..).take_while(|((end, _), before)| end - before < at);
+        at + ends.count()
+    };
+    written(span.start)..written(span.end)
 }
 
 /// The keys of a table.
