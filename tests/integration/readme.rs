@@ -75,3 +75,34 @@ fn the_examples_are_what_the_readme_says() {
         assert!(planned.family.template.parameters.iter().map(|parameter| &*parameter.name).eq(["A", "B", "C"]));
     }
 }
+
+/// The commands that the examples for CI and for pre-commit run: nothing has changed, and then something has.
+#[test]
+fn the_readmes_checks_run_as_they_stand() {
+    let readme = include_str!("../../README.md");
+    let after = |start: &str| readme.lines().filter_map(|line| line.trim().strip_prefix(start)).collect::<Vec<_>>();
+    let commands = [after("- run: coupler-atlas "), after("entry: coupler-atlas ")].concat();
+    assert_eq!(commands.len(), 2);
+    let manifest = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+                    sampling = { samples = 9 }\ncases = [{ p = 2, a = 2 }]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &str| {
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let output = program.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let write = |text: &str| std::fs::write(folder.path().join("atlas.toml"), text).unwrap();
+    write(manifest);
+    assert_eq!(run("render -q").0, Some(0));
+    for command in &commands {
+        assert_eq!(run(command), (Some(0), String::new()), "{command}");
+    }
+    write(&manifest.replace("a = 2 }", "a = 2.1 }"));
+    for command in commands {
+        let (code, said) = run(command);
+        assert!(code == Some(1) && said.contains("moved"), "{command}: {said}");
+    }
+    for file in ["report.xml", "moved/index.html", "moved/e-1-1-1.svg"] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+}

@@ -1,5 +1,10 @@
 //! What holds of any text: the fuzz targets and the test over their corpora ask the same.
 
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use coupler_atlas::build;
+use coupler_atlas::check::{self, Report};
 use coupler_atlas::expression::{Caption, Dimension, Error, Expression, Quantity};
 use coupler_atlas::family::Family;
 use coupler_atlas::manifest;
@@ -53,6 +58,60 @@ pub fn expression(text: &str) {
         Ok(caption) => drop(caption.format(|_| 2.5, |_| None)),
         error => is_placed(error, text),
     }
+}
+
+/// Whatever stands in place of a file of a recorded atlas, a check ends with findings, and finds something if the text is not
+/// what was recorded.
+pub fn points(text: &str) {
+    recorded("e/points.csv", text);
+}
+
+/// The same of the other table.
+pub fn cells(text: &str) {
+    recorded("e/cells.csv", text);
+}
+
+/// The same of a page.
+pub fn page(text: &str) {
+    recorded("e/e-001.svg", text);
+}
+
+/// The same of the record of the run: it may not be usable at all.
+pub fn record(text: &str) {
+    recorded("run.json", text);
+}
+
+/// A manifest of two cells, one of which is not assembled.
+const SMALL: &str = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+                     sampling = { samples = 9 }\ncolumns = [\"psi_deg\"]\ncases = [{ p = 2, a = 2 }, { p = 9, a = 2 }]\n";
+
+/// Puts a text in place of a file of a recorded atlas, checks that, and puts back what was there.
+fn recorded(name: &str, text: &str) {
+    // One atlas, and one check of it at a time.
+    static ATLAS: Mutex<Option<PathBuf>> = Mutex::new(None);
+    let mut atlas = ATLAS.lock().unwrap_or_else(PoisonError::into_inner);
+    let plan = manifest::load(SMALL).plan.expect("a plan");
+    let folder = atlas.get_or_insert_with(|| {
+        let folder = std::env::temp_dir().join(format!("coupler-atlas-corpus-{}", std::process::id()));
+        build::run(&plan, &folder, &build::Options::default(), &mut |_| {}).expect("an atlas");
+        folder
+    });
+    let path: &Path = &folder.join(name);
+    let original = std::fs::read(path).expect("a file of the atlas");
+    std::fs::write(path, text).expect("a file of the atlas");
+    let report = check::run(&plan, folder, &check::Options::default(), &mut |_| {});
+    std::fs::write(path, &original).expect("a file of the atlas");
+    let Ok(report) = report else {
+        assert_eq!(name, "run.json", "a table or a page keeps nothing from being checked");
+        return;
+    };
+    let Report { findings, .. } = &report;
+    assert!(
+        findings.iter().all(|finding| !finding.place.to_string().is_empty() && !finding.change.to_string().is_empty())
+    );
+    // What a record says of itself, its program for one, is nothing that a check looks at.
+    assert!(text.as_bytes() == original || name == "run.json" || !findings.is_empty(), "{name} has been changed");
+    assert!(text.as_bytes() != original || findings.is_empty(), "{findings:?}");
 }
 
 fn is_placed<T>(read: Result<T, Error>, text: &str) {

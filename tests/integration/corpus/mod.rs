@@ -60,3 +60,17 @@ fn any_expression_is_read_or_has_a_mistake() {
     assert!(texts.len() > 10);
     run(&texts, changes(), checks::expression);
 }
+
+#[test]
+fn any_file_of_a_recorded_atlas_can_be_checked() {
+    for (corpus, check) in [
+        ("fuzz/corpus/points", checks::points as fn(&str)),
+        ("fuzz/corpus/cells", checks::cells),
+        ("fuzz/corpus/page", checks::page),
+        ("fuzz/corpus/record", checks::record),
+    ] {
+        let texts = texts(&[corpus]);
+        assert!(!texts.is_empty(), "{corpus}");
+        run(&texts, changes(), check);
+    }
+}
