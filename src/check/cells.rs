@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::curve::difference;
 use super::finding::{Change, Finding, Place};
 use crate::manifest::Tolerances;
-use crate::measure;
+use crate::measure::{self, Measure};
 use crate::record::{Flaw, Row};
 
 /// Where the columns of a `cells.csv` are, in a recorded one and in the present one.
@@ -17,7 +17,7 @@ pub(super) struct Columns {
     /// Parameters that both have.
     pub parameters: Vec<(String, [usize; 2])>,
     /// Measures that both have.
-    measures: Vec<(&'static str, &'static str, [usize; 2])>,
+    measures: Vec<(&'static Measure, [usize; 2])>,
 }
 
 const KEYS: [&str; 5] = ["cell", "trace", "circuit", "status", "reason"];
@@ -27,7 +27,7 @@ impl Columns {
     pub fn of(was: &[String], is: &[String], parameters: &[String]) -> Columns {
         let place = |header: &[String], name: &str| header.iter().position(|other| other == name);
         let both = |name: &str| Some([place(was, name)?, place(is, name)?]);
-        let measure = |measure: &measure::Measure| Some((measure.name, measure.unit, both(measure.name)?));
+        let measure = |measure: &'static Measure| Some((measure, both(measure.name)?));
         Columns {
             was: KEYS.map(|name| place(was, name)),
             is: KEYS.map(|name| place(is, name)),
@@ -99,16 +99,12 @@ impl Columns {
         class_told: &mut bool,
         findings: &mut Vec<Finding>,
     ) -> Result<(), Flaw> {
-        for (name, unit, [a, b]) in &self.measures {
-            let (old, new) = (was.field(*a), is.field(*b));
+        for &(Measure { name, unit, is_word, .. }, [a, b]) in &self.measures {
+            let (old, new) = (was.field(a), is.field(b));
             if old == new {
                 continue;
             }
             let (was_text, is_text) = (old.to_owned(), new.to_owned());
-            // A word, now or then.
-            let is_number = |text: &str| {
-                text.is_empty() || text.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit() || c == 'i')
-            };
             if *name == "class" {
                 // All curves of a linkage have its class.
                 if !std::mem::replace(class_told, true) {
@@ -117,10 +113,9 @@ impl Columns {
                 }
                 continue;
             }
-            let relative = if is_number(new) {
-                relative([was.number(*a, name)?, is.number(*b, name)?], (name, unit), size)
-            } else {
-                f64::INFINITY
+            let relative = match is_word {
+                true => f64::INFINITY,
+                false => relative([was.number(a, name)?, is.number(b, name)?], (name, unit), size),
             };
             if relative > tolerances.measure_rtol {
                 findings.push(place.has(Change::Measure {

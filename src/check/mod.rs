@@ -139,6 +139,9 @@ pub fn run(plan: &Plan, recorded: &Path, options: &Options, tell: &mut dyn FnMut
             report.add(vec![Place::family(&family.id).has(Change::FamilyRemoved)]);
         }
     }
+    if let Some(book) = record.book.as_ref().filter(|_| options.only.is_empty()) {
+        report.add(book.files.iter().filter_map(|file| pages::missing(recorded, &file.name)).collect());
+    }
     for planned in plan.families.iter().filter(|planned| is_asked(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {
             Some(of) => family_of(plan, planned, of, recorded, options, &mut report, tell),

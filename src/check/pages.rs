@@ -71,9 +71,12 @@ impl<'a> Pages<'a> {
             if record.drawn_from_sha256 != drawn.drawn_from_sha256 {
                 page.differing.push(record.name.clone());
             }
-            if let Err(wrong) = read(&self.folder.join(&record.name)) {
-                page.findings.push(self.file(&record.name).has(Change::Damaged { wrong }));
-            }
+            let wrong = match read(&self.folder.join(&record.name)) {
+                Ok(bytes) if render::is_whole_png(&bytes) => None,
+                Ok(_) => Some("is no whole image".to_owned()),
+                Err(wrong) => Some(wrong),
+            };
+            page.findings.extend(wrong.map(|wrong| self.file(&record.name).has(Change::Damaged { wrong })));
         }
         page
     }
@@ -163,6 +166,14 @@ impl<'a> Pages<'a> {
     fn file(&self, name: &str) -> Place {
         self.place.file(&format!("{}/{name}", self.place.family))
     }
+}
+
+/// What is wrong with a volume of the book: its bytes may differ from machine to machine, but it is a file.
+pub(super) fn missing(output: &Path, name: &str) -> Option<Finding> {
+    let is_plain = Path::new(name).components().count() == 1;
+    let is_file = is_plain && fs::symlink_metadata(output.join(name)).is_ok_and(|metadata| metadata.is_file());
+    let wrong = "is not there".to_owned();
+    (!is_file).then(|| Place::default().file(name).has(Change::Damaged { wrong }))
 }
 
 /// The bytes of a file, or what is wrong with it.

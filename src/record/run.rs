@@ -1,3 +1,4 @@
+use std::io::Read;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -6,6 +7,9 @@ use sha2::{Digest, Sha256};
 
 /// The version of the format of `run.json`.
 pub const FORMAT: u32 = 1;
+
+/// A record of more bytes, some millions of files, is none.
+const MOST_BYTES: u64 = 1 << 30;
 
 /// `run.json`: what a run has written. No time, host, path or number of jobs, so that the same run has the same bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -87,6 +91,9 @@ pub enum ReadError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] std::io::Error),
+    /// It is no file, or one that is larger than any record.
+    #[error("it is no record of a run: it is no file, or has more than {MOST_BYTES} bytes")]
+    NoRecord,
     /// It is not what this program writes.
     #[error("it is no record of a run: {0}")]
     Syntax(#[from] serde_json::Error),
@@ -149,7 +156,12 @@ impl Run {
     /// # Errors
     /// A file that cannot be read, or is no record of this format.
     pub fn read(path: &Path) -> Result<Run, ReadError> {
-        let bytes = std::fs::read(path)?;
+        let metadata = std::fs::metadata(path)?;
+        if !metadata.is_file() || metadata.len() > MOST_BYTES {
+            return Err(ReadError::NoRecord);
+        }
+        let mut bytes = Vec::new();
+        std::fs::File::open(path)?.take(MOST_BYTES).read_to_end(&mut bytes)?;
         // An editor may have put a byte order mark before it.
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
         let header: Header = serde_json::from_slice(bytes)?;

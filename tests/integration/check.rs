@@ -202,6 +202,12 @@ fn a_length_that_is_changed_is_named_and_what_it_moves() {
     let moved = &findings[1];
     assert!(moved["apart"].as_f64().unwrap() > 1e-8, "another curve, and not other points of one: {moved}");
     assert!(kinds[2..].iter().all(|kind| ["measure", "column"].contains(kind)), "{kinds:?}");
+    // A crank that no longer turns: another class, and measures that a turning crank has and it has not.
+    recorded.manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 3, s = 1.2, a = 1.2 }"));
+    let (_, findings) = recorded.check(&[]);
+    let kinds: Vec<&str> = findings.iter().map(|f| f["kind"].as_str().unwrap()).collect();
+    assert_eq!((&kinds[..2], kinds.contains(&"class")), (&["parameter", "parameter"][..], true), "{kinds:?}");
+    assert!(findings.iter().any(|f| f["name"] == "type") && !kinds.contains(&"damaged"), "{findings:?}");
 }
 
 #[test]
@@ -353,6 +359,16 @@ fn pages_that_are_drawn_otherwise_are_told_from_pages_that_were_edited() {
         assert_eq!(recorded.kinds(), kinds, "{by}");
     }
     recorded.command(&["render", "-q", "--force"]);
+    // An image that is spoilt in its midst.
+    recorded.command(&["render", "-q", "--format", "png"]);
+    assert_eq!(recorded.kinds(), [""; 0]);
+    let image = recorded.path("output/bars/bars-001.png");
+    let mut bytes = fs::read(&image).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&image, bytes).unwrap();
+    assert_eq!(recorded.kinds(), ["damaged"]);
+    recorded.command(&["render", "-q", "--force"]);
     fs::remove_file(recorded.path("output/bars/bars-001.svg")).unwrap();
     assert_eq!(recorded.kinds(), ["damaged"]);
 }
@@ -400,6 +416,10 @@ fn a_recorded_atlas_may_be_anything() {
     let (code, findings) = recorded.check(&[]);
     assert!(code == 0 && findings.iter().all(|f| f["kind"] == "rewritten"), "{findings:?}");
     assert_eq!(findings.len(), 2);
+    // A terabyte, most of which is a hole in the file.
+    fs::OpenOptions::new().write(true).open(folder.join("points.csv")).unwrap().set_len(1 << 40).unwrap();
+    let (_, findings) = recorded.check(&[]);
+    assert!(findings[0]["wrong"].as_str().unwrap().starts_with("has 1099511627776 bytes"), "{findings:?}");
     // A folder, a link, a pipe in place of a file.
     fs::remove_file(folder.join("points.csv")).unwrap();
     fs::create_dir(folder.join("points.csv")).unwrap();
@@ -418,6 +438,12 @@ fn a_recorded_atlas_may_be_anything() {
         assert!(String::from_utf8_lossy(&output.stderr).contains("run.json"));
     }
     fs::remove_file(recorded.path("output/run.json")).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/dev/zero", recorded.path("output/run.json")).unwrap();
+        assert_eq!(recorded.command(&["check", "--against", "output"]).status.code(), Some(2));
+        fs::remove_file(recorded.path("output/run.json")).unwrap();
+    }
     assert_eq!(recorded.command(&["check", "--against", "output"]).status.code(), Some(2));
     assert_eq!(recorded.command(&["check", "--against", "nowhere"]).status.code(), Some(2));
 }
