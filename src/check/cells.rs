@@ -62,7 +62,7 @@ impl Columns {
         let [Some(first), Some(now)] = [was.first(), is.first()] else { return Ok(()) };
         for (name, [a, b]) in &self.parameters {
             let (was, is) = (first.number(*a, name)?, now.number(*b, name)?);
-            if difference(was, is) > tolerances.rtol.min(1e-9) {
+            if difference([was, is], 1.0) > tolerances.rtol.min(1e-9) {
                 findings.push(place.has(Change::Parameter { name: name.clone(), was, is }));
             }
         }
@@ -139,20 +139,12 @@ pub(super) struct Pair {
 }
 
 /// By how much a measure differs: in parts of itself, of an angle also of one degree, of a place also of the curve's size.
-fn relative([was, is]: [f64; 2], (name, unit): (&str, &str), size: f64) -> f64 {
+fn relative(values: [f64; 2], (name, unit): (&str, &str), size: f64) -> f64 {
     let is_place = ["_x", "_y", "_x_min", "_x_max", "_y_min", "_y_max"].iter().any(|end| name.ends_with(end));
     let least = match unit {
         "deg" => 1.0,
         _ if is_place => size,
         _ => 0.0,
     };
-    match (was.is_nan(), is.is_nan()) {
-        (true, true) => 0.0,
-        (false, false) if was == is => 0.0,
-        (false, false) => {
-            let by = (was - is).abs() / was.abs().max(is.abs()).max(least);
-            if by.is_nan() { f64::INFINITY } else { by }
-        }
-        _ => f64::INFINITY,
-    }
+    difference(values, least)
 }

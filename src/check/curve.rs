@@ -93,7 +93,7 @@ fn samples(
         }));
     }
     for ((name, _), (was, now)) in names.iter().zip(was.further.iter().zip(&is.further)) {
-        let off = |k: usize| difference(was[k], now[k]);
+        let off = |k: usize| difference([was[k], now[k]], 1.0);
         let worst = (0..now.len()).max_by(|&a, &b| off(a).total_cmp(&off(b)));
         if let Some(k) = worst.filter(|&k| off(k) > tolerances.measure_rtol) {
             changes.push(Change::Column { name: name.clone(), sample: is.samples[k], was: was[k], is: now[k] });
@@ -102,13 +102,13 @@ fn samples(
     changes
 }
 
-/// By how much two values differ, in parts of the greater, or of 1 if that is more; infinitely if one is missing.
-pub(super) fn difference(was: f64, is: f64) -> f64 {
+/// By how much two values differ, in parts of the greater, or of `least` if that is more; infinitely if one is missing.
+pub(super) fn difference([was, is]: [f64; 2], least: f64) -> f64 {
     match (was.is_nan(), is.is_nan()) {
         (true, true) => 0.0,
         (false, false) if was == is => 0.0,
         (false, false) => {
-            let by = (was - is).abs() / was.abs().max(is.abs()).max(1.0);
+            let by = (was - is).abs() / was.abs().max(is.abs()).max(least);
             if by.is_nan() { f64::INFINITY } else { by }
         }
         _ => f64::INFINITY,
