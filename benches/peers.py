@@ -101,12 +101,26 @@ def render(manifest, formats, dpi=None):
         text = Path(manifest).read_text().replace('paper = "tabloid"', f'paper = "tabloid"\ndpi = {dpi}')
         manifest = "target/peers/atlas.toml"
         Path(manifest).write_text(text)
-    begun = time.perf_counter()
-    child = subprocess.Popen([PROGRAM, "render", "--quiet", "--format", formats, "-o", str(OUT), manifest])
-    _, status, usage = os.wait4(child.pid, 0)
-    if status != 0:
+    # A process is charged with the memory of the one that it comes of: this one has matplotlib in it, and another that
+    # has nothing does the waiting.
+    command = [PROGRAM, "render", "--quiet", "--format", formats, "-o", str(OUT), manifest]
+    waiting = subprocess.run([sys.executable, "-S", "-c", WAIT, *command], stdout=subprocess.PIPE, text=True)
+    if waiting.returncode != 0:
         sys.exit(f"{PROGRAM} failed")
-    return time.perf_counter() - begun, usage.ru_maxrss / 1024
+    seconds, kilobytes = waiting.stdout.split()
+    return float(seconds), float(kilobytes) / 1024
+
+
+WAIT = """
+import os, sys, time
+begun = time.perf_counter()
+child = os.fork()
+if child == 0:
+    os.execv(sys.argv[1], sys.argv[1:])
+_, status, usage = os.wait4(child, 0)
+print(time.perf_counter() - begun, usage.ru_maxrss)
+sys.exit(status != 0)
+"""
 
 
 def some_pages(count):
