@@ -103,7 +103,7 @@ impl<'a> Tables<'a> {
         const TIMES: usize = 16;
         let text = table.text(cell).transpose()?;
         let (text, line) = text.unwrap_or_default();
-        if text.is_empty() && !fresh.is_empty() {
+        if text.is_empty() && !fresh.is_empty() && self.has_curves(cell) {
             return Err(Flaw::Rows("points.csv"));
         }
         if text.len() > TIMES * fresh.len() + (1 << 20) {
@@ -117,6 +117,14 @@ impl<'a> Tables<'a> {
         };
         let old = was.tracks(&rows(&text, line, table.header.len()).map_err(in_points)?).map_err(in_points)?;
         Ok(Some([old, is.tracks(&rows(fresh, 1, self.headers[0].len())?)?]))
+    }
+
+    /// Whether a cell has curves, as its recorded row tells: one that could not be assembled has none, and no points.
+    fn has_curves(&self, cell: usize) -> bool {
+        let Some(table) = &self.cells else { return true };
+        let trace = table.column("trace");
+        let rows = table.rows(cell).unwrap_or_default();
+        rows.first().zip(trace).is_none_or(|(row, trace)| !row.field(trace).is_empty())
     }
 
     /// The recorded curves of a cell, in order; `None` where they cannot be read.

@@ -328,6 +328,32 @@ fn samples_measures_and_columns_that_differ_are_named() {
 }
 
 #[test]
+fn a_linkage_that_can_or_cannot_be_assembled_any_more_is_named() {
+    let recorded = Recorded::new();
+    let apart = MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 9, s = 4, a = 4 }");
+    recorded.manifest(&apart);
+    assert_eq!(recorded.kinds(), ["parameter", "status", "circuit-lost"]);
+    // The other way round.
+    recorded.command(&["render", "-q"]);
+    assert_eq!(recorded.check(&[]), (0, vec![]));
+    recorded.manifest(MANIFEST);
+    assert_eq!(recorded.kinds(), ["parameter", "status", "circuit-added"]);
+}
+
+#[test]
+fn an_atlas_of_images_or_a_book_is_checked_too() {
+    let recorded = Recorded::new();
+    for formats in ["[\"png\"]", "[\"pdf\"]", "[\"svg\", \"png\", \"pdf\"]"] {
+        recorded.manifest(&MANIFEST.replace("[\"svg\"]", formats));
+        recorded.command(&["render", "-q"]);
+        assert_eq!(recorded.check(&[]), (0, vec![]), "{formats}");
+    }
+    fs::remove_file(recorded.path("output/atlas.pdf")).unwrap();
+    fs::remove_file(recorded.path("output/evans/evans-001.png")).unwrap();
+    assert_eq!(recorded.check(&[]).1.len(), 2);
+}
+
+#[test]
 fn pages_that_are_drawn_otherwise_are_told_from_pages_that_were_edited() {
     let recorded = Recorded::new();
     recorded.manifest(
