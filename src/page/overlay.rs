@@ -94,11 +94,13 @@ fn differences(
     let lines: Vec<Line> = pairs.iter().filter(is_drawn).map(line).collect();
     let stroke = Some(theme.stroke(theme.curve_ink(0), theme.hair));
     let ways = Item::Path(Path { lines, stroke, fill: None });
-    let times = if times < 1.0 { format!("{times}") } else { format!("{times:.0}") };
-    draw(area, &Drawing { class: "difference", title: format!("the difference, {times} times"), items: vec![ways] });
-    let words = format!(
-        "thin and black as it is, broad and pale as it was recorded; hairlines: the difference, {times} times as long"
-    );
+    let magnified = match times {
+        1.0 => "the difference".to_owned(),
+        times if times < 1.0 => format!("the difference, {times} times as long"),
+        times => format!("the difference, {times:.0} times as long"),
+    };
+    draw(area, &Drawing { class: "difference", title: magnified.clone(), items: vec![ways] });
+    let words = format!("thin and black as it is, broad and pale as it was recorded; hairlines: {magnified}");
     let at = Point::new(frame.corner.x, frame.corner.y + frame.size.y + theme.source);
     draw(area, &theme.words(&words, at, Anchor::Start, theme.note, theme.grey).fitted(frame.size.x));
 }
