@@ -1,8 +1,9 @@
 //! One joint: how it is placed, and its numbers.
 
+use super::fields::Fields;
 use super::form::Table;
 use super::kinds::{KINDS, MAX_POINTS, RANGE, SIDES, WAYS};
-use super::reader::{Fields, Reader, Value};
+use super::reader::{Reader, Value};
 use crate::expression::{Bound, Kind};
 use crate::problem::{Problem, nearest_or_all};
 use crate::template::{Coordinate, InputValue, Placing, Side};

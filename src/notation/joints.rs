@@ -1,7 +1,8 @@
 //! The `[linkage.joints]` table: read joint by joint, then put in an order in which each can be placed.
 
+use super::fields::Fields;
 use super::joint::{base, joint, reference};
-use super::reader::{Fields, Reader, Value};
+use super::reader::{Reader, Value};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
 use crate::template::{Coordinate, JointTemplate, Open, Placing, dependency_order};

@@ -1,7 +1,8 @@
+use super::fields::Fields;
 use super::form::{Form, Key, Table, words};
 use super::joints;
 use super::kinds::KINDS;
-use super::reader::{Fields, Reader, Value};
+use super::reader::{Reader, Value};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
 use crate::template::{Circuits, Coincident, Continuation, InputValue, Parameter, Placement, Template};

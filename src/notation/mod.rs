@@ -1,5 +1,6 @@
 //! A template as written in TOML: the `[[linkage]]` tables of manifests and of the catalogue.
 
+mod fields;
 mod form;
 mod joint;
 mod joints;
@@ -8,12 +9,13 @@ mod linkage;
 mod normal;
 mod reader;
 
+pub use fields::Fields;
 pub use form::{Form, Key, Table, words};
 pub use linkage::{
     CIRCUITS, CIRCUITS_KEY, COINCIDENT_KEY, COINCIDENTS, CONTINUATION_KEY, CONTINUATIONS, check_name, slug, template,
 };
 pub use normal::normal;
-pub use reader::{Fields, Reader, Value};
+pub use reader::{Reader, Value};
 
 use linkage::LINKAGE;
 
