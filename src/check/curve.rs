@@ -116,7 +116,7 @@ pub(super) fn difference([was, is]: [f64; 2], least: f64) -> f64 {
 }
 
 /// Whether a curve has the same points in the other direction, or from another on.
-pub(super) fn turned(was: &Track, is: &Track, closed: bool, is_same: impl Fn(Point, Point) -> bool) -> Option<Change> {
+fn turned(was: &Track, is: &Track, closed: bool, is_same: impl Fn(Point, Point) -> bool) -> Option<Change> {
     let n = is.len();
     if was.len() != n || n < 3 {
         return None;

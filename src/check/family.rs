@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::path::Path;
 
-use super::cells::{Columns, Pair};
+use super::cells::Pair;
 use super::circuits::matched;
 use super::curve::{Fresh, compare};
 use super::finding::{Change, Finding, Place};
@@ -14,7 +14,7 @@ use super::track::Track;
 use crate::manifest::Tolerances;
 use crate::motion::Sampler;
 use crate::press::{Hand, Leaf, Press};
-use crate::record::{FamilyRecord, Flaw, Row, rows};
+use crate::record::{FamilyRecord, Flaw, rows};
 use crate::sweep::{self, Curve, Solved};
 
 /// A family that is held against its record.
@@ -97,18 +97,7 @@ impl<'a> Checked<'a> {
         }
         let Some((columns, was)) = self.tables.cells(recorded)? else { return Ok(()) };
         let is = rows(&cells, 1, self.tables.width_of_cells())?;
-        self.measures(&place, columns, [&was, &is], &curves, held)
-    }
-
-    fn measures(
-        &self,
-        place: &Place,
-        columns: &Columns,
-        rows: [&[Row]; 2],
-        curves: &[Pair],
-        held: &mut Held,
-    ) -> Result<(), Flaw> {
-        columns.compare(place, rows, curves, &self.tolerances, &mut held.findings)
+        columns.compare(&place, [&was, &is], &curves, &self.tolerances, &mut held.findings)
     }
 
     /// Holds the curves of a cell against its recorded points, and tells which was held against which.
@@ -119,8 +108,7 @@ impl<'a> Checked<'a> {
         recorded: usize,
         held: &mut Held,
     ) -> Result<Vec<Pair>, Flaw> {
-        let Some([was, is]) = self.tables.tracks(recorded, fresh)? else { return Ok(Vec::new()) };
-        let mut was = was;
+        let Some([mut was, is]) = self.tables.tracks(recorded, fresh)? else { return Ok(Vec::new()) };
         let mut missing = Vec::new();
         for track in &mut was {
             let disorder = track.put_in_order();
@@ -201,7 +189,6 @@ impl Hand for Checked<'_> {
 
     /// Two pages of text, and the rows of the cells on them.
     fn bytes(&self) -> usize {
-        let _ = self.press;
         4 << 20
     }
 }

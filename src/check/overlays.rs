@@ -1,5 +1,7 @@
 //! Pages that show how curves have moved.
 
+use std::collections::HashSet;
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use super::family::Checked;
@@ -11,7 +13,6 @@ use crate::page::{self, OverlaySheet};
 use crate::press::Press;
 use crate::record::Run;
 use crate::render;
-use std::path::Path;
 
 /// A page that shows how a curve has moved.
 #[derive(Clone, Debug)]
@@ -35,8 +36,8 @@ pub fn overlays<'r>(
     let is_of_a_curve = |finding: &&Finding| matches!(finding.change, Change::Moved(_) | Change::Samples { .. });
     let mut wanted: Vec<&Finding> = report.findings.iter().filter(is_of_a_curve).collect();
     // A curve that is sampled otherwise and has moved is one.
-    let mut seen = std::collections::HashSet::new();
-    wanted.retain(|finding| seen.insert(format!("{}", finding.place)));
+    let mut seen = HashSet::new();
+    wanted.retain(|finding| seen.insert(finding.place.to_string()));
     wanted.truncate(most);
     let Ok(run) = Run::read(&recorded.join("run.json")) else { return };
     for planned in &plan.families {

@@ -1,15 +1,14 @@
 //! The pages of a family, held against what is drawn now, and against the recorded points.
 
 use std::collections::HashMap;
-use std::fs;
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::finding::{Change, Finding, Place};
 use super::tables::altered;
 use super::track::Track;
 use crate::press::{Leaf, Matter, Press, page_name};
-use crate::record::{FamilyRecord, FileRecord, RunningDigest};
+use crate::record::{FamilyRecord, FileRecord, Flaw, RunningDigest, open_plain};
 use crate::render::{self, Format};
 use crate::sweep::Solved;
 
@@ -74,7 +73,7 @@ impl<'a> Pages<'a> {
             let wrong = match read(&self.folder.join(&record.name)) {
                 Ok(bytes) if render::is_whole_png(&bytes) => None,
                 Ok(_) => Some("is no whole image".to_owned()),
-                Err(wrong) => Some(wrong),
+                Err(flaw) => Some(flaw.to_string()),
             };
             page.findings.extend(wrong.map(|wrong| self.file(&record.name).has(Change::Damaged { wrong })));
         }
@@ -86,17 +85,16 @@ impl<'a> Pages<'a> {
         let place = self.file(&record.name);
         let bytes = match read(&self.folder.join(&record.name)) {
             Ok(bytes) => bytes,
-            Err(wrong) => {
-                page.findings.push(place.has(Change::Damaged { wrong }));
+            Err(flaw) => {
+                page.findings.push(place.has(Change::Damaged { wrong: flaw.to_string() }));
                 return None;
             }
         };
-        let plain: Vec<u8> = bytes.iter().copied().filter(|&b| b != b'\r').collect();
-        let digests = [&bytes, &plain].map(|bytes| {
-            let mut digest = RunningDigest::default();
-            digest.add(bytes);
-            digest.finish()
-        });
+        let mut digests = [RunningDigest::default(), RunningDigest::default()];
+        digests[0].add(&bytes);
+        // As a table is read: with line ends as this program writes them.
+        bytes.split(|&byte| byte == b'\r').for_each(|part| digests[1].add(part));
+        let digests = digests.map(RunningDigest::finish);
         let change = altered(Some(record), &digests);
         if change.is_none() && bytes != fresh {
             page.differing.push(record.name.clone());
@@ -170,25 +168,17 @@ impl<'a> Pages<'a> {
 
 /// What is wrong with a volume of the book: its bytes may differ from machine to machine, but it is a file.
 pub(super) fn missing(output: &Path, name: &str) -> Option<Finding> {
+    // A record may name anything; a volume is in the atlas's folder.
     let is_plain = Path::new(name).components().count() == 1;
-    let is_file = is_plain && fs::symlink_metadata(output.join(name)).is_ok_and(|metadata| metadata.is_file());
-    let wrong = "is not there".to_owned();
-    (!is_file).then(|| Place::default().file(name).has(Change::Damaged { wrong }))
+    let found = if is_plain { open_plain(&output.join(name), u64::MAX).map(drop) } else { Err(Flaw::Missing) };
+    found.err().map(|flaw| Place::default().file(name).has(Change::Damaged { wrong: flaw.to_string() }))
 }
 
 /// The bytes of a file, or what is wrong with it.
-fn read(path: &Path) -> Result<Vec<u8>, String> {
-    let metadata = fs::symlink_metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => "is not there".to_owned(),
-        _ => format!("cannot be read: {error}"),
-    })?;
-    if !metadata.is_file() {
-        return Err("is no file".to_owned());
-    }
-    if metadata.len() > MOST_BYTES {
-        return Err(format!("has {} bytes, which no page of this program has", metadata.len()));
-    }
+fn read(path: &Path) -> Result<Vec<u8>, Flaw> {
     let mut bytes = Vec::new();
-    let file = fs::File::open(path).and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes));
-    file.map(|_| bytes).map_err(|error| format!("cannot be read: {error}"))
+    match open_plain(path, MOST_BYTES)?.take(MOST_BYTES).read_to_end(&mut bytes) {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(Flaw::Unreadable(error.to_string())),
+    }
 }

@@ -13,4 +13,4 @@ pub use cells::{Cells, shortfalls};
 pub use number::shortest;
 pub use points::Points;
 pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};
-pub use table::{Flaw, Row, Table, rows};
+pub use table::{Flaw, Row, Table, open_plain, rows};

@@ -99,26 +99,8 @@ impl Table {
     /// # Errors
     /// What keeps it from being read at all.
     pub fn open(path: &Path, most: u64, cells: usize) -> Result<Table, Flaw> {
-        let metadata = fs::symlink_metadata(path).map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => Flaw::Missing,
-            _ => Flaw::Unreadable(error.to_string()),
-        })?;
-        let kind = metadata.file_type();
-        if !kind.is_file() {
-            let name = if kind.is_symlink() {
-                "a link"
-            } else if kind.is_dir() {
-                "a folder"
-            } else {
-                "a device"
-            };
-            return Err(Flaw::NoFile(name));
-        }
-        if metadata.len() > most {
-            return Err(Flaw::Gigantic { bytes: metadata.len(), most });
-        }
+        let file = open_plain(path, most)?;
         let unreadable = |error: io::Error| Flaw::Unreadable(error.to_string());
-        let file = File::open(path).map_err(unreadable)?;
         let scan = Scan::of(&file, most, cells).map_err(unreadable)?;
         let header = scan.header.ok_or(Flaw::Empty)?;
         let digests = scan.digests.map(RunningDigest::finish);
@@ -163,6 +145,30 @@ impl Table {
         let (text, first) = text?;
         rows(&text, first, self.header.len())
     }
+}
+
+/// Opens a file that should not be larger than so many bytes; nothing else that has its name.
+///
+/// # Errors
+/// What keeps it from being read.
+pub fn open_plain(path: &Path, most: u64) -> Result<File, Flaw> {
+    let unreadable = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => Flaw::Missing,
+        _ => Flaw::Unreadable(error.to_string()),
+    };
+    let metadata = fs::symlink_metadata(path).map_err(unreadable)?;
+    let kind = metadata.file_type();
+    if !kind.is_file() {
+        return Err(Flaw::NoFile(match () {
+            () if kind.is_symlink() => "a link",
+            () if kind.is_dir() => "a folder",
+            () => "a device",
+        }));
+    }
+    if metadata.len() > most {
+        return Err(Flaw::Gigantic { bytes: metadata.len(), most });
+    }
+    File::open(path).map_err(unreadable)
 }
 
 /// A row of a table.
