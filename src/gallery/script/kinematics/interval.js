@@ -1,0 +1,84 @@
+// Where a linkage can be assembled: for each assembly mode, the intervals of the input.
+//
+// The dyads are taken in the order they are placed. Each cuts the intervals left by those before it to where its base is
+// within its reach; both of its sides then share what is left. So an end of an interval belongs to one dyad, and has one
+// number by which the intervals that meet there are recognised.
+//
+// An end is { at, cos, sin, cause, flat, flips, bound, id }: the input; "limit", where a dyad is stretched or folded and
+// cannot go on, "change", where it can, or "asked", where the range asked for ends; the dyads that lie flat; those of them
+// that change their sides when the motion goes on smoothly; those that can do nothing else, for their bases vanish.
+// A span is { lower, upper }, two ends at most a period apart, or both null: the whole period.
+
+import { stopAt } from "./columns.js";
+import { cutSpan } from "./reach.js";
+import { allSigns, firstOfSet, lastOfSet, signsOfFirst } from "./signs.js";
+import { askedEnd } from "./span.js";
+
+/** The end of an interval that a rising or falling input comes to; null on a full turn. */
+export function endOfInterval({ span }, rising) {
+  return rising ? span.upper : span.lower;
+}
+
+/**
+ * The sides with which a motion goes on that comes to an end with a rising or falling input, and whether the input then
+ * rises; null where it ends.
+ */
+export function onwardFrom(end, signs, rising, { coincident, continuation }) {
+  if (end.cause === "asked") return null;
+  if (end.cause === "change" && continuation === "branch") return { signs: signs ^ end.bound, rises: rising };
+  let flips = end.flips;
+  if (coincident === "first") flips = firstOfSet(flips) | end.bound;
+  if (coincident === "last") flips = lastOfSet(flips) | end.bound;
+  return { signs: signs ^ flips, rises: end.cause === "limit" ? !rising : rising };
+}
+
+/**
+ * The intervals within the range asked for, { intervals: [{ span, signs }], shortfall }: of all assembly modes, or, where
+ * only the circuit through the start pose is wanted, of those that can be reached from it. The shortfall says why there
+ * are none of the mode asked for, where a dyad of it closes nowhere.
+ */
+export function intervalsOf(linkage) {
+  const { travel, dyads } = linkage;
+  const tree = { linkage, left: new Map(), nextId: 2, shortfall: null };
+  const modes = travel.circuits === "all" ? allSigns(dyads) : [travel.signs];
+  const intervals = [];
+  for (let done = 0; done < modes.length; done++) {
+    const signs = modes[done];
+    for (const span of spansOfMode(tree, dyads, signs)) {
+      const interval = { span, signs };
+      for (const rising of [true, false]) {
+        const end = endOfInterval(interval, rising);
+        const onward = end && onwardFrom(end, signs, rising, travel);
+        if (onward && !modes.includes(onward.signs)) modes.push(onward.signs);
+      }
+      intervals.push(interval);
+    }
+  }
+  return { intervals, shortfall: tree.shortfall };
+}
+
+// The whole range of the input that is asked for.
+function wholeSpan({ input, travel: { range } }) {
+  const asked = (at, id) => askedEnd(stopAt(input, at), id);
+  if (range && range[1] - range[0] < input.period) return { lower: asked(range[0], 0), upper: asked(range[1], 1) };
+  if (input.isLength) return { lower: asked(0, 0), upper: asked(Number.MAX_VALUE / 16, 1) };
+  return { lower: null, upper: null };
+}
+
+// The spans on which the first `dyads` dyads close, with the sides of all but the last of them given. Modes that share
+// these share the spans, and the numbers of their ends.
+function spansOfMode(tree, dyads, signs) {
+  const { linkage } = tree;
+  if (dyads === 0) return [wholeSpan(linkage)];
+  const before = signsOfFirst(signs, dyads - 1);
+  const key = `${dyads}.${before}`;
+  if (tree.left.has(key)) return tree.left.get(key);
+  const spans = [];
+  for (const span of spansOfMode(tree, dyads - 1, signs)) {
+    const { parts, reason } = cutSpan(linkage, dyads - 1, span, before, () => ++tree.nextId);
+    spans.push(...parts);
+    if (reason && before === signsOfFirst(linkage.travel.signs, dyads - 1)) tree.shortfall ??= reason;
+  }
+  tree.left.set(key, spans);
+  return spans;
+}

@@ -1,0 +1,41 @@
+// Where every joint is at inputs of a pass, as seen from the linkage's own view.
+
+import { inputColumns, newColumns, placeJoints, seeColumns, stopAt } from "./columns.js";
+import { placeEnd } from "./ends.js";
+import { jetsOnPass } from "./jets.js";
+import { modesOf } from "./signs.js";
+
+/** All joints at many inputs of a pass, in columns; at its ends exactly as the circuit has them. */
+export function posesAt(linkage, pass, ats) {
+  const stops = Array.from(ats, (at) => stopAt(linkage.input, at));
+  const inputs = inputColumns(stops);
+  const joints = linkage.joints.length;
+  const columns = newColumns(joints, stops.length);
+  placeJoints(linkage, [0, joints], inputs, modesOf(pass.signs, 0, linkage.dyads), columns, 0, stops.length);
+  stops.forEach(({ at }, i) => {
+    if (at === pass.from && pass.begin.flat !== 0) placeEnd(linkage, pass, true, inputs, columns, i);
+    if (at === pass.to && pass.end.flat !== 0) placeEnd(linkage, pass, false, inputs, columns, i);
+  });
+  seeColumns(linkage, columns);
+  return columns;
+}
+
+/** All joints at one input of a pass, in degrees or as a length: Float64Array [x0, y0, x1, y1, …]; NaN where undefined. */
+export function poseAt(linkage, pass, input) {
+  const { x, y } = posesAt(linkage, pass, [input]);
+  return Float64Array.from({ length: 2 * x.length }, (_, k) => (k % 2 === 0 ? x : y)[k >> 1][0]);
+}
+
+/**
+ * Places, velocities and accelerations of all joints at an input of a pass, each like a pose: { place, velocity,
+ * acceleration }, per radian of input or unit of length, by exact series. Infinite where a limit makes them so.
+ */
+export function ratesAt(linkage, pass, input) {
+  const jets = jetsOnPass(linkage, pass, input);
+  const rates = (order, factor) => {
+    const of = (k) => jets[k >> 1][k % 2 === 0 ? "x" : "y"][order] * factor;
+    const bounded = (value) => (Number.isNaN(value) && order > 0 ? Infinity : value);
+    return Float64Array.from({ length: 2 * jets.length }, (_, k) => bounded(of(k)));
+  };
+  return { place: rates(0, 1), velocity: rates(1, 1), acceleration: rates(2, 2) };
+}
