@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! manifest -> families x grid -> linkage -> motion -> measures -> pages -> scene -> svg / png / pdf
-//!                                              \-> points.csv, cells.csv, run.json -> check
+//!                                              \-> points.csv, cells.csv, run.json -> check, index.html
 //! ```
 //!
 //! The modules stand here in reading order; none imports one that comes after it. Each stage is one public function:
@@ -59,6 +59,8 @@ pub mod manifest;
 pub mod record;
 
 pub mod press;
+
+pub mod gallery;
 
 pub mod build;
 pub mod check;

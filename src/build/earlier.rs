@@ -7,13 +7,14 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::{Error, Event, files};
+use crate::gallery;
 use crate::page::book::Volume;
 use crate::press::page_name;
 use crate::record::{FamilyRecord, FileRecord, ReadError, Run};
 use crate::render::Format;
 
-/// The tables of a family, which every one has.
-const TABLES: [&str; 2] = ["cells.csv", "points.csv"];
+/// The tables of a family, which every one has, and its data for the gallery.
+const TABLES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT];
 
 /// The number of a page, from its name.
 pub(super) fn page_number(family: &str, name: &str, format: Format) -> Option<usize> {
@@ -61,6 +62,7 @@ fn trusted(mut run: Run) -> Run {
         ids.push(family.id.clone());
         is_first && is_slug(&family.id)
     });
+    run.gallery = run.gallery.filter(|file| file.name == gallery::PAGE);
     if let Some(book) = &mut run.book {
         book.files.retain(|file| is_volume(&file.name));
     }

@@ -9,6 +9,7 @@ use super::inputs::Inputs;
 use super::journal::Journal;
 use super::pages::{Printed, Printer, Rows};
 use super::{Error, Event, Options, earlier};
+use crate::gallery::{self, Statements};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::press::{Off, Press};
 use crate::record::{Cells, FamilyRecord, FileRecord, Points, shortfalls};
@@ -62,7 +63,8 @@ pub(super) fn build(
     }
     let (composer, interrupt) = (press.composer, &*options.interrupt);
     let tables = (Points::new(family), Cells::new(family));
-    let printer = Printer { composer, formats: &formats, inputs, tables, claims: &claims, interrupt };
+    let statements = Statements::new(plan, planned);
+    let printer = Printer { composer, formats: &formats, inputs, tables, statements, claims: &claims, interrupt };
     let mut work = Work { press: &press, printer, folder, record, drawn: 0, since: 0 };
     match work.all(journal, tell) {
         Ok(()) => {
@@ -147,20 +149,26 @@ const PAGES_TO_A_RECORD: usize = 400;
 
 impl Work<'_> {
     fn all(&mut self, journal: &mut Journal, tell: &mut dyn FnMut(Event)) -> Result<(), Error> {
-        let Printer { tables: (points_table, cells_table), claims, .. } = self.printer;
+        let Printer { tables: (points_table, cells_table), statements, claims, .. } = self.printer;
         let mut points = Growing::create(self.folder.join("points.csv"), &points_table.header())?;
         let mut cells = Growing::create(self.folder.join("cells.csv"), &cells_table.header())?;
+        let mut shown = Growing::create(self.folder.join(gallery::SCRIPT), &statements.begin())?;
         let (press, printer) = (self.press, self.printer);
         press.run(&printer, |off| match off {
             Off::Cells(rows) => {
                 points.append(&rows.points)?;
                 cells.append(&rows.cells)?;
+                shown.append(rows.shown.as_bytes())?;
                 self.count(&rows, tell);
                 Ok(())
             }
-            Off::Page(page) => self.keep(page, journal, tell),
+            Off::Page(page) => {
+                shown.append(page.shown.as_bytes())?;
+                self.keep(page, journal, tell)
+            }
         })?;
-        let tables = [claims.finish(cells)?, claims.finish(points)?];
+        shown.append(statements.end().as_bytes())?;
+        let tables = [claims.finish(cells)?, claims.finish(points)?, claims.finish(shown)?];
         self.record.files.splice(0..0, tables);
         Ok(())
     }

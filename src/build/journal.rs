@@ -3,8 +3,9 @@ use std::path::{Path, PathBuf};
 
 use super::Error;
 use super::files::{self, write};
+use crate::gallery::{self, Shown};
 use crate::manifest::Plan;
-use crate::record::{BookRecord, FamilyRecord, Run};
+use crate::record::{BookRecord, FamilyRecord, FileRecord, Run};
 
 /// `run.json` as it grows: at any time it says no more than what is so, whatever comes next.
 #[derive(Debug)]
@@ -15,6 +16,8 @@ pub(super) struct Journal<'a> {
     families: Vec<FamilyRecord>,
     /// What is known of the book.
     book: Option<BookRecord>,
+    /// What is known of the gallery's page.
+    gallery: Option<FileRecord>,
     /// What is in the file.
     written: Vec<u8>,
 }
@@ -25,8 +28,8 @@ impl<'a> Journal<'a> {
         let path = output.join("run.json");
         // Where it cannot be read there is none, or it is one that is replaced.
         let written = fs::read(&path).unwrap_or_default();
-        let (families, book) = earlier.map(|run| (run.families, run.book)).unwrap_or_default();
-        Journal { plan, path, families, book, written }
+        let (families, book, gallery) = earlier.map(|run| (run.families, run.book, run.gallery)).unwrap_or_default();
+        Journal { plan, path, families, book, gallery, written }
     }
 
     /// What is known of the book.
@@ -80,6 +83,7 @@ impl<'a> Journal<'a> {
         let place = |record: &FamilyRecord| self.plan.families.iter().position(|p| p.family.id == record.id);
         run.families = self.families.clone();
         run.book = self.book.clone();
+        run.gallery = self.gallery.clone();
         run.families.sort_by_key(|record| place(record).unwrap_or(usize::MAX));
         run
     }
@@ -93,6 +97,25 @@ impl<'a> Journal<'a> {
             self.written = bytes;
         }
         Ok(run)
+    }
+
+    /// Writes the gallery's page for what is known now.
+    ///
+    /// # Errors
+    /// A page that cannot be written.
+    pub fn put_gallery(&mut self, output: &Path) -> Result<(), Error> {
+        let run = self.run();
+        let bytes = |record: &FamilyRecord| {
+            fs::metadata(output.join(&record.id).join(gallery::SCRIPT)).map_or(0, |metadata| metadata.len())
+        };
+        let shown: Vec<Shown> = run.families.iter().map(|record| Shown { record, bytes: bytes(record) }).collect();
+        let page = gallery::index(&run, &shown);
+        let record = FileRecord::of_bytes(gallery::PAGE, page.as_bytes());
+        if self.gallery.as_ref() != Some(&record) || !files::is_intact(output, &record) {
+            write(&output.join(gallery::PAGE), page.as_bytes())?;
+        }
+        self.gallery = Some(record);
+        Ok(())
     }
 
     /// The finished record.

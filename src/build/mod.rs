@@ -110,6 +110,7 @@ pub fn run(plan: &Plan, output: &Path, options: &Options, tell: &mut dyn FnMut(E
         journal.drop_others(output)?;
     }
     book::build(plan, output, options, &mut journal, tell)?;
+    journal.put_gallery(output)?;
     journal.close()
 }
 

@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::claims::Claims;
 use super::inputs::Inputs;
 use super::{Error, stop_if};
+use crate::gallery::Statements;
 use crate::press::{Composer, Hand, Leaf, Matter, page_name};
 use crate::record::{Cells, FileRecord, Points};
 use crate::render::{self, Format};
@@ -16,12 +17,16 @@ pub(super) struct Printed {
     pub files: Vec<FileRecord>,
     /// Whether any of them was drawn.
     pub is_drawn: bool,
+    /// What is where on it, for the gallery.
+    pub shown: String,
 }
 
 /// Rows of the tables, and what is counted of their cells.
 pub(super) struct Rows {
     pub points: Vec<u8>,
     pub cells: Vec<u8>,
+    /// The same for the gallery.
+    pub shown: String,
     pub curves: usize,
     pub left_out: usize,
     pub shortfalls: Vec<(usize, String)>,
@@ -34,6 +39,7 @@ pub(super) struct Printer<'a> {
     pub formats: &'a [Format],
     pub inputs: Inputs<'a>,
     pub tables: (Points<'a>, Cells<'a>),
+    pub statements: Statements<'a>,
     /// What is said of the files.
     pub claims: &'a Claims,
     /// Becomes true when no more pages are to be begun.
@@ -57,6 +63,7 @@ impl Hand for Printer<'_> {
         Ok(Rows {
             points,
             cells,
+            shown: self.statements.cells(solved),
             curves: solved.iter().map(|s| s.curves.len()).sum(),
             left_out: solved.iter().map(|s| s.left_out).sum(),
             shortfalls: solved.iter().filter_map(shortfall).collect(),
@@ -74,10 +81,15 @@ impl Hand for Printer<'_> {
         let named = |&format: &Format| (format, page_name(&planned.family.id, leaf.page, format));
         let names: Vec<(Format, String)> = self.formats.iter().map(named).collect();
         let kept: Vec<Option<FileRecord>> = names.iter().map(|(_, name)| self.claims.kept(name, inputs)).collect();
-        if kept.iter().all(Option::is_some) {
-            return Ok(Printed { files: kept.into_iter().flatten().collect(), is_drawn: false });
+        if names.is_empty() {
+            return Ok(Printed { files: Vec::new(), is_drawn: false, shown: String::new() });
         }
+        let page = leaf.page;
         let scene = leaf.compose();
+        let shown = self.statements.page(page, &scene);
+        if kept.iter().all(Option::is_some) {
+            return Ok(Printed { files: kept.into_iter().flatten().collect(), is_drawn: false, shown });
+        }
         // An image is recorded by its SVG, too.
         let svg = render::svg(&scene, plan.text);
         let draw = |((format, name), kept): ((Format, String), Option<FileRecord>)| match (kept, format) {
@@ -92,7 +104,7 @@ impl Hand for Printer<'_> {
             (None, Format::Pdf) => Ok(FileRecord::of_name(name)),
         };
         let files = names.into_iter().zip(kept).map(draw).collect::<Result<_, Error>>()?;
-        Ok(Printed { files, is_drawn: true })
+        Ok(Printed { files, is_drawn: true, shown })
     }
 
     /// The pixels of an image, and what they are encoded to.

@@ -54,6 +54,11 @@ impl Function {
         Function::ALL.iter().find(|(n, _)| *n == name).map(|&(_, f)| f)
     }
 
+    /// The name it is called with.
+    pub fn name(self) -> &'static str {
+        Function::ALL.iter().find(|(_, function)| *function == self).map_or("", |(name, _)| name)
+    }
+
     /// The least and the greatest number of arguments.
     pub fn arity(self) -> (usize, usize) {
         match self {

@@ -17,7 +17,7 @@ mod quantity;
 
 pub use caption::Caption;
 pub use function::Function;
-pub use program::{Bound, Expression, Kind};
+pub use program::{Bound, Expression, Kind, Postfix};
 pub use quantity::{Dimension, Quantity, Unit};
 
 use crate::problem::{Problem, Span};

@@ -159,6 +159,19 @@ impl Expression {
     }
 }
 
+/// A step of an expression's program, as other programs may run it on a stack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Postfix {
+    /// A number is pushed.
+    Number(f64),
+    /// The value of the name at a place of the scope is pushed.
+    Name(usize),
+    /// An operator takes its operands: as it is written in expressions, but for `neg`, which is the sign before one.
+    Operator(&'static str),
+    /// A function, by its name, takes so many arguments.
+    Call(&'static str, usize),
+}
+
 /// An expression whose names are places in a scope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
@@ -186,6 +199,18 @@ impl Bound {
         }
     }
 
+    /// Its program, step by step.
+    pub fn postfix(&self) -> impl Iterator<Item = Postfix> {
+        self.expression.program.iter().map(|(instruction, _)| match *instruction {
+            Instruction::Push(value) => Postfix::Number(value),
+            Instruction::Load(name) => Postfix::Name(self.slots[name]),
+            Instruction::Negate => Postfix::Operator("neg"),
+            Instruction::Not => Postfix::Operator("not"),
+            Instruction::Binary(operator) => Postfix::Operator(operator.symbol()),
+            Instruction::Call(function, arguments) => Postfix::Call(function.name(), arguments),
+        })
+    }
+
     /// The places of the names it asks for.
     pub fn slots(&self) -> &[usize] {
         &self.slots
@@ -205,6 +230,25 @@ impl Operator {
             Add | Subtract | Multiply | Divide | Power => (Kind::Number, Kind::Number),
             And | Or => (Kind::Truth, Kind::Truth),
             _ => (Kind::Number, Kind::Truth),
+        }
+    }
+
+    /// How it is written.
+    fn symbol(self) -> &'static str {
+        match self {
+            Operator::Add => "+",
+            Operator::Subtract => "-",
+            Operator::Multiply => "*",
+            Operator::Divide => "/",
+            Operator::Power => "^",
+            Operator::Equal => "==",
+            Operator::NotEqual => "!=",
+            Operator::Less => "<",
+            Operator::LessOrEqual => "<=",
+            Operator::Greater => ">",
+            Operator::GreaterOrEqual => ">=",
+            Operator::And => "and",
+            Operator::Or => "or",
         }
     }
 

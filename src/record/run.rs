@@ -27,6 +27,9 @@ pub struct Run {
     /// The book, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub book: Option<BookRecord>,
+    /// The gallery's page.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gallery: Option<FileRecord>,
 }
 
 /// What was written of the book.
@@ -148,7 +151,15 @@ impl Run {
     /// An empty record of an atlas.
     pub fn new(title: &str) -> Run {
         let (program, version) = (env!("CARGO_PKG_NAME").to_owned(), env!("CARGO_PKG_VERSION").to_owned());
-        Run { format: FORMAT, program, version, title: title.to_owned(), families: Vec::new(), book: None }
+        Run {
+            format: FORMAT,
+            program,
+            version,
+            title: title.to_owned(),
+            families: Vec::new(),
+            book: None,
+            gallery: None,
+        }
     }
 
     /// Reads a record.

@@ -3,13 +3,14 @@
 //! Where this differs from a plain reading of data going one way, it is for the sake of one word for one thing: a
 //! family says how its circuits are sampled in motion's words, a manifest names the templates that notation reads, and
 //! the colours and typefaces of a scene, and a record has the columns of the measures. What comes off the press in order
-//! is the same for those who write it and those who check it: a room of its own before both.
+//! is the same for those who write it and those who check it: a room of its own before both. The gallery's page has a solver
+//! of its own, which is given the templates themselves, and shows where a page's scene has which curve.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const HOUSE: [(&str, &str); 22] = [
+const HOUSE: [(&str, &str); 23] = [
     ("geometry", ""),
     ("problem", ""),
     ("expression", "geometry problem"),
@@ -29,10 +30,11 @@ const HOUSE: [(&str, &str); 22] = [
     ("manifest", "problem expression notation catalogue family page render template chart scene"),
     ("record", "family sweep measure"),
     ("press", "family measure sweep chart scene page render manifest"),
+    ("gallery", "geometry expression measure template family sweep scene page manifest record"),
     (
         "build",
         "geometry problem expression linkage motion measure template notation catalogue family sweep chart scene page \
-         render manifest record press",
+         render manifest record press gallery",
     ),
     ("check", "geometry linkage motion measure sweep page manifest press record render"),
     (

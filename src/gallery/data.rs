@@ -1,0 +1,244 @@
+//! The data of a family: a script of statements, each of which hands some of it to the page.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value, json};
+
+use super::packed::{f64s, u8s, u16s, u32s};
+use super::template::{expression, template};
+use crate::family::{Sampling, Straight};
+use crate::geometry::{Bounds, Point};
+use crate::manifest::{Plan, PlannedFamily};
+use crate::measure::{self, Measure};
+use crate::page::Layout;
+use crate::scene::{Group, Item, Scene};
+use crate::sweep::{Curve, Solved, Status};
+
+/// The name of the script in a family's folder.
+pub const SCRIPT: &str = "gallery.js";
+
+/// So many points of a curve are handed over at most: enough to draw it small, to point at it, and to compare shapes. A
+/// curve that is looked at is solved by the page itself.
+const MOST_POINTS: usize = 128;
+
+/// The code of a word that a curve does not have.
+const NO_WORD: u8 = u8::MAX;
+
+/// The statements of a family's script.
+#[derive(Clone, Copy, Debug)]
+pub struct Statements<'a> {
+    plan: &'a Plan,
+    planned: &'a PlannedFamily,
+}
+
+impl<'a> Statements<'a> {
+    /// Those of a family of a plan.
+    pub fn new(plan: &'a Plan, planned: &'a PlannedFamily) -> Statements<'a> {
+        Statements { plan, planned }
+    }
+
+    /// The first: all that is said of the family as a whole.
+    pub fn begin(self) -> String {
+        let family = &self.planned.family;
+        let free: Vec<usize> = (0..family.names.len())
+            .filter(|&slot| (0..family.cells().min(1000)).any(|k| family.space.gives(k, slot)))
+            .collect();
+        let derived: Vec<Value> = family.derived.iter().map(|(slot, bound)| json!([slot, expression(bound)])).collect();
+        let paper = self.plan.page.paper;
+        let layout = match self.planned.layout {
+            Layout::Panels { .. } => "panels",
+            Layout::Chart { .. } => "chart",
+            Layout::CouplerGrid => "coupler-grid",
+        };
+        statement(
+            "begin",
+            &json!({
+                "id": family.id,
+                "title": family.title,
+                "source": self.planned.source,
+                "legend": family.template.legend,
+                "linkage": family.template.id,
+                "layout": layout,
+                "sampling": sampling(family.sampling),
+                "paper": { "width": paper.width, "height": paper.height },
+                "dash_deg": self.plan.page.dash_deg,
+                "straight": straight(family.straight),
+                "template": template(&family.template),
+                "names": family.names,
+                "free": free,
+                "derived": derived,
+            }),
+        )
+    }
+
+    /// Some cells with their curves, in the order of their numbers; nothing where there are none.
+    pub fn cells(self, solved: &[Solved]) -> String {
+        let kept: Vec<&Solved> = solved.iter().filter(|solved| !solved.is_left_out()).collect();
+        if kept.is_empty() {
+            return String::new();
+        }
+        let family = &self.planned.family;
+        let lines: Vec<[String; 2]> = kept.iter().map(|s| family.describe(&s.cell, s.measures())).collect();
+        let reason = |s: &&Solved| s.motion.shortfall.clone().unwrap_or_default();
+        let status = |s: &&Solved| match s.status() {
+            Status::Ok => 0,
+            Status::Partial => 1,
+            Status::None => 2,
+        };
+        let curves: Vec<(usize, &Solved, &Curve)> =
+            kept.iter().enumerate().flat_map(|(k, s)| s.curves.iter().map(move |curve| (k, *s, curve))).collect();
+        statement(
+            "cells",
+            &json!({
+                "number": u32s(kept.iter().map(|s| s.cell.number)),
+                "values": f64s(kept.iter().flat_map(|s| s.cell.values.iter().copied())),
+                "status": u8s(kept.iter().map(status)),
+                "reason": kept.iter().map(reason).collect::<Vec<_>>(),
+                "caption": lines.iter().map(|[caption, _]| caption.as_str()).collect::<Vec<_>>(),
+                "note": lines.iter().map(|[_, note]| note.as_str()).collect::<Vec<_>>(),
+                "curves": curves_of(&curves),
+            }),
+        )
+    }
+
+    /// What is where on a page: the transforms from the plane to millimetres of the paper, with the curves they are of.
+    pub fn page(self, number: usize, scene: &Scene) -> String {
+        let mut views: Vec<Value> = Vec::new();
+        let mut last = Vec::new();
+        for (fact, curve) in drawn(&scene.items) {
+            if fact != last || views.is_empty() {
+                let [cell, scale, x, y] = [0, 1, 2, 3].map(|k| fact.get(k).copied().unwrap_or(f64::NAN));
+                views.push(json!({ "cell": cell, "scale": scale, "origin": [x, y], "curves": [] }));
+                last = fact;
+            }
+            if let Some(Value::Array(curves)) = views.last_mut().and_then(|view| view.get_mut("curves")) {
+                curves.push(json!(curve));
+            }
+        }
+        statement("page", &json!({ "page": number, "views": views }))
+    }
+
+    /// The last: nothing more comes.
+    pub fn end(self) -> String {
+        statement("end", &json!({ "id": self.planned.family.id }))
+    }
+}
+
+/// A statement. Whatever the text in it, it is JSON, and no script ends within it.
+fn statement(name: &str, value: &Value) -> String {
+    format!("couplerAtlas.{name}({value});\n")
+}
+
+fn sampling(sampling: Sampling) -> Value {
+    match sampling {
+        Sampling::Step(step) => json!({ "step": step }),
+        Sampling::Samples(samples) => json!({ "samples": samples }),
+        Sampling::Smooth(samples) => json!({ "samples": samples, "spacing": "smooth" }),
+        Sampling::Arc(samples) => json!({ "samples": samples, "spacing": "arc" }),
+    }
+}
+
+fn straight(straight: Straight) -> Value {
+    match straight {
+        Straight::Tolerance(tolerance) => json!({ "tolerance": tolerance }),
+        Straight::Input(input) => json!({ "input": input }),
+        Straight::Length(length) => json!({ "length": length }),
+    }
+}
+
+/// Curves, each with the place of its cell among those handed over.
+fn curves_of(curves: &[(usize, &Solved, &Curve)]) -> Value {
+    let of = |curve: &Curve, k: usize| match curve.measures.get(k) {
+        Some(measure::Value::Number(value)) => *value,
+        _ => f64::NAN,
+    };
+    let numbers = measure::ALL.iter().enumerate().filter(|(_, measure)| !measure.is_word);
+    let measures: Map<String, Value> =
+        numbers.map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| of(curve, k))))).collect();
+    let words = measure::ALL.iter().enumerate().filter(|(_, measure)| measure.is_word);
+    let words: Map<String, Value> = words.map(|(k, m)| (m.name.to_owned(), words_of(curves, k, m))).collect();
+    let points: Vec<Vec<Point>> = curves.iter().map(|(_, solved, curve)| points(solved, curve)).collect();
+    let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::of(points.iter().copied())).collect();
+    let corners = |b: &Bounds| [b.min.x, b.min.y, b.max.x, b.max.y];
+    let places =
+        points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantized(*p, bounds)));
+    json!({
+        "cell": u32s(curves.iter().map(|(cell, ..)| *cell)),
+        "trace": u16s(curves.iter().map(|(.., curve)| small(curve.trace))),
+        "circuit": u16s(curves.iter().map(|(.., curve)| small(curve.circuit))),
+        "closed": u8s(curves.iter().map(|(_, solved, curve)| u8::from(solved.circuit(curve).closed))),
+        "measures": measures,
+        "words": words,
+        "box": f64s(boxes.iter().flat_map(corners)),
+        "count": u16s(points.iter().map(|points| small(points.len()))),
+        "points": u16s(places),
+    })
+}
+
+fn words_of(curves: &[(usize, &Solved, &Curve)], k: usize, _measure: &Measure) -> Value {
+    let mut values: BTreeMap<&str, u8> = BTreeMap::new();
+    let word = |curve: &Curve| match curve.measures.get(k) {
+        Some(measure::Value::Word(word)) => Some(*word),
+        _ => None,
+    };
+    for word in curves.iter().filter_map(|(.., curve)| word(curve)) {
+        let next = u8::try_from(values.len()).unwrap_or(NO_WORD);
+        values.entry(word).or_insert(next);
+    }
+    let mut named: Vec<(&str, u8)> = values.iter().map(|(word, code)| (*word, *code)).collect();
+    named.sort_by_key(|(_, code)| *code);
+    let code = |curve: &Curve| word(curve).and_then(|word| values.get(word).copied()).unwrap_or(NO_WORD);
+    json!({
+        "values": named.iter().map(|(word, _)| *word).collect::<Vec<_>>(),
+        "codes": u8s(curves.iter().map(|(.., curve)| code(curve))),
+    })
+}
+
+fn small(number: usize) -> u16 {
+    u16::try_from(number).unwrap_or(u16::MAX)
+}
+
+/// Points of a curve, its first and, of an open one, its last among them.
+fn points(solved: &Solved, curve: &Curve) -> Vec<Point> {
+    let circuit = solved.circuit(curve);
+    let all: Vec<Point> = circuit.points(curve.joint).filter(|p| p.x.is_finite() && p.y.is_finite()).collect();
+    if all.len() <= MOST_POINTS {
+        return all;
+    }
+    let steps = if circuit.closed { MOST_POINTS } else { MOST_POINTS - 1 };
+    let whole = if circuit.closed { all.len() } else { all.len() - 1 };
+    (0..MOST_POINTS).map(|k| all[k * whole / steps]).collect()
+}
+
+/// A point's place in its curve's bounds, in parts of 65,535.
+fn quantized(p: Point, bounds: &Bounds) -> [u16; 2] {
+    let part = |at: f64, from: f64, to: f64| {
+        let part = (at - from) / (to - from);
+        if part.is_finite() { (part * f64::from(u16::MAX)).round() as u16 } else { 0 }
+    };
+    [part(p.x, bounds.min.x, bounds.max.x), part(p.y, bounds.min.y, bounds.max.y)]
+}
+
+/// The curves drawn by some items, in order: the cell, the scale and the origin of each, and its trace and circuit.
+fn drawn(items: &[Item]) -> Vec<(Vec<f64>, [usize; 2])> {
+    let mut found = Vec::new();
+    for item in items {
+        if let Item::Group(group) = item {
+            match curve(group) {
+                Some(curve) => found.push(curve),
+                None => found.extend(drawn(&group.items)),
+            }
+        }
+    }
+    found
+}
+
+fn curve(group: &Group) -> Option<(Vec<f64>, [usize; 2])> {
+    let fact = |name: &str| group.data.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str());
+    let numbers: Vec<f64> = [fact("cell")?, fact("scale")?]
+        .into_iter()
+        .chain(fact("origin")?.split(' '))
+        .filter_map(|number| number.parse().ok())
+        .collect();
+    Some((numbers, [fact("trace")?.parse().ok()?, fact("circuit")?.parse().ok()?]))
+}

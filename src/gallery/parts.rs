@@ -1,0 +1,39 @@
+//! The page's own files, and how they become one.
+
+/// A file of the page: its name below `src/gallery`, and its text.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Its name.
+    pub name: &'static str,
+    /// Its text.
+    pub text: &'static str,
+}
+
+macro_rules! parts {
+    ($($name:literal),* $(,)?) => { &[$(Part { name: $name, text: include_str!($name) }),*] };
+}
+
+/// The style sheets, in the order in which they stand in the page.
+pub const STYLES: &[Part] = parts!["style/base.css"];
+
+/// The modules, each after those it imports.
+pub const SCRIPTS: &[Part] = parts!["script/main.js"];
+
+/// Modules as one script: what they import from one another is there already, so that imports go and exports are plain
+/// definitions. No two of them may use one name for two things at their top level.
+pub fn joined(modules: &[Part]) -> String {
+    let mut script = String::new();
+    for Part { name, text } in modules {
+        script.push_str(&format!("// {name}\n"));
+        let mut in_import = false;
+        for line in text.lines() {
+            in_import |= line.starts_with("import ");
+            if !in_import {
+                script.push_str(line.strip_prefix("export ").unwrap_or(line));
+                script.push('\n');
+            }
+            in_import &= !line.trim_end().ends_with(';');
+        }
+    }
+    script
+}
