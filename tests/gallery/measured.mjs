@@ -1,0 +1,2 @@
+export function compareMeasures() {}
+export function measuresTold() { return "no measures"; }
