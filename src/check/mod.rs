@@ -10,6 +10,7 @@ mod circuits;
 mod curve;
 mod family;
 mod finding;
+mod gallery;
 mod numbering;
 mod overlays;
 mod pages;
@@ -27,6 +28,7 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
+use crate::gallery::{PAGE, SCRIPT};
 use crate::manifest::{GivenTolerances, Plan, PlannedFamily};
 use crate::press::{Off, Press};
 use crate::record::{FamilyRecord, LOCK, ReadError, Run};
@@ -142,6 +144,9 @@ pub fn run(plan: &Plan, recorded: &Path, options: &Options, tell: &mut dyn FnMut
     if let Some(book) = record.book.as_ref().filter(|_| options.only.is_empty()) {
         report.add(book.files.iter().filter_map(|file| pages::missing(recorded, &file.name)).collect());
     }
+    if let Some(page) = record.gallery.as_ref().filter(|_| options.only.is_empty()) {
+        report.add(gallery::differs(recorded, PAGE, page).into_iter().collect());
+    }
     for planned in plan.families.iter().filter(|planned| is_asked(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {
             Some(of) => family_of(plan, planned, of, recorded, options, &mut report, tell),
@@ -193,6 +198,9 @@ fn family_of(
     report.families += 1;
     report.pages += pages.len();
     findings.extend(checked.on_pages(pages, &changed));
+    if let Some(script) = record.files.iter().find(|file| file.name == SCRIPT) {
+        findings.extend(gallery::differs(recorded, &format!("{}/{SCRIPT}", planned.family.id), script));
+    }
     report.add(findings);
     tell(Event::End);
 }

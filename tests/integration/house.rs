@@ -36,7 +36,7 @@ const HOUSE: [(&str, &str); 23] = [
         "geometry problem expression linkage motion measure template notation catalogue family sweep chart scene page \
          render manifest record press gallery",
     ),
-    ("check", "geometry linkage motion measure sweep page manifest press record render"),
+    ("check", "geometry linkage motion measure sweep page manifest press gallery record render"),
     (
         "cli",
         "build check catalogue design expression family geometry linkage manifest measure motion page problem record render sweep template",
