@@ -1,21 +1,113 @@
-// All families of the atlas.
+// All families of the atlas, each by its first page.
 
 import { address } from "../data/address.js";
-import { h } from "./dom.js";
+import { fill, h } from "./dom.js";
+import { counted } from "./shell-footer.js";
+import { whenSeen } from "./thumbnail-seen.js";
+import { pageThumbnail } from "./thumbnail-page.js";
+
+// With so many families or more they can be searched by name.
+const MANY_FAMILIES = 8;
 
 /** The room with all families. */
 export const overviewRoom = {
   name: "families",
   label: "Families",
   way: () => address([]),
-  opens: () => true,
-  view: (app) => ({
-    title: "",
-    element: h("ul", { class: "families" }, app.atlas.families.map((family) => h(
-      "li",
-      {},
-      h("a", { href: address([family.id]) }, family.title),
-      ` ${family.curves} curves on ${family.pages} pages`,
-    ))),
-  }),
+  opens: ({ path }) => path.length === 0,
+  view: (app) => {
+    const { families, title } = app.atlas;
+    const tiles = new Map(families.map((family) => [familyTile(family), family]));
+    const sight = whenSeen((tile) => showFirstPage(app, tiles.get(tile), tile));
+    const list = h("ul", { class: "families" }, [...tiles.keys()]);
+    return {
+      title: "",
+      element: h(
+        "div",
+        { class: "room overview" },
+        h(
+          "div",
+          { class: "head" },
+          h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, summaryOf(families))),
+          families.length >= MANY_FAMILIES ? familySearch(app, tiles) : null,
+        ),
+        list,
+      ),
+      shown: () => [...tiles.keys()].forEach((tile) => sight.watch(tile)),
+      leave: () => sight.end(),
+    };
+  },
 };
+
+function summaryOf(families) {
+  const sum = (of) => families.reduce((total, family) => total + of(family), 0);
+  return `${counted(sum((f) => f.curves), "curve", "curves")} of ${counted(sum((f) => f.kept), "linkage", "linkages")} on ${
+    counted(sum((f) => f.pages), "page", "pages")}`;
+}
+
+function familyTile(family) {
+  return h(
+    "li",
+    { class: "tile" },
+    h(
+      "a",
+      { href: address([family.id]) },
+      h("span", { class: "leaf" }),
+      h("span", { class: "name" }, family.title),
+    ),
+    h("p", { class: "source note" }),
+    h("p", { class: "note" }, countsOf(family)),
+    family.not_assembled ? h("p", { class: "note" }, notAssembledInWords(family)) : null,
+  );
+}
+
+/** How much there is of a family, in words: curves, pages, and linkages where they are not as many as curves. */
+export function countsOf(family) {
+  return [
+    counted(family.curves, "curve", "curves"),
+    counted(family.pages, "page", "pages"),
+    family.kept === family.curves ? null : counted(family.kept, "linkage", "linkages"),
+  ].filter(Boolean).join(" · ");
+}
+
+/** How many linkages of a family could not be assembled, in words. */
+export function notAssembledInWords({ not_assembled: none, kept }) {
+  return `${none.toLocaleString("en")} of ${counted(kept, "linkage", "linkages")} could not be assembled`;
+}
+
+/** The source of a family, without the legend that its pages add to it. */
+export function sourceOf({ source, legend }) {
+  const ending = ` · ${legend}`;
+  return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : source ?? "";
+}
+
+async function showFirstPage(app, { id }, tile) {
+  const leaf = tile.querySelector(".leaf");
+  try {
+    const family = await app.atlas.family(id);
+    leaf.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
+    fill(leaf, pageThumbnail(app.atlas, family, 1) ?? "");
+    fill(tile.querySelector(".source"), sourceOf(family));
+  } catch (error) {
+    fill(tile.querySelector(".source"), h("span", { class: "trouble" }, error.message));
+  }
+}
+
+/** A field that leaves the families whose title, linkage or name has all the words in it. */
+function familySearch(app, tiles) {
+  const total = tiles.size;
+  const seek = (event) => {
+    const words = event.target.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let left = 0;
+    for (const [tile, { id, title, linkage }] of tiles) {
+      const text = `${title} ${id} ${linkage}`.toLowerCase();
+      tile.hidden = !words.every((word) => text.includes(word));
+      left += tile.hidden ? 0 : 1;
+    }
+    app.say(left === total ? `All ${total} families` : counted(left, "family", "families"));
+  };
+  return h("div", { class: "field" }, h(
+    "input",
+    { type: "search", "aria-label": "Search families by name", placeholder: `Search ${total} families`, oninput: seek },
+  ));
+}
