@@ -1,2 +1,79 @@
-export function compareMeasures() {}
-export function measuresTold() { return "no measures"; }
+// Compares the page's measures with the program's.
+
+import { measuresOf } from "../../src/gallery/script/measure/measures.js";
+
+// By the size of a value: places agree to 1e-12, and what is read off them loses some digits more.
+const VALUE_TOLERANCE = 1e-7;
+// Of angles and residuals, which have a size of their own.
+const SMALL = 1e-6;
+// Portions are searched for: never longer than one that fits by more than this, nor much shorter than the program's.
+const PORTION_LONGER = 1e-6;
+const PORTION_SHORTER = 0.01;
+
+const deviations = new Map();
+let [curves, time] = [0, 0];
+
+/** Compares the measures of one case; `complain(name, sentence)` is told of each disagreement. */
+export function compareMeasures({ name, measures, straight }, linkage, motion, complain) {
+  const size = Math.max(...measures.map(({ values }) => extentOf(values)));
+  for (const { trace, circuit, values } of measures) {
+    // A joint that is at rest for the observer draws nothing but the rounding of its places.
+    if (extentOf(values) < 1e-12 * size) continue;
+    const begun = performance.now();
+    const found = measuresOf(linkage, motion, motion.circuits[circuit - 1], linkage.traced[trace - 1], { straight });
+    time += performance.now() - begun;
+    curves += 1;
+    const where = `${name}, trace ${trace}, circuit ${circuit}`;
+    for (const [measure, wanted] of Object.entries(values)) {
+      const sentence = disagreement(measure, found[measure], wanted === "inf" ? Infinity : wanted, values, where);
+      if (sentence) complain(where, sentence);
+    }
+  }
+}
+
+function disagreement(measure, found, wanted, values, where) {
+  if (measure.startsWith("straight_") || measure.startsWith("dwell_")) return portionDisagreement(measure, found, wanted, where);
+  if (wanted === null || typeof wanted === "string" || !Number.isFinite(wanted)) {
+    return (found ?? null) === wanted ? null : `${measure} is ${found}, not ${wanted}`;
+  }
+  if (typeof found !== "number") return `${measure} is ${found}, not ${wanted}`;
+  const period = measure === "symmetry_deg" ? 180 : Infinity;
+  const apart = Math.abs(found - wanted);
+  const off = apart === 0 ? 0 : Math.min(apart, period - apart) / Math.max(Math.abs(wanted), sizeOf(measure, values));
+  note(measure, off, where);
+  return off <= VALUE_TOLERANCE ? null : `${measure} is ${found}, not ${wanted}`;
+}
+
+function extentOf(values) {
+  return Math.max(values.bbox_x_max - values.bbox_x_min, values.bbox_y_max - values.bbox_y_min);
+}
+
+function portionDisagreement(measure, found, wanted, where) {
+  if (wanted === null || found === undefined) {
+    return (found ?? null) === wanted ? null : `${measure} is ${found}, not ${wanted}`;
+  }
+  // Of portions that are as good, another may be found.
+  if (measure !== "straight_length" && measure !== "dwell_input_deg") return null;
+  const longer = found / wanted - 1;
+  note(measure, Math.abs(longer), where);
+  return longer <= PORTION_LONGER && longer >= -PORTION_SHORTER ? null : `${measure} is ${found}, not ${wanted}`;
+}
+
+// What a deviation is to be seen against where a value is near nothing.
+function sizeOf(measure, values) {
+  if (measure === "area") return values.length * values.length;
+  if (measure.endsWith("_deg")) return 1;
+  if (measure.startsWith("bbox") || measure === "length") return Math.max(extentOf(values), SMALL);
+  return measure === "symmetry_residual" ? 1 : SMALL;
+}
+
+function note(measure, off, where) {
+  if (!(off <= (deviations.get(measure)?.off ?? 0))) deviations.set(measure, { off, where });
+}
+
+/** The greatest deviations found, and how long it took, in a line. */
+export function measuresTold() {
+  if (curves === 0) return "no measures";
+  const each = [...deviations].map(([measure, { off, where }]) => `${measure} ${off.toExponential(1)} (${where})`);
+  return `measures of ${curves} curves in ${(time / curves).toFixed(2)} ms each: ${each.join("; ")}`;
+}

@@ -95,7 +95,8 @@ function comparePasses(name, { dyads }, { passes }, wanted) {
 
 function comparePlaces(name, rows, linkage, circuit, wanted) {
   const finite = (value) => value !== null && Number.isFinite(value);
-  const size = Math.max(...wanted.x.flat().filter(finite).map(Math.abs), ...wanted.y.flat().filter(finite).map(Math.abs));
+  let size = 0;
+  for (const row of [...wanted.x, ...wanted.y]) for (const at of row) if (finite(at)) size = Math.max(size, Math.abs(at));
   rows.forEach((joint, row) => {
     for (let i = 0; i < circuit.count; i++) {
       greatest.samples += 1;

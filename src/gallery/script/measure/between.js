@@ -1,0 +1,186 @@
+// A curve between its samples: about each, the polynomial of the fourth degree, in the length of the chords, through it
+// and two on either side.
+
+import { sampleAfter } from "./trail.js";
+
+/**
+ * The point at a place on a trail, in samples from the first, and the input there: [x, y, input]. Round a closed curve; on
+ * that a place may be a little less than nothing.
+ */
+export function pointOfTrail(trail, place) {
+  const { count: n, x, y, inputs, turn, bends, sharp } = trail;
+  if (place < 0) {
+    const [px, py, input] = pointOfTrail(trail, place + n);
+    return [px, py, input - turn];
+  }
+  const whole = Math.floor(place);
+  const i = whole % n;
+  const part = place - whole;
+  const rounds = Math.floor(whole / n) * turn;
+  if (part === 0) return [x[i], y[i], inputs[i] + rounds];
+  const after = sampleAfter(trail, i, 1);
+  const next = after < 0 ? i : after;
+  const [sx, sy] = [x[next] - x[i], y[next] - y[i]];
+  const chord = Math.sqrt(sx * sx + sy * sy);
+  const input = inputs[next] + (next < i ? turn : 0);
+  // An arc over the chord, as flat as the curve is at the flatter end; of a turning back the other end tells.
+  let bend = Math.abs(bends[i]) < Math.abs(bends[next]) ? bends[i] : bends[next];
+  if (sharp[i]) bend = bends[next];
+  else if (sharp[next]) bend = bends[i];
+  const height = Math.min(Math.max((bend * chord * part * (1 - part)) / 2, -0.2), 0.2);
+  const straight = [x[i] + sx * part + sy * height, y[i] + sy * part - sx * height, inputs[i] + (input - inputs[i]) * part];
+  // Where the path turns back its samples on the other side do not tell of it; and where they lie too unevenly, a
+  // polynomial through them strays further from their chord than a curve that is known by its samples does.
+  const about = (k, u, from) => {
+    const near = nearSample(trail, k);
+    if (!near?.isSmooth) return straight;
+    const at = (c) => (((c[4] * u + c[3]) * u + c[2]) * u + c[1]) * u + c[0];
+    const found = [x[k] + at(near.x), y[k] + at(near.y), from + at(near.input)];
+    const strayed = Math.hypot(found[0] - straight[0], found[1] - straight[1]);
+    return strayed <= 0.2 * chord && Number.isFinite(found[2]) ? found : straight;
+  };
+  // About the sample that is nearer, by the length of the chords; halfway the one goes over into the other.
+  const over = Math.min(Math.max((part - 0.25) * 2, 0), 1);
+  let found;
+  if (over === 0) found = about(i, part * chord, inputs[i]);
+  else if (over === 1) found = about(next, (part - 1) * chord, input);
+  else {
+    const [a, b] = [about(i, part * chord, inputs[i]), about(next, (part - 1) * chord, input)];
+    found = a.map((c, k) => c + (b[k] - c) * over);
+  }
+  const [low, high] = [Math.min(inputs[i], input), Math.max(inputs[i], input)];
+  return [found[0], found[1], Math.min(Math.max(found[2], low), high) + rounds];
+}
+
+/** The point at a place and how far the input has gone, there and back, from the first sample to it: [x, y, travelled]. */
+export function arrivedAtPlace(trail, place) {
+  const { count: n, travel, inputs } = trail;
+  if (place < 0) {
+    const [x, y, travelled] = arrivedAtPlace(trail, place + n);
+    return [x, y, travelled - travel[n]];
+  }
+  const whole = Math.floor(place);
+  const i = whole % n;
+  const [from, to] = [travel[i], travel[i + 1]];
+  const [x, y, input] = pointOfTrail(trail, i + (place - whole));
+  const gone = Math.min(Math.abs(input - inputs[i]), to - from);
+  return [x, y, Math.floor(whole / n) * travel[n] + from + gone];
+}
+
+/** The greatest extent in a direction, about the sample that is furthest. */
+export function reachOfTrail(trail, [dx, dy], top) {
+  const height = dx * trail.x[top] + dy * trail.y[top];
+  const near = nearSample(trail, top);
+  if (!near) return height;
+  const rise = mostNear(near, (u) => {
+    const [p] = derivativesNear(near, u);
+    return dx * p[0] + dy * p[1];
+  });
+  // A curve does not rise above its furthest sample by more than a part of the way to the next.
+  return rise > 0 && rise < 0.5 * (near.ends[1] - near.ends[0]) ? height + rise : height;
+}
+
+/** The greatest curvature about a sample. */
+export function curvatureNear(trail, i) {
+  const near = nearSample(trail, i);
+  if (!near) return Math.abs(trail.bends[i]);
+  return mostNear(near, (u) => {
+    const [, v, a] = derivativesNear(near, u);
+    const speed2 = v[0] * v[0] + v[1] * v[1];
+    return Math.abs((v[0] * a[1] - v[1] * a[0]) / (speed2 * Math.sqrt(speed2)));
+  });
+}
+
+/** How far a point near a sample is from the curve there, positive to the left, and the curve's normal: [off, nx, ny]. */
+export function offsetFromTrail(trail, px, py, i) {
+  const near = nearSample(trail, i);
+  if (!near) return null;
+  const [ox, oy] = [trail.x[i] - px, trail.y[i] - py];
+  let u = 0;
+  // Newton's steps to where the way from the curve is square to it.
+  for (let round = 0; round < 4; round++) {
+    const [p, v, a] = derivativesNear(near, u);
+    const [bx, by] = [ox + p[0], oy + p[1]];
+    const step = (bx * v[0] + by * v[1]) / (v[0] * v[0] + v[1] * v[1] + bx * a[0] + by * a[1]);
+    if (!Number.isFinite(step)) return null;
+    u = Math.min(Math.max(u - step, near.ends[0]), near.ends[1]);
+  }
+  const [p, v] = derivativesNear(near, u);
+  const speed = Math.sqrt(v[0] * v[0] + v[1] * v[1]);
+  if (!(speed > 0)) return null;
+  const [nx, ny] = [-v[1] / speed, v[0] / speed];
+  return [-nx * (ox + p[0]) - ny * (oy + p[1]), nx, ny];
+}
+
+/** The curve about a sample that two others stand on either side of; null of fewer than five samples. */
+function nearSample(trail, i) {
+  if (trail.count < 5) return null;
+  trail.nears[i] ??= polynomialsAbout(trail, i);
+  return trail.nears[i];
+}
+
+function polynomialsAbout(trail, i) {
+  const { count: n, closed, x, y, inputs, turn } = trail;
+  // Near the end of an open curve the five are those next to the end.
+  const shift = closed ? 0 : Math.max(2 - i, 0) + Math.min(n - 3 - i, 0);
+  const s = new Float64Array(5);
+  const divided = [new Float64Array(5), new Float64Array(5), new Float64Array(5)];
+  let before = 0;
+  for (let k = 0; k < 5; k++) {
+    const at = i + k - 2 + shift;
+    const sample = at < 0 ? at + n : at >= n ? at - n : at;
+    const over = at < 0 ? -turn : at >= n ? turn : 0;
+    if (k > 0) s[k] = s[k - 1] + Math.hypot(x[sample] - x[before], y[sample] - y[before]);
+    divided[0][k] = x[sample] - x[i];
+    divided[1][k] = y[sample] - y[i];
+    divided[2][k] = inputs[sample] + over - inputs[i];
+    before = sample;
+  }
+  const own = s[2 - shift];
+  for (let k = 0; k < 5; k++) s[k] -= own;
+  const [px, py, input] = divided.map((values) => newtonPowers(values, s));
+  const end = (k) => s[Math.min(Math.max(k - shift, 0), 4)];
+  const isSmooth = [-2, -1, 0, 1, 2].every((off) => {
+    const k = sampleAfter(trail, i, off);
+    return k < 0 || !trail.sharp[k];
+  });
+  return { x: px, y: py, input, ends: [end(1), end(3)], isSmooth };
+}
+
+// Through values at five places: divided differences, and from products of (u - s) to powers of u.
+function newtonPowers(values, s) {
+  for (let order = 1; order < 5; order++) {
+    for (let k = 4; k >= order; k--) values[k] = (values[k] - values[k - 1]) * (1 / (s[k] - s[k - order]));
+  }
+  const powers = new Float64Array(5);
+  for (let k = 4; k >= 0; k--) {
+    for (let n = 4; n > 0; n--) powers[n] = powers[n - 1] - powers[n] * s[k];
+    powers[0] = values[k] - powers[0] * s[k];
+  }
+  return powers;
+}
+
+// The place, from the sample, and its first two derivatives.
+function derivativesNear({ x, y }, u) {
+  const [p, v, a] = [[0, 0], [0, 0], [0, 0]];
+  for (let n = 4; n >= 0; n--) {
+    for (const [k, c] of [[0, x[n]], [1, y[n]]]) {
+      a[k] = a[k] * u + v[k] * 2;
+      v[k] = v[k] * u + p[k];
+      p[k] = p[k] * u + c;
+    }
+  }
+  return [p, v, a];
+}
+
+// The greatest value between the samples before and after, by thirds.
+function mostNear({ ends }, of) {
+  let [a, b] = ends;
+  // To 1e-7 of the way between samples: what is flat there is known to the square of that.
+  for (let round = 0; round < 40; round++) {
+    const [c, d] = [a + (b - a) / 3, b - (b - a) / 3];
+    if (of(c) > of(d)) b = d;
+    else a = c;
+  }
+  return of(a);
+}

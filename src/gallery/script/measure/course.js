@@ -1,0 +1,209 @@
+// A curve, or a piece of one, as a row of points between which portions of it are looked for.
+//
+// A place on it is a number: place 2.5 is between points 2 and 3. A closed curve is gone round twice, so that a portion
+// that goes over its first point is a row of points too.
+
+import { arrivedAtPlace, pointOfTrail } from "./between.js";
+import { bendThrough } from "./trail.js";
+
+/**
+ * The whole of a trail as a course, by its samples or, where they are few, more points: { trail, first, apart, x, y,
+ * travel, way, count, starts, isClosed, longestChord }: where its first point is among the trail's samples and how far its
+ * points are apart there; the points; how far the input has gone, there and back, at each; the way by chords up to each;
+ * at how many points a portion may begin; and whether it goes on at its first point after its last.
+ */
+export function courseOfTrail(trail) {
+  const POINTS = 360;
+  const fold = Math.ceil(POINTS / Math.max(trail.count, 1));
+  const once = trail.intervals * fold;
+  const course = sampledCourse(trail, 0, 1 / fold, once + (trail.closed ? 0 : 1));
+  return trail.closed ? goneRoundTwice(course) : course;
+}
+
+/** A piece of a course, between two of its places, by many points. */
+export function pieceOfCourse({ trail, first, apart }, [from, to]) {
+  const INTERVALS = 96;
+  return sampledCourse(trail, first + from * apart, ((to - from) * apart) / INTERVALS, INTERVALS + 1);
+}
+
+// So many points, as far apart, of an open row.
+function sampledCourse(trail, first, apart, count) {
+  const [x, y, travel, way] = [0, 1, 2, 3].map(() => new Float64Array(count));
+  const start = arrivedAtPlace(trail, first)[2];
+  let longestChord = Number.MIN_VALUE;
+  for (let k = 0; k < count; k++) {
+    const at = arrivedAtPlace(trail, first + k * apart);
+    [x[k], y[k]] = at;
+    travel[k] = at[2] - start;
+    if (k === 0) continue;
+    const chord = Math.hypot(x[k] - x[k - 1], y[k] - y[k - 1]);
+    longestChord = Math.max(longestChord, chord);
+    way[k] = way[k - 1] + chord;
+  }
+  return { trail, first, apart, x, y, travel, way, count, starts: Math.max(count - 1, 0), isClosed: false, longestChord };
+}
+
+// Closes the row, and goes round a second time.
+function goneRoundTwice(course) {
+  const { trail, x, y, way, count } = course;
+  const closing = Math.hypot(x[0] - x[count - 1], y[0] - y[count - 1]);
+  const twice = (values, round) => {
+    const out = new Float64Array(2 * count);
+    out.set(values);
+    for (let k = 0; k < count; k++) out[count + k] = values[k] + round;
+    return out;
+  };
+  return {
+    ...course,
+    x: twice(x, 0),
+    y: twice(y, 0),
+    travel: twice(course.travel, trail.travel[trail.count]),
+    way: twice(way, way[count - 1] + closing),
+    count: 2 * count,
+    starts: count,
+    isClosed: true,
+    longestChord: Math.max(course.longestChord, closing),
+  };
+}
+
+/** The signed curvature at a point, by its neighbours. */
+export function bendOfCourse({ x, y, count }, at) {
+  const k = Math.min(Math.max(at, 1), Math.max(count, 3) - 2);
+  return bendThrough(x, y, Math.min(k - 1, count - 1), Math.min(k, count - 1), Math.min(k + 1, count - 1));
+}
+
+/** The last point a portion may end at that begins at a place. */
+export function lastOfCourse({ isClosed, starts, count }, from) {
+  return isClosed ? from + starts - 1 : count - 1;
+}
+
+/** How far two points of a course are apart. */
+export function distanceOnCourse({ x, y }, [from, to]) {
+  const [dx, dy] = [x[to] - x[from], y[to] - y[from]];
+  return Math.sqrt(dx * dx + dy * dy);
+}
+
+/** The last point no further on than some way, of those after another. */
+export function wayOn({ way, count }, from, further) {
+  let [low, high] = [from, count - 1];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (way[middle] - way[from] <= further) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+/** Two places, moved round a closed curve, or to the end of an open one, so that they are its own. */
+export function clampedPlaces({ isClosed, starts, count }, [from, to]) {
+  if (!isClosed) return [Math.max(from, 0), Math.min(to, count - 1)];
+  const turn = from < 0 ? starts : 0;
+  return [from + turn, Math.min(to + turn, from + turn + starts - 1)];
+}
+
+/** The point at a place, and the input there: [x, y, input]. */
+export function placeOnCourse({ trail, first, apart }, place) {
+  return pointOfTrail(trail, first + place * apart);
+}
+
+/** How far the input goes, there and back, from one place to another. */
+export function spannedInput({ trail, first, apart }, [from, to]) {
+  const at = (place) => arrivedAtPlace(trail, first + place * apart)[2];
+  return Math.max(at(to) - at(from), 0);
+}
+
+/** The points of a portion, its ends among them, { x, y } in arrays; more between them where they are few. */
+export function portionOfCourse(course, [from, to]) {
+  const POINTS = 48;
+  const [x, y] = [[], []];
+  const add = (place) => {
+    const isPoint = place >= 0 && Number.isInteger(place) && place < course.count;
+    const [px, py] = isPoint ? [course.x[place], course.y[place]] : placeOnCourse(course, place);
+    x.push(px);
+    y.push(py);
+  };
+  add(from);
+  if (to <= from) return { x, y };
+  const parts = Math.max(Math.ceil(POINTS / (to - from)), 1);
+  for (let k = Math.floor(from * parts) + 1; k / parts < to; k++) add(k / parts);
+  add(to);
+  return { x, y };
+}
+
+/** The place a span of input after another; null where there is none. */
+export function placeAfterInput(course, from, wanted) {
+  const { isClosed, starts, travel } = course;
+  if (isClosed && from >= starts) {
+    const place = placeAfterInput(course, from - starts, wanted);
+    return place === null ? null : place + starts;
+  }
+  const first = Math.floor(from);
+  const start = spannedInput(course, [0, from]);
+  // All of a closed curve ends where it begins.
+  const last = isClosed ? first + starts : lastOfCourse(course, first);
+  const span = wanted * (1 - 1e-12);
+  let beyond = first;
+  while (beyond <= last && travel[beyond] - start < span) beyond += 1;
+  if (beyond > last) return null;
+  return bisectedPlace(Math.max(beyond - 1, from), beyond, 40, (middle) => spannedInput(course, [0, middle]) - start < span);
+}
+
+/** The first place a distance away from another; null where there is none. */
+export function placeAfterLength(course, from, length) {
+  const { isClosed, starts, x, y } = course;
+  if (isClosed && from >= starts) {
+    const place = placeAfterLength(course, from - starts, length);
+    return place === null ? null : place + starts;
+  }
+  const [sx, sy] = placeOnCourse(course, from);
+  const first = Math.floor(from);
+  const last = lastOfCourse(course, first);
+  let to = first + 1;
+  for (; to <= last; ) {
+    const far = Math.hypot(x[to] - sx, y[to] - sy);
+    if (far >= length) break;
+    to = Math.max(wayOn(course, to, length - far), to + 1);
+  }
+  if (to > last) return null;
+  return bisectedPlace(Math.max(to - 1, from), to, 50, (middle) => {
+    const [px, py] = placeOnCourse(course, middle);
+    return Math.hypot(px - sx, py - sy) < length;
+  });
+}
+
+function bisectedPlace(from, to, rounds, isBelow) {
+  let [low, high] = [from, to];
+  for (let round = 0; round < rounds; round++) {
+    const middle = (low + high) / 2;
+    if (isBelow(middle)) low = middle;
+    else high = middle;
+  }
+  return high;
+}
+
+/**
+ * No more than the width of the narrowest strip of the portion between two points: that of a circle which bends as little
+ * as any part of it does.
+ */
+export function bendBetween(course, [from, to]) {
+  let [least, left] = [Infinity, 0];
+  for (let k = from; k <= to; k++) {
+    const bend = bendOfCourse(course, k);
+    least = Math.min(least, Math.abs(bend));
+    if (bend > 0) left += 1;
+  }
+  const chord = distanceOnCourse(course, [from, to]);
+  return left === 0 || left === to - from + 1 ? (least * chord * chord) / 8 : 0;
+}
+
+/** The points at which a course bends less than at their neighbours, the straightest first. */
+export function flattestPoints(course) {
+  const { starts: n, count, isClosed } = course;
+  const bends = Array.from({ length: Math.min(n, count - 1) + 1 }, (_, k) => Math.abs(bendOfCourse(course, k)));
+  const found = [];
+  for (let k = 0; k < n; k++) {
+    const before = k > 0 ? bends[k - 1] : bends[isClosed ? n - 1 : 1];
+    if (bends[k] <= before && bends[k] <= bends[Math.min(k + 1, bends.length - 1)]) found.push(k);
+  }
+  return found.sort((a, b) => bends[a] - bends[b]);
+}

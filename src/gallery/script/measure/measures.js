@@ -1,0 +1,122 @@
+// Numbers read off a motion, under the names and definitions of the columns of cells.csv.
+
+import { fourBarOf } from "../kinematics/four-bar.js";
+import { linkageWithOnePoint } from "../kinematics/linkage.js";
+import { headingOf } from "../kinematics/pass.js";
+import { courseOfTrail } from "./course.js";
+import { crossingsOfTrail } from "./crossings.js";
+import { circularPortion } from "./dwell.js";
+import { axisDegrees } from "./mirror.js";
+import { cuspsOf, extentTowards, sharpestBend, speedRatioOf } from "./shape.js";
+import { straightPortion } from "./straight.js";
+import { SYMMETRY_NEAR, symmetryOf } from "./symmetry.js";
+import { areaOfTrail, inflectionsOfTrail, lengthOfTrail, trailOf } from "./trail.js";
+import { outputSwing, timeRatio, transmissionRange } from "./transmission.js";
+
+/**
+ * The measures of a joint's curve on a circuit, { name: number | string }; those that do not apply are absent.
+ *
+ * @param asked { straight: { tolerance | input | length } }, what is asked of the straight portion (a tolerance of 0.001
+ *   where nothing is)
+ */
+export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
+  const subject = subjectOf(linkage, motion, circuit, joint);
+  const { trail, fourBar } = subject;
+  const found = {
+    ...fourBarMeasures(subject),
+    ...inputMeasures(circuit),
+    length: lengthOfTrail(trail),
+    area: areaOfTrail(trail),
+    ...boxMeasures(subject),
+    ...shapeMeasures(subject),
+    ...symmetryMeasures(subject),
+    speed_ratio: speedRatioOf(subject),
+    ...portionMeasures(subject, asked.straight ?? {}),
+  };
+  for (const name of Object.keys(found)) if (found[name] === null || Number.isNaN(found[name])) delete found[name];
+  return fourBar ? { ...found, [`is_${fourBar.class.replaceAll("-", "_")}`]: 1 } : found;
+}
+
+/** What measures are taken of: a joint on a circuit of a linkage's motion, with its trail, made once for all of them. */
+export function subjectOf(linkage, motion, circuit, joint) {
+  const trail = trailOf(circuit, joint, linkage.input);
+  return { linkage, motion, circuit, joint, trail, fourBar: fourBarOf(linkage), alone: linkageWithOnePoint(linkage, joint) };
+}
+
+function fourBarMeasures({ linkage, circuit, fourBar }) {
+  if (!fourBar) return {};
+  const [least, greatest] = transmissionRange(linkage, circuit, fourBar);
+  return {
+    class: fourBar.class,
+    type: fourBar.type,
+    shortest: fourBar.shortest,
+    output_swing_deg: outputSwing(linkage, circuit, fourBar),
+    mu_min_deg: least,
+    mu_max_deg: greatest,
+    time_ratio: timeRatio(linkage, circuit, fourBar),
+  };
+}
+
+// The least and the greatest input; none on a full turn.
+function inputMeasures({ passes, closed }) {
+  const turnsRound = passes.some((pass) => headingOf(pass) !== headingOf(passes[0]));
+  if (closed && !turnsRound) return {};
+  const ends = passes.flatMap((pass) => [pass.from, pass.to]);
+  return { input_min_deg: Math.min(...ends), input_max_deg: Math.max(...ends) };
+}
+
+function boxMeasures(subject) {
+  const reach = (x, y) => extentTowards(subject, [x, y]);
+  // The least is the furthest the other way.
+  const least = (extent) => (extent === null ? null : -extent);
+  return {
+    bbox_x_min: least(reach(-1, 0)),
+    bbox_x_max: reach(1, 0),
+    bbox_y_min: least(reach(0, -1)),
+    bbox_y_max: reach(0, 1),
+  };
+}
+
+function shapeMeasures(subject) {
+  const cusps = cuspsOf(subject);
+  return {
+    cusps,
+    crunodes: crossingsOfTrail(subject.trail).length,
+    inflections: inflectionsOfTrail(subject.trail),
+    curvature_max: sharpestBend(subject, cusps),
+  };
+}
+
+function symmetryMeasures(subject) {
+  const symmetry = symmetryOf(subject);
+  if (!symmetry) return {};
+  const { axis, residual, theorem } = symmetry;
+  return {
+    symmetry: theorem ?? (residual <= SYMMETRY_NEAR ? "other" : null),
+    symmetry_deg: axis ? axisDegrees(axis) : null,
+    symmetry_residual: residual,
+  };
+}
+
+// Portions are looked for along a course; curves of few samples have none.
+function portionMeasures({ trail }, asked) {
+  const course = trail.count >= 3 ? courseOfTrail(trail) : null;
+  const straight = course && straightPortion(course, asked);
+  const dwell = trail.count >= 5 ? circularPortion(course) : null;
+  const found = {};
+  if (straight) {
+    found.straight_length = straight.length;
+    found.straight_deviation = straight.deviation;
+    found.straight_start_deg = straight.start;
+    found.straight_input_deg = straight.input;
+  }
+  if (dwell) {
+    found.dwell_input_deg = dwell.input;
+    found.dwell_radius = dwell.radius;
+    found.dwell_deviation = dwell.deviation;
+    found.dwell_start_deg = dwell.start;
+    found.dwell_x = dwell.x;
+    found.dwell_y = dwell.y;
+  }
+  return found;
+}

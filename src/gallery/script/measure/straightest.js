@@ -1,0 +1,68 @@
+// The straightest portion of a given span or length: of those that begin at points of a course, and then between them.
+
+import { clampedPlaces, portionOfCourse } from "./course.js";
+import { heightOfTriangle, stripOfPoints } from "./strip.js";
+
+/**
+ * The ends of the portion with the narrowest strip, of those that begin anywhere on a course and end where `endAfter(from)`
+ * has it, null where it has none.
+ */
+export function straightestEnds(course, endAfter) {
+  const RIVALS = 3;
+  const { starts } = course;
+  const width = (from) => {
+    const to = endAfter(from);
+    if (to === null) return Infinity;
+    const { x, y } = portionOfCourse(course, [from, to]);
+    return stripOfPoints(x, y, 0, x.length).width;
+  };
+  const widths = widthsAtPoints(course, endAfter, width);
+  const least = [];
+  for (let k = 0; k < starts; k++) {
+    const isLeast = widths[k] <= widths[(k + starts - 1) % starts] && widths[k] <= widths[(k + 1) % starts];
+    if (Number.isFinite(widths[k]) && isLeast) least.push(k);
+  }
+  least.sort((a, b) => widths[a] - widths[b]);
+  let best = { width: Infinity, from: 0 };
+  for (const k of least.slice(0, RIVALS)) {
+    const refined = refinedBeginning(course, k, width);
+    if (refined.width < best.width) best = refined;
+  }
+  return Number.isFinite(best.width) ? [best.from, endAfter(best.from)] : null;
+}
+
+// The widths of portions from each point. One of which three points show that it is wider than the narrowest so far need
+// not be measured; widely spaced ones are first, for the sooner something narrow is found, the more is spared.
+function widthsAtPoints(course, endAfter, width) {
+  const STRIDE = 16;
+  const { x, y, starts, count } = course;
+  const widths = new Float64Array(starts).fill(Infinity);
+  let narrowest = Infinity;
+  for (let begin = 0; begin < STRIDE; begin++) {
+    for (let from = begin; from < starts; from += STRIDE) {
+      const to = endAfter(from);
+      if (to === null) continue;
+      const last = Math.min(Math.floor(to), count - 1);
+      const at = (part) => from + Math.floor(((last - from) * part) / 4);
+      const height = (a, b, c) => heightOfTriangle(x, y, at(a), at(b), at(c));
+      widths[from] = Math.max(height(0, 2, 4), height(0, 1, 3), height(1, 3, 4));
+      if (widths[from] > 2 * narrowest) continue;
+      widths[from] = width(from);
+      narrowest = Math.min(narrowest, widths[from]);
+    }
+  }
+  return widths;
+}
+
+function refinedBeginning(course, k, width) {
+  let [a, b] = clampedPlaces(course, [k - 1, k + 1]);
+  const at = a > k ? k + course.starts : k;
+  b = Math.min(b, a + 2);
+  for (let round = 0; round < 30; round++) {
+    const [c, d] = [a + (b - a) / 3, b - (b - a) / 3];
+    if (width(c) < width(d)) b = d;
+    else a = c;
+  }
+  const [refined, whole] = [width(a), width(at)];
+  return refined < whole ? { width: refined, from: a } : { width: whole, from: at };
+}
