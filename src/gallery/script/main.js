@@ -4,10 +4,12 @@ import { openAtlas } from "./data/atlas.js";
 import { Pins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { overviewRoom } from "./view/overview.js";
+import { pageRoom } from "./view/page.js";
+import { sheetRoom } from "./view/sheet.js";
 
 const app = { atlas: openAtlas(document, window), pins: new Pins() };
 
 /** The rooms, the particular before the general. */
-const rooms = [overviewRoom];
+const rooms = [overviewRoom, pageRoom, sheetRoom];
 
 openShell(app, rooms, document.getElementById("gallery"));

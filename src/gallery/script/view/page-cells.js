@@ -1,0 +1,38 @@
+// Which linkages stand on a page, those that could not be assembled among them.
+
+/**
+ * The places of the cells of a page, numbered from 1, in order. What is drawn is known; where a linkage that is not would
+ * stand follows from the number of linkages on a page, or of pages for a linkage.
+ */
+export function cellsOnPage(family, page) {
+  const views = family.pages[page - 1]?.views ?? [];
+  const drawn = new Set(views.map(({ cell }) => cell));
+  if (family.layout === "chart") return [];
+  const { count } = family.cells;
+  const pages = family.pages.length;
+  const each = family.layout === "panels" ? panelsOnPage(family) : 0;
+  for (let cell = (page - 1) * each; cell < Math.min(page * each, count); cell += 1) drawn.add(cell);
+  if (family.layout === "coupler-grid" && pages % count === 0) drawn.add(Math.floor(((page - 1) * count) / pages));
+  return [...drawn].sort((a, b) => a - b);
+}
+
+/** The least number of panels on a page that agrees with where the drawn ones stand; 0 where none does. */
+function panelsOnPage({ cells: { count }, pages }) {
+  const agrees = (each) => pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
+  for (let each = Math.ceil(count / pages.length); each < count / Math.max(pages.length - 1, 1); each += 1) {
+    if (agrees(each)) return each;
+  }
+  return pages.length === 1 ? count : 0;
+}
+
+/** What is on a page, in a few words: the caption of its one linkage, or the numbers of its linkages. */
+export function pageInWords(family, page) {
+  const cells = cellsOnPage(family, page);
+  if (cells.length === 0) return family.layout === "chart" ? "chart" : "";
+  const numbers = cells.map((cell) => family.cells.number[cell]);
+  if (cells.length > 1) return `linkages ${numbers[0]}–${numbers.at(-1)}`;
+  const caption = family.cells.caption[cells[0]] || `linkage ${numbers[0]}`;
+  const traces = (family.pages[page - 1]?.views ?? []).flatMap((view) => view.curves.map((c) => family.curves.trace[c]));
+  if (traces.length < 2) return caption;
+  return `${caption} · points ${Math.min(...traces)}–${Math.max(...traces)}`;
+}

@@ -1,0 +1,61 @@
+// The keys of a page.
+
+/** What a key does on a page's desk: a function, or null where it does nothing there. */
+export function actOfKey(event, desk) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return null;
+  return actOnCurve(event, desk) ?? actOnPage(event.key, desk);
+}
+
+function actOnPage(key, desk) {
+  const { zoom, page, listed } = desk;
+  const [dx, dy] = [desk.viewport.clientWidth / 8, desk.viewport.clientHeight / 8];
+  const acts = {
+    "+": () => zoom.by(1.5),
+    "=": () => zoom.by(1.5),
+    "-": () => zoom.by(1 / 1.5),
+    "−": () => zoom.by(1 / 1.5),
+    0: () => zoom.fit(),
+    ArrowLeft: () => zoom.pan(dx, 0),
+    ArrowRight: () => zoom.pan(-dx, 0),
+    ArrowUp: () => zoom.pan(0, dy),
+    ArrowDown: () => zoom.pan(0, -dy),
+    n: () => desk.go(page + 1),
+    PageDown: () => desk.go(page + 1),
+    p: () => desk.go(page - 1),
+    PageUp: () => desk.go(page - 1),
+    Home: () => desk.go(1),
+    End: () => desk.go(listed.pages),
+    Escape: () => {
+      desk.forward.choose(null);
+      desk.beside();
+      desk.remember();
+    },
+  };
+  return acts[key] ?? null;
+}
+
+/** On a curve arrows go from one to the next, and with Shift along it. */
+function actOnCurve({ key, shiftKey, target }, desk) {
+  const link = target.closest?.("a[data-curve]");
+  if (!link) return null;
+  const links = [...desk.overlay.links.values()];
+  const at = links.indexOf(link);
+  const to = (k) => () => {
+    links.forEach((other) => other.setAttribute("tabindex", "-1"));
+    const next = links[(k + links.length) % links.length];
+    next.setAttribute("tabindex", "0");
+    next.focus({ preventScroll: true });
+  };
+  if (shiftKey) {
+    const along = { ArrowRight: 5, ArrowLeft: -5, ArrowUp: 30, ArrowDown: -30 }[key];
+    return along ? () => desk.forward.along(along) : null;
+  }
+  const acts = { ArrowRight: to(at + 1), ArrowDown: to(at + 1), ArrowLeft: to(at - 1), ArrowUp: to(at - 1) };
+  const ends = { Home: to(0), End: to(links.length - 1) };
+  const away = () => {
+    desk.forward.choose(null);
+    desk.beside();
+    desk.viewport.focus({ preventScroll: true });
+  };
+  return acts[key] ?? ends[key] ?? (key === "Escape" ? away : null);
+}

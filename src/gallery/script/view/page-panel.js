@@ -1,0 +1,127 @@
+// What stands beside a page: its curves, or the one that is brought forward.
+
+import { address } from "../data/address.js";
+import { curveKey, measured } from "../data/family.js";
+import { h } from "./dom.js";
+import { cellsOnPage } from "./page-cells.js";
+import { captionInType, figure, measureInWords, measureText } from "./page-words.js";
+import { thumbnail } from "./thumbnail.js";
+
+/** The curves of a page as links, { element, links: Map of curve to link }, and what could not be assembled. */
+export function curvesPanel(family, page, drawn, { onenter, onleave }) {
+  const links = new Map(drawn.map(({ curve }) => [curve, curveRow(family, curve, { onenter, onleave })]));
+  const short = cellsOnPage(family, page).filter((cell) => family.cells.status[cell] === 2);
+  const none = family.layout === "chart"
+    ? `A chart of ${family.curves.count} curves: each is found under “Curves” of the family.`
+    : "No curve is drawn on this page.";
+  return h(
+    "div",
+    { class: "panel" },
+    h("h2", {}, drawn.length ? `${drawn.length} ${drawn.length === 1 ? "curve" : "curves"} on this page` : "No curves to point at"),
+    drawn.length ? null : h("p", { class: "note" }, none),
+    h("ol", { class: "page-curves" }, [...links.values()].map((link) => h("li", {}, link))),
+    short.length ? notAssembled(family, short) : null,
+  );
+}
+
+function curveRow(family, curve, { onenter, onleave }) {
+  const { cell, trace, circuit } = family.curves;
+  const traces = family.template.trace.length > 1 || trace[curve] > 1 ? `point ${trace[curve]}` : "";
+  const words = [
+    family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`,
+    traces,
+    circuit[curve] > 1 ? `circuit ${circuit[curve]}` : "",
+  ];
+  return h(
+    "a",
+    {
+      href: address([family.id, "curve", curveKey(family, curve)]),
+      onpointerenter: () => onenter(curve),
+      onfocus: () => onenter(curve),
+      onpointerleave: onleave,
+      onblur: onleave,
+    },
+    thumbnail(family, [curve], { width: 44, height: 30 }),
+    h("span", {}, captionInType(words.filter(Boolean).join(" · "))),
+  );
+}
+
+/** Linkages that could not be assembled, each with the reason. */
+export function notAssembled(family, cells) {
+  const { number, caption, reason } = family.cells;
+  return h(
+    "section",
+    { class: "not-assembled" },
+    h("h3", {}, "Could not be assembled"),
+    h("ul", {}, cells.map((cell) => h(
+      "li",
+      {},
+      h("b", {}, captionInType(caption[cell] || `linkage ${number[cell]}`)),
+      h("span", { class: "note" }, ` ${reason[cell]}`),
+    ))),
+  );
+}
+
+/** A curve in figures: caption, class, parameters and measures, and what can be done with it. */
+export function curvePanel(app, family, curve, { onall }) {
+  const { cell, closed } = family.curves;
+  const at = cell[curve];
+  const key = curveKey(family, curve);
+  const words = ["class", "type"].map((name) => measured(family, curve, name)).filter(Boolean);
+  return h(
+    "div",
+    { class: "panel" },
+    h("h2", {}, captionInType(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
+    h("p", { class: "tags" }, [`curve ${key}`, ...new Set(words), closed[curve] ? null : "open"].filter(Boolean)
+      .map((word) => [h("span", { class: "tag" }, word), " "])),
+    family.cells.note[at] ? h("p", { class: "note" }, family.cells.note[at]) : null,
+    family.cells.status[at] === 1 ? h("p", { class: "note" }, `In part: ${family.cells.reason[at]}`) : null,
+    h(
+      "div",
+      { class: "toolbar no-print" },
+      h("a", { class: "button", href: address([family.id, "curve", key]) }, "Open its plate"),
+      pinButton(app, `${family.id}:${key}`),
+      h("button", { type: "button", class: "quiet", onclick: onall }, "All curves"),
+    ),
+    parameterFacts(family, at),
+    measureFacts(app.atlas, family, curve),
+  );
+}
+
+function pinButton(app, name) {
+  const button = h("button", { type: "button", onclick: () => {
+    app.pins.toggle(name);
+    shown();
+    app.say(app.pins.has(name) ? "Pinned" : "No longer pinned");
+  } });
+  const shown = () => {
+    button.textContent = app.pins.has(name) ? "Pinned" : "Pin";
+    button.setAttribute("aria-pressed", String(app.pins.has(name)));
+  };
+  shown();
+  return button;
+}
+
+function parameterFacts(family, cell) {
+  const width = family.names.length;
+  const rows = family.names.map((name, k) => [name, family.cells.values[cell * width + k]]);
+  const told = rows.filter(([, value]) => Number.isFinite(value));
+  if (told.length === 0) return null;
+  return [
+    h("h3", {}, "Parameters"),
+    h("dl", { class: "facts parameters" }, told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))])),
+  ];
+}
+
+/** The measures of a curve in words, each explained by its definition. */
+export function measureFacts(atlas, family, curve) {
+  const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
+  const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
+  return [
+    h("h3", {}, "Measures"),
+    h("dl", { class: "facts measures" }, told.map(([{ name, definition }, text]) => [
+      h("dt", { title: definition }, measureInWords(name), h("span", { class: "unseen" }, `: ${definition}`)),
+      h("dd", {}, text),
+    ])),
+  ];
+}

@@ -1,0 +1,77 @@
+// The picture of a page, and over it the curve that is brought forward.
+
+import { pageFile } from "../data/atlas.js";
+import { curveKey } from "../data/family.js";
+import { address } from "../data/address.js";
+import { fill, h, s } from "./dom.js";
+import { drawnPage } from "./thumbnail-page.js";
+
+/**
+ * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where there is none
+ * that can be read. Settles when it can be painted.
+ */
+export async function pagePicture(app, family, page, label) {
+  const { views } = family.pages[page - 1] ?? { views: [] };
+  const file = pageFile(app.atlas, family.id, page);
+  if (file) {
+    const image = h("img", { class: "picture printed", alt: label, src: file, draggable: "false" });
+    try {
+      await image.decode();
+      return image;
+    } catch {
+      app.say(`${file} cannot be read; the page is drawn from the data`);
+    }
+  }
+  if (views.length) {
+    const drawing = drawnPage(family, views, "picture drawn thumbnail", 0.05);
+    return h("div", { class: "picture", role: "img", "aria-label": label }, drawing);
+  }
+  return h("p", { class: "picture nothing" }, "This page is a chart, which was not written as SVG or PNG.");
+}
+
+/**
+ * What lies over the picture: a link for each curve of the page, unseen until it is brought forward. Returns { element,
+ * links: Map of curve to link, show(curve, pathData), point([x, y] or null) }, places in millimetres of paper.
+ */
+export function pageOverlay(family, drawn, { onfocus, onblur }) {
+  const { width, height } = family.paper;
+  const links = new Map(drawn.map(({ curve }) => [curve, curveLink(family, curve, { onfocus, onblur })]));
+  const path = s("path", { class: "forward", "vector-effect": "non-scaling-stroke" });
+  const dot = s("g", { class: "at" }, s("circle", { r: 1 }));
+  const element = s(
+    "svg",
+    { class: "overlay", viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Curves of this page" },
+    path,
+    dot,
+    [...links.values()],
+  );
+  for (const { curve, box: [x0, y0, x1, y1] } of drawn) {
+    // What screen readers and the browser's own focus take for the place of the link.
+    const spot = { x: x0, y: y0, width: x1 - x0, height: y1 - y0, class: "spot" };
+    fill(links.get(curve), s("rect", spot));
+  }
+  return {
+    element,
+    links,
+    show: (data) => (data ? path.setAttribute("d", data) : path.removeAttribute("d")),
+    point: (place, radius) => {
+      dot.toggleAttribute("hidden", !place);
+      if (!place) return;
+      dot.setAttribute("transform", `translate(${place[0]} ${place[1]})`);
+      dot.firstChild.setAttribute("r", radius);
+    },
+  };
+}
+
+function curveLink(family, curve, { onfocus, onblur }) {
+  const key = curveKey(family, curve);
+  const caption = family.cells.caption[family.curves.cell[curve]];
+  return s("a", {
+    href: address([family.id, "curve", key]),
+    tabindex: "-1",
+    "data-curve": curve,
+    "aria-label": `Curve ${key}${caption ? `, ${caption}` : ""}`,
+    onfocus: () => onfocus(curve),
+    onblur: () => onblur(curve),
+  });
+}

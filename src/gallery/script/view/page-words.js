@@ -1,0 +1,77 @@
+// Measures and values in words and figures, with their units.
+
+import { measured } from "../data/family.js";
+import { h } from "./dom.js";
+
+const MEASURE_WORDS = {
+  class: "class",
+  type: "type",
+  shortest: "shortest link",
+  input_min_deg: "least input",
+  input_max_deg: "greatest input",
+  output_swing_deg: "swing of the output",
+  mu_min_deg: "least transmission angle",
+  mu_max_deg: "greatest transmission angle",
+  time_ratio: "time ratio",
+  length: "length of the path",
+  area: "area",
+  bbox_x_min: "least x",
+  bbox_x_max: "greatest x",
+  bbox_y_min: "least y",
+  bbox_y_max: "greatest y",
+  cusps: "cusps",
+  crunodes: "crossings of itself",
+  inflections: "inflections",
+  symmetry: "symmetry",
+  symmetry_deg: "direction of the axis",
+  symmetry_residual: "departure from symmetry",
+  curvature_max: "greatest curvature",
+  speed_ratio: "fastest to slowest",
+  straight_length: "length of the straight portion",
+  straight_deviation: "its departure from straight",
+  straight_start_deg: "its first input",
+  straight_input_deg: "input it spans",
+  dwell_input_deg: "input of the circular portion",
+  dwell_radius: "its radius",
+  dwell_deviation: "its departure from the circle",
+  dwell_start_deg: "its first input",
+  dwell_x: "its centre, x",
+  dwell_y: "its centre, y",
+};
+
+/** What a measure is called in words; read in the order of the columns, "its" is of the portion before. */
+export function measureInWords(name) {
+  return MEASURE_WORDS[name] ?? name.replace(/_deg$/, "").replaceAll("_", " ");
+}
+
+/** A number to so many significant digits, without idle noughts, with a true minus sign. */
+export function figure(number, digits = 4) {
+  if (number === Infinity) return "unbounded";
+  if (!Number.isFinite(number)) return "–";
+  if (number !== 0 && (Math.abs(number) < 1e-4 || Math.abs(number) >= 1e7)) {
+    const [part, power] = number.toExponential(Math.min(digits, 3) - 1).split("e");
+    const raised = [...String(Number(power))].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");
+    return `${part} × 10${raised}`.replaceAll("-", "−");
+  }
+  return String(Number(number.toPrecision(digits))).replace("-", "−");
+}
+
+/** What was measured of a curve, in words with its unit; undefined where it does not apply. */
+export function measureText(family, curve, { name, unit }) {
+  const value = measured(family, curve, name);
+  if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
+  const isDegrees = unit === "deg" && !(isDrivenByLength(family) && /^(straight|dwell|input)_/.test(name));
+  return isDegrees ? `${figure(value)}°` : figure(value);
+}
+
+/** Whether the input of a family's linkage is a length, not an angle. */
+export function isDrivenByLength({ template }) {
+  return template.joints.some((joint) => joint.piston !== undefined);
+}
+
+/** A caption as on the page: letters before a sign of equality slanted, and none of "a = 2.59" on a line of its own. */
+export function captionInType(caption) {
+  return caption.split(/([A-Za-z][\w]*(?= = ))/).map((part, k) => (
+    k % 2 ? h("i", {}, part) : part.replaceAll(" = ", "\u00a0=\u00a0")
+  ));
+}

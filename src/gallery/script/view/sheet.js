@@ -1,0 +1,155 @@
+// A family: what it is, and its pages, or its curves, on a contact sheet.
+
+import { address } from "../data/address.js";
+import { curveKey } from "../data/family.js";
+import { h } from "./dom.js";
+import { countsOf, sourceOf } from "./overview.js";
+import { pageInWords } from "./page-cells.js";
+import { captionInType } from "./page-words.js";
+import { notAssembledSummary } from "./sheet-facts.js";
+import { windowedTiles } from "./sheet-window.js";
+import { sizeInWords } from "./shell-footer.js";
+import { pageThumbnail } from "./thumbnail-page.js";
+import { thumbnail } from "./thumbnail.js";
+
+/** The room of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` goes to that page's tile. */
+export const sheetRoom = {
+  name: "sheet",
+  under: "families",
+  opens: ({ path }, app) => path.length === 1 && app.atlas.families.some(({ id }) => id === path[0]),
+  view: async (app, { path: [id], query }) => {
+    const family = await app.atlas.family(id);
+    const listed = app.atlas.families.find((candidate) => candidate.id === id);
+    const hasCurves = query.get("show") === "curves" || listed.pages === 0;
+    const tiles = hasCurves ? curveTiles(family) : pageTiles(app, family, listed);
+    const goal = Number(query.get(hasCurves ? "curve" : "page")) - 1;
+    if (goal >= 0) tiles.element.dataset.goal = goal;
+    return {
+      title: family.title,
+      element: h(
+        "div",
+        { class: "room wide sheet-room" },
+        sheetHead(family, listed),
+        sheetBar(family, listed, hasCurves),
+        tiles.element,
+      ),
+      shown: () => {
+        tiles.shown();
+        if (goal >= 0) tiles.show(goal);
+      },
+      leave: () => tiles.end(),
+    };
+  },
+};
+
+function sheetHead(family, listed) {
+  return h(
+    "div",
+    { class: "head" },
+    h(
+      "div",
+      {},
+      h("h1", {}, family.title),
+      h("p", { class: "lede" }, sourceOf(family)),
+      family.legend ? h("p", { class: "lede" }, family.legend) : null,
+      h("p", { class: "note" }, [
+        countsOf(listed),
+        `linkage ${family.linkage}`,
+        samplingInWords(family.sampling),
+        sizeInWords(listed.bytes),
+      ].join(" · ")),
+      notAssembledSummary(family),
+    ),
+  );
+}
+
+function samplingInWords({ step, samples, spacing }) {
+  if (step !== undefined) return `a sample every ${step}° of input`;
+  return `${samples} samples a circuit${spacing ? `, spaced ${spacing}` : ""}`;
+}
+
+function sheetBar(family, listed, hasCurves) {
+  const way = (label, query, isHere) => h(
+    "a",
+    { class: "button", href: address([family.id], query), "aria-current": isHere ? "true" : null },
+    label,
+  );
+  return h(
+    "div",
+    { class: "toolbar no-print" },
+    h(
+      "div",
+      { class: "segments", role: "group", "aria-label": "Show" },
+      listed.pages ? way("Pages", {}, !hasCurves) : null,
+      way("Curves", { show: "curves" }, hasCurves),
+    ),
+    h("a", { class: "button", href: address(["find"], { family: family.id }) }, "Find among its curves"),
+    listed.pages > 1 && !hasCurves ? pageJump(family, listed) : null,
+  );
+}
+
+function pageJump(family, listed) {
+  const field = h("input", { type: "number", min: 1, max: listed.pages, "aria-label": "Page", required: true });
+  const go = (event) => {
+    event.preventDefault();
+    const page = Math.round(Number(field.value));
+    if (page >= 1 && page <= listed.pages) window.location.hash = address([family.id, page]);
+    else field.setAttribute("aria-invalid", "true");
+  };
+  return h(
+    "form",
+    { class: "field row end", novalidate: true, onsubmit: go },
+    h("span", {}, "Go to page"),
+    field,
+    h("span", {}, `of ${listed.pages.toLocaleString("en")}`),
+  );
+}
+
+function pageTiles(app, family, listed) {
+  const { width, height } = family.paper;
+  return windowedTiles({
+    count: listed.pages,
+    least: listed.pages < 4 ? 340 : 230,
+    gap: 20,
+    aspect: height / width,
+    below: 44,
+    label: "Pages",
+    tile: (k) => h(
+      "li",
+      {},
+      h(
+        "a",
+        { href: address([family.id, k + 1]) },
+        h("span", { class: "leaf" }),
+        h("span", { class: "label" }, h("b", {}, `${k + 1}`), " ", captionInType(pageInWords(family, k + 1))),
+      ),
+    ),
+    draw: (element, k) => element.querySelector(".leaf").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
+  });
+}
+
+function curveTiles(family) {
+  const { count, cell } = family.curves;
+  return windowedTiles({
+    count,
+    least: 132,
+    gap: 16,
+    aspect: 0.75,
+    below: 40,
+    label: "Curves",
+    tile: (k) => h(
+      "li",
+      {},
+      h(
+        "a",
+        { href: address([family.id, "curve", curveKey(family, k)]) },
+        h("span", { class: "leaf" }),
+        h("span", { class: "label" }, h("b", {}, curveKey(family, k)), " ", captionInType(family.cells.caption[cell[k]])),
+      ),
+    ),
+    draw: (element, k) => {
+      const leaf = element.querySelector(".leaf");
+      leaf.append(thumbnail(family, [k], { width: leaf.clientWidth, height: leaf.clientHeight }));
+    },
+  });
+}

@@ -1,0 +1,192 @@
+// A sheet of paper under a window that can be moved nearer and about: by wheel, drag, pinch, keys and buttons.
+//
+// The sheet is sized, never scaled: what is in it is drawn anew at each size, and stays crisp.
+
+// The nearest, as a multiple of the size that fits the window.
+const NEAREST = 32;
+// So much of the window stays free around a sheet that fits, in pixels.
+const FIT_MARGIN = 12;
+// Pointers that move less than this, in pixels, tap.
+const TAP_SLACK = 5;
+
+/**
+ * Where a sheet of `width` × `height` millimetres lies in a viewport: `scale` in pixels per millimetre, the sheet's corner at
+ * `x`, `y` pixels. `onchange(this)` is called, once a frame at most, whenever it has moved.
+ */
+export class Zoom {
+  constructor(viewport, sheet, { width, height, onchange, ontap }) {
+    Object.assign(this, { viewport, sheet, width, height, onchange, ontap });
+    [this.scale, this.x, this.y, this.isFit] = [1, 0, 0, true];
+    this.pointers = new Map();
+    this.pending = 0;
+    this.resizes = new ResizeObserver(() => this.resized());
+    this.resizes.observe(viewport);
+    viewport.addEventListener("wheel", (event) => this.wheeled(event), { passive: false });
+    viewport.addEventListener("pointerdown", (event) => this.pressed(event));
+    viewport.addEventListener("pointermove", (event) => this.moved(event));
+    for (const name of ["pointerup", "pointercancel"]) {
+      viewport.addEventListener(name, (event) => this.released(event, name === "pointerup"));
+    }
+  }
+
+  /** Ends what watches the viewport. */
+  end() {
+    this.resizes.disconnect();
+    cancelAnimationFrame(this.pending);
+  }
+
+  /** The pixels per millimetre at which the whole sheet is seen. */
+  get fitScale() {
+    const { clientWidth, clientHeight } = this.viewport;
+    const fit = Math.min((clientWidth - 2 * FIT_MARGIN) / this.width, (clientHeight - 2 * FIT_MARGIN) / this.height);
+    return Math.max(fit, 0.05);
+  }
+
+  /** How many times nearer than fitting. */
+  get nearness() {
+    return this.scale / this.fitScale;
+  }
+
+  /** The place on the sheet, in millimetres, in the middle of the viewport. */
+  get middle() {
+    return this.placeAt(this.viewport.clientWidth / 2, this.viewport.clientHeight / 2);
+  }
+
+  /** The place on the sheet, in millimetres, at pixels of the viewport. */
+  placeAt(x, y) {
+    return [(x - this.x) / this.scale, (y - this.y) / this.scale];
+  }
+
+  /** The place on the sheet, in millimetres, that a pointer's event is at. */
+  placeOf(event) {
+    const box = this.viewport.getBoundingClientRect();
+    return this.placeAt(event.clientX - box.left, event.clientY - box.top);
+  }
+
+  /** Shows the whole sheet. */
+  fit() {
+    this.isFit = true;
+    this.scale = this.fitScale;
+    this.x = (this.viewport.clientWidth - this.scale * this.width) / 2;
+    this.y = (this.viewport.clientHeight - this.scale * this.height) / 2;
+    this.lay();
+  }
+
+  /** Shows a place on the sheet in the middle, so many times nearer than fitting. */
+  showAt(nearness, [x, y]) {
+    this.isFit = false;
+    this.scale = this.fitScale * Math.min(Math.max(nearness, 1), NEAREST);
+    this.x = this.viewport.clientWidth / 2 - this.scale * x;
+    this.y = this.viewport.clientHeight / 2 - this.scale * y;
+    this.lay();
+  }
+
+  /** Nearer by a factor, about a place in pixels of the viewport (its middle). */
+  by(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
+    const fit = this.fitScale;
+    const scale = Math.min(Math.max(this.scale * factor, fit), NEAREST * fit);
+    if (scale <= fit * 1.001) {
+      this.fit();
+      return;
+    }
+    const [atX, atY] = this.placeAt(x, y);
+    [this.isFit, this.scale] = [false, scale];
+    [this.x, this.y] = [x - scale * atX, y - scale * atY];
+    this.lay();
+  }
+
+  /** Moves the sheet by pixels. */
+  pan(dx, dy) {
+    if (this.isFit) return;
+    this.x += dx;
+    this.y += dy;
+    this.lay();
+  }
+
+  /** Moves the sheet so that a box of it, [x0, y0, x1, y1] in millimetres, is seen. */
+  reveal([x0, y0, x1, y1]) {
+    const [left, top] = this.placeAt(0, 0);
+    const [right, bottom] = this.placeAt(this.viewport.clientWidth, this.viewport.clientHeight);
+    if (x0 >= left && x1 <= right && y0 >= top && y1 <= bottom) return;
+    this.pan(this.scale * ((left + right) / 2 - (x0 + x1) / 2), this.scale * ((top + bottom) / 2 - (y0 + y1) / 2));
+  }
+
+  resized() {
+    if (this.isFit) this.fit();
+    else this.lay();
+  }
+
+  /** Keeps a part of the sheet in sight, and puts it there in the next frame. */
+  lay() {
+    const { clientWidth, clientHeight } = this.viewport;
+    const within = (at, size, room) => Math.min(Math.max(at, room / 2 - size), room / 2);
+    if (!this.isFit) {
+      this.x = within(this.x, this.scale * this.width, clientWidth);
+      this.y = within(this.y, this.scale * this.height, clientHeight);
+    }
+    if (!this.pending) this.pending = requestAnimationFrame(() => this.put());
+  }
+
+  put() {
+    this.pending = 0;
+    const { style } = this.sheet;
+    style.width = `${this.scale * this.width}px`;
+    style.height = `${this.scale * this.height}px`;
+    style.transform = `translate(${this.x}px, ${this.y}px)`;
+    this.viewport.classList.toggle("near", !this.isFit);
+    this.onchange(this);
+  }
+
+  wheeled(event) {
+    event.preventDefault();
+    const box = this.viewport.getBoundingClientRect();
+    const unit = [1, 16, this.viewport.clientHeight][event.deltaMode];
+    const [dx, dy] = [event.deltaX * unit, event.deltaY * unit];
+    if (event.shiftKey || Math.abs(dx) > Math.abs(dy)) {
+      this.pan(-(dx || dy), event.shiftKey ? 0 : -dy);
+      return;
+    }
+    // A pinch on a touchpad is told as a wheel with the control key, in small steps.
+    const rate = event.ctrlKey ? 0.01 : 0.0016;
+    this.by(Math.exp(-rate * Math.min(Math.max(dy, -300), 300)), event.clientX - box.left, event.clientY - box.top);
+  }
+
+  pressed(event) {
+    if (event.pointerType === "mouse" && event.button !== 0) return;
+    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, startX: event.clientX, startY: event.clientY });
+    this.isTap = this.pointers.size === 1;
+  }
+
+  moved(event) {
+    const pointer = this.pointers.get(event.pointerId);
+    if (!pointer) return;
+    const away = Math.hypot(event.clientX - pointer.startX, event.clientY - pointer.startY);
+    if (this.isTap && away < TAP_SLACK) return;
+    if (this.isTap) this.viewport.setPointerCapture(event.pointerId);
+    this.isTap = false;
+    const others = [...this.pointers.values()].filter((other) => other !== pointer);
+    const before = { x: pointer.x, y: pointer.y };
+    [pointer.x, pointer.y] = [event.clientX, event.clientY];
+    if (others.length === 0) this.pan(pointer.x - before.x, pointer.y - before.y);
+    else this.pinched(others[0], before, pointer);
+  }
+
+  /** One finger stays, the other goes from `before` to `after`. */
+  pinched(still, before, after) {
+    const box = this.viewport.getBoundingClientRect();
+    const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
+    this.by(spread(after) / spread(before), (still.x + after.x) / 2 - box.left, (still.y + after.y) / 2 - box.top);
+    this.pan((after.x - before.x) / 2, (after.y - before.y) / 2);
+  }
+
+  released(event, isUp) {
+    const wasDown = this.pointers.delete(event.pointerId);
+    if (wasDown && isUp && this.isTap) this.ontap(event);
+    if (this.pointers.size === 0) this.isTap = false;
+  }
+
+  /** Whether a pointer drags the sheet. */
+  get isDragging() {
+    return this.pointers.size > 0 && !this.isTap;
+  }
+}
