@@ -5,11 +5,12 @@ import { Pins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { overviewRoom } from "./view/overview.js";
 import { pageRoom } from "./view/page.js";
+import { plateRoom } from "./view/plate/room.js";
 import { sheetRoom } from "./view/sheet.js";
 
 const app = { atlas: openAtlas(document, window), pins: new Pins() };
 
 /** The rooms, the particular before the general. */
-const rooms = [overviewRoom, pageRoom, sheetRoom];
+const rooms = [overviewRoom, plateRoom, pageRoom, sheetRoom];
 
 openShell(app, rooms, document.getElementById("gallery"));

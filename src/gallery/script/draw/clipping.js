@@ -1,0 +1,44 @@
+// Polylines cut to a box: centrodes run to infinity.
+
+import { dataNumber } from "./path-data.js";
+
+/** Path data of what of a polyline [x, y, …] is in a box [x0, y0, x1, y1]; points that are not finite part it. */
+export function clippedData(points, box, digits = 6) {
+  const number = (x) => dataNumber(x, digits);
+  let data = "";
+  let penX = NaN;
+  let penY = NaN;
+  for (let i = 0; i + 3 < points.length; i += 2) {
+    const part = segmentInBox(points[i], points[i + 1], points[i + 2], points[i + 3], box);
+    if (!part) continue;
+    const [x0, y0, x1, y1] = part;
+    if (x0 !== penX || y0 !== penY) data += `M${number(x0)} ${number(y0)}`;
+    data += `L${number(x1)} ${number(y1)}`;
+    [penX, penY] = [x1, y1];
+  }
+  return data;
+}
+
+/** The part of a segment in a box, [x0, y0, x1, y1], after Liang and Barsky; null where none is. */
+export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
+  const [dx, dy] = [x1 - x0, y1 - y0];
+  if (!Number.isFinite(dx + dy)) return null;
+  // From one side of the whole picture to the other is a leap over infinity, and no part of the curve.
+  if (Math.abs(dx) > right - left && Math.abs(dy) > high - low) return null;
+  let [from, to] = [0, 1];
+  const edges = [[-dx, x0 - left], [dx, right - x0], [-dy, y0 - low], [dy, high - y0]];
+  for (const [rate, room] of edges) {
+    if (rate === 0 && room < 0) return null;
+    if (rate === 0) continue;
+    const at = room / rate;
+    if (rate < 0) from = Math.max(from, at);
+    else to = Math.min(to, at);
+  }
+  if (from > to) return null;
+  return [
+    from === 0 ? x0 : x0 + from * dx,
+    from === 0 ? y0 : y0 + from * dy,
+    to === 1 ? x1 : x0 + to * dx,
+    to === 1 ? y1 : y0 + to * dy,
+  ];
+}

@@ -1,0 +1,71 @@
+// The parts of a linkage as path data on the screen. `at` is the places of all joints in pixels, [X0, Y0, X1, Y1, …].
+
+import { pixel } from "./path-data.js";
+
+const SLIDER_BLOCK = { long: 11, wide: 7 };
+
+/** Path data through joints, closed round a plate. */
+export function linkData(joints, at, isPlate) {
+  let data = "";
+  for (let k = 0; k < joints.length; k++) {
+    const id = joints[k];
+    data += `${k === 0 ? "M" : "L"}${pixel(at[2 * id])} ${pixel(at[2 * id + 1])}`;
+  }
+  return isPlate ? `${data}Z` : data;
+}
+
+/** Path data of a sliding block about a place, along a direction. */
+export function blockData(x, y, dx, dy) {
+  const size = Math.hypot(dx, dy);
+  const [ux, uy] = size > 0 ? [dx / size, dy / size] : [1, 0];
+  return boxData(x - SLIDER_BLOCK.long * ux, y - SLIDER_BLOCK.long * uy, x + SLIDER_BLOCK.long * ux, y + SLIDER_BLOCK.long * uy, SLIDER_BLOCK.wide);
+}
+
+/** Path data of the cylinder of an actuator, on the nearer half of it; its rod goes from end to end. */
+export function cylinderData(x0, y0, x1, y1) {
+  const [dx, dy] = [x1 - x0, y1 - y0];
+  return boxData(x0 + 0.1 * dx, y0 + 0.1 * dy, x0 + 0.6 * dx, y0 + 0.6 * dy, 5.5);
+}
+
+/** Path data of a slot's hole from end to end, as wide as a block, with round ends and room for a block's length. */
+export function slotData(x0, y0, x1, y1) {
+  const size = Math.hypot(x1 - x0, y1 - y0);
+  const [ux, uy] = size > 0 ? [(x1 - x0) / size, (y1 - y0) / size] : [1, 0];
+  const over = SLIDER_BLOCK.long - SLIDER_BLOCK.wide + 1;
+  const [r, nx, ny] = [SLIDER_BLOCK.wide, -uy * SLIDER_BLOCK.wide, ux * SLIDER_BLOCK.wide];
+  const [ax, ay, bx, by] = [x0 - over * ux, y0 - over * uy, x1 + over * ux, y1 + over * uy];
+  return `M${pixel(ax + nx)} ${pixel(ay + ny)}A${r} ${r} 0 0 1 ${pixel(ax - nx)} ${pixel(ay - ny)}`
+    + `L${pixel(bx - nx)} ${pixel(by - ny)}A${r} ${r} 0 0 1 ${pixel(bx + nx)} ${pixel(by + ny)}Z`;
+}
+
+/**
+ * Where the ends of a slot (mechanism.js) are on the screen, [X0, Y0, X1, Y1], at so many pixels to a unit, into `out`.
+ */
+export function slotEnds({ foot, base: [from, to], near, far }, at, scale, out) {
+  const [bx, by] = [at[2 * to] - at[2 * from], at[2 * to + 1] - at[2 * from + 1]];
+  const size = Math.hypot(bx, by);
+  const [ux, uy] = size > 0 ? [bx / size, by / size] : [1, 0];
+  // On the screen y is down: left of a direction is the other way round.
+  [near, far].forEach(([along, left], k) => {
+    out[2 * k] = at[2 * foot] + scale * (along * ux + left * uy);
+    out[2 * k + 1] = at[2 * foot + 1] + scale * (along * uy - left * ux);
+  });
+  return out;
+}
+
+/** Path data of an arrow from a place, as long as dx, dy. */
+export function arrowData(x, y, dx, dy) {
+  const size = Math.hypot(dx, dy);
+  if (!(size > 1)) return "";
+  const [ux, uy] = [dx / size, dy / size];
+  const [tx, ty, head] = [x + dx, y + dy, Math.min(8, size)];
+  const barb = (side) => `${pixel(tx - head * ux + side * 0.36 * head * uy)} ${pixel(ty - head * uy - side * 0.36 * head * ux)}`;
+  return `M${pixel(x)} ${pixel(y)}L${pixel(tx)} ${pixel(ty)}M${barb(1)}L${pixel(tx)} ${pixel(ty)}L${barb(-1)}`;
+}
+
+function boxData(x0, y0, x1, y1, half) {
+  const size = Math.hypot(x1 - x0, y1 - y0);
+  const [nx, ny] = size > 0 ? [(-half * (y1 - y0)) / size, (half * (x1 - x0)) / size] : [0, half];
+  const corner = (x, y, side) => `${pixel(x + side * nx)} ${pixel(y + side * ny)}`;
+  return `M${corner(x0, y0, 1)}L${corner(x1, y1, 1)}L${corner(x1, y1, -1)}L${corner(x0, y0, -1)}Z`;
+}

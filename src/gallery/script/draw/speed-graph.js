@@ -1,0 +1,39 @@
+// The speed of a traced point over its circuit.
+
+import { pixel } from "./path-data.js";
+
+/**
+ * The speeds on a path { points, inputs }, by chords: { inputs, speeds }, in units of length to `perInput` of input (a
+ * radian in degrees, or 1), each at the middle of its chord.
+ */
+export function speedsOfPath({ points, inputs }, perInput) {
+  const at = [];
+  const speeds = [];
+  for (let i = 0; i + 1 < inputs.length; i++) {
+    const by = Math.abs(inputs[i + 1] - inputs[i]);
+    const chord = Math.hypot(points[2 * i + 2] - points[2 * i], points[2 * i + 3] - points[2 * i + 1]);
+    at.push((inputs[i] + inputs[i + 1]) / 2);
+    speeds.push(by > 0 ? (chord / by) * perInput : NaN);
+  }
+  return { inputs: at, speeds };
+}
+
+/** The greatest speed a graph shows: towards limits speeds grow without bound, and the graph is of the rest. */
+export function shownSpeed(speeds) {
+  const finite = speeds.filter(Number.isFinite).sort((a, b) => a - b);
+  if (finite.length === 0) return 1;
+  const most = finite[finite.length - 1];
+  const usual = finite[Math.floor(0.8 * finite.length)];
+  return most > 4 * usual && usual > 0 ? 2.5 * usual : most || 1;
+}
+
+/** Path data of speeds over parts of the circuit (0 to 1) in a frame { width, height }, 0 at its foot, `top` at its top. */
+export function speedData(parts, speeds, top, { width, height }) {
+  let data = "";
+  parts.forEach((part, k) => {
+    if (!Number.isFinite(speeds[k])) return;
+    const y = height * (1 - Math.min(speeds[k] / top, 1.2));
+    data += `${data ? "L" : "M"}${pixel(part * width)} ${pixel(y)}`;
+  });
+  return data;
+}

@@ -1,0 +1,90 @@
+// All that is told of a curve: where it comes from, and its measures, beside those of changed parameters.
+
+import { address } from "../../data/address.js";
+import { curveKey, measured } from "../../data/family.js";
+import { pageFile } from "../../data/atlas.js";
+import { fill, h } from "../dom.js";
+import { shortLength } from "./speed-view.js";
+
+/** The heading's words of a cell: what it is called, and what is noted of it. */
+export function wordsOfCell(family, cell) {
+  return { caption: family.cells.caption[cell], note: family.cells.note[cell] };
+}
+
+/** The list of where a curve is from and what it is. */
+export function originOfCurve(app, family, curve) {
+  const cell = family.curves.cell[curve];
+  const page = family.curves.page[curve];
+  const rows = [
+    ["Family", h("a", { href: address([family.id]) }, family.title)],
+    ["Linkage", family.linkage],
+    ["Cell, trace, circuit", curveKey(family, curve).replaceAll(".", ", ")],
+    ["Caption", family.cells.caption[cell]],
+    ["Note", family.cells.note[cell]],
+    ["Status", family.cells.status[cell] === 1 ? `partial: ${family.cells.reason[cell]}` : ""],
+    ["Page", page > 0 ? h("a", { href: address([family.id, String(page)], { curve: curveKey(family, curve) }) }, `page ${page}`) : ""],
+    ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
+    ["Source", family.source],
+  ];
+  const told = rows.filter(([, value]) => value);
+  return h("dl", { class: "facts origin" }, told.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
+}
+
+/** The table of measures: `show(now)` puts those of the page beside the recorded ones, null takes them off. */
+export class MeasureTable {
+  constructor(app, family, curve, isLength) {
+    this.rows = app.atlas.measures.map((measure) => rowOfMeasure(measure, measured(family, curve, measure.name), isLength));
+    this.body = h("tbody", {}, this.rows.map(({ element }) => element));
+    this.note = h("p", { class: "note" });
+    this.table = h(
+      "table",
+      { class: "figures measures" },
+      h("caption", { class: "unseen" }, "Measures of the curve"),
+      h("thead", {}, h("tr", {}, ["Measure", "Atlas", "Now", "Change"].map((word, k) => h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word)))),
+      this.body,
+    );
+    this.element = h("section", { class: "measures-section" }, h("h2", {}, "Measures"), this.note, h("div", { class: "scroll" }, this.table));
+    this.show(null);
+  }
+
+  /** `now` is { name: number or word } of changed parameters, or null where nothing is changed. */
+  show(now) {
+    this.table.classList.toggle("compared", now !== null);
+    fill(this.note, now ? "The atlas's own measures, and those of the changed parameters as this page reckons them." : []);
+    for (const row of this.rows) {
+      const value = now?.[row.measure.name];
+      // What neither has is not told.
+      row.element.hidden = row.recorded === undefined && (value === undefined || Number.isNaN(value));
+      fill(row.now, now ? toldMeasure(row.measure, value, row.isLength) : "");
+      fill(row.change, now ? toldChange(row.measure, row.recorded, value) : "");
+    }
+  }
+}
+
+function rowOfMeasure(measure, recorded, isLength) {
+  const name = measure.name.replace(/_deg$/, "").replaceAll("_", " ");
+  const now = h("td", { class: "now" });
+  const change = h("td", { class: "now" });
+  const title = h("th", { scope: "row", class: "text" }, h("span", { class: "measure-name" }, name), h("span", { class: "definition" }, measure.definition));
+  const ofLength = isLength && /^(input_m|straight_(start|input)|dwell_(start|input))/.test(measure.name);
+  const element = h("tr", {}, title, h("td", {}, toldMeasure(measure, recorded, ofLength)), now, change);
+  return { element, measure, recorded, now, change, isLength: ofLength };
+}
+
+/** A measure in words: with its unit, in four or five digits; empty where it does not apply. */
+export function toldMeasure({ word, unit }, value, isLength = false) {
+  if (value === undefined || value === null || Number.isNaN(value)) return "";
+  if (word || typeof value === "string") return value;
+  if (value === Infinity) return "∞";
+  if (Number.isInteger(value) && Math.abs(value) < 1e6 && unit !== "deg") return String(value).replace("-", "−");
+  return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : shortLength(value);
+}
+
+function toldChange({ word, unit }, before, after) {
+  if (before === undefined || after === undefined || before === after) return before === after ? "" : "new";
+  if (word || typeof after === "string") return "changed";
+  const by = after - before;
+  if (!Number.isFinite(by) || Math.abs(by) < 1e-9 * Math.abs(before)) return "";
+  const sign = by > 0 ? "+" : "−";
+  return unit === "deg" ? `${sign}${Math.abs(by).toFixed(2)}°` : `${sign}${shortLength(Math.abs(by))}`;
+}

@@ -1,0 +1,47 @@
+// The keys of a plate, wherever the focus is but in a field of its own.
+
+import { address } from "../../data/address.js";
+import { curveKey } from "../../data/family.js";
+import { steppedByKey } from "./transport.js";
+
+/** Listens for keys until `leave()`. */
+export class PlateKeys {
+  constructor(plate, drive) {
+    this.listener = (event) => pressedKey(plate, drive, event);
+    window.addEventListener("keydown", this.listener);
+  }
+
+  leave() {
+    window.removeEventListener("keydown", this.listener);
+  }
+}
+
+function pressedKey(plate, drive, event) {
+  if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
+  const { target } = event;
+  const isField = target.matches?.("input:not([type=range]):not([type=checkbox]), select, textarea");
+  if (isField) return;
+  const isPressed = target.matches?.("button, a, summary, input[type=checkbox]");
+  if (event.key === " " && !isPressed) drive.toggle();
+  else if (event.key === "0") drive.fit();
+  else if (event.key === "+" || event.key === "=") drive.zoom(1.3);
+  else if (event.key === "-") drive.zoom(1 / 1.3);
+  else if (event.key === "[" || event.key === "]") toNeighbour(plate, event.key === "]" ? 1 : -1);
+  else if (target.matches?.("input[type=range], select")) return;
+  else if (/^Arrow(Left|Right)$/.test(event.key)) {
+    steppedByKey(event, drive);
+    return;
+  } else return;
+  event.preventDefault();
+}
+
+/** The address of the curve before (-1) or after (1) one of a family; null at the ends. */
+export function neighbourAddress(family, curve, way) {
+  const next = curve + way;
+  return next >= 0 && next < family.curves.count ? address([family.id, "curve", curveKey(family, next)]) : null;
+}
+
+function toNeighbour({ app, family, curve }, way) {
+  const next = neighbourAddress(family, curve, way);
+  if (next) app.go(next);
+}

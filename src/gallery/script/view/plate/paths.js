@@ -1,0 +1,48 @@
+// The curves of a study as path data in the plane.
+
+import { measured } from "../../data/family.js";
+import { stretchOfCircuit } from "../../draw/band.js";
+import { dashData, dashesOfPeriod } from "../../draw/dashes.js";
+import { polylineData } from "../../draw/path-data.js";
+import { roundBelow } from "../../draw/paper-view.js";
+
+// More other points than this are drawn by fewer of their samples.
+const MANY_POINTS = 12;
+
+/** The input a dash and its gap span: the family's, or, of a length, a round part of the longest pass. */
+export function dashPeriod(family, { linkage, circuit }) {
+  if (!linkage.input.isLength) return family.dash_deg;
+  return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
+}
+
+/** Path data { dashes, lead, others, band } of a study's curve, its path, and the stretch of its straight portion. */
+export function pathsOfStudy(family, study, path, stretch) {
+  const { circuit, others } = study;
+  const isMany = others.length > MANY_POINTS;
+  return {
+    dashes: dashData(path, dashesOfPeriod(dashPeriod(family, study))),
+    lead: polylineData(path.points),
+    others: others.map((joint) => sampledData(circuit, joint, isMany ? 2 : 1)).join(""),
+    band: stretch ? polylineData(stretch.points) : "",
+  };
+}
+
+function sampledData({ x, y, count, closed }, joint, stride) {
+  const points = [];
+  for (let i = 0; i < count; i += stride) points.push(x[joint][i], y[joint][i]);
+  if (closed) points.push(x[joint][0], y[joint][0]);
+  return polylineData(points, { digits: 5 });
+}
+
+/**
+ * The straight portion of a study's curve as a stretch (draw/band.js), from the measures { name: value } of the page, or,
+ * where they are null, those of the atlas. Null where there is none, or one too short to be seen.
+ */
+export function straightStretch(study, family, curve, measures) {
+  const { linkage, circuit, joint, curveBox } = study;
+  const of = (name) => (measures ? measures[name] : measured(family, curve, name));
+  const [start, span, length] = ["straight_start_deg", "straight_input_deg", "straight_length"].map(of);
+  const extent = Math.max(curveBox[2] - curveBox[0], curveBox[3] - curveBox[1]);
+  if (![start, span, length].every(Number.isFinite) || length < 0.02 * extent) return null;
+  return stretchOfCircuit(linkage, circuit, joint, { start, span, length });
+}

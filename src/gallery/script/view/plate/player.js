@@ -1,0 +1,31 @@
+// Time: calls a function with the seconds that have passed, frame by frame, while it plays.
+
+/** A clock of frames. A frame that comes late, as after another page was looked at, counts for a twentieth of a second. */
+export class Player {
+  constructor(advance) {
+    this.advance = advance;
+    this.request = 0;
+    this.before = 0;
+    this.frame = (time) => {
+      this.request = window.requestAnimationFrame(this.frame);
+      const passed = Math.min((time - this.before) / 1000, 0.05);
+      this.before = time;
+      if (passed > 0) this.advance(passed);
+    };
+  }
+
+  get isPlaying() {
+    return this.request !== 0;
+  }
+
+  play() {
+    if (this.isPlaying) return;
+    this.before = performance.now();
+    this.request = window.requestAnimationFrame(this.frame);
+  }
+
+  pause() {
+    window.cancelAnimationFrame(this.request);
+    this.request = 0;
+  }
+}

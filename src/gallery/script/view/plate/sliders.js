@@ -1,0 +1,125 @@
+// The parameters of a linkage, each with a slider and a number field.
+
+import { fill, h } from "../dom.js";
+import { roundedToGrain } from "./parameters.js";
+
+const PARAMETER_KINDS = {
+  free: "varied in the atlas",
+  kept: "kept in the atlas",
+  follows: "follows from the others",
+  freed: "set free",
+};
+
+/**
+ * The controls of parameters (parameters.js). `on` has change(name, value), clear(name), settle() when a hand lets go, and
+ * reset(). `show(parameters)` says what they are now; rows stay while their names do.
+ */
+export class Sliders {
+  constructor(on) {
+    this.on = on;
+    this.rows = new Map();
+    this.free = h("div", { class: "parameters" });
+    this.kept = h("div", { class: "parameters" });
+    this.more = h("details", { class: "kept-parameters" }, h("summary", {}, "Kept in the atlas, and what follows"), this.kept);
+    this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "As in the atlas");
+    this.element = h("section", { class: "gauge sliders" }, h("h3", {}, "Parameters"), this.free, this.more, this.reset);
+  }
+
+  show(parameters) {
+    const names = parameters.map(({ name }) => name).join(" ");
+    if (names !== this.names) this.#build(parameters);
+    this.names = names;
+    for (const parameter of parameters) this.#refresh(parameter);
+    this.reset.disabled = !parameters.some((parameter) => isChangedParameter(parameter));
+  }
+
+  /** Marks what is wrong: the names whose values are out of bounds. */
+  #refresh(parameter) {
+    const row = this.rows.get(parameter.name);
+    const { value, recorded, kind, low, high } = parameter;
+    row.parameter = parameter;
+    row.element.className = `parameter ${kind}${isChangedParameter(parameter) ? " changed" : ""}`;
+    // A value that was typed may lie beyond the range that is sensible.
+    row.range.min = Math.min(low, value);
+    row.range.max = Math.max(high, value);
+    if (Number(row.range.value) !== value) row.range.value = value;
+    row.range.disabled = kind === "follows";
+    row.range.setAttribute("aria-valuetext", plainNumber(value));
+    row.field.readOnly = kind === "follows";
+    if (document.activeElement !== row.field) row.field.value = plainNumber(value);
+    const { min, max } = parameter;
+    const isOut = (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
+    row.field.setAttribute("aria-invalid", String(isOut));
+    const isTied = kind === "follows" || kind === "freed";
+    const label = kind === "follows" ? "Set free" : kind === "freed" ? "Let follow" : "Back";
+    row.button.textContent = label;
+    row.button.setAttribute("aria-label", `${label}: ${parameter.name}${kind === "free" || kind === "kept" ? ` to ${plainNumber(recorded)}` : ""}`);
+    row.button.classList.toggle("unneeded", !isTied && !isChangedParameter(parameter));
+    row.button.disabled = !isTied && !isChangedParameter(parameter);
+  }
+
+  #build(parameters) {
+    this.rows.clear();
+    const rows = parameters.map((parameter) => [parameter, this.#row(parameter)]);
+    const isFree = ([{ kind }]) => kind === "free";
+    fill(this.free, rows.filter(isFree).map(([, { element }]) => element));
+    const kept = rows.filter((row) => !isFree(row));
+    fill(this.kept, kept.map(([, { element }]) => element));
+    this.more.hidden = kept.length === 0;
+    this.more.open = rows.length <= 6 || rows.length === kept.length;
+  }
+
+  #row(parameter) {
+    const { name } = parameter;
+    const { on } = this;
+    const row = { parameter };
+    row.range = h("input", {
+      type: "range", step: "any", min: parameter.low, max: parameter.high, value: parameter.value,
+      "aria-label": `${name}, ${PARAMETER_KINDS[parameter.kind]}`,
+      oninput: () => on.change(name, roundedToGrain(Number(row.range.value), row.parameter.grain)),
+      onchange: () => on.settle(),
+      onkeydown: (event) => steppedSlider(event, row, on),
+    });
+    row.field = h("input", {
+      type: "number", step: "any", "aria-label": `Value of ${name}`,
+      oninput: () => {
+        const value = row.field.valueAsNumber;
+        if (Number.isFinite(value) && !row.field.readOnly) on.change(name, value);
+      },
+      onchange: () => {
+        on.settle();
+        row.field.value = plainNumber(row.parameter.value);
+      },
+    });
+    row.button = h("button", { type: "button", class: "quiet tie", onclick: () => freedOrTied(row.parameter, on) });
+    row.element = h("div", { class: "parameter" }, h("span", { class: "parameter-name" }, name), row.range, row.field, row.button);
+    this.rows.set(name, row);
+    return row;
+  }
+}
+
+// The browser's own steps of a slider without steps are coarse: ours are its grain, with shift ten of them.
+function steppedSlider(event, row, on) {
+  const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
+  if (!(event.key in ways) || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  const { name, value, grain } = row.parameter;
+  const by = ways[event.key] * (event.shiftKey ? 10 : 1) * grain;
+  on.change(name, roundedToGrain(value + by, grain));
+  on.settle();
+}
+
+function freedOrTied({ name, kind, value }, on) {
+  if (kind === "follows") on.change(name, value);
+  else on.clear(name);
+  on.settle();
+}
+
+function isChangedParameter({ kind, value, recorded }) {
+  return kind === "freed" || (kind !== "follows" && value !== recorded);
+}
+
+/** A number as it is typed: up to ten significant digits. */
+export function plainNumber(value) {
+  return Number.isFinite(value) ? String(Number(value.toPrecision(10))) : "";
+}

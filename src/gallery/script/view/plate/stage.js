@@ -1,0 +1,136 @@
+// The stage of a plate: what stays, the curves and the ground, on one sheet, and the linkage that moves on another above
+// it, so that a frame of the motion paints the linkage alone. Weights of lines are in pixels of the screen at any zoom.
+
+import { fittedView, zoomedView } from "../../draw/paper-view.js";
+import { fill, h, s } from "../dom.js";
+import { MovingSheet } from "./moving-sheet.js";
+import { StillSheet } from "./still-sheet.js";
+
+const STAGE_MARGIN = 44;
+
+/** A stage; `element` is to be put into the page, then `observe()` it. `onview` is called when its view has changed. */
+export class Stage {
+  constructor() {
+    this.size = { width: 0, height: 0 };
+    this.view = { scale: 1, x: 0, y: 0 };
+    this.isZoomed = false;
+    this.box = null;
+    this.study = null;
+    this.still = new StillSheet();
+    this.moving = new MovingSheet();
+    this.summary = h("p", { class: "unseen", id: "plate-summary" });
+    this.reason = h("p", { class: "reason trouble", hidden: true });
+    this.picture = h(
+      "div",
+      { class: "picture", role: "img", "aria-describedby": "plate-summary", "aria-label": "The linkage on its curve" },
+      this.still.element,
+      this.moving.element,
+    );
+    this.element = h("div", { class: "stage" }, this.picture, this.reason, this.summary);
+    this.observer = new ResizeObserver(() => this.#measured());
+    this.onview = () => {};
+  }
+
+  observe() {
+    this.observer.observe(this.element);
+    this.#measured();
+  }
+
+  leave() {
+    this.observer.disconnect();
+  }
+
+  /** Shows a study and what its curve is drawn with: { dashes, lead, others, band } as path data in the plane. */
+  show(study, paths) {
+    const isFirst = !this.study;
+    this.study = study;
+    this.still.show(study, paths);
+    this.moving.show(study);
+    this.box = study.box;
+    if (isFirst) this.fit();
+    else this.#place();
+  }
+
+  /** The box that a fit shows: what the linkage sweeps, widened by what overlays add. */
+  frame(box) {
+    this.box = box;
+  }
+
+  /** A linkage that cannot be assembled leaves the last one that could, receding, and says why. */
+  impossible(reason) {
+    this.element.classList.toggle("impossible", reason !== null);
+    this.reason.hidden = reason === null;
+    fill(this.reason, reason === null ? [] : `It cannot be assembled: ${reason}`);
+  }
+
+  /** Moves the linkage into a pose [x0, y0, …] of the plane. */
+  pose(pose) {
+    this.moving.pose(pose, this.view);
+  }
+
+  /** Fits all that is swept into the frame. */
+  fit() {
+    this.isZoomed = false;
+    if (this.box) this.view = fittedView(this.box, { ...this.size, margin: this.#margin() });
+    this.#place();
+  }
+
+  /** While lengths are changing: the view stays unless the linkage leaves it, or grows small in it. */
+  keepInFrame() {
+    if (this.isZoomed || !this.box) return;
+    const fitted = fittedView(this.box, { ...this.size, margin: this.#margin() });
+    const [x0, y0, x1, y1] = this.box;
+    const { scale, x, y } = this.view;
+    const slack = 0.5 * this.#margin();
+    const isInside = x + scale * x0 >= slack && x + scale * x1 <= this.size.width - slack
+      && y - scale * y1 >= slack && y - scale * y0 <= this.size.height - slack;
+    if (!isInside || scale < 0.55 * fitted.scale) this.fit();
+  }
+
+  zoom(factor, at = [this.size.width / 2, this.size.height / 2]) {
+    const least = fittedView(this.box, { ...this.size, margin: this.#margin() }).scale;
+    const scale = Math.min(Math.max(this.view.scale * factor, 0.2 * least), 400 * least);
+    this.view = zoomedView(this.view, scale / this.view.scale, at);
+    this.isZoomed = true;
+    this.#place();
+  }
+
+  pan(dx, dy) {
+    this.view = { ...this.view, x: this.view.x + dx, y: this.view.y + dy };
+    this.isZoomed = true;
+    this.#place();
+  }
+
+  #margin() {
+    return Math.min(STAGE_MARGIN, 0.1 * Math.min(this.size.width, this.size.height) + 8);
+  }
+
+  #measured() {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (width === 0 || height === 0 || (width === this.size.width && height === this.size.height)) return;
+    const before = this.size;
+    this.size = { width, height };
+    for (const sheet of [this.still, this.moving]) sheet.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    if (this.isZoomed) this.pan((width - before.width) / 2, (height - before.height) / 2);
+    else this.fit();
+  }
+
+  #place() {
+    if (!this.study) return;
+    this.still.place(this.view, this.size);
+    this.moving.place(this.view);
+    this.onview();
+  }
+}
+
+/** The elements of a list, one for each of `count`, made by `make` as they come to be needed and hidden as they are not. */
+export function keptElements(parent, list, count, make) {
+  while (list.length < count) list.push(parent.appendChild(make()));
+  list.forEach((element, k) => element.toggleAttribute("hidden", k >= count));
+  return list;
+}
+
+/** An SVG path of a class. */
+export function pathOfClass(name, attributes = {}) {
+  return s("path", { class: name, ...attributes });
+}

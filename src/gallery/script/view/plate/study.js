@@ -1,0 +1,105 @@
+// A linkage as a plate studies it: assembled, all its circuits, the one that is shown.
+
+import { routesOf } from "../../kinematics/circuit.js";
+import { LinkageError } from "../../kinematics/assembly.js";
+import { fourBarOf, isOnCoupler } from "../../kinematics/four-bar.js";
+import { linkageOf } from "../../kinematics/template.js";
+import { finePath } from "../../kinematics/path.js";
+import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
+import { sideOf } from "../../kinematics/signs.js";
+import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
+import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { changedValues, templateWithChanges } from "./parameters.js";
+import { courseOf } from "./course.js";
+
+// So many samples over a circuit show what its other points and its sliders do.
+const STUDY_SAMPLES = 240;
+
+/**
+ * The study of a curve of a family with changes (parameters.js): { values, reason } where it cannot be assembled, `reason`
+ * a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint, others, course, mechanism, box, size,
+ * fourBar, isCouplerPoint, template }.
+ *
+ * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names, `shown` that
+ * of the one that is shown, which is `asked` where there is one; -1 where there is none. `circuit` is `shown`, sampled;
+ * `joint` the traced one, `others` the further traced ones. `box` is what the linkage sweeps.
+ */
+export function studyOf(family, curve, changes, asked = null) {
+  const { cell, trace, circuit } = family.curves;
+  const values = changedValues(family, cell[curve], changes);
+  const changed = templateWithChanges(family.template, trace[curve], values, changes);
+  let linkage = null;
+  try {
+    linkage = linkageOf({ ...changed.template, circuits: "all" }, values);
+  } catch (error) {
+    if (!(error instanceof LinkageError)) throw error;
+    return { values, reason: error.message };
+  }
+  const { routes, shortfall } = routesOf(linkage);
+  if (routes.length === 0) return { values, reason: shortfall ?? "no input allows it to be assembled" };
+  const own = { ...linkage, travel: { ...linkage.travel, circuits: family.template.circuits ?? "start" } };
+  const recorded = routesOf(own);
+  const home = sameRoute(routes, recorded.routes[circuit[curve] - 1]);
+  const shown = routes[asked] ? asked : home;
+  if (shown < 0) {
+    const reason = recorded.shortfall ?? "the circuit of this curve is there no more: it has come together with another, or apart";
+    return { values, linkage, routes, home, shown, reason };
+  }
+  const study = { values, linkage, routes, home, shown, shortfall: recorded.shortfall, template: changed.template };
+  return { ...study, ...shownCircuit(study, changed.trace ?? linkage.traced.length) };
+}
+
+function shownCircuit({ linkage, routes, shown }, trace) {
+  const circuit = sampledCircuit(linkage, samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }), routes[shown]);
+  const joint = linkage.traced[trace - 1];
+  const mechanism = mechanismOf(linkage, circuit);
+  const box = sweptBox(mechanism, circuit, [joint]);
+  const curveBox = widenedBox(emptyBox(), circuit.x[joint], circuit.y[joint], circuit.count);
+  const size = Math.hypot(box[2] - box[0], box[3] - box[1]);
+  if (!(size > 0) || !Number.isFinite(size)) return { reason: "its lengths are too unlike one another to be drawn" };
+  const fourBar = fourBarOf(linkage);
+  const isCouplerPoint = fourBar !== null && isOnCoupler(linkage, fourBar, joint);
+  const others = linkage.traced.filter((other) => other !== joint);
+  return { circuit, joint, others, course: courseOf(routes[shown]), mechanism, box, curveBox, size, fourBar, isCouplerPoint };
+}
+
+/** The path of a study's traced joint, to a part of its size. */
+export function pathOfStudy({ linkage, circuit, joint, size }, part) {
+  return finePath(linkage, circuit, joint, part * size);
+}
+
+function sameRoute(routes, route) {
+  if (!route) return -1;
+  const [first] = route.passes;
+  const isOn = ({ passes }) => passes.some(
+    (pass) => pass.signs === first.signs && Math.abs(Math.min(pass.from, pass.to) - Math.min(first.from, first.to)) < 1e-9,
+  );
+  return routes.findIndex(isOn);
+}
+
+/** What a circuit is called: "branch 1, a full turn", "−75.5° to 75.5°, branches 1 and −1". */
+export function routeTitle(linkage, { passes, closed }) {
+  const unit = linkage.input.isLength ? "" : "°";
+  const ends = passes.flatMap(({ from, to }) => [from, to]);
+  const [low, high] = [Math.min(...ends), Math.max(...ends)];
+  const branches = [...new Set(passes.map(({ signs }) => branchWords(linkage, signs)))].filter(Boolean);
+  const turns = passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) && closed;
+  const travel = turns ? turnWords(high - low) : `${minusSigned(low, 1)}${unit} to ${minusSigned(high, 1)}${unit}`;
+  return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
+}
+
+function turnWords(degrees) {
+  const turns = Math.round(degrees / 360);
+  return turns === 1 ? "a full turn" : `${turns} turns`;
+}
+
+// The sides of all two-valued joints: 1 left, −1 right.
+function branchWords({ dyads }, signs) {
+  return Array.from({ length: dyads }, (_, k) => (sideOf(signs, k) > 0 ? "1" : "−1")).join("/");
+}
+
+/** A number with so many decimals and a true minus. */
+export function minusSigned(value, decimals) {
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
+}

@@ -1,0 +1,70 @@
+// What is switched on over the linkage, and which of its circuits is shown.
+
+import { fill, h } from "../dom.js";
+import { cognatesOfStudy, OVERLAYS } from "./overlays.js";
+import { routeTitle } from "./study.js";
+import { shortLength } from "./speed-view.js";
+
+/** Checkboxes and circuits. `on` has overlay(name, isOn) and circuit(k). */
+export class Switches {
+  constructor(on) {
+    this.on = on;
+    this.boxes = new Map(OVERLAYS.map(({ name, label }) => {
+      const box = h("input", { type: "checkbox", name: `show-${name}`, onchange: () => on.overlay(name, box.checked) });
+      return [name, { box, row: h("label", { class: "check" }, box, label) }];
+    }));
+    this.lengths = h("div", { class: "cognate-lengths" });
+    this.circuits = h("div", { class: "circuits", role: "radiogroup", "aria-label": "Circuits" });
+    this.circuitSection = h("section", { class: "gauge" }, h("h3", {}, "Circuits"), this.circuits);
+    this.element = h(
+      "section",
+      { class: "gauge" },
+      h("h3", {}, "Shown"),
+      h("div", { class: "checks" }, [...this.boxes.values()].map(({ row }) => row)),
+      this.lengths,
+    );
+  }
+
+  /** `candidates` has the linkage and routes of what was asked for, `study` what is drawn. */
+  show(candidates, study, on) {
+    for (const { name, there } of OVERLAYS) {
+      const { box, row } = this.boxes.get(name);
+      row.hidden = !study || !there(study);
+      box.checked = on.has(name);
+    }
+    this.#cognates(study, on);
+    const routes = candidates?.routes ?? [];
+    fill(this.circuits, routes.map((route, k) => this.#circuit(candidates, route, k)));
+    this.circuitSection.hidden = routes.length < 2;
+  }
+
+  #circuit({ linkage, home, shown }, route, k) {
+    const radio = h("input", { type: "radio", name: "circuit", value: k + 1, checked: k === shown, onchange: () => this.on.circuit(k) });
+    const words = `${k + 1}: ${routeTitle(linkage, route)}`;
+    return h("label", { class: "check" }, radio, h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve’s") : null));
+  }
+
+  #cognates(study, on) {
+    const pair = study && on.has("cognates") ? cognatesOfStudy(study) : null;
+    this.lengths.hidden = !pair;
+    if (!pair) return;
+    const head = ["", "frame", "crank", "coupler", "rocker", "along", "across"];
+    const row = ({ lengths, point }, k) => h(
+      "tr",
+      {},
+      h("th", { scope: "row", class: "text" }, ["itself", "first", "second"][k]),
+      [lengths.frame, lengths.crank, lengths.coupler, lengths.rocker, ...point].map((x) => h("td", {}, shortLength(x))),
+    );
+    fill(this.lengths, h(
+      "div",
+      { class: "scroll" },
+      h(
+        "table",
+        { class: "figures" },
+        h("caption", { class: "unseen" }, "The three four-bars that draw this curve"),
+        h("thead", {}, h("tr", {}, head.map((word) => h("th", { scope: "col" }, word)))),
+        h("tbody", {}, pair.cognates.map(row)),
+      ),
+    ));
+  }
+}

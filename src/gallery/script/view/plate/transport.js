@@ -1,0 +1,105 @@
+// What drives the motion: play and pause, speed, the slider over the circuit, steps, and limits.
+
+import { h } from "../dom.js";
+import { minusSigned } from "./study.js";
+
+/** Rates of play, in degrees of input to a second, and what they are called. */
+const PLAY_RATES = [[15, "¼"], [30, "½"], [60, "1"], [120, "2"], [240, "4"]];
+
+/**
+ * The controls under a stage. `on` has { toggle(), seek(part), step(direction, share), limit(direction), fit(), zoom(factor) }.
+ * `show(study)`, `now(part, input)` and `playing(isPlaying)` say what there is to see.
+ */
+export class Transport {
+  constructor(on) {
+    this.play = h("button", { type: "button", class: "play", onclick: on.toggle, "aria-keyshortcuts": "Space" });
+    this.scrub = h("input", {
+      type: "range", class: "scrub", min: "0", max: "1", step: "any", value: "0", "aria-label": "Place on the circuit",
+      oninput: () => on.seek(Number(this.scrub.value)),
+      onkeydown: (event) => steppedByKey(event, on),
+    });
+    this.input = h("span", { class: "input-now" });
+    this.ends = h("p", { class: "note ends" });
+    this.rate = h(
+      "select",
+      { "aria-label": "Speed of play", class: "rate" },
+      PLAY_RATES.map(([rate, label]) => h("option", { value: rate, selected: rate === 60 }, `${label} ×`)),
+    );
+    const button = (label, title, onclick, keys) => h("button", { type: "button", class: "step", title, "aria-label": title, "aria-keyshortcuts": keys, onclick }, label);
+    this.toLimits = [
+      button("⇤", "To the limit before, or the beginning", () => on.limit(-1), "Home"),
+      button("⇥", "To the next limit, or the end", () => on.limit(1), "End"),
+    ];
+    this.element = h(
+      "div",
+      { class: "transport", role: "group", "aria-label": "Motion" },
+      h("div", { class: "drive" }, this.play, this.toLimits[0], this.scrub, this.toLimits[1], this.input),
+      h(
+        "div",
+        { class: "toolbar" },
+        this.ends,
+        h(
+          "span",
+          { class: "end zooms" },
+          this.rate,
+          button("−", "Zoom out", () => on.zoom(1 / 1.3), "-"),
+          button("+", "Zoom in", () => on.zoom(1.3), "+"),
+          button("Fit", "Fit into the frame", on.fit, "0"),
+        ),
+      ),
+    );
+    this.told = 0;
+    this.playing(false);
+  }
+
+  /** Degrees of input to a second. */
+  get speed() {
+    return Number(this.rate.value);
+  }
+
+  show({ linkage, course, shortfall }, title) {
+    this.isLength = linkage.input.isLength;
+    this.course = course;
+    this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
+    this.#enable(true);
+  }
+
+  /** Nothing to drive. */
+  stop() {
+    this.#enable(false);
+  }
+
+  #enable(isThere) {
+    for (const control of [this.play, this.scrub, ...this.toLimits]) control.disabled = !isThere;
+  }
+
+  playing(isPlaying) {
+    this.isPlaying = isPlaying;
+    this.play.textContent = isPlaying ? "Pause" : "Play";
+    this.play.setAttribute("aria-pressed", String(isPlaying));
+    if (!isPlaying) this.told = 0;
+  }
+
+  now(part, input) {
+    const text = this.isLength ? minusSigned(input, 4) : `${minusSigned(input, 1)}°`;
+    this.input.textContent = text;
+    if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part) this.scrub.value = part;
+    // A screen reader need not hear sixty angles in a second.
+    const time = performance.now();
+    if (this.isPlaying && time - this.told < 500) return;
+    this.told = time;
+    this.scrub.setAttribute("aria-valuetext", `input ${text}`);
+  }
+}
+
+/** Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits. */
+export function steppedByKey(event, on) {
+  const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
+  const limits = { Home: -1, End: 1 };
+  if (event.ctrlKey || event.metaKey || event.altKey) return false;
+  if (event.key in ways) on.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
+  else if (event.key in limits) on.limit(limits[event.key]);
+  else return false;
+  event.preventDefault();
+  return true;
+}
