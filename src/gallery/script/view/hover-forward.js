@@ -148,23 +148,28 @@ export class CurveForward {
       input = passes[pass].to;
     }
     this.readInput(pass, input);
-    this.desk.app.say(readingInWords(this.at, isLength).map((row) => row.join(" ")).join(", "));
+    this.desk.app.say(readingInWords(this.at, this.solved).map((row) => row.join(" ")).join(", "));
   }
 
   /** Puts the point and what is read there where the zoom has them. */
   place() {
     const { desk, at } = this;
     if (!at || this.curve === null || !at.place.every(Number.isFinite)) return;
-    const { view: { origin, scale } } = this.drawnOf(this.curve);
+    const { view: { origin, scale }, box } = this.drawnOf(this.curve);
     const [x, y] = [origin[0] + scale * at.place[0], origin[1] - scale * at.place[1]];
     desk.overlay.point([x, y], 4 / desk.zoom.scale);
-    const rows = readingInWords(at, this.solved.isLength).map(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
+    const rows = readingInWords(at, this.solved).map(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
     fill(desk.reading, h("dl", {}, rows));
     desk.reading.hidden = false;
+    // Outside of the curve, where there is room.
+    const beside = (place, size, room, isBefore) => {
+      const [before, after] = [place - 16 - size, place + 16];
+      return isBefore ? (before < 0 ? after : before) : (after + size > room ? before : after);
+    };
     const { offsetWidth, offsetHeight } = desk.reading;
-    const beside = (place, size, room) => (place + 16 + size > room ? place - 16 - size : place + 16);
-    const left = beside(desk.zoom.x + desk.zoom.scale * x, offsetWidth, desk.viewport.clientWidth);
-    const top = beside(desk.zoom.y + desk.zoom.scale * y, offsetHeight, desk.viewport.clientHeight);
+    const { clientWidth, clientHeight } = desk.viewport;
+    const left = beside(desk.zoom.x + desk.zoom.scale * x, offsetWidth, clientWidth, 2 * x < box[0] + box[2] - 1);
+    const top = beside(desk.zoom.y + desk.zoom.scale * y, offsetHeight, clientHeight, 2 * y < box[1] + box[3]);
     desk.reading.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
   }
 }
@@ -179,11 +184,18 @@ function solvedOrNull(family, curve, tolerance) {
 }
 
 /** What is read at a place of a curve: [[name, figure with unit], …]. */
-function readingInWords({ input, speed, mu }, isLength) {
-  const at = isLength ? figure(input) : `${input.toFixed(1).replace("-", "−")}°`;
+function readingInWords({ input, speed, mu }, { isLength, passes }) {
   return [
-    ["input", at],
+    ["input", isLength ? figure(input) : angleInWords(input, passes)],
     ["speed", `${figure(speed, 4)} per ${isLength ? "unit" : "rad"}`],
     ...(mu === null || !Number.isFinite(mu) ? [] : [["transmission", `${mu.toFixed(1)}°`]]),
   ];
+}
+
+/** Degrees of input; where it goes on round, the end of its period is its beginning. */
+function angleInWords(input, passes) {
+  const text = input.toFixed(1);
+  const period = Math.abs(passes[0].to - passes[0].from);
+  if (passes.length === 1 && period % 360 === 0 && text === period.toFixed(1)) return "0.0°";
+  return `${text.replace("-", "−")}°`;
 }

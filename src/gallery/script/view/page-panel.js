@@ -9,29 +9,40 @@ import { thumbnail } from "./thumbnail.js";
 
 /** The curves of a page as links, { element, links: Map of curve to link }, and what could not be assembled. */
 export function curvesPanel(family, page, drawn, { onenter, onleave }) {
-  const links = new Map(drawn.map(({ curve }) => [curve, curveRow(family, curve, { onenter, onleave })]));
+  // Of one linkage with several points each row says the point alone.
+  const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
+  const links = new Map(drawn.map(({ curve }) => [curve, curveRow(family, curve, { one, onenter, onleave })]));
   const short = cellsOnPage(family, page).filter((cell) => family.cells.status[cell] === 2);
-  const none = family.layout === "chart"
-    ? `A chart of ${family.curves.count} curves: each is found under “Curves” of the family.`
-    : "No curve is drawn on this page.";
+  const sum = `${drawn.length} ${drawn.length === 1 ? "curve" : "curves"} on this page`;
   return h(
     "div",
     { class: "panel" },
-    h("h2", {}, drawn.length ? `${drawn.length} ${drawn.length === 1 ? "curve" : "curves"} on this page` : "No curves to point at"),
-    drawn.length ? null : h("p", { class: "note" }, none),
+    h("h2", {}, one ? captionOf(family, drawn[0].curve) : drawn.length ? sum : "No curves to point at"),
+    one ? h("p", { class: "note" }, sum) : null,
+    drawn.length ? null : h("p", { class: "note" }, family.layout === "chart" ? curvesOfChart(family) : "Nothing is drawn on this page."),
     h("ol", { class: "page-curves" }, [...links.values()].map((link) => h("li", {}, link))),
     short.length ? notAssembled(family, short) : null,
   );
 }
 
-function curveRow(family, curve, { onenter, onleave }) {
-  const { cell, trace, circuit } = family.curves;
-  const traces = family.template.trace.length > 1 || trace[curve] > 1 ? `point ${trace[curve]}` : "";
-  const words = [
-    family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`,
-    traces,
-    circuit[curve] > 1 ? `circuit ${circuit[curve]}` : "",
+function curvesOfChart(family) {
+  return [
+    "A chart of ",
+    h("a", { href: address([family.id], { show: "curves" }) }, `${family.curves.count} curves`),
+    ", which are not drawn on it.",
   ];
+}
+
+function captionOf(family, curve) {
+  const cell = family.curves.cell[curve];
+  return captionInType(family.cells.caption[cell] || `Linkage ${family.cells.number[cell]}`);
+}
+
+function curveRow(family, curve, { one, onenter, onleave }) {
+  const { cell, circuit } = family.curves;
+  const caption = one ? null : family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`;
+  const words = [caption, pointInWords(family, curve), circuit[curve] > 1 || one ? `circuit ${circuit[curve]}` : null];
+  if (one && pointInWords(family, curve) && circuit[curve] === 1) words.pop();
   return h(
     "a",
     {
@@ -44,6 +55,12 @@ function curveRow(family, curve, { onenter, onleave }) {
     thumbnail(family, [curve], { width: 44, height: 30 }),
     h("span", {}, captionInType(words.filter(Boolean).join(" · "))),
   );
+}
+
+/** Which of the traced points of its linkage draws a curve, where there are several. */
+function pointInWords(family, curve) {
+  const { trace } = family.curves;
+  return trace.some((number) => number > 1) ? `point ${trace[curve]}` : "";
 }
 
 /** Linkages that could not be assembled, each with the reason. */
@@ -72,7 +89,7 @@ export function curvePanel(app, family, curve, { onall }) {
     "div",
     { class: "panel" },
     h("h2", {}, captionInType(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
-    h("p", { class: "tags" }, [`curve ${key}`, ...new Set(words), closed[curve] ? null : "open"].filter(Boolean)
+    h("p", { class: "tags" }, [`curve ${key}`, pointInWords(family, curve), ...new Set(words), closed[curve] ? null : "open"].filter(Boolean)
       .map((word) => [h("span", { class: "tag" }, word), " "])),
     family.cells.note[at] ? h("p", { class: "note" }, family.cells.note[at]) : null,
     family.cells.status[at] === 1 ? h("p", { class: "note" }, `In part: ${family.cells.reason[at]}`) : null,

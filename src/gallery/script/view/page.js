@@ -27,6 +27,15 @@ export const pageRoom = {
   },
 };
 
+function keysInWords() {
+  return h(
+    "p",
+    { class: "note no-print page-keys", id: "page-keys" },
+    "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
+    "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
+  );
+}
+
 /** A page on the desk. */
 class PageDesk {
   constructor(app, family, listed) {
@@ -62,15 +71,9 @@ class PageDesk {
     this.legend = h("p", { class: "note" });
     return h(
       "div",
-      { class: "room wide page-room" },
+      { class: "room wide page-room", onclick: (event) => this.followed(event) },
       h("div", { class: "head" }, h("div", { class: "page-title" }, heading, this.legend), this.bar.element),
-      h("div", { class: "split" }, this.viewport, this.panel),
-      h(
-        "p",
-        { class: "note no-print page-keys", id: "page-keys" },
-        "On the page: wheel, + and − nearer and further, 0 the whole page, arrows move it, n and p the next page and the one ",
-        "before. Tab to its curves: arrows from one to another, with Shift along a curve, Enter opens its plate.",
-      ),
+      h("div", { class: "split" }, h("div", { class: "desk" }, this.viewport, keysInWords()), this.panel),
     );
   }
 
@@ -128,7 +131,10 @@ class PageDesk {
     this.wasLooked = true;
     const curve = query.has("curve") ? curveAt(this.family, query.get("curve")) : undefined;
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.forward.choose(curve);
-    else this.forward.choose(null);
+    else {
+      this.forward.choose(null);
+      this.beside();
+    }
     this.tell();
   }
 
@@ -167,11 +173,24 @@ class PageDesk {
       this.forward.choose(null);
       this.beside();
     } else if (event.pointerType !== "touch" || this.forward.chosen === found.curve) {
+      this.choose(found.curve);
       this.app.go(address([this.family.id, "curve", curveKey(this.family, found.curve)]));
       return;
     } else {
       this.forward.choose(found.curve, place);
     }
+    this.remember();
+  }
+
+  /** Whoever comes back from a plate finds its curve forward. */
+  followed({ target }) {
+    const key = target.closest('a[href*="/curve/"]')?.getAttribute("href").split("/").at(-1);
+    const curve = key && curveAt(this.family, key);
+    if (this.drawn.some((candidate) => candidate.curve === curve)) this.choose(curve);
+  }
+
+  choose(curve) {
+    this.forward.choose(curve);
     this.remember();
   }
 

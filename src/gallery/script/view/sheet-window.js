@@ -4,6 +4,8 @@ import { h } from "./dom.js";
 
 // So much time of a frame, in milliseconds, goes into drawing tiles that have come into sight.
 const DRAWING_TIME = 8;
+// So many tiles at most, from the first, are printed.
+const PRINTED_TILES = 400;
 
 /**
  * A list of `count` tiles in columns of at least `least` pixels, each `aspect` times as high as wide, and `below` pixels more.
@@ -91,7 +93,13 @@ export function windowedTiles({ count, least, gap, aspect, below, label, tile, d
     event.preventDefault();
     focus(to);
   };
+  const printed = () => {
+    for (let k = 0; k < Math.min(count, PRINTED_TILES); k += 1) add(k);
+    queue.filter((k) => there.has(k)).forEach((k) => draw(there.get(k), k));
+    queue = [];
+  };
   const sizes = new ResizeObserver(measure);
+  list.style.setProperty("--shape", `1 / ${aspect}`);
   return {
     element: list,
     shown: () => {
@@ -99,12 +107,16 @@ export function windowedTiles({ count, least, gap, aspect, below, label, tile, d
       sizes.observe(list);
       window.addEventListener("scroll", scrolled, { passive: true });
       window.addEventListener("resize", scrolled);
+      window.addEventListener("beforeprint", printed);
+      window.addEventListener("afterprint", scrolled);
     },
     show: focus,
     end: () => {
       sizes.disconnect();
       window.removeEventListener("scroll", scrolled);
       window.removeEventListener("resize", scrolled);
+      window.removeEventListener("beforeprint", printed);
+      window.removeEventListener("afterprint", scrolled);
       cancelAnimationFrame(pending);
       queue = [];
     },
