@@ -23,8 +23,6 @@ export function clippedData(points, box, digits = 6) {
 export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   if (!Number.isFinite(dx + dy)) return null;
-  // From one side of the whole picture to the other is a leap over infinity, and no part of the curve.
-  if (Math.abs(dx) > right - left && Math.abs(dy) > high - low) return null;
   let [from, to] = [0, 1];
   const edges = [[-dx, x0 - left], [dx, right - x0], [-dy, y0 - low], [dy, high - y0]];
   for (const [rate, room] of edges) {

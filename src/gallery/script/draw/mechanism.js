@@ -9,11 +9,12 @@ import { emptyBox, widenedBox } from "./paper-view.js";
  *   slots: [{ foot, through, base: [from, to], near: [x, y], far: [x, y] }], actuators: [[pivot, joint]],
  *   guides: [[x0, y0, x1, y1]], wheels: [{ joint, radius }] }
  * Plates are links with three joints or more that are not in line, in the order of their outline. The ends of a slot are
- * from its foot, in the frame whose x-axis goes from `base[0]` to `base[1]`. Points of a grid are on no bar.
+ * from its foot, in the frame whose x-axis goes from `base[0]` to `base[1]`. Of the points of a grid only the one `traced`
+ * is on its plate.
  */
-export function mechanismOf(linkage, circuit) {
+export function mechanismOf(linkage, circuit, traced) {
   const { joints } = linkage;
-  const outlines = movingOutlines(linkage);
+  const outlines = movingOutlines(linkage, traced);
   const plates = outlines.filter(({ isPlate }) => isPlate).map(({ joints: outline }) => outline);
   const bars = outlines.filter(({ isPlate }) => !isPlate).map(({ joints: outline }) => outline);
   const frame = groundPivots(linkage);
@@ -52,16 +53,16 @@ export function sweptBox(mechanism, circuit, further = []) {
   return box;
 }
 
-function movingOutlines(linkage) {
+function movingOutlines(linkage, traced) {
   const ground = groundOf(linkage);
   const moving = linkage.links.filter((link) => link !== ground);
-  return moving.map((link) => linkOutline(linkage, link)).filter(({ joints }) => joints.length > 1);
+  return moving.map((link) => linkOutline(linkage, link, traced)).filter(({ joints }) => joints.length > 1);
 }
 
 // The joints of a link along a bar or round a plate.
-function linkOutline({ joints }, link) {
+function linkOutline({ joints }, link, traced) {
   // The points of a grid stand side by side, under one name.
-  const isGrid = (id) => joints[id].step.kind === "rigid"
+  const isGrid = (id) => id !== traced && joints[id].step.kind === "rigid"
     && (joints[id + 1]?.name === joints[id].name || joints[id - 1]?.name === joints[id].name);
   const places = link.filter(({ joint }) => !isGrid(joint));
   const isPlate = places.length > 2 && !isFlatOutline(places);

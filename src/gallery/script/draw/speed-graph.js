@@ -1,6 +1,6 @@
 // The speed of a traced point over its circuit.
 
-import { pixel } from "./path-data.js";
+import { clippedData } from "./clipping.js";
 
 /**
  * The speeds on a path { points, inputs }, by chords: { inputs, speeds }, in units of length to `perInput` of input (a
@@ -29,11 +29,7 @@ export function shownSpeed(speeds) {
 
 /** Path data of speeds over parts of the circuit (0 to 1) in a frame { width, height }, 0 at its foot, `top` at its top. */
 export function speedData(parts, speeds, top, { width, height }) {
-  let data = "";
-  parts.forEach((part, k) => {
-    if (!Number.isFinite(speeds[k])) return;
-    const y = height * (1 - Math.min(speeds[k] / top, 1.2));
-    data += `${data ? "L" : "M"}${pixel(part * width)} ${pixel(y)}`;
-  });
-  return data;
+  const points = [];
+  parts.forEach((part, k) => points.push(part * width, height * (1 - speeds[k] / top)));
+  return clippedData(points, [0, -0.05 * height, width, height], 5);
 }

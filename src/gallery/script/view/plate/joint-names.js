@@ -17,29 +17,56 @@ export class JointNames {
     const links = [...bars, ...plates, frame];
     const named = [...new Set([...fixed, ...pins, traced])];
     this.names = named.map((joint) => {
-      const element = s("text", { class: joint === traced ? "name traced" : "name" }, linkage.joints[joint].name);
+      const element = s("text", { class: joint === traced ? "name traced" : "name" }, nameOfJoint(linkage, joint));
       const near = [...new Set(links.filter((link) => link.includes(joint)).flat())].filter((other) => other !== joint);
       // A point of a grid hangs on the joints it is placed from.
-      return { element, joint, near: near.length ? near : (linkage.joints[joint].step.base ?? []) };
+      const arms = near.length ? near : (linkage.joints[joint].step.base ?? []);
+      return { element, joint, near: arms, isFixed: fixed.includes(joint), angle: -Math.PI / 2, angles: [] };
     });
     this.element.replaceChildren(...this.names.map(({ element }) => element));
   }
 
   pose(at) {
-    for (const { element, joint, near } of this.names) {
-      const [x, y] = [at[2 * joint], at[2 * joint + 1]];
-      let [ux, uy] = [0, 0];
-      for (const other of near) {
-        const [dx, dy] = [x - at[2 * other], y - at[2 * other + 1]];
-        const size = Math.hypot(dx, dy);
-        if (size > 0) [ux, uy] = [ux + dx / size, uy + dy / size];
-      }
-      const size = Math.hypot(ux, uy);
-      // Links that pull both ways leave a name where it is legible: above.
-      const [nx, ny] = size > 0.05 ? [ux / size, uy / size] : [0, -1];
+    for (const name of this.names) {
+      const [x, y] = [at[2 * name.joint], at[2 * name.joint + 1]];
       if (!Number.isFinite(x + y)) continue;
-      element.setAttribute("x", pixel(x + NAME_DISTANCE * nx));
-      element.setAttribute("y", pixel(y + NAME_DISTANCE * ny + 4));
+      name.angle = widestGap(anglesOfLinks(name, at), name.angle);
+      name.element.setAttribute("x", pixel(x + NAME_DISTANCE * Math.cos(name.angle)));
+      name.element.setAttribute("y", pixel(y + NAME_DISTANCE * Math.sin(name.angle) + 4));
     }
   }
+}
+
+// Of a grid, whose points have one name, with the number of its curve.
+function nameOfJoint({ joints, traced }, joint) {
+  const { name } = joints[joint];
+  const isGrid = joints.filter((other) => other.name === name).length > 1;
+  return isGrid ? `${name} ${traced.indexOf(joint) + 1}` : name;
+}
+
+// The directions, in radians on the screen, in which links leave a joint; of a fixed one, the ground is below.
+function anglesOfLinks({ joint, near, isFixed, angles }, at) {
+  angles.length = 0;
+  if (isFixed) angles.push(Math.PI / 2);
+  for (const other of near) {
+    const [dx, dy] = [at[2 * other] - at[2 * joint], at[2 * other + 1] - at[2 * joint + 1]];
+    if (dx * dx + dy * dy > 1) angles.push(Math.atan2(dy, dx));
+  }
+  return angles.sort((a, b) => a - b);
+}
+
+// The middle of the widest gap between directions; that of the one a name is in, while it is nearly as wide.
+function widestGap(angles, before) {
+  if (angles.length === 0) return -Math.PI / 2;
+  const TURN = 2 * Math.PI;
+  const nearly = 0.75;
+  let [middle, widest, own, ownWidth] = [0, -1, 0, -1];
+  angles.forEach((from, k) => {
+    const to = k + 1 < angles.length ? angles[k + 1] : angles[0] + TURN;
+    const width = to - from;
+    const into = before - from - TURN * Math.floor((before - from) / TURN);
+    if (into <= width && width > ownWidth) [own, ownWidth] = [from + width / 2, width];
+    if (width > widest) [middle, widest] = [from + width / 2, width];
+  });
+  return ownWidth >= nearly * widest ? own : middle;
 }

@@ -22,7 +22,7 @@ export class Stage {
     this.reason = h("p", { class: "reason trouble", hidden: true });
     this.picture = h(
       "div",
-      { class: "picture", role: "img", "aria-describedby": "plate-summary", "aria-label": "The linkage on its curve" },
+      { class: "scene", role: "img", "aria-describedby": "plate-summary", "aria-label": "The linkage on its curve" },
       this.still.element,
       this.moving.element,
     );

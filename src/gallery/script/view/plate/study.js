@@ -52,15 +52,23 @@ export function studyOf(family, curve, changes, asked = null) {
 function shownCircuit({ linkage, routes, shown }, trace) {
   const circuit = sampledCircuit(linkage, samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }), routes[shown]);
   const joint = linkage.traced[trace - 1];
-  const mechanism = mechanismOf(linkage, circuit);
-  const box = sweptBox(mechanism, circuit, [joint]);
+  const mechanism = mechanismOf(linkage, circuit, joint);
+  const others = linkage.traced.filter((other) => other !== joint);
+  const box = boxWithOthers(sweptBox(mechanism, circuit, [joint]), circuit, others);
   const curveBox = widenedBox(emptyBox(), circuit.x[joint], circuit.y[joint], circuit.count);
   const size = Math.hypot(box[2] - box[0], box[3] - box[1]);
   if (!(size > 0) || !Number.isFinite(size)) return { reason: "its lengths are too unlike one another to be drawn" };
   const fourBar = fourBarOf(linkage);
   const isCouplerPoint = fourBar !== null && isOnCoupler(linkage, fourBar, joint);
-  const others = linkage.traced.filter((other) => other !== joint);
   return { circuit, joint, others, course: courseOf(routes[shown]), mechanism, box, curveBox, size, fourBar, isCouplerPoint };
+}
+
+// Other points' curves are in the frame as long as the linkage does not become small in it.
+function boxWithOthers(box, circuit, others) {
+  const wide = [...box];
+  for (const other of others) widenedBox(wide, circuit.x[other], circuit.y[other], circuit.count);
+  const extent = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
+  return extent(wide) <= 1.6 * extent(box) ? wide : box;
 }
 
 /** The path of a study's traced joint, to a part of its size. */
@@ -79,13 +87,17 @@ function sameRoute(routes, route) {
 
 /** What a circuit is called: "branch 1, a full turn", "−75.5° to 75.5°, branches 1 and −1". */
 export function routeTitle(linkage, { passes, closed }) {
-  const unit = linkage.input.isLength ? "" : "°";
+  const told = (at) => (linkage.input.isLength ? lengthWords(at) : `${minusSigned(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
   const branches = [...new Set(passes.map(({ signs }) => branchWords(linkage, signs)))].filter(Boolean);
   const turns = passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) && closed;
-  const travel = turns ? turnWords(high - low) : `${minusSigned(low, 1)}${unit} to ${minusSigned(high, 1)}${unit}`;
+  const travel = turns ? turnWords(high - low) : `${told(low)} to ${told(high)}`;
   return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
+}
+
+function lengthWords(length) {
+  return minusSigned(Number(length.toPrecision(4)), 4).replace(/\.?0+$/, "");
 }
 
 function turnWords(degrees) {
