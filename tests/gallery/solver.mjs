@@ -12,8 +12,11 @@
 //                                     input[sample]; branch[sample] = [1 | -1, …] for the two-valued joints (none: []);
 //                                     x[row][sample], y[row][sample], null where undefined; passes, if given, as
 //                                     [{ from, to, signs: [1 | -1, …] }]; closed may be left out
-//     measures: [{ trace, circuit, values: { name: number | string | "inf" | null } }] }
+//     measures: [{ trace, circuit, values: { name: number | string | "inf" | null } }],
 //                                     of a traced joint and a circuit, both counted from 1; null where it does not apply
+//     rates: [{ trace, circuit, values: { column: [number | "inf" | null] } }] }
+//                                     further columns of points.csv, by samples: vx, vy, ax, ay, pole_x, pole_y,
+//                                     moving_pole_x, moving_pole_y, inflection_x, inflection_y, mu_deg; may be left out
 // Exit 0 with a line of the greatest deviations, 1 with a line for each disagreement.
 
 import { readFileSync } from "node:fs";
@@ -23,6 +26,7 @@ import { motionOf } from "../../src/gallery/script/kinematics/motion.js";
 import { linkageOf } from "../../src/gallery/script/kinematics/template.js";
 import { sideOf } from "../../src/gallery/script/kinematics/signs.js";
 import { compareMeasures, measuresTold } from "./measured.mjs";
+import { compareRates, ratesTold } from "./rated.mjs";
 
 // Of a place, by the size of the linkage.
 const PLACE_TOLERANCE = 1e-12;
@@ -58,6 +62,7 @@ function compareCase(given) {
   }
   motion.circuits.forEach((wanted, k) => compareCircuit(`${name}, circuit ${k + 1}`, given, linkage, found.circuits[k], wanted));
   if (given.measures) compareMeasures(given, linkage, found, complain);
+  if (given.rates) compareRates(given, linkage, found, complain);
 }
 
 function compareCircuit(name, { columns }, linkage, circuit, wanted) {
@@ -124,6 +129,6 @@ const { place, placeAt, input, inputAt, samples, circuits } = greatest;
 if (problems > 60) console.log(`and ${problems - 60} more`);
 console.log(
   `${cases.length} cases, ${circuits} circuits, ${samples} places: greatest deviation ${place.toExponential(2)} of the size (${placeAt}), ` +
-    `of an input ${input.toExponential(2)} (${inputAt}); ${measuresTold()}`,
+    `of an input ${input.toExponential(2)} (${inputAt}); ${measuresTold()}; ${ratesTold()}`,
 );
 process.exit(problems > 0 ? 1 : 0);

@@ -56,6 +56,7 @@ function freeRing(x, y, first, last, turns, most) {
   turns.four = guessedTurns(x, y, first, last);
   const ring = ringThrough(x, y, turns.four);
   if (!ring || ring.width > most) return null;
+  if (Number.isFinite(most)) turns.four = siftedTurns(x, y, first, last, turns.four, most);
   return exchangedRing(x, y, first, last, turns.four, most, ringThrough);
 }
 
@@ -71,6 +72,18 @@ function guessedTurns(x, y, first, last) {
   const four = isRound ? [1, 3, 5, 7].map((k) => part(k, 8)) : [first, first + quarter, last - 1 - quarter, last - 1];
   // A row that goes there and back on one arc has pairs of points in one place.
   return ringThrough(x, y, four) ? four : [1, 6, 11, 17].map((k) => part(k, 20));
+}
+
+// Four points of a long row exchanged for better ones, of a few of its points only.
+function siftedTurns(x, y, first, last, four, most) {
+  const FEW = 16;
+  const end = last - first - 1;
+  if (end < 2 * FEW) return four;
+  const at = Array.from({ length: FEW + 1 }, (_, k) => first + Math.floor((k * end) / FEW));
+  const [fx, fy] = [at.map((k) => x[k]), at.map((k) => y[k])];
+  const among = four.map((k) => Math.floor(((k - first) * FEW) / end));
+  exchangedRing(fx, fy, 0, FEW + 1, among, most, ringThrough);
+  return ringThrough(fx, fy, among) ? among.map((k) => at[k]) : four;
 }
 
 // The points of a nearly straight row in the order in which they lie along it, should it go there and back.

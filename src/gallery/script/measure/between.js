@@ -10,8 +10,9 @@ import { sampleAfter } from "./trail.js";
 export function pointOfTrail(trail, place) {
   const { count: n, x, y, inputs, turn, bends, sharp } = trail;
   if (place < 0) {
-    const [px, py, input] = pointOfTrail(trail, place + n);
-    return [px, py, input - turn];
+    const found = pointOfTrail(trail, place + n);
+    found[2] -= turn;
+    return found;
   }
   const whole = Math.floor(place);
   const i = whole % n;
@@ -20,7 +21,8 @@ export function pointOfTrail(trail, place) {
   if (part === 0) return [x[i], y[i], inputs[i] + rounds];
   const after = sampleAfter(trail, i, 1);
   const next = after < 0 ? i : after;
-  const [sx, sy] = [x[next] - x[i], y[next] - y[i]];
+  const sx = x[next] - x[i];
+  const sy = y[next] - y[i];
   const chord = Math.sqrt(sx * sx + sy * sy);
   const input = inputs[next] + (next < i ? turn : 0);
   // An arc over the chord, as flat as the curve is at the flatter end; of a turning back the other end tells.
@@ -29,42 +31,48 @@ export function pointOfTrail(trail, place) {
   else if (sharp[next]) bend = bends[i];
   const height = Math.min(Math.max((bend * chord * part * (1 - part)) / 2, -0.2), 0.2);
   const straight = [x[i] + sx * part + sy * height, y[i] + sy * part - sx * height, inputs[i] + (input - inputs[i]) * part];
-  // Where the path turns back its samples on the other side do not tell of it; and where they lie too unevenly, a
-  // polynomial through them strays further from their chord than a curve that is known by its samples does.
-  const about = (k, u, from) => {
-    const near = nearSample(trail, k);
-    if (!near?.isSmooth) return straight;
-    const at = (c) => (((c[4] * u + c[3]) * u + c[2]) * u + c[1]) * u + c[0];
-    const found = [x[k] + at(near.x), y[k] + at(near.y), from + at(near.input)];
-    const strayed = Math.hypot(found[0] - straight[0], found[1] - straight[1]);
-    return strayed <= 0.2 * chord && Number.isFinite(found[2]) ? found : straight;
-  };
   // About the sample that is nearer, by the length of the chords; halfway the one goes over into the other.
   const over = Math.min(Math.max((part - 0.25) * 2, 0), 1);
-  let found;
-  if (over === 0) found = about(i, part * chord, inputs[i]);
-  else if (over === 1) found = about(next, (part - 1) * chord, input);
-  else {
-    const [a, b] = [about(i, part * chord, inputs[i]), about(next, (part - 1) * chord, input)];
-    found = a.map((c, k) => c + (b[k] - c) * over);
-  }
-  const [low, high] = [Math.min(inputs[i], input), Math.max(inputs[i], input)];
-  return [found[0], found[1], Math.min(Math.max(found[2], low), high) + rounds];
+  const before = over < 1 ? pointAbout(trail, i, part * chord, inputs[i], straight, chord) : null;
+  const behind = over > 0 ? pointAbout(trail, next, (part - 1) * chord, input, straight, chord) : null;
+  const found = before ?? behind;
+  if (before && behind) for (let k = 0; k < 3; k++) found[k] += (behind[k] - before[k]) * over;
+  const low = Math.min(inputs[i], input);
+  const high = Math.max(inputs[i], input);
+  found[2] = Math.min(Math.max(found[2], low), high) + rounds;
+  return found;
+}
+
+// The point and the input so far along the chords from a sample. Where the path turns back its samples on the other side
+// do not tell of it; and where they lie too unevenly, a polynomial through them strays further from their chord than a
+// curve that is known by its samples does: then it is the point on the arc over the chord.
+function pointAbout(trail, k, u, from, straight, chord) {
+  const near = nearSample(trail, k);
+  if (!near || !near.isSmooth) return [straight[0], straight[1], straight[2]];
+  const { x: cx, y: cy, input: ci } = near;
+  const px = trail.x[k] + ((((cx[4] * u + cx[3]) * u + cx[2]) * u + cx[1]) * u + cx[0]);
+  const py = trail.y[k] + ((((cy[4] * u + cy[3]) * u + cy[2]) * u + cy[1]) * u + cy[0]);
+  const input = from + ((((ci[4] * u + ci[3]) * u + ci[2]) * u + ci[1]) * u + ci[0]);
+  const dx = px - straight[0];
+  const dy = py - straight[1];
+  const isClose = dx * dx + dy * dy <= 0.04 * chord * chord && Number.isFinite(input);
+  return isClose ? [px, py, input] : [straight[0], straight[1], straight[2]];
 }
 
 /** The point at a place and how far the input has gone, there and back, from the first sample to it: [x, y, travelled]. */
 export function arrivedAtPlace(trail, place) {
   const { count: n, travel, inputs } = trail;
   if (place < 0) {
-    const [x, y, travelled] = arrivedAtPlace(trail, place + n);
-    return [x, y, travelled - travel[n]];
+    const arrived = arrivedAtPlace(trail, place + n);
+    arrived[2] -= travel[n];
+    return arrived;
   }
   const whole = Math.floor(place);
   const i = whole % n;
-  const [from, to] = [travel[i], travel[i + 1]];
-  const [x, y, input] = pointOfTrail(trail, i + (place - whole));
-  const gone = Math.min(Math.abs(input - inputs[i]), to - from);
-  return [x, y, Math.floor(whole / n) * travel[n] + from + gone];
+  const found = pointOfTrail(trail, i + (place - whole));
+  const gone = Math.min(Math.abs(found[2] - inputs[i]), travel[i + 1] - travel[i]);
+  found[2] = Math.floor(whole / n) * travel[n] + travel[i] + gone;
+  return found;
 }
 
 /** The greatest extent in a direction, about the sample that is furthest. */
@@ -112,7 +120,7 @@ export function offsetFromTrail(trail, px, py, i) {
   return [-nx * (ox + p[0]) - ny * (oy + p[1]), nx, ny];
 }
 
-/** The curve about a sample that two others stand on either side of; null of fewer than five samples. */
+// The curve about a sample that two others stand on either side of; null of fewer than five samples.
 function nearSample(trail, i) {
   if (trail.count < 5) return null;
   trail.nears[i] ??= polynomialsAbout(trail, i);

@@ -130,53 +130,74 @@ export function portionOfCourse(course, [from, to]) {
   return { x, y };
 }
 
-/** The place a span of input after another; null where there is none. */
-export function placeAfterInput(course, from, wanted) {
+/**
+ * The place a span of input after another; null where there is none. Where it is asked only roughly, the last point that
+ * is not beyond it.
+ */
+export function placeAfterInput(course, from, wanted, isRough = false) {
   const { isClosed, starts, travel } = course;
   if (isClosed && from >= starts) {
-    const place = placeAfterInput(course, from - starts, wanted);
+    const place = placeAfterInput(course, from - starts, wanted, isRough);
     return place === null ? null : place + starts;
   }
   const first = Math.floor(from);
-  const start = spannedInput(course, [0, from]);
+  const start = from === first ? travel[first] : spannedInput(course, [0, from]);
   // All of a closed curve ends where it begins.
   const last = isClosed ? first + starts : lastOfCourse(course, first);
   const span = wanted * (1 - 1e-12);
-  let beyond = first;
-  while (beyond <= last && travel[beyond] - start < span) beyond += 1;
+  const beyond = firstBeyond(travel, first, last, start + span);
   if (beyond > last) return null;
-  return bisectedPlace(Math.max(beyond - 1, from), beyond, 40, (middle) => spannedInput(course, [0, middle]) - start < span);
+  const low = Math.max(beyond - 1, from);
+  return isRough ? low : placeOfValue(low, beyond, (place) => spannedInput(course, [0, place]) - start - span);
 }
 
-/** The first place a distance away from another; null where there is none. */
-export function placeAfterLength(course, from, length) {
+/** The first place a distance away from another; null where there is none; roughly, the last point before it. */
+export function placeAfterLength(course, from, length, isRough = false) {
   const { isClosed, starts, x, y } = course;
   if (isClosed && from >= starts) {
-    const place = placeAfterLength(course, from - starts, length);
+    const place = placeAfterLength(course, from - starts, length, isRough);
     return place === null ? null : place + starts;
   }
-  const [sx, sy] = placeOnCourse(course, from);
   const first = Math.floor(from);
+  const [sx, sy] = from === first ? [x[first], y[first]] : placeOnCourse(course, from);
   const last = lastOfCourse(course, first);
   let to = first + 1;
-  for (; to <= last; ) {
+  while (to <= last) {
     const far = Math.hypot(x[to] - sx, y[to] - sy);
     if (far >= length) break;
     to = Math.max(wayOn(course, to, length - far), to + 1);
   }
   if (to > last) return null;
-  return bisectedPlace(Math.max(to - 1, from), to, 50, (middle) => {
-    const [px, py] = placeOnCourse(course, middle);
-    return Math.hypot(px - sx, py - sy) < length;
-  });
+  const low = Math.max(to - 1, from);
+  const distance = (place) => {
+    const [px, py] = placeOnCourse(course, place);
+    return Math.hypot(px - sx, py - sy) - length;
+  };
+  return isRough ? low : placeOfValue(low, to, distance);
 }
 
-function bisectedPlace(from, to, rounds, isBelow) {
-  let [low, high] = [from, to];
-  for (let round = 0; round < rounds; round++) {
-    const middle = (low + high) / 2;
-    if (isBelow(middle)) low = middle;
+// The first of the places from `first` to `last` at which a rising row comes to a value; one more where none does.
+function firstBeyond(row, first, last, value) {
+  let [low, high] = [first, last + 1];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (row[middle] < value) low = middle + 1;
     else high = middle;
+  }
+  return low;
+}
+
+// Where a function goes from below nothing to nothing or more between two places: by secants that keep it between them.
+function placeOfValue(from, to, f) {
+  let [low, high, below, above] = [from, to, f(from), f(to)];
+  if (below >= 0) return low;
+  for (let round = 0; round < 40 && high - low > 1e-12 * Math.max(1, high); round++) {
+    const part = round % 4 === 3 || !(above > below) ? 0.5 : below / (below - above);
+    const middle = low + Math.min(Math.max(part, 1e-3), 1 - 1e-3) * (high - low);
+    const value = f(middle);
+    if (value < 0) [low, below, above] = [middle, value, above / 2];
+    else [high, above, below] = [middle, value, below / 2];
+    if (value === 0) break;
   }
   return high;
 }

@@ -39,9 +39,11 @@ const LOOSER_PART = 1.02;
  */
 export function straightPortion(course, asked) {
   let ends;
-  if (asked.input !== undefined) ends = straightestEnds(course, (from) => placeAfterInput(course, from, asked.input));
-  else if (asked.length !== undefined) ends = straightestEnds(course, (from) => placeAfterLength(course, from, asked.length));
-  else ends = longestOfAll({ course, tolerance: asked.tolerance ?? 0.001, least: 1 });
+  if (asked.input !== undefined) {
+    ends = straightestEnds(course, (from, isRough) => placeAfterInput(course, from, asked.input, isRough));
+  } else if (asked.length !== undefined) {
+    ends = straightestEnds(course, (from, isRough) => placeAfterLength(course, from, asked.length, isRough));
+  } else ends = longestOfAll({ course, tolerance: asked.tolerance ?? 0.001, least: 1 });
   if (!ends) return null;
   const { x, y } = portionOfCourse(course, ends);
   const { width, length } = stripOfPoints(x, y, 0, x.length);

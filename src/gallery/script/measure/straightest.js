@@ -5,7 +5,7 @@ import { heightOfTriangle, stripOfPoints } from "./strip.js";
 
 /**
  * The ends of the portion with the narrowest strip, of those that begin anywhere on a course and end where `endAfter(from)`
- * has it, null where it has none.
+ * has it, null where it has none; endAfter(from, true) is the last point that is not beyond that.
  */
 export function straightestEnds(course, endAfter) {
   const RIVALS = 3;
@@ -40,7 +40,8 @@ function widthsAtPoints(course, endAfter, width) {
   let narrowest = Infinity;
   for (let begin = 0; begin < STRIDE; begin++) {
     for (let from = begin; from < starts; from += STRIDE) {
-      const to = endAfter(from);
+      // No portion is narrower than a part of it.
+      const to = endAfter(from, true);
       if (to === null) continue;
       const last = Math.min(Math.floor(to), count - 1);
       const at = (part) => from + Math.floor(((last - from) * part) / 4);
@@ -54,15 +55,26 @@ function widthsAtPoints(course, endAfter, width) {
   return widths;
 }
 
+// By golden sections of the way to the points on either side.
 function refinedBeginning(course, k, width) {
+  const [PART, ROUNDS] = [0.6180339887498949, 26];
   let [a, b] = clampedPlaces(course, [k - 1, k + 1]);
   const at = a > k ? k + course.starts : k;
   b = Math.min(b, a + 2);
-  for (let round = 0; round < 30; round++) {
-    const [c, d] = [a + (b - a) / 3, b - (b - a) / 3];
-    if (width(c) < width(d)) b = d;
-    else a = c;
+  let [c, d] = [b - PART * (b - a), a + PART * (b - a)];
+  let [atC, atD] = [width(c), width(d)];
+  for (let round = 0; round < ROUNDS; round++) {
+    if (atC < atD) {
+      [b, d, atD] = [d, c, atC];
+      c = b - PART * (b - a);
+      atC = width(c);
+    } else {
+      [a, c, atC] = [c, d, atD];
+      d = a + PART * (b - a);
+      atD = width(d);
+    }
   }
-  const [refined, whole] = [width(a), width(at)];
-  return refined < whole ? { width: refined, from: a } : { width: whole, from: at };
+  const refined = atC < atD ? { width: atC, from: c } : { width: atD, from: d };
+  const whole = width(at);
+  return refined.width < whole ? refined : { width: whole, from: at };
 }

@@ -1,0 +1,60 @@
+// An atlas of odd families, made from a rendered one: what the gallery must bear although a good manifest seldom asks for it.
+
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+/** A title that is markup to whoever would take it for that. */
+export const MARKED_TITLE = "<b>Evans</b> & <img src=x onerror=\"throw 1\">";
+
+/** Why the third linkage of the family "evans" could not be assembled. */
+export const ODD_REASON = "the links p and a do not reach <one> another";
+
+// A white dot: the least PNG there is.
+const WHITE_DOT = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=";
+
+/**
+ * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages, and its third
+ * linkage not assembled; "watt" with a PNG. Returns { folder, remove() }.
+ */
+export function oddAtlas(from) {
+  const folder = mkdtempSync(join(tmpdir(), "coupler-atlas-odd-"));
+  cpSync(from, folder, { recursive: true, dereference: true });
+  rewrite(join(folder, "index.html"), (page) => page.replace(
+    /(<script type="application\/json" id="atlas">)([\s\S]*?)(<\/script>)/,
+    (_, before, data, after) => before + JSON.stringify(withOddFamilies(JSON.parse(data))).replaceAll("<", "\\u003c") + after,
+  ));
+  rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
+  writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
+  return { folder, remove: () => rmSync(folder, { recursive: true }) };
+}
+
+function rewrite(file, change) {
+  const text = readFileSync(file, "utf8");
+  rmSync(file);
+  writeFileSync(file, change(text));
+}
+
+function withOddFamilies(atlas) {
+  const families = atlas.families.map((family) => {
+    if (family.id === "evans") return { ...family, title: MARKED_TITLE, page_format: null, not_assembled: 1 };
+    return family.id === "watt" ? { ...family, page_format: "png" } : family;
+  });
+  return { ...atlas, families, book: ["atlas.pdf"] };
+}
+
+/** A statement of a family's script, with the oddities of "evans". */
+function oddStatement(line) {
+  const [, name, json] = line.match(/^couplerAtlas\.(\w+)\((.*)\);$/) ?? [];
+  if (!name) return line;
+  const value = JSON.parse(json);
+  if (name === "begin") value.title = MARKED_TITLE;
+  if (name === "page") value.views = value.views.filter(({ cell }) => cell !== 3);
+  if (name === "cells") {
+    const status = Buffer.from(value.status.data, "base64");
+    status[2] = 2;
+    value.status.data = status.toString("base64");
+    value.reason[2] = ODD_REASON;
+  }
+  return `couplerAtlas.${name}(${JSON.stringify(value)});`;
+}
