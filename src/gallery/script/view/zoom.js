@@ -59,8 +59,13 @@ export class Zoom {
 
   /** The place on the sheet, in millimetres, that a pointer's event is at. */
   placeOf(event) {
-    const box = this.viewport.getBoundingClientRect();
-    return this.placeAt(event.clientX - box.left, event.clientY - box.top);
+    return this.placeAt(...this.pixelOf(event.clientX, event.clientY));
+  }
+
+  /** The pixels of the viewport, within its border, at pixels of the window. */
+  pixelOf(x, y) {
+    const { left, top } = this.viewport.getBoundingClientRect();
+    return [x - left - this.viewport.clientLeft, y - top - this.viewport.clientTop];
   }
 
   /** Shows the whole sheet. */
@@ -139,7 +144,6 @@ export class Zoom {
 
   wheeled(event) {
     event.preventDefault();
-    const box = this.viewport.getBoundingClientRect();
     const unit = [1, 16, this.viewport.clientHeight][event.deltaMode];
     const [dx, dy] = [event.deltaX * unit, event.deltaY * unit];
     if (event.shiftKey || Math.abs(dx) > Math.abs(dy)) {
@@ -148,7 +152,7 @@ export class Zoom {
     }
     // A pinch on a touchpad is told as a wheel with the control key, in small steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
-    this.by(Math.exp(-rate * Math.min(Math.max(dy, -300), 300)), event.clientX - box.left, event.clientY - box.top);
+    this.by(Math.exp(-rate * Math.min(Math.max(dy, -300), 300)), ...this.pixelOf(event.clientX, event.clientY));
   }
 
   pressed(event) {
@@ -173,9 +177,8 @@ export class Zoom {
 
   /** One finger stays, the other goes from `before` to `after`. */
   pinched(still, before, after) {
-    const box = this.viewport.getBoundingClientRect();
     const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
-    this.by(spread(after) / spread(before), (still.x + after.x) / 2 - box.left, (still.y + after.y) / 2 - box.top);
+    this.by(spread(after) / spread(before), ...this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2));
     this.pan((after.x - before.x) / 2, (after.y - before.y) / 2);
   }
 
