@@ -4,8 +4,16 @@ const ARRAYS = { f64: Float64Array, u32: Uint32Array, u16: Uint16Array, u8: Uint
 
 /** The typed array that `{ type, data }` stands for. */
 export function unpacked({ type, data }) {
-  const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
-  return new ARRAYS[type](bytes.buffer);
+  return new ARRAYS[type](bytesOfBase64(data).buffer);
+}
+
+/** A browser's own way, where it has one, takes a tenth of the time: an atlas has megabytes of this. */
+function bytesOfBase64(data) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(data);
+  const text = atob(data);
+  const bytes = new Uint8Array(text.length);
+  for (let k = 0; k < bytes.length; k += 1) bytes[k] = text.charCodeAt(k);
+  return bytes;
 }
 
 /** Typed arrays of one kind in one, one after another. */
