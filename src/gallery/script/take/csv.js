@@ -1,0 +1,28 @@
+// The rows of points.csv.
+
+import { shortestDigits } from "./digits.js";
+
+/** The names of the columns behind cell, trace and circuit. */
+export function pointColumns({ linkage }) {
+  const further = Array.from({ length: Math.max(linkage.dyads - 1, 0) }, (_, k) => `branch_${k + 2}`);
+  return ["branch", ...further, "sample", linkage.input.isLength ? "input_length" : "input_deg", "x", "y"];
+}
+
+/** The values of those columns, a row for each sample. */
+export function pointRows({ linkage, course, joint }) {
+  const dyads = Math.max(linkage.dyads, 1);
+  return Array.from({ length: course.count }, (_, k) => [
+    ...Array.from({ length: dyads }, (_unused, dyad) => course.branch(k, dyad)),
+    k,
+    course.input[k],
+    course.x[joint][k],
+    course.y[joint][k],
+  ]);
+}
+
+/** The curve's rows of points.csv, under its header. */
+export function csvOfCurve(taken) {
+  const { cell, trace, circuit } = taken;
+  const lines = pointRows(taken).map((row) => [cell, trace, circuit, ...row].map(shortestDigits).join(","));
+  return `${["cell,trace,circuit", ...pointColumns(taken)].join(",")}\n${lines.join("\n")}\n`;
+}

@@ -1,0 +1,92 @@
+// A piece of a manifest that has the cells of curves once more: a family for each linkage and the way it is sampled.
+
+import { shortestDigits } from "./digits.js";
+
+/** The linkages that the program knows by itself. */
+export const CATALOGUE = [
+  "chebyshev", "cognates", "evans", "four-bar", "geared-five-bar", "hart-inversor", "hoeken", "hrones-nelson",
+  "inverted-slider-crank", "jansen", "klann", "linear-actuator", "pantograph", "peaucellier-lipkin", "roberts", "scotch-yoke",
+  "slider-crank", "stephenson-six-bar", "watt", "watt-six-bar",
+];
+
+/**
+ * The families of some curves { family, values, name }, in their order, as TOML; to be put into a manifest that has an
+ * [atlas], and the linkages of the atlas's own that they name. A cell that several curves are taken of stands once.
+ */
+export function manifestOfCurves(curves) {
+  const families = [];
+  for (const curve of curves) {
+    const settings = settingsInManifest(curve.family);
+    const title = curve.family.title;
+    const same = families.find((other) => other.settings === settings && other.title === title && other.linkage === curve.family.linkage);
+    if (same) same.curves.push(curve);
+    else families.push({ settings, title, linkage: curve.family.linkage, curves: [curve] });
+  }
+  const earlier = (k) => families.slice(0, k).filter(({ linkage }) => linkage === families[k].linkage).length;
+  const tables = families.map((family, k) => familyInManifest(family, earlier(k) + 1));
+  return `# Put this into a manifest with an [atlas].\n${tables.join("")}`;
+}
+
+function familyInManifest({ settings, title, linkage, curves }, number) {
+  const rows = new Map();
+  for (const { family, values, name } of curves) {
+    const row = caseInManifest(family, values);
+    rows.set(row, [...(rows.get(row) ?? []), name]);
+  }
+  const columns = Math.min(rows.size, 3);
+  const panels = [columns, Math.min(Math.ceil(rows.size / columns), 3)];
+  const stem = linkage.slice(0, 50).replace(/-+$/, "");
+  const own = CATALOGUE.includes(linkage)
+    ? ""
+    : `\n# The [[linkage]] \`${linkage}\` is the atlas's own: copy it from its manifest.`;
+  const lines = [
+    `${own}\n[[family]]`,
+    `id = "${stem}-taken${number > 1 ? `-${number}` : ""}"`,
+    `linkage = "${linkage}"`,
+    `title = ${textInManifest(title)}`,
+    `panels = [${panels.join(", ")}]`,
+  ];
+  const cases = [...rows].map(([row, names]) => `    ${row}, # ${names.join(", ")}\n`);
+  return `${lines.join("\n")}\n${settings}cases = [\n${cases.join("")}]\n`;
+}
+
+function caseInManifest(family, values) {
+  const pairs = family.template.parameters.map(({ name }, k) => `${name} = ${shortestDigits(values[k])}`);
+  return pairs.length > 0 ? `{ ${pairs.join(", ")} }` : "{}";
+}
+
+// What a family says beside its cells: by it families of one linkage are told apart.
+function settingsInManifest({ linkage, template, sampling, straight }) {
+  const isLength = template.joints.some((joint) => "piston" in joint);
+  const input = (value) => (isLength ? shortestDigits(value) : `"${shortestDigits(value)} deg"`);
+  const { step, samples, spacing } = sampling;
+  const spaced = spacing && spacing !== "even" ? `, spacing = "${spacing}"` : "";
+  const lines = [
+    `sampling = { ${step !== undefined ? `step = ${input(step)}` : `samples = ${samples}${spaced}`} }`,
+    `circuits = "${template.circuits}"`,
+    `continuation = "${template.continuation}"`,
+  ];
+  if (template.coincident !== "together" || !CATALOGUE.includes(linkage)) lines.push(`coincident = "${template.coincident}"`);
+  const { mirror, cos, sin } = template.placement;
+  if (mirror || cos !== 1 || sin !== 0) lines.push(`place = ${placeInManifest(mirror, cos, sin)}`);
+  if (straight && straight.tolerance !== 0.001) {
+    const [[key, value]] = Object.entries(straight);
+    lines.push(`straight = { ${key} = ${key === "input" ? input(value) : shortestDigits(value)} }`);
+  }
+  return lines.map((line) => `${line}\n`).join("");
+}
+
+// Mirrored or not, and turned by so many degrees: to nine places, the digits a manifest will have had.
+function placeInManifest(mirror, cos, sin) {
+  const deg = (Math.atan2(sin, cos) * 180) / Math.PI;
+  const rounded = Math.sign(deg) * (Math.round(Math.abs(deg) * 1e9) / 1e9) + 0;
+  return `{ mirror = ${mirror}, rotate = "${shortestDigits(rounded)} deg" }`;
+}
+
+// A text in TOML.
+function textInManifest(text) {
+  const escaped = text.replace(/["\\]/g, "\\$&").replace(/[\u0000-\u001f\u007f-\u009f]/g, (c) => {
+    return `\\u${c.charCodeAt(0).toString(16).toUpperCase().padStart(4, "0")}`;
+  });
+  return `"${escaped}"`;
+}
