@@ -22,7 +22,7 @@ const inputNow = async (page) => Number((await page.locator(".input-now").textCo
 
 const fieldOf = (page, name) => page.getByRole("spinbutton", { name: `Value of ${name}`, exact: true });
 
-const sliderOf = (page, name) => page.locator(".parameter", { hasText: new RegExp(`^${name}\\b`) }).locator("input[type=range]");
+const sliderOf = (page, name) => page.locator(`.parameter:has(input[aria-label="Value of ${name}"]) input[type=range]`);
 
 /** Fills a number in, as a hand does, and waits until the plate rests. */
 async function changed(page, name, value) {

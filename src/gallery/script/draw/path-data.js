@@ -34,3 +34,8 @@ export function circleData(x, y, radius, digits = 7) {
 export function pixel(x) {
   return Math.round(x * 100) / 100;
 }
+
+/** Path data, or none of what has no place: a joint may be undefined where its base vanishes. */
+export function placedData(data) {
+  return data.includes("NaN") || data.includes("Infinity") ? "" : data;
+}

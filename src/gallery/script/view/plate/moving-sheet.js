@@ -1,7 +1,7 @@
 // What of a plate moves: links, pins, sliders and what goes with the traced point, in pixels of the screen.
 
 import { arrowData, blockData, cylinderData, linkData, slotData, slotEnds } from "../../draw/link-shapes.js";
-import { circleData, pixel } from "../../draw/path-data.js";
+import { pixel, placedData } from "../../draw/path-data.js";
 import { s } from "../dom.js";
 import { JointNames } from "./joint-names.js";
 
@@ -68,10 +68,10 @@ export class MovingSheet {
       at[k] = x + scale * pose[k];
       at[k + 1] = y - scale * pose[k + 1];
     }
-    for (const part of this.parts) part.element.setAttribute("d", part.data(at, scale, this.ends, part));
+    for (const part of this.parts) part.element.setAttribute("d", placedData(part.data(at, scale, this.ends, part)));
     for (const { element, joint } of this.circles) putCircle(element, at, joint);
     for (const { element, joint } of this.grips) putCircle(element, at, joint);
-    for (const { element, joints } of this.crankGrips) element.setAttribute("d", linkData(joints, at, false));
+    for (const { element, joints } of this.crankGrips) element.setAttribute("d", placedData(linkData(joints, at, false)));
     putCircle(this.tracer, at, this.study.joint);
     this.#otherPoints();
     this.names.pose(at);
@@ -170,9 +170,4 @@ function handlesOfStudy({ linkage, mechanism, joint: traced }, sheet) {
   }));
   sheet.grips = joints.map((joint) => ({ element: s("circle", { class: "grip", r: 15, "data-joint": joint }), joint }));
   return [...sheet.crankGrips, ...sheet.grips].map(({ element }) => element);
-}
-
-/** A small circle as path data, for overlays. */
-export function dotData(x, y, radius = 3) {
-  return circleData(x, y, radius, 5);
 }

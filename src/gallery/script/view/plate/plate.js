@@ -145,8 +145,7 @@ export class Plate {
     this.speed.show(study, this.path, this.stretch && [this.#partOf(this.stretch.from), this.#partOf(this.stretch.to)]);
     if (isFirst) this.#begin();
     else this.#keepPlace();
-    if (isRough) this.stage.keepInFrame();
-    else this.stage.keepInFrame();
+    this.stage.keepInFrame();
     this.#draw();
   }
 
@@ -229,6 +228,7 @@ export class Plate {
     const before = this.stage.box;
     this.overlays.show(this.study, this.on, false);
     if (before !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
+    this.switches.show(this.candidates, this.study, this.on);
     this.#draw();
     this.app.replace(this.#address());
   }
