@@ -10,7 +10,7 @@ export const CATALOGUE = [
 ];
 
 /**
- * The families of some curves { family, values, name }, in their order, as TOML; to be put into a manifest that has an
+ * The families of some curves { family, values, name, changes }, in their order, as TOML; to be put into a manifest that has an
  * [atlas], and the linkages of the atlas's own that they name. A cell that several curves are taken of stands once.
  */
 export function manifestOfCurves(curves) {
@@ -39,8 +39,9 @@ function familyInManifest({ settings, title, linkage, curves }, number) {
   const own = CATALOGUE.includes(linkage)
     ? ""
     : `\n# The [[linkage]] \`${linkage}\` is the atlas's own: copy it from its manifest.`;
+  const moved = curves.flatMap(movedPoint).map((line) => `\n${line}`).join("");
   const lines = [
-    `${own}\n[[family]]`,
+    `${own}${moved}\n[[family]]`,
     `id = "${stem}-taken${number > 1 ? `-${number}` : ""}"`,
     `linkage = "${linkage}"`,
     `title = ${textInManifest(title)}`,
@@ -48,6 +49,14 @@ function familyInManifest({ settings, title, linkage, curves }, number) {
   ];
   const cases = [...rows].map(([row, names]) => `    ${row}, # ${names.join(", ")}\n`);
   return `${lines.join("\n")}\n${settings}cases = [\n${cases.join("")}]\n`;
+}
+
+// A traced point that was moved on its link, "M.along", is no parameter: that is for a linkage of one's own.
+function movedPoint({ family, name, changes }) {
+  const moved = [...(changes ?? [])].filter(([word]) => !family.names.includes(word));
+  if (moved.length === 0) return [];
+  const words = moved.map(([word, value]) => `${word} = ${shortestDigits(value)}`);
+  return [`# Of ${name}, ${words.join(" and ")} is for a [[linkage]] of your own: no parameter says it.`];
 }
 
 function caseInManifest(family, values) {

@@ -49,6 +49,15 @@ export function takenCurve(family, name) {
   };
 }
 
+/** What a manifest has to say of the curve of a name of `family`: { family, name, values, changes }; nothing is solved. */
+export function namedCase(family, name) {
+  const { key, changes } = parsedName(name) ?? {};
+  const curve = family.places.get(key);
+  if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
+  const values = changedValues(family, family.curves.cell[curve], changes);
+  return { family, name: fullName(family.id, key, changes), values, changes };
+}
+
 // A linkage that cannot be put together is told of by its curve's name.
 function solvedMotion(template, values, sampling, name) {
   try {
