@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { fill, h } from "../dom.js";
 import { originOfCurve, wordsOfCell } from "./facts.js";
+import { takeAwayMenu } from "../take/menu.js";
 import { neighbourAddress } from "./keys.js";
 
 /** The element of a plate, { element, refresh(), leave() }. */
@@ -20,7 +21,7 @@ export function plateLayout(plate) {
   };
   pinned();
   const unwatch = app.pins.watch(pinned);
-  const take = h("div", { class: "take" });
+  const take = takeAwayMenu(app, () => [plate.name]);
   const heading = h(
     "div",
     { class: "head" },
