@@ -4,8 +4,8 @@ import { measuresOf } from "../../src/gallery/script/measure/measures.js";
 
 // By the size of a value: places agree to 1e-12, and what is read off them loses some digits more.
 const VALUE_TOLERANCE = 1e-7;
-// The direction of an axis is known to the root of its residual's rounding, and which of several bends that are alike is
-// taken for the sharpest, and how, hangs on their last bits.
+// The direction of an axis is known to the root of its residual's rounding, and which of several bends that
+// are alike is taken for the sharpest, and how, hangs on their last bits.
 const LOOSER_TOLERANCE = { symmetry_deg: 1e-4, curvature_max: 1e-4 };
 // Of angles and residuals, which have a size of their own.
 const SMALL = 1e-6;
@@ -23,28 +23,40 @@ export function compareMeasures({ name, measures, straight = {} }, linkage, moti
     // A joint that is at rest for the observer draws nothing but the rounding of its places.
     if (extentOf(values) < 1e-12 * size) continue;
     const begun = performance.now();
-    const found = measuresOf(linkage, motion, motion.circuits[circuit - 1], linkage.traced[trace - 1], { straight: straight ?? {} });
+    const found = measuresOf(linkage, motion, motion.circuits[circuit - 1], linkage.traced[trace - 1], {
+      straight: straight ?? {},
+    });
     time += performance.now() - begun;
     curves += 1;
     const where = `${name}, trace ${trace}, circuit ${circuit}`;
     for (const [measure, wanted] of Object.entries(values)) {
-      const sentence = disagreement(measure, found[measure], wanted === "inf" ? Infinity : wanted, values, where);
+      const sentence = disagreement(
+        measure,
+        found[measure],
+        wanted === "inf" ? Infinity : wanted,
+        values,
+        where,
+      );
       if (sentence) complain(where, sentence);
     }
   }
 }
 
 function disagreement(measure, found, wanted, values, where) {
-  if (measure.startsWith("straight_") || measure.startsWith("dwell_")) return portionDisagreement(measure, found, wanted, where);
+  if (measure.startsWith("straight_") || measure.startsWith("dwell_"))
+    return portionDisagreement(measure, found, wanted, where);
   if (wanted === null || typeof wanted === "string" || !Number.isFinite(wanted)) {
     return (found ?? null) === wanted ? null : `${measure} is ${found}, not ${wanted}`;
   }
   if (typeof found !== "number") return `${measure} is ${found}, not ${wanted}`;
   const period = measure === "symmetry_deg" ? 180 : Infinity;
   const apart = Math.abs(found - wanted);
-  const off = apart === 0 ? 0 : Math.min(apart, period - apart) / Math.max(Math.abs(wanted), sizeOf(measure, values));
+  const off =
+    apart === 0 ? 0 : Math.min(apart, period - apart) / Math.max(Math.abs(wanted), sizeOf(measure, values));
   note(measure, off, where);
-  return off <= (LOOSER_TOLERANCE[measure] ?? VALUE_TOLERANCE) ? null : `${measure} is ${found}, not ${wanted}`;
+  return off <= (LOOSER_TOLERANCE[measure] ?? VALUE_TOLERANCE)
+    ? null
+    : `${measure} is ${found}, not ${wanted}`;
 }
 
 function sizeOfMotion({ circuits }) {
@@ -67,7 +79,9 @@ function portionDisagreement(measure, found, wanted, where) {
   if (measure !== "straight_length" && measure !== "dwell_input_deg") return null;
   const longer = found / wanted - 1;
   note(measure, Math.abs(longer), where);
-  return longer <= PORTION_LONGER && longer >= -PORTION_SHORTER ? null : `${measure} is ${found}, not ${wanted}`;
+  return longer <= PORTION_LONGER && longer >= -PORTION_SHORTER
+    ? null
+    : `${measure} is ${found}, not ${wanted}`;
 }
 
 // What a deviation is to be seen against where a value is near nothing.
@@ -85,6 +99,8 @@ function note(measure, off, where) {
 /** The greatest deviations found, and how long it took, in a line. */
 export function measuresTold() {
   if (curves === 0) return "no measures";
-  const each = [...deviations].map(([measure, { off, where }]) => `${measure} ${off.toExponential(1)} (${where})`);
-  return `measures of ${curves} curves in ${(time / curves).toFixed(2)} ms each: ${each.join("; ")}`;
+  const each = [...deviations].map(
+    ([measure, { off, where }]) => `${measure} ${off.toExponential(1)} (${where})`,
+  );
+  return `measures of ${curves} curves, ${(time / curves).toFixed(1)} ms each: ${each.join("; ")}`;
 }

@@ -4,8 +4,8 @@ import { fourBarOf, transmissionAt } from "../../src/gallery/script/kinematics/f
 import { poleAt } from "../../src/gallery/script/kinematics/instant.js";
 import { ratesAt } from "../../src/gallery/script/kinematics/poses.js";
 
-// Of a rate or a pole, by its own size and the linkage's: near a limit, where rates grow without bounds, so does what
-// rounding makes of them.
+// Of a rate or a pole, by its own size and the linkage's: near a limit, where rates grow without bounds, so
+// does what rounding makes of them.
 const RATE_TOLERANCE = 1e-9;
 
 let greatest = { off: 0, where: "" };
@@ -21,6 +21,7 @@ export function compareRates({ name, rates }, linkage, motion, complain) {
       const found = ratesAtSample(linkage, circuit, joint, i);
       const size = Math.max(Math.abs(circuit.x[joint][i]), Math.abs(circuit.y[joint][i]), 1e-3);
       for (const [column, all] of Object.entries(values)) {
+        if (!(column in found)) continue;
         const sentence = rateDisagreement(column, found[column], all[i], size, `${where}, sample ${i}`);
         if (sentence) complain(`${where}, sample ${i} (input ${circuit.input[i]})`, sentence);
       }
@@ -35,11 +36,16 @@ function ratesAtSample(linkage, circuit, joint, i) {
   const { place, velocity, acceleration } = ratesAt(linkage, pass, input);
   const instant = poleAt(linkage, pass, input, joint);
   const fourBar = linkage.seenFrom ? null : fourBarOf(linkage);
+  const [vx, vy] = velocity.subarray(2 * joint);
+  const [ax, ay] = acceleration.subarray(2 * joint);
+  const speed = Math.hypot(vx, vy);
   return {
-    vx: velocity[2 * joint],
-    vy: velocity[2 * joint + 1],
-    ax: acceleration[2 * joint],
-    ay: acceleration[2 * joint + 1],
+    vx,
+    vy,
+    ax,
+    ay,
+    speed,
+    curvature: (vx * ay - vy * ax) / speed ** 3,
     pole_x: instant?.pole[0],
     pole_y: instant?.pole[1],
     moving_pole_x: instant?.moving[0],
@@ -64,5 +70,7 @@ function rateDisagreement(column, found, given, size, where) {
 
 /** The greatest deviation found, in a line. */
 export function ratesTold() {
-  return compared === 0 ? "no rates" : `${compared} rates: ${greatest.off.toExponential(1)} (${greatest.where})`;
+  return compared === 0
+    ? "no rates"
+    : `${compared} rates: ${greatest.off.toExponential(1)} (${greatest.where})`;
 }

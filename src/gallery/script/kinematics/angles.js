@@ -17,8 +17,8 @@ export function remainderOf(a, period) {
 }
 
 /**
- * Cosine and sine of an angle in degrees. The angle is first brought within 45 degrees of a quarter turn, which is exact,
- * so that quarter turns have exact zeros and ones and symmetric angles symmetric values.
+ * Cosine and sine of an angle in degrees. The angle is first brought within 45 degrees of a quarter turn,
+ * which is exact, so that quarter turns have exact zeros and ones and symmetric angles symmetric values.
  */
 export function cosSinOfDegrees(deg) {
   const turn = remainderOf(deg, 360);

@@ -7,11 +7,14 @@ import { sideOf, signsWith } from "./signs.js";
 /** Why a parameter set makes no linkage, in a sentence. */
 export class LinkageError extends Error {}
 
-/** Each method adds a joint and returns its place in `joints`; angles in degrees, `side` 1 left or -1 right. */
+/**
+ * Each method adds a joint and returns its place in `joints`; angles in degrees, `side` 1 left or -1 right.
+ */
 export class LinkageAssembly {
   joints = [];
   links = [];
-  // Bodies that are known by a joint and a line: { base, link, foot, offset } or { base, link, line, offset, lineIs }.
+  // Bodies that are known by a joint and a line: { base, link, foot, offset } or { base, link, line, offset,
+  // lineIs }.
   carriers = [];
   signs = 0;
   dyads = 0;
@@ -51,7 +54,8 @@ export class LinkageAssembly {
     const index = this.#twoValued(name, side);
     const id = this.#add(name, { kind: "piston", base, length, offset, index });
     this.#bar(base[1], id, length);
-    // The foot is to the right of the line from pivot to pin, so the pivot is to the left of the actuator's line.
+    // The foot is to the right of the line from pivot to pin, so the pivot is to the left of the actuator's
+    // line.
     this.#body([base[0], id], [base[0], id], -offset, "driven");
     return id;
   }
@@ -115,7 +119,9 @@ export class LinkageAssembly {
   }
 
   point(name, base, along, across) {
-    const known = this.carriers.filter((carrier) => carrier.base[0] === base[0] && carrier.base[1] === base[1]);
+    const known = this.carriers.filter(
+      (carrier) => carrier.base[0] === base[0] && carrier.base[1] === base[1],
+    );
     if (known.length > 1) {
       const names = `\`${this.joints[base[0]].name}\` and \`${this.joints[base[1]].name}\``;
       throw new LinkageError(`\`${name}\` may be on more than one link that is known by ${names}`);
@@ -140,7 +146,9 @@ export class LinkageAssembly {
     // Rounding may leave a flat triangle a few units in the last place short of closing.
     const isOpen = across2 < -4 * Number.EPSILON * (d[0] * d[0] + d[1] * d[1]);
     if (isOpen || d.some((x) => !(x >= 0))) {
-      throw new LinkageError(`\`${name}\` cannot be ${d[0]} from one joint and ${d[1]} from another ${span} away`);
+      throw new LinkageError(
+        `\`${name}\` cannot be ${d[0]} from one joint and ${d[1]} from another ${span} away`,
+      );
     }
     return this.point(name, base, along, side * Math.sqrt(Math.max(across2, 0)));
   }

@@ -1,5 +1,5 @@
-// Every joint as a series in the input, each from those before it, in the frame of the fixed joints: the constraints that
-// dyads.js solves, with their rates. Angles of input are in radians, lengths in their unit.
+// Every joint as a series in the input, each from those before it, in the frame of the fixed joints: the
+// constraints that dyads.js solves, with their rates. Angles of input are in radians, lengths in their unit.
 
 import { cosSinOfDegrees } from "./angles.js";
 import { gearedAngle } from "./columns.js";
@@ -24,8 +24,9 @@ import {
 /**
  * The first `count` joints as planar series of `terms` terms.
  *
- * `stop` is the input { at, cos, sin }; `mode(index)` is what a dyad's height is multiplied by, and where that is 0 the
- * height is left out with its rates. `settle(joint, place, before)` may put another place for a joint's.
+ * `stop` is the input { at, cos, sin }; `mode(index)` is what a dyad's height is multiplied by, and where
+ * that is 0 the height is left out with its rates. `settle(joint, place, before)` may put another place for a
+ * joint's.
  */
 export function placeSeries(linkage, count, stop, mode, terms, settle = null) {
   const at = [];
@@ -92,11 +93,17 @@ function dyadSeries(p, q, l0, l1, mode, terms) {
   const foot = scaledSeries(quotientOfSeries(productOfSeries(sum, difference), d2), 0.5);
   const along = sumOfSeries(constantSeries(0.5, terms), foot);
   if (mode === 0) return movedPlace(p, base, along, constantSeries(0, terms));
-  const across = quotientOfSeries(scaledSeries(rootOfSeries(discriminantOfDyad(d2, sum, difference)), 0.5 * mode), d2);
+  const across = quotientOfSeries(
+    scaledSeries(rootOfSeries(discriminantOfDyad(d2, sum, difference)), 0.5 * mode),
+    d2,
+  );
   return movedPlace(p, base, along, across);
 }
 
-/** Sixteen times the square of the area of a dyad's triangle, of the square of its base and its lengths' sum and difference. */
+/**
+ * Sixteen times the square of the area of a dyad's triangle, of the square of its base and its lengths' sum
+ * and difference.
+ */
 export function discriminantOfDyad(d2, sum, difference) {
   const d = rootOfSeries(d2);
   const outer = productOfSeries(differenceOfSeries(sum, d), sumOfSeries(sum, d));

@@ -1,4 +1,5 @@
-// From intervals to circuits: which interval follows which, where a circuit starts, and in what order they come.
+// From intervals to circuits: which interval follows which, where a circuit starts, and in what order they
+// come.
 
 import { cosSinOfDegrees, remainderOf } from "./angles.js";
 import { endOfInterval, intervalsOf, onwardFrom } from "./interval.js";
@@ -60,7 +61,9 @@ function startInterval(linkage, intervals) {
     }
   }
   const interval = ours.find((k) => turnedIntoSpan(intervals[k].span, at, period) !== null);
-  return interval === undefined ? { reason: `it cannot be assembled at the start, an input of ${at}` } : { interval };
+  return interval === undefined
+    ? { reason: `it cannot be assembled at the start, an input of ${at}` }
+    : { interval };
 }
 
 // The middle of the first assemblable range met from 0 upward; change points do not part a range.
@@ -89,7 +92,8 @@ function joinedPair(ranges, period) {
   return null;
 }
 
-// The circuit through an interval: on to what follows its upper end, and, where that ends, back from its lower.
+// The circuit through an interval: on to what follows its upper end, and, where that ends, back from its
+// lower.
 function walkedRoute(linkage, intervals, first, seen) {
   seen.add(first);
   const { input, travel } = linkage;
@@ -127,7 +131,8 @@ function intervalAfter({ travel }, intervals, { interval, rising }) {
   const onward = end && onwardFrom(end, from.signs, rising, travel);
   if (!onward) return null;
   // It begins where this one ends: falling from the same upper end, or rising from the same lower one.
-  const begins = (other) => other.signs === onward.signs && endOfInterval(other, !onward.rises)?.id === end.id;
+  const begins = (other) =>
+    other.signs === onward.signs && endOfInterval(other, !onward.rises)?.id === end.id;
   const next = intervals.findIndex(begins);
   return next < 0 ? null : { interval: next, rising: onward.rises };
 }
@@ -179,8 +184,9 @@ function rejoinedPasses(passes) {
   return out;
 }
 
-// Shifts passes by whole turns so that each begins where the one before ends, and the whole lies where it should: the
-// middle of a rocking circuit in (-180, 180], the start of a turning one in the first period, a range asked for as asked.
+// Shifts passes by whole turns so that each begins where the one before ends, and the whole lies where it
+// should: the middle of a rocking circuit in (-180, 180], the start of a turning one in the first period, a
+// range asked for as asked.
 function continuousPasses(passes, turns, asked, period) {
   const out = [passes[0]];
   for (const pass of passes.slice(1)) {

@@ -4,16 +4,17 @@ import { fourBarOf, isOnCoupler } from "./four-bar.js";
 import { handednessOf, lengthTolerance, placeOnLink } from "./linkage.js";
 
 /**
- * The four-bar of a linkage with one of its joints for coupler point, and its two cognates:
- * { thirdPivot: [x, y], cognates: [three] } in the plane the linkage is reported in, itself first; or null where it is no
+ * The four-bar of a linkage with one of its joints for coupler point, and its two cognates: { thirdPivot: [x,
+ * y], cognates: [three] } in the plane the linkage is reported in, itself first; or null where it is no
  * four-bar, the joint is not on its coupler, or is a pin.
  *
  * A cognate is { pivots: [[x, y], [x, y]], lengths: { frame, crank, coupler, rocker }, point: [along, left],
- * turnsAs: [crank, coupler, rocker as "crank" | "coupler" | "rocker"], arms }: the pivots of its crank and its rocker, the
- * coupler point from its crank pin towards its rocker pin, and which links of the original its own turn as.
+ * turnsAs: [crank, coupler, rocker as "crank" | "coupler" | "rocker"], arms }: the pivots of its crank and
+ * its rocker, the coupler point from its crank pin towards its rocker pin, and which links of the original
+ * its own turn as.
  *
- * With lambda = (M - A) / (B - A) as complex numbers the third pivot is Q = O + lambda (C - O), and one loop stands on O
- * and Q with links lambda (B - A), lambda (A - O), lambda (B - C), the other on C and Q.
+ * With lambda = (M - A) / (B - A) as complex numbers the third pivot is Q = O + lambda (C - O), and one loop
+ * stands on O and Q with links lambda (B - A), lambda (A - O), lambda (B - C), the other on C and Q.
  */
 export function cognatesOf(linkage, joint) {
   const original = placedFourBar(linkage, joint);
@@ -28,7 +29,12 @@ export function cognatesOf(linkage, joint) {
   const rest = w.map((x) => -x / h);
   const offset = complexProduct(lambda, [c[0] - o[0], c[1] - o[1]]);
   const thirdPivot = [o[0] + offset[0], o[1] + offset[1]];
-  const scaled = (by, crank, coupler, rocker) => ({ frame: by * g, crank, coupler: by * coupler, rocker: by * rocker });
+  const scaled = (by, crank, coupler, rocker) => ({
+    frame: by * g,
+    crank,
+    coupler: by * coupler,
+    rocker: by * rocker,
+  });
   const first = {
     pivots: [o, thirdPivot],
     lengths: scaled(near / h, near, r, s),
@@ -48,7 +54,9 @@ export function cognatesOf(linkage, joint) {
   return { thirdPivot, cognates: [itself, drivenCognate(first), drivenCognate(second)] };
 }
 
-/** The crank pin and the rocker pin of a cognate, [ax, ay, bx, by], in a pose of the linkage it was made of. */
+/**
+ * The crank pin and the rocker pin of a cognate, [ax, ay, bx, by], in a pose of the linkage it was made of.
+ */
 export function cognatePins(linkage, { pivots, turnsAs, arms }, pose) {
   const { o, a, b, c } = fourBarOf(linkage).joints;
   const between = (from, to) => [pose[2 * to] - pose[2 * from], pose[2 * to + 1] - pose[2 * from + 1]];
@@ -78,22 +86,34 @@ function placedFourBar(linkage, joint) {
   const [onFrame, onEnd] = [o, c].map((id) => placeOnLink(linkage.links[0], id));
   // The view has the crank's pivot at its origin and the rocker's on its x-axis.
   const isOwn = !linkage.seenFrom && onFrame && onEnd;
-  const pivots = isOwn ? [[onFrame.x, onFrame.y], [onEnd.x, onEnd.y]] : [[0, 0], [frame, 0]];
+  const pivots = isOwn
+    ? [
+        [onFrame.x, onFrame.y],
+        [onEnd.x, onEnd.y],
+      ]
+    : [
+        [0, 0],
+        [frame, 0],
+      ];
   const { mirror, cos, sin } = linkage.placement;
   const placed = ([x, y]) => complexProduct([cos, sin], [x, mirror ? -y : y]);
   return { pivots: pivots.map(placed), lengths: { frame, crank, coupler, rocker }, point };
 }
 
-// Driven by the shortest link, if that is on a pivot, or, of a kite, by the one that never rests; else by the one that
-// turns as the original's crank; else by that on the original's pivot.
+// Driven by the shortest link, if that is on a pivot, or, of a kite, by the one that never rests; else by the
+// one that turns as the original's crank; else by that on the original's pivot.
 function drivenCognate(cognate) {
   const { crank, coupler, rocker, frame } = cognate.lengths;
   const tolerance = lengthTolerance(crank + coupler + rocker + frame);
   // A link as long as the frame rests while the other two, of one length, turn about its pin.
-  const rests = (link, other) => Math.abs(link - frame) <= tolerance && Math.abs(other - coupler) <= tolerance;
+  const rests = (link, other) =>
+    Math.abs(link - frame) <= tolerance && Math.abs(other - coupler) <= tolerance;
   let isBetter = cognate.turnsAs[2] === "crank";
   if (rests(crank, rocker) !== rests(rocker, crank)) isBetter = rests(crank, rocker);
-  else if (Math.abs(rocker - crank) > tolerance && Math.min(rocker, crank) <= Math.min(frame, coupler) + tolerance) {
+  else if (
+    Math.abs(rocker - crank) > tolerance &&
+    Math.min(rocker, crank) <= Math.min(frame, coupler) + tolerance
+  ) {
     isBetter = rocker < crank;
   }
   if (!isBetter) return cognate;

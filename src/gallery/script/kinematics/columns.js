@@ -1,4 +1,5 @@
-// Positions of all joints at many inputs: a column for each joint, { x: [Float64Array per joint], y: […], count }.
+// Positions of all joints at many inputs: a column for each joint, { x: [Float64Array per joint], y: […],
+// count }.
 
 import { cosSinOfDegrees } from "./angles.js";
 import {
@@ -20,7 +21,10 @@ export function newColumns(joints, count) {
   return { x: Array.from({ length: joints }, column), y: Array.from({ length: joints }, column), count };
 }
 
-/** Values of the input in columns { at, cos, sin }, of stops { at, cos, sin }: degrees or lengths; of those, cos is 0. */
+/**
+ * Values of the input in columns { at, cos, sin }, of stops { at, cos, sin }: degrees or lengths; of those,
+ * cos is 0.
+ */
 export function inputColumns(stops) {
   const [at, cos, sin] = [0, 1, 2].map(() => new Float64Array(stops.length));
   stops.forEach((stop, i) => {
@@ -43,11 +47,12 @@ export function gearedAngle(at, [turns, of], phase) {
 }
 
 /**
- * Places joints `from` up to, not with, `to` from those before them at the inputs `first` up to, not with, `last`, in the
- * frame of the fixed joints. `modes` is what each dyad's height is multiplied by.
+ * Places joints `from` up to, not with, `to` from those before them at the inputs `first` up to, not with,
+ * `last`, in the frame of the fixed joints. `modes` is what each dyad's height is multiplied by.
  */
 export function placeJoints(linkage, [from, to], inputs, modes, columns, first, last) {
-  for (let id = from; id < to; id++) placeJoint(linkage.joints[id].step, id, inputs, modes, columns, first, last);
+  for (let id = from; id < to; id++)
+    placeJoint(linkage.joints[id].step, id, inputs, modes, columns, first, last);
 }
 
 function placeJoint(step, id, inputs, modes, columns, first, last) {
@@ -68,7 +73,15 @@ function placeJoint(step, id, inputs, modes, columns, first, last) {
       break;
     }
     case "piston":
-      placePiston(of(step.base[0]), of(step.base[1]), inputs.at, step.length, step.offset, modes[step.index], ...run);
+      placePiston(
+        of(step.base[0]),
+        of(step.base[1]),
+        inputs.at,
+        step.length,
+        step.offset,
+        modes[step.index],
+        ...run,
+      );
       break;
     case "dyad":
       placeDyad(of(step.base[0]), of(step.base[1]), step.lengths, modes[step.index], x, y, first, last);
@@ -107,7 +120,10 @@ function gearedColumns({ ratio, phase }, at, first, last) {
   return { cos, sin };
 }
 
-/** Puts the poses into the plane they are reported in: of the link seen from, then laid as the linkage is placed. */
+/**
+ * Puts the poses into the plane they are reported in: of the link seen from, then laid as the linkage is
+ * placed.
+ */
 export function seeColumns(linkage, columns) {
   if (linkage.seenFrom) seeFromLink(linkage, columns);
   const { mirror, cos, sin } = linkage.placement;

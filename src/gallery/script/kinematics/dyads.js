@@ -1,6 +1,6 @@
-// The kernels: one joint at many inputs, in columns. Each takes places of earlier joints as { x, y } columns and writes
-// x[i], y[i] for `first` up to, not with, `last`. `mode` is what a dyad's height is multiplied by: 1 to the left of its
-// base, -1 to the right, 0 where it lies flat. Bases beyond a dyad's reach lay it flat.
+// The kernels: one joint at many inputs, in columns. Each takes places of earlier joints as { x, y } columns
+// and writes x[i], y[i] for `first` up to, not with, `last`. `mode` is what a dyad's height is multiplied by:
+// 1 to the left of its base, -1 to the right, 0 where it lies flat. Bases beyond a dyad's reach lay it flat.
 
 /** On a crank about `pivot`. */
 export function placeCrank(pivot, length, cos, sin, x, y, first, last) {
@@ -42,7 +42,10 @@ export function placePiston(p, q, at, length, offset, mode, x, y, first, last) {
   }
 }
 
-/** The RRP dyad: as far off the line as that is from `a`, whose distance to its left is h, and sqrt((l-h)(l+h)) along. */
+/**
+ * The RRP dyad: as far off the line as that is from `a`, whose distance to its left is h, and
+ * sqrt((l-h)(l+h)) along.
+ */
 export function placeSlide(a, length, p, q, offset, mode, x, y, first, last) {
   const { x: ax, y: ay } = a;
   const { x: px, y: py } = p;
@@ -61,7 +64,9 @@ export function placeSlide(a, length, p, q, offset, mode, x, y, first, last) {
   }
 }
 
-/** The RPR dyad: pivot, foot and joint are a right triangle with the base for hypotenuse (McCarthy 2.40-2.42). */
+/**
+ * The RPR dyad: pivot, foot and joint are a right triangle with the base for hypotenuse (McCarthy 2.40-2.42).
+ */
 export function placeSlot(p, q, offset, mode, x, y, first, last) {
   const { x: px, y: py } = p;
   const { x: qx, y: qy } = q;
@@ -78,7 +83,9 @@ export function placeSlot(p, q, offset, mode, x, y, first, last) {
   }
 }
 
-/** The RPP dyad: as far along the guide as the joint in the slot, less what the slot leans over up to there. */
+/**
+ * The RPP dyad: as far along the guide as the joint in the slot, less what the slot leans over up to there.
+ */
 export function placeYoke(a, p, q, offset, lean, x, y, first, last) {
   const { x: ax, y: ay } = a;
   const { x: px, y: py } = p;
@@ -98,8 +105,9 @@ export function placeYoke(a, p, q, offset, lean, x, y, first, last) {
 }
 
 /**
- * A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is that from p to
- * q, turned to the right by the angle whose sine is offset / d. `known` has how far along it q is, where that is known.
+ * A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is
+ * that from p to q, turned to the right by the angle whose sine is offset / d. `known` has how far along it q
+ * is, where that is known.
  */
 export function placeDirected(a, p, q, offset, known, along, across, x, y, first, last) {
   const { x: ax, y: ay } = a;

@@ -9,12 +9,12 @@ import { modesOf, sideOf } from "./signs.js";
 const VANISHING_BASE = 1e-12;
 
 /**
- * Places every joint at one sample where a pass begins or ends, in the frame of the fixed joints. `inputs` are columns as
- * long as those of the places; the end's own input is put there for the purpose.
+ * Places every joint at one sample where a pass begins or ends, in the frame of the fixed joints. `inputs`
+ * are columns as long as those of the places; the end's own input is put there for the purpose.
  *
- * A flat dyad is laid out by its first link's own length. Where a base vanishes its joint is placed by continuity: the
- * base then points along its rate of change, or, where that is infinite at a limit, along the rate of its parts with the
- * root of the input. Where there is no such direction the joint stays undefined.
+ * A flat dyad is laid out by its first link's own length. Where a base vanishes its joint is placed by
+ * continuity: the base then points along its rate of change, or, where that is infinite at a limit, along the
+ * rate of its parts with the root of the input. Where there is no such direction the joint stays undefined.
  */
 export function placeEnd(linkage, pass, begins, inputs, columns, sample) {
   const end = begins ? pass.begin : pass.end;
@@ -99,7 +99,8 @@ function boundedRate(a, b) {
   return (Number.isNaN(a) ? Infinity : a) - (Number.isNaN(b) ? Infinity : b);
 }
 
-// How a joint leaves a limit: its place goes with the root of the input, and this is the factor; null where it is unknown.
+// How a joint leaves a limit: its place goes with the root of the input, and this is the factor; null where
+// it is unknown.
 function surgeOf(pose, joint, jets) {
   const { step } = pose.linkage.joints[joint];
   const isFlat = step.index !== undefined && ((pose.end.flat >> step.index) & 1) === 1;
@@ -158,7 +159,9 @@ function surgeOfFlatSlot(pose, { base, offset, index }, jets) {
 // Both links keep their lengths: u . v = u . vp and w . v = w . vq.
 function surgeOfDyad(pose, joint, found) {
   if (!found) return null;
-  const [at, p, q] = [joint, ...pose.linkage.joints[joint].step.base].map((other) => pointOfPose(pose, other));
+  const [at, p, q] = [joint, ...pose.linkage.joints[joint].step.base].map((other) =>
+    pointOfPose(pose, other),
+  );
   const [ux, uy, wx, wy] = [at[0] - p[0], at[1] - p[1], at[0] - q[0], at[1] - q[1]];
   const a = ux * found[0][0] + uy * found[0][1];
   const b = wx * found[1][0] + wy * found[1][1];

@@ -3,8 +3,9 @@
 import { degreesOf, radiansOf } from "./angles.js";
 
 /**
- * The value of an expression: a number, or a program in an array (numbers are pushed, [slot] pushes values[slot], strings
- * are operators, or functions with their number of arguments: "atan2/2"). Truths are 1 or 0; NaN where it is not defined.
+ * The value of an expression: a number, or a program in an array (numbers are pushed, [slot] pushes
+ * values[slot], strings are operators, or functions with their number of arguments: "atan2/2"). Truths are 1
+ * or 0; NaN where it is not defined.
  */
 export function evaluateExpression(expression, values) {
   if (typeof expression === "number") return expression;

@@ -4,18 +4,24 @@ import { degreesOf } from "./angles.js";
 import { lengthTolerance, linkLength, placeOnLink } from "./linkage.js";
 
 /**
- * The four-bar in a linkage, { frame, crank, coupler, rocker, class, type, shortest, joints: { o, a, b, c } }, the joints
- * being crank pivot, crank pin, rocker pin and rocker pivot; null where its moving joints are other than a crank, one dyad
- * on crank pin and frame, rigid points, and parallelograms hung on them.
+ * The four-bar in a linkage, { frame, crank, coupler, rocker, class, type, shortest, joints: { o, a, b, c }
+ * }, the joints being crank pivot, crank pin, rocker pin and rocker pivot; null where its moving joints are
+ * other than a crank, one dyad on crank pin and frame, rigid points, and parallelograms hung on them.
  *
- * Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and the crank the
- * link at the origin of the view. `class` is Grashof's (Natesan, table 3.1), `type` McCarthy's (table 2.2).
+ * Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and
+ * the crank the link at the origin of the view. `class` is Grashof's (Natesan, table 3.1), `type` McCarthy's
+ * (table 2.2).
  */
 export function fourBarOf(linkage) {
   const pins = fourBarPins(linkage);
   if (!pins) return null;
   const [o, a, b, c] = pins;
-  const lengths = [linkLength(linkage, o, c), linkLength(linkage, o, a), linkLength(linkage, a, b), linkLength(linkage, b, c)];
+  const lengths = [
+    linkLength(linkage, o, c),
+    linkLength(linkage, o, a),
+    linkLength(linkage, a, b),
+    linkLength(linkage, b, c),
+  ];
   if (lengths.includes(null)) return null;
   const [frame, crank, coupler, rocker] = lengths;
   const bar = { frame, crank, coupler, rocker };
@@ -49,8 +55,8 @@ function fourBarPins({ joints, links, seenFrom }) {
 }
 
 /**
- * Grashof's class of lengths { frame, crank, coupler, rocker }. Lengths whose sums agree to within a few units in the last
- * place make a change point: they are meant to be equal.
+ * Grashof's class of lengths { frame, crank, coupler, rocker }. Lengths whose sums agree to within a few
+ * units in the last place make a change point: they are meant to be equal.
  */
 export function grashofClass({ frame, crank, coupler, rocker }) {
   const [shortest, la, lb, longest] = [frame, crank, coupler, rocker].sort((a, b) => a - b);
@@ -88,9 +94,9 @@ export function isCouplerDriven(linkage, { joints: { a, b } }) {
 }
 
 /**
- * The transmission angles of a four-bar in a pose, in degrees from 0 to 180: { mu, atRocker, atCrank }. `atRocker` is that
- * at the rocker's pin between coupler and rocker, `atCrank` that at the crank's where the coupler drives, else null; `mu`
- * is the worse of them, further from 90.
+ * The transmission angles of a four-bar in a pose, in degrees from 0 to 180: { mu, atRocker, atCrank }.
+ * `atRocker` is that at the rocker's pin between coupler and rocker, `atCrank` that at the crank's where the
+ * coupler drives, else null; `mu` is the worse of them, further from 90.
  */
 export function transmissionAt(linkage, fourBar, pose) {
   const { o, a, b, c } = fourBar.joints;

@@ -1,7 +1,7 @@
-// The motion of a link at an instant: its pole, inflection circle and centrodes. Nothing in it depends on how fast the
-// input goes: the motion is taken by the link's own angle. With w the vector from the pole to a point of the link, its
-// velocity is i w and its acceleration q - w, where q goes from the pole to the inflection pole (Bottema and Roth,
-// Theoretical Kinematics, chapter VIII).
+// The motion of a link at an instant: its pole, inflection circle and centrodes. Nothing in it depends on how
+// fast the input goes: the motion is taken by the link's own angle. With w the vector from the pole to a
+// point of the link, its velocity is i w and its acceleration q - w, where q goes from the pole to the
+// inflection pole (Bottema and Roth, Theoretical Kinematics, chapter VIII).
 
 import { fourBarOf, isOnCoupler } from "./four-bar.js";
 import { groundOf, linkageWithOnePoint, placeOnLink } from "./linkage.js";
@@ -11,11 +11,11 @@ import { ratesAt } from "./poses.js";
 const POLE_AT_INFINITY = 1e-13;
 
 /**
- * How the link that a joint is on moves at an input of a pass: { pole: [x, y], moving: [along, left], inflection: [x, y],
- * frame: [a, b] }, the instant centre in the plane and in the link's own frame (from joint a, x towards joint b), and the
- * inflection pole: the inflection circle has it and the pole at the ends of a diameter, and the paths of the link's points
- * on it are straight there to the second order. Null where the link does not turn, and, but for the coupler of a four-bar,
- * at a limit.
+ * How the link that a joint is on moves at an input of a pass: { pole: [x, y], moving: [along, left],
+ * inflection: [x, y], frame: [a, b] }, the instant centre in the plane and in the link's own frame (from
+ * joint a, x towards joint b), and the inflection pole: the inflection circle has it and the pole at the ends
+ * of a diameter, and the paths of the link's points on it are straight there to the second order. Null where
+ * the link does not turn, and, but for the coupler of a four-bar, at a limit.
  */
 export function poleAt(linkage, pass, input, joint) {
   const motionOfLink = linkFrameOf(linkage, joint);
@@ -25,14 +25,17 @@ export function poleAt(linkage, pass, input, joint) {
   return fourBar ? couplerInstant(fourBar, pointsOfPose(rates.place)) : linkInstant(rates, frame);
 }
 
-/** The fixed centrode over a circuit, of the link that a joint is on: Float64Array [x, y, …] by samples, NaN where none. */
+/**
+ * The fixed centrode over a circuit, of the link that a joint is on: Float64Array [x, y, …] by samples, NaN
+ * where none.
+ */
 export function fixedCentrode(linkage, circuit, joint) {
   return centrodesOf(linkage, circuit, joint).fixed;
 }
 
 /**
- * The moving centrode over a circuit, of the link that a joint is on, in the link's own frame: { points, frame: [a, b] },
- * the points from joint a, x towards joint b. It rolls on the fixed one.
+ * The moving centrode over a circuit, of the link that a joint is on, in the link's own frame: { points,
+ * frame: [a, b] }, the points from joint a, x towards joint b. It rolls on the fixed one.
  */
 export function movingCentrode(linkage, circuit, joint) {
   const { moving, frame } = centrodesOf(linkage, circuit, joint);
@@ -60,7 +63,8 @@ function centrodesOf(linkage, circuit, joint) {
 // The link that a joint is on and moves with, by two joints of it; with the four-bar whose coupler it is.
 function linkFrameOf(linkage, joint) {
   const fourBar = fourBarOf(linkage);
-  if (fourBar && isOnCoupler(linkage, fourBar, joint)) return { fourBar, frame: [fourBar.joints.a, fourBar.joints.b] };
+  if (fourBar && isOnCoupler(linkage, fourBar, joint))
+    return { fourBar, frame: [fourBar.joints.a, fourBar.joints.b] };
   const ground = groundOf(linkage);
   const link = linkage.links.find((other) => other !== ground && placeOnLink(other, joint));
   const first = link?.[0];
@@ -90,16 +94,20 @@ function linkInstant({ place, velocity, acceleration }, [a, b]) {
   return instantOfPlane([place[2 * a], place[2 * a + 1]], arm, first, second, [a, b]);
 }
 
-// Of the coupler of a four-bar on its frame, from where its pins are. At a limit, too: as its own angle goes, the coupler
-// has no limits. There it turns about the crank's pin, while that stands still.
+// Of the coupler of a four-bar on its frame, from where its pins are. At a limit, too: as its own angle goes,
+// the coupler has no limits. There it turns about the crank's pin, while that stands still.
 function couplerInstant({ joints: { o, a, b, c } }, at) {
   const [po, pa, pb, pc] = [o, a, b, c].map(at);
   const [crank, coupler, rocker] = [minusVector(pa, po), minusVector(pb, pa), minusVector(pb, pc)];
-  // crank' + coupler' = rocker', each a rate of turning times the arm's left normal, differentiated once more.
+  // crank' + coupler' = rocker', each a rate of turning times the arm's left normal, differentiated once
+  // more.
   const area = crossVectors(crank, rocker);
   if (!(Math.abs(area) > POLE_AT_INFINITY * Math.hypot(...crank) * Math.hypot(...rocker))) return null;
   const left = ([x, y]) => [-y, x];
-  const solve = (known) => [-crossVectors(known, left(rocker)) / area, -crossVectors(known, left(crank)) / area];
+  const solve = (known) => [
+    -crossVectors(known, left(rocker)) / area,
+    -crossVectors(known, left(crank)) / area,
+  ];
   const [wc1, wr1] = solve(left(coupler));
   const known = [0, 1].map((k) => -crank[k] * wc1 * wc1 - coupler[k] + rocker[k] * wr1 * wr1);
   const [wc2] = solve(known);

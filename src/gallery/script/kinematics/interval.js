@@ -1,13 +1,14 @@
 // Where a linkage can be assembled: for each assembly mode, the intervals of the input.
 //
-// The dyads are taken in the order they are placed. Each cuts the intervals left by those before it to where its base is
-// within its reach; both of its sides then share what is left. So an end of an interval belongs to one dyad, and has one
-// number by which the intervals that meet there are recognised.
+// The dyads are taken in the order they are placed. Each cuts the intervals left by those before it to where
+// its base is within its reach; both of its sides then share what is left. So an end of an interval belongs
+// to one dyad, and has one number by which the intervals that meet there are recognised.
 //
-// An end is { at, cos, sin, cause, flat, flips, bound, id }: the input; "limit", where a dyad is stretched or folded and
-// cannot go on, "change", where it can, or "asked", where the range asked for ends; the dyads that lie flat; those of them
-// that change their sides when the motion goes on smoothly; those that can do nothing else, for their bases vanish.
-// A span is { lower, upper }, two ends at most a period apart, or both null: the whole period.
+// An end is { at, cos, sin, cause, flat, flips, bound, id }: the input; "limit", where a dyad is stretched or
+// folded and cannot go on, "change", where it can, or "asked", where the range asked for ends; the dyads that
+// lie flat; those of them that change their sides when the motion goes on smoothly; those that can do nothing
+// else, for their bases vanish. A span is { lower, upper }, two ends at most a period apart, or both null:
+// the whole period.
 
 import { stopAt } from "./columns.js";
 import { cutSpan } from "./reach.js";
@@ -20,8 +21,8 @@ export function endOfInterval({ span }, rising) {
 }
 
 /**
- * The sides with which a motion goes on that comes to an end with a rising or falling input, and whether the input then
- * rises; null where it ends.
+ * The sides with which a motion goes on that comes to an end with a rising or falling input, and whether the
+ * input then rises; null where it ends.
  */
 export function onwardFrom(end, signs, rising, { coincident, continuation }) {
   if (end.cause === "asked") return null;
@@ -33,9 +34,9 @@ export function onwardFrom(end, signs, rising, { coincident, continuation }) {
 }
 
 /**
- * The intervals within the range asked for, { intervals: [{ span, signs }], shortfall }: of all assembly modes, or, where
- * only the circuit through the start pose is wanted, of those that can be reached from it. The shortfall says why there
- * are none of the mode asked for, where a dyad of it closes nowhere.
+ * The intervals within the range asked for, { intervals: [{ span, signs }], shortfall }: of all assembly
+ * modes, or, where only the circuit through the start pose is wanted, of those that can be reached from it.
+ * The shortfall says why there are none of the mode asked for, where a dyad of it closes nowhere.
  */
 export function intervalsOf(linkage) {
   const { travel, dyads } = linkage;
@@ -60,13 +61,14 @@ export function intervalsOf(linkage) {
 // The whole range of the input that is asked for.
 function wholeSpan({ input, travel: { range } }) {
   const asked = (at, id) => askedEnd(stopAt(input, at), id);
-  if (range && range[1] - range[0] < input.period) return { lower: asked(range[0], 0), upper: asked(range[1], 1) };
+  if (range && range[1] - range[0] < input.period)
+    return { lower: asked(range[0], 0), upper: asked(range[1], 1) };
   if (input.isLength) return { lower: asked(0, 0), upper: asked(Number.MAX_VALUE / 16, 1) };
   return { lower: null, upper: null };
 }
 
-// The spans on which the first `dyads` dyads close, with the sides of all but the last of them given. Modes that share
-// these share the spans, and the numbers of their ends.
+// The spans on which the first `dyads` dyads close, with the sides of all but the last of them given. Modes
+// that share these share the spans, and the numbers of their ends.
 function spansOfMode(tree, dyads, signs) {
   const { linkage } = tree;
   if (dyads === 0) return [wholeSpan(linkage)];

@@ -21,9 +21,10 @@ import {
 import { sideOf } from "./signs.js";
 
 /**
- * Places and rates of all joints at an input of a pass: planar series of three terms, { x, y }, as seen from the
- * linkage's own view. Rates are to a radian of input, or to a unit of length: the velocity is the second term, half the
- * acceleration the third. At a limit they are infinite, at a change point as they are beside it in the pass.
+ * Places and rates of all joints at an input of a pass: planar series of three terms, { x, y }, as seen from
+ * the linkage's own view. Rates are to a radian of input, or to a unit of length: the velocity is the second
+ * term, half the acceleration the third. At a limit they are infinite, at a change point as they are beside
+ * it in the pass.
  */
 export function jetsOnPass(linkage, pass, at) {
   const ends = [
@@ -40,12 +41,15 @@ export function jetsOnPass(linkage, pass, at) {
 
 /** The same at a stop { at, cos, sin } in an assembly mode, where no dyad lies flat. */
 export function jetsAtStop(linkage, stop, signs) {
-  return seenSeries(linkage, placeSeries(linkage, linkage.joints.length, stop, (k) => sideOf(signs, k), 3));
+  return seenSeries(
+    linkage,
+    placeSeries(linkage, linkage.joints.length, stop, (k) => sideOf(signs, k), 3),
+  );
 }
 
 /**
- * Places and rates in the frame of the fixed joints, by series of so many terms. `inwards` is 1 where the motion is at
- * greater inputs than this, -1 where it is at smaller ones, and 0 where that is not known.
+ * Places and rates in the frame of the fixed joints, by series of so many terms. `inwards` is 1 where the
+ * motion is at greater inputs than this, -1 where it is at smaller ones, and 0 where that is not known.
  */
 export function fixedFrameJets(linkage, stop, signs, flat, inwards, terms) {
   const mode = (dyad) => ((flat >> dyad) & 1 ? 0 : sideOf(signs, dyad));
@@ -63,8 +67,9 @@ export function fixedFrameJets(linkage, stop, signs, flat, inwards, terms) {
   return all.map(({ x, y }) => ({ x: x.slice(0, 3), y: y.slice(0, 3) }));
 }
 
-// How a dyad's joint stands off from where it is when the dyad lies flat: where to, along a slider's line or square to a
-// base of any length; the square of how far, in lengths of that; and the size of the terms that the square is made of.
+// How a dyad's joint stands off from where it is when the dyad lies flat: where to, along a slider's line or
+// square to a base of any length; the square of how far, in lengths of that; and the size of the terms that
+// the square is made of.
 function riseOfStep(step, at, terms) {
   const squareTo = ([p, q]) => {
     const base = planarDifference(at[q], at[p]);
@@ -93,15 +98,19 @@ function riseOfStep(step, at, terms) {
       const [l0, l1] = step.lengths;
       const d2 = planarDot(base, base);
       const discriminant = discriminantOfDyad(d2, number(l0 + l1), number(l0 - l1));
-      return { direction, square: quotientOfSeries(scaledSeries(discriminant, 0.25), productOfSeries(d2, d2)), size: 1 };
+      return {
+        direction,
+        square: quotientOfSeries(scaledSeries(discriminant, 0.25), productOfSeries(d2, d2)),
+        size: 1,
+      };
     }
     default:
       return { direction: squareTo(step.base).direction, square: new Array(terms).fill(NaN), size: 1 };
   }
 }
 
-// The same place with rates that have no bound, but across the direction they have none in: there the velocity has one,
-// and all rates where the direction stays.
+// The same place with rates that have no bound, but across the direction they have none in: there the
+// velocity has one, and all rates where the direction stays.
 function unboundedPlace(at, direction) {
   const rates = (place, along, across) => {
     let bounded = place.length;

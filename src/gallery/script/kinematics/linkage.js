@@ -1,10 +1,11 @@
 // A linkage in numbers, and what is asked of it.
 //
 // { joints: [{name, step}], links: [[{joint, x, y}]], traced: [joint], seenFrom: [origin, end]|null,
-//   placement: {mirror, cos, sin}, travel: {signs, start, range, circuits, continuation, coincident, arc}, dyads,
-//   input: {isLength, period} }
-// Joints are in the order they are placed: each step refers to earlier joints only. The first link is the frame.
-// A step is { kind, … } as LinkageAssembly makes it; `index` is a two-valued joint's place among them.
+//   placement: {mirror, cos, sin}, dyads, input: {isLength, period},
+//   travel: {signs, start, range, circuits, continuation, coincident, arc} }
+//
+// Joints are in the order they are placed: each step refers to earlier joints only. The first link is the
+// frame. A step is { kind, … } as LinkageAssembly makes it; `index` is a two-valued joint's place among them.
 
 /** Where a joint is in a link's own frame, { joint, x, y }; undefined where it is not on it. */
 export function placeOnLink(link, joint) {
@@ -53,8 +54,9 @@ export function greatestDivisor(a, b) {
 }
 
 /**
- * The linkage without the points at its end that nothing stands on, but for a joint, as { linkage, joint }: what is asked
- * of one point of many at many inputs need not place the others. The joints before those points keep their places.
+ * The linkage without the points at its end that nothing stands on, but for a joint, as { linkage, joint }:
+ * what is asked of one point of many at many inputs need not place the others. The joints before those points
+ * keep their places.
  */
 export function linkageWithOnePoint(linkage, joint) {
   let first = linkage.joints.length;

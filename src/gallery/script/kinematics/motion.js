@@ -5,14 +5,15 @@ import { LENGTHS_TOO_EXTREME } from "./reach.js";
 import { excessOfRoute, sampledCircuit, samplerOf } from "./sampling.js";
 
 /**
- * The circuits of a linkage, sampled as `sampling` says ({ step } or { samples, spacing }, as sampling.js has it):
- * { circuits, shortfall }. The shortfall says in a sentence why it is not assembled at all, or not over the whole range
- * asked for; null where nothing is short.
+ * The circuits of a linkage, sampled as `sampling` says ({ step } or { samples, spacing }, as sampling.js has
+ * it): { circuits, shortfall }. The shortfall says in a sentence why it is not assembled at all, or not over
+ * the whole range asked for; null where nothing is short.
  *
- * A circuit is { passes, closed, count, input, pass, x, y, signs(sample), branch(sample, dyad) }: its passes (pass.js),
- * the number of samples, the input of each (degrees, continuous and never wrapped, or lengths), the pass each is on, and
- * the places of each joint in columns x[joint][sample], y[joint][sample], as the linkage is seen and placed. A branch is 1
- * left or -1 right, of the first two-valued joint or of another; at the end of a pass, that of the pass it ends.
+ * A circuit is { passes, closed, count, input, pass, x, y, signs(sample), branch(sample, dyad) }: its passes
+ * (pass.js), the number of samples, the input of each (degrees, continuous and never wrapped, or lengths),
+ * the pass each is on, and the places of each joint in columns x[joint][sample], y[joint][sample], as the
+ * linkage is seen and placed. A branch is 1 left or -1 right, of the first two-valued joint or of another; at
+ * the end of a pass, that of the pass it ends.
  */
 export function motionOf(linkage, sampling) {
   const { routes, shortfall } = routesOf(linkage);
@@ -28,6 +29,7 @@ export function motionOf(linkage, sampling) {
 
 // Whether a joint has no place at any sample.
 function isLost({ x, y, count }, joint) {
-  for (let i = 0; i < count; i++) if (Number.isFinite(x[joint][i]) && Number.isFinite(y[joint][i])) return false;
+  for (let i = 0; i < count; i++)
+    if (Number.isFinite(x[joint][i]) && Number.isFinite(y[joint][i])) return false;
   return true;
 }

@@ -1,8 +1,8 @@
 // A pass: a part of a circuit on which the input goes one way and every dyad keeps its side.
 //
-// { from, to, signs, begin, end }: the input it goes from and to, in degrees continuous along a circuit, or lengths; the
-// sides of the dyads; and both ends as { at, cos, sin, flat }, with the dyads that lie flat there, none at the end of a
-// range or a period. At a limit the direction is more exact than the angle.
+// { from, to, signs, begin, end }: the input it goes from and to, in degrees continuous along a circuit, or
+// lengths; the sides of the dyads; and both ends as { at, cos, sin, flat }, with the dyads that lie flat
+// there, none at the end of a range or a period. At a limit the direction is more exact than the angle.
 
 /** A pass between two ends. */
 export function passBetween(begin, end, signs) {

@@ -6,9 +6,10 @@ import { posesAt } from "./poses.js";
 import { smoothInput } from "./spacing.js";
 
 /**
- * The path of a joint over a circuit as { points: Float64Array [x, y, …], inputs: Float64Array, starts: [index] }: from
- * its beginning to its end, each limit once; `starts` has the place of each pass's first point, the last of the pass
- * before. No chord is further than `tolerance` (in the plane's unit) from the curve, as judged at its middle.
+ * The path of a joint over a circuit as { points: Float64Array [x, y, …], inputs: Float64Array, starts:
+ * [index] }: from its beginning to its end, each limit once; `starts` has the place of each pass's first
+ * point, the last of the pass before. No chord is further than `tolerance` (in the plane's unit) from the
+ * curve, as judged at its middle.
  */
 export function finePath(linkage, circuit, joint, tolerance) {
   const alone = linkageWithOnePoint(linkage, joint);
@@ -27,16 +28,22 @@ export function finePath(linkage, circuit, joint, tolerance) {
 
 // Places { part, at, x, y } along a pass, as many as it takes; each round halves the open chords.
 function refinedNodes(linkage, pass, joint, tolerance) {
-  // No chord spans more of a crank's turn than 3 degrees, nor more of a pass than a part in 64: a longer one may cross its
-  // curve at its middle.
+  // No chord spans more of a crank's turn than 3 degrees, nor more of a pass than a part in 64: a longer one
+  // may cross its curve at its middle.
   const [LONGEST, FEWEST, ROUNDS, MOST] = [3, 64, 24, 20000];
   const turned = linkage.input.isLength ? 0 : passLength(pass) / LONGEST;
   const chords = Math.max(FEWEST, Math.ceil(turned));
-  let nodes = placedNodes(linkage, pass, joint, Array.from({ length: chords + 1 }, (_, k) => k / chords));
+  let nodes = placedNodes(
+    linkage,
+    pass,
+    joint,
+    Array.from({ length: chords + 1 }, (_, k) => k / chords),
+  );
   nodes.forEach((node) => (node.isOpen = true));
   for (let round = 0; round < ROUNDS && nodes.length < MOST; round++) {
     const open = [];
-    for (let k = 1; k < nodes.length; k++) if (nodes[k - 1].isOpen) open.push((nodes[k - 1].part + nodes[k].part) / 2);
+    for (let k = 1; k < nodes.length; k++)
+      if (nodes[k - 1].isOpen) open.push((nodes[k - 1].part + nodes[k].part) / 2);
     if (open.length === 0) break;
     nodes = withMiddles(nodes, placedNodes(linkage, pass, joint, open), tolerance);
   }

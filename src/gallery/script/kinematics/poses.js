@@ -20,15 +20,19 @@ export function posesAt(linkage, pass, ats) {
   return columns;
 }
 
-/** All joints at one input of a pass, in degrees or as a length: Float64Array [x0, y0, x1, y1, …]; NaN where undefined. */
+/**
+ * All joints at one input of a pass, in degrees or as a length: Float64Array [x0, y0, x1, y1, …]; NaN where
+ * undefined.
+ */
 export function poseAt(linkage, pass, input) {
   const { x, y } = posesAt(linkage, pass, [input]);
   return Float64Array.from({ length: 2 * x.length }, (_, k) => (k % 2 === 0 ? x : y)[k >> 1][0]);
 }
 
 /**
- * Places, velocities and accelerations of all joints at an input of a pass, each like a pose: { place, velocity,
- * acceleration }, per radian of input or unit of length, by exact series. Infinite where a limit makes them so.
+ * Places, velocities and accelerations of all joints at an input of a pass, each like a pose: { place,
+ * velocity, acceleration }, per radian of input or unit of length, by exact series. Infinite where a limit
+ * makes them so.
  */
 export function ratesAt(linkage, pass, input) {
   const jets = jetsOnPass(linkage, pass, input);

@@ -1,5 +1,6 @@
-// Where one two-valued joint can be placed: the inputs at which its dyad is neither too short nor too long. Where a dyad
-// hangs on a point of the crank's link and on the frame, its limits are in closed form; for any other they are searched.
+// Where one two-valued joint can be placed: the inputs at which its dyad is neither too short nor too long.
+// Where a dyad hangs on a point of the crank's link and on the frame, its limits are in closed form; for any
+// other they are searched.
 
 import { stopAt } from "./columns.js";
 import { lengthTolerance, placeOnLink } from "./linkage.js";
@@ -8,8 +9,8 @@ import { askedEnd, flatEnd, intersectedSpan } from "./span.js";
 import { spansOfSwing, swingOfLength, swingOfProjection } from "./swing.js";
 
 /**
- * The parts of a span where a dyad closes, given the sides of the dyads before it: { parts, reason }, with the reason why
- * there are none. `nextId` gives the numbers of new ends.
+ * The parts of a span where a dyad closes, given the sides of the dyads before it: { parts, reason }, with
+ * the reason why there are none. `nextId` gives the numbers of new ends.
  */
 export function cutSpan(linkage, index, span, signs, nextId) {
   const dyad = dyadOf(linkage, index);
@@ -24,8 +25,9 @@ export function cutSpan(linkage, index, span, signs, nextId) {
   return { parts, reason: parts.length > 0 ? null : shortfallOfDyad(linkage, dyad, span, signs) };
 }
 
-// A two-valued joint, { joint, index, step, bounds, vanishes, swing }. Its extent, the length of its base or, of a slide,
-// how far its line runs to the left of the joint its link hangs on, must lie within its bounds for the dyad to close.
+// A two-valued joint, { joint, index, step, bounds, vanishes, swing }. Its extent, the length of its base or,
+// of a slide, how far its line runs to the left of the joint its link hangs on, must lie within its bounds
+// for the dyad to close.
 function dyadOf(linkage, index) {
   const joint = linkage.joints.findIndex(({ step }) => step.index === index && step.kind !== "directed");
   const { step } = linkage.joints[joint];
@@ -41,7 +43,8 @@ function boundsOfStep({ kind, lengths, offset, length }) {
   return kind === "slide" ? [-length, length] : [0, 0];
 }
 
-// What a piston's length can be: from where crank and frame are folded, or from nothing, to where they are stretched.
+// What a piston's length can be: from where crank and frame are folded, or from nothing, to where they are
+// stretched.
 function strokeOfPiston(linkage, { index, step }, nextId) {
   const { base, length, offset } = step;
   const [c, o] = base.map((joint) => placeOnLink(linkage.links[0], joint));
@@ -117,13 +120,14 @@ function shortfallOfDyad(linkage, dyad, span, signs) {
   if (greatest <= low && greatest <= lengthTolerance(high)) {
     return `${name} has no place: ${from} and ${to} are one point throughout`;
   }
+  const links = `links of ${l0} and ${l1}`;
   if (least >= high) {
-    return `${bases} are ${shortNumber(least)} or more apart, links of ${l0} and ${l1} reach ${shortNumber(high)}`;
+    return `${bases} are ${shortNumber(least)} or more apart, ${links} reach ${shortNumber(high)}`;
   }
   if (greatest <= low) {
-    return `${bases} are ${shortNumber(greatest)} or less apart, links of ${l0} and ${l1} need ${shortNumber(low)}`;
+    return `${bases} are ${shortNumber(greatest)} or less apart, ${links} need ${shortNumber(low)}`;
   }
-  return `${bases} are nowhere in the range at a distance that links of ${l0} and ${l1} span`;
+  return `${bases} are nowhere in the range at a distance that ${links} span`;
 }
 
 // Up to six significant digits.

@@ -1,8 +1,8 @@
 // Sampling circuits as the program does it.
 //
-// { step }: every whole multiple of a step, in degrees or units of length, and the ends of the passes. { samples }: that
-// many in the whole circuit, evenly over each pass; with { spacing: "smooth" } dense towards the limits, with
-// { spacing: "arc" } evenly along the path of the first traced joint.
+// { step }: every whole multiple of a step, in degrees or units of length, and the ends of the passes. {
+// samples }: that many in the whole circuit, evenly over each pass; with { spacing: "smooth" } dense towards
+// the limits, with { spacing: "arc" } evenly along the path of the first traced joint.
 
 import { remainderOf } from "./angles.js";
 import { inputColumns, newColumns, placeJoints, seeColumns, stopAt } from "./columns.js";
@@ -43,7 +43,15 @@ export function sampledCircuit(linkage, sampler, { passes, closed }) {
   const joints = linkage.joints.length;
   const columns = newColumns(joints, stops.length);
   runs.forEach(([first, last], k) => {
-    placeJoints(linkage, [0, joints], inputs, modesOf(passes[k].signs, 0, linkage.dyads), columns, first, last);
+    placeJoints(
+      linkage,
+      [0, joints],
+      inputs,
+      modesOf(passes[k].signs, 0, linkage.dyads),
+      columns,
+      first,
+      last,
+    );
   });
   for (const [sample, k, begins] of ends) {
     placeEnd(linkage, passes[k], begins, inputs, columns, sample);
@@ -56,8 +64,9 @@ export function sampledCircuit(linkage, sampler, { passes, closed }) {
   return { passes, closed, count, input: inputs.at, pass: Uint32Array.from(pass), x, y, signs, branch };
 }
 
-// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which of a
-// closed circuit is the end of its last pass. `ends` are [sample, pass, whether it is where the pass begins].
+// Where the samples of a route are: pass after pass, each up to and with its end; before them the start,
+// which of a closed circuit is the end of its last pass. `ends` are [sample, pass, whether it is where the
+// pass begins].
 function samplePlan(linkage, sampler, passes, closed) {
   const { input } = linkage;
   if (closed && passes.length === 1 && passes[0].begin.flat === 0 && sampler.spacing !== "arc") {
@@ -66,7 +75,12 @@ function samplePlan(linkage, sampler, passes, closed) {
     return { stops, pass: new Array(stops.length).fill(0), runs: [[0, stops.length]], ends: [] };
   }
   const last = passes.length - 1;
-  const plan = { stops: [passes[0].begin], pass: [0], runs: [], ends: [closed ? [0, last, false] : [0, 0, true]] };
+  const plan = {
+    stops: [passes[0].begin],
+    pass: [0],
+    runs: [],
+    ends: [closed ? [0, last, false] : [0, 0, true]],
+  };
   const mileages = mileagesOfRoute(linkage, sampler, passes);
   const intervals = intervalsOfPasses(sampler, passes, closed, mileages);
   passes.forEach((pass, k) => {
@@ -140,7 +154,10 @@ function intervalsOfPasses({ spacing, count }, passes, closed, mileages) {
   return shares;
 }
 
-/** The whole multiples of a step from `from` up to, not with, `to`, as the decimals say: the third of 0.1 is 0.3. */
+/**
+ * The whole multiples of a step from `from` up to, not with, `to`, as the decimals say: the third of 0.1 is
+ * 0.3.
+ */
 export function multiplesOf(step, from, to) {
   // Where the step is a decimal of up to nine places, the multiple is one division and so correctly rounded.
   const scale = Array.from({ length: 10 }, (_, d) => 10 ** d).find((s) => Math.round(step * s) / s === step);

@@ -1,14 +1,22 @@
 // Limits by search, of dyads that are not on crank and frame.
 //
-// The program has certified enclosures of the extent and its rate, by which no limit is missed, however narrow the gap.
-// Here a dense scan does, 720 pieces to a turn, refined where the extent turns near a bound, with bisection to the last
-// bit: what is missed is a gap or a window narrower than a few ten-thousandths of a turn which the rate does not betray.
+// The program has certified enclosures of the extent and its rate, by which no limit is missed, however
+// narrow the gap. Here a dense scan does, 720 pieces to a turn, refined where the extent turns near a bound,
+// with bisection to the last bit: what is missed is a gap or a window narrower than a few ten-thousandths of
+// a turn which the rate does not betray.
 
 import { placeSeries } from "./chain.js";
 import { inputColumns, newColumns, placeJoints, stopAt } from "./columns.js";
 import { placeEnd } from "./ends.js";
 import { passOfInterval } from "./pass.js";
-import { differenceOfSeries, constantSeries, planarCross, planarDifference, planarDot, planarUnit } from "./series.js";
+import {
+  differenceOfSeries,
+  constantSeries,
+  planarCross,
+  planarDifference,
+  planarDot,
+  planarUnit,
+} from "./series.js";
 import { modesOf, sideOf } from "./signs.js";
 import { endWithFlat, flatEnd, turnedEnd, turnedIntoSpan } from "./span.js";
 
@@ -96,12 +104,14 @@ function surveyOf(search) {
 
 // Extents that differ by no more than their rounding: what is within this of a bound touches it.
 function toleranceOf({ bounds: [low, high] }, extents) {
-  const greatest = extents.filter(Number.isFinite).reduce((most, extent) => Math.max(most, Math.abs(extent)), 0);
+  const greatest = extents
+    .filter(Number.isFinite)
+    .reduce((most, extent) => Math.max(most, Math.abs(extent)), 0);
   return 64 * Number.EPSILON * (Math.abs(low) + (Number.isFinite(high) ? Math.abs(high) : 0) + greatest);
 }
 
-// Inputs between neighbours of which there is one limit at most, with the extents there; and inputs at which a bound is
-// touched and not passed.
+// Inputs between neighbours of which there is one limit at most, with the extents there; and inputs at which
+// a bound is touched and not passed.
 function scanned(search) {
   const inputs = scanInputs(search);
   const extents = extentsAt(search, inputs);
@@ -120,7 +130,10 @@ function scanned(search) {
     if (found?.touch !== undefined) touched.push(found.touch);
   }
   if (turning.length === 0) return { inputs, extents, touched };
-  const all = [...inputs.map((at, i) => [at, extents[i]]), ...turning.map((at) => [at, extentsAt(search, [at])[0]])];
+  const all = [
+    ...inputs.map((at, i) => [at, extents[i]]),
+    ...turning.map((at) => [at, extentsAt(search, [at])[0]]),
+  ];
   all.sort((a, b) => a[0] - b[0]);
   return { inputs: all.map(([at]) => at), extents: all.map(([, extent]) => extent), touched };
 }
@@ -131,10 +144,13 @@ function scanInputs({ linkage, span, ends: [from, to] }) {
   const turns = linkage.input.isLength ? 1 : Math.max(1, (to - from) / 360);
   const count = Math.ceil(PIECES * Math.min(turns, 20));
   const eased = (part) => (span.lower ? (1 - Math.cos(Math.PI * part)) / 2 : part);
-  return Array.from({ length: count + 1 }, (_, k) => (k === count ? to : from + (to - from) * eased(k / count)));
+  return Array.from({ length: count + 1 }, (_, k) =>
+    k === count ? to : from + (to - from) * eased(k / count),
+  );
 }
 
-// Whether the room, least at an open place among three or greatest at a shut one, may change its sign beside it.
+// Whether the room, least at an open place among three or greatest at a shut one, may change its sign beside
+// it.
 function mayCross(before, here, after, tolerance) {
   const isOpen = here >= -tolerance;
   if (before >= -tolerance !== isOpen || after >= -tolerance !== isOpen) return false;
@@ -157,11 +173,13 @@ function lookedInto(search, [from, to], isOpen, isSeam) {
   const [start, end] = search.ends;
   const aside = 1e-5 * (end - start);
   const grows = (input) => start <= input && input <= end && roomAt(search, input) > 100 * search.tolerance;
-  const isTouch = isOpen && level !== null && room <= search.tolerance && grows(at - aside) && grows(at + aside);
+  const isTouch =
+    isOpen && level !== null && room <= search.tolerance && grows(at - aside) && grows(at + aside);
   return isTouch ? { touch: at } : null;
 }
 
-// Where the extent is least or greatest between two inputs, by bisection of its rate; null where that keeps its sign.
+// Where the extent is least or greatest between two inputs, by bisection of its rate; null where that keeps
+// its sign.
 function levelOf(search, from, to) {
   const rises = rateOfExtent(search, to) > 0;
   if (rateOfExtent(search, from) > 0 === rises) return null;

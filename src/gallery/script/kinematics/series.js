@@ -1,6 +1,6 @@
-// The beginnings of Taylor series in the input: arrays of the coefficients of 1, t, t^2 and so on. Sums, products,
-// quotients and roots are exact to their order, so that what comes out are derivatives in closed form, not differences.
-// A planar series is { x, y }.
+// The beginnings of Taylor series in the input: arrays of the coefficients of 1, t, t^2 and so on. Sums,
+// products, quotients and roots are exact to their order, so that what comes out are derivatives in closed
+// form, not differences. A planar series is { x, y }.
 
 /** The series of a constant. */
 export function constantSeries(value, terms) {
@@ -61,8 +61,8 @@ export function scaledSeries(a, by) {
 }
 
 /**
- * The root of a square that touches zero where the series begins, with the sign it has beyond; null where it goes through
- * zero. One term fewer is known of it than of the square: that one is not a number.
+ * The root of a square that touches zero where the series begins, with the sign it has beyond; null where it
+ * goes through zero. One term fewer is known of it than of the square: that one is not a number.
  */
 export function touchingRoot(square, size) {
   // A touch has no first term but rounding; at a limit that is as near one as 1e-12 it is 1e-6.

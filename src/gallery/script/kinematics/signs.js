@@ -1,5 +1,5 @@
-// The sides of all two-valued joints at once, an assembly mode, as the bits of a number: 0 is left, 1 is right. Sets of
-// them that lie flat somewhere are numbers too: bit k stands for the k-th two-valued joint.
+// The sides of all two-valued joints at once, an assembly mode, as the bits of a number: 0 is left, 1 is
+// right. Sets of them that lie flat somewhere are numbers too: bit k stands for the k-th two-valued joint.
 
 /** The side of a dyad in a mode: 1 left, -1 right. */
 export function sideOf(signs, dyad) {

@@ -4,8 +4,8 @@ import { passLength } from "./pass.js";
 import { posesAt } from "./poses.js";
 
 /**
- * The input at a part of a pass, dense towards the ends where a dyad lies flat: there a joint's place goes with the root
- * of the input, and this makes it go evenly.
+ * The input at a part of a pass, dense towards the ends where a dyad lies flat: there a joint's place goes
+ * with the root of the input, and this makes it go evenly.
  */
 export function smoothInput(pass, part) {
   const [fromFlat, toFlat] = [pass.begin.flat !== 0, pass.end.flat !== 0];
@@ -17,8 +17,8 @@ export function smoothInput(pass, part) {
 }
 
 /**
- * How far a joint has come along its path over a pass, by chords: { whole, part(share) }, the length, and the part of the
- * pass, as smoothInput takes it, at which so much of the length is behind.
+ * How far a joint has come along its path over a pass, by chords: { whole, part(share) }, the length, and the
+ * part of the pass, as smoothInput takes it, at which so much of the length is behind.
  */
 export function mileageOf(linkage, pass, joint) {
   const CHORDS = 2048;

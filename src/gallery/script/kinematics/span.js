@@ -24,7 +24,8 @@ export function turnedEnd(end, by) {
   return { ...end, at: end.at + by };
 }
 
-// Ends closer than this, in degrees or in parts of a length, are at one input: the rounding of an angle near 360.
+// Ends closer than this, in degrees or in parts of a length, are at one input: the rounding of an angle near
+// 360.
 const COINCIDENT_ENDS = 1e-12;
 
 // Whether two inputs are one but for rounding; of lengths there is no unit to compare them with.
@@ -33,18 +34,17 @@ function isOneInput(a, b, input) {
   return Math.abs(a - b) <= COINCIDENT_ENDS * Math.max(Math.abs(a), Math.abs(b), unit);
 }
 
-// Two ends at one input. Where one of them is a limit the motion turns round, and the dyads that would have gone on keep
-// their sides.
+// Two ends at one input. Where one of them is a limit the motion turns round, and the dyads that would have
+// gone on keep their sides.
 function mergedEnds(a, b) {
-  let { cause, flips } = a;
-  if (a.cause === "asked") ({ cause, flips } = b);
-  else if (a.cause === b.cause) flips = a.flips | b.flips;
-  else if (b.cause !== "asked" && a.cause !== "limit") ({ cause, flips } = { cause: "limit", flips: b.flips });
-  return { ...a, cause, flips, flat: a.flat | b.flat, bound: a.bound | b.bound };
+  const isOther = a.cause === "asked" || (b.cause === "limit" && a.cause === "change");
+  const { cause, flips } = isOther ? b : a;
+  const together = a.cause === b.cause ? a.flips | b.flips : flips;
+  return { ...a, cause, flips: together, flat: a.flat | b.flat, bound: a.bound | b.bound };
 }
 
-// The end that comes later as the input rises (`way` 1) or falls (-1); both in one where they are at one input, with the
-// number of the earlier dyad's.
+// The end that comes later as the input rises (`way` 1) or falls (-1); both in one where they are at one
+// input, with the number of the earlier dyad's.
 function laterEnd(earlierDyads, own, way, input) {
   if (isOneInput(earlierDyads.at, own.at, input)) return mergedEnds(earlierDyads, own);
   return (own.at - earlierDyads.at) * way > 0 ? own : earlierDyads;

@@ -5,8 +5,8 @@ import { lengthTolerance } from "./linkage.js";
 import { endWithFlat, flatEnd, turnedEnd } from "./span.js";
 
 /**
- * The length of a base with one end on an arm and the other fixed, `toFixed` from the arm's pivot, both [x, y]; `bounds`
- * are the least and the greatest it may be.
+ * The length of a base with one end on an arm and the other fixed, `toFixed` from the arm's pivot, both [x,
+ * y]; `bounds` are the least and the greatest it may be.
  */
 export function swingOfLength(onArm, toFixed, [low, high]) {
   const fixed = vectorLength(toFixed);
@@ -46,14 +46,17 @@ export function swingOfProjection(onArm, normal, beside, [low, high]) {
 }
 
 /**
- * The spans of the whole turn on which a dyad closes. What is compared at 0 and at 180 degrees is a sum of lengths with a
- * sum of lengths; equal within their rounding, they make a change point.
+ * The spans of the whole turn on which a dyad closes. What is compared at 0 and at 180 degrees is a sum of
+ * lengths with a sum of lengths; equal within their rounding, they make a change point.
  */
 export function spansOfSwing(swing, dyad, nextId) {
   if (swing.hope.some((hope) => hope <= swing.tolerance)) return [];
   const [fold, stretch] = swing.room.map((room) => gateOf(room, swing.tolerance));
   // The smaller of 1 - cos and 1 + cos is the exact one, and both make the sine.
-  const direction = ([minus, plus]) => [minus < plus ? 1 - minus : plus - 1, Math.sqrt(Math.max(minus * plus, 0))];
+  const direction = ([minus, plus]) => [
+    minus < plus ? 1 - minus : plus - 1,
+    Math.sqrt(Math.max(minus * plus, 0)),
+  ];
   const [inner, outer] = swing.versines.map(direction);
   const limit = ([cos, sin]) => flatEnd(stopOfSwing(swing, cos, sin), "limit", dyad, nextId());
   const change = (cos) => {
@@ -103,7 +106,8 @@ function stopOfSwing({ towards: [tx, ty] }, cos, sin) {
   return { at, cos: tx * cos - ty * sin, sin: ty * cos + tx * sin };
 }
 
-// Whether a dyad can pass the shortest or the longest its base can be: where it is touched it lies flat, and can.
+// Whether a dyad can pass the shortest or the longest its base can be: where it is touched it lies flat, and
+// can.
 function gateOf(room, tolerance) {
   if (Math.abs(room) <= tolerance) return "touched";
   return room > 0 ? "open" : "shut";

@@ -55,14 +55,16 @@ function placedJoints(assembly, joint, made, values) {
   };
   const at = (base) => base.map((k) => made[k][0]);
   const one = (k) => made[k][0];
-  if (joint.fixed) return [assembly.fixed(name, [finite("the x", joint.fixed[0]), finite("the y", joint.fixed[1])])];
+  if (joint.fixed)
+    return [assembly.fixed(name, [finite("the x", joint.fixed[0]), finite("the y", joint.fixed[1])])];
   if ("crank" in joint) return [assembly.crank(name, one(joint.crank), number(joint.length))];
   if ("gear" in joint) {
     const phase = finite("`phase`", joint.phase);
     return [assembly.gear(name, one(joint.about), number(joint.length), joint.ratio.map(number), phase)];
   }
   const offset = () => finite("`offset`", joint.offset);
-  if (joint.piston) return [assembly.piston(name, at(joint.piston), number(joint.length), offset(), joint.side)];
+  if (joint.piston)
+    return [assembly.piston(name, at(joint.piston), number(joint.length), offset(), joint.side)];
   if (joint.dyad) return [assembly.dyad(name, at(joint.dyad), joint.lengths.map(number), joint.side)];
   if ("slide" in joint) {
     const [from, length] = [one(joint.slide), number(joint.length)];
@@ -74,10 +76,13 @@ function placedJoints(assembly, joint, made, values) {
   }
   if (joint.slot) return [assembly.slot(name, at(joint.slot), offset(), joint.side)];
   if (joint.parallelogram) return [assembly.parallelogram(name, at(joint.parallelogram))];
-  if (joint.distances) return [assembly.distances(name, at(joint.point), joint.distances.map(number), joint.side)];
+  if (joint.distances)
+    return [assembly.distances(name, at(joint.point), joint.distances.map(number), joint.side)];
   const across = coordinateValues(joint.across, number);
   return coordinateValues(joint.along, number).flatMap((along) =>
-    across.map((to) => assembly.point(name, at(joint.point), finite("`along`", along), finite("`across`", to))),
+    across.map((to) =>
+      assembly.point(name, at(joint.point), finite("`along`", along), finite("`across`", to)),
+    ),
   );
 }
 

@@ -1,22 +1,23 @@
 // The narrowest ring between two circles about one centre that holds a row of points, as far as it is known:
-// { x, y, radius, width }, the centre, the radius halfway between the circles and how far they are apart. Rows of points are
-// arrays x and y, from `first` up to, not with, `last`.
+// { x, y, radius, width }, the centre, the radius halfway between the circles and how far they are apart.
+// Rows of points are arrays x and y, from `first` up to, not with, `last`.
 
 import { exchangedTurns } from "./exchange.js";
 
 /**
- * The narrowest ring of a row of at least four points, which lie on an arc of a circle or nearly so, whose radius is no
- * more than `largest`; null as soon as it must be wider than `most`, and done as soon as it is known to be no wider.
- * `turns` is { four, three } of another row much like this, or empty; the points are those of this afterwards.
+ * The narrowest ring of a row of at least four points, which lie on an arc of a circle or nearly so, whose
+ * radius is no more than `largest`; null as soon as it must be wider than `most`, and done as soon as it is
+ * known to be no wider. `turns` is { four, three } of another row much like this, or empty; the points are
+ * those of this afterwards.
  *
- * Its circles go through four of the points by turns, outer and inner: of any four the ring is no wider than that of all,
- * and four are exchanged for others until it is no narrower.
+ * Its circles go through four of the points by turns, outer and inner: of any four the ring is no wider than
+ * that of all, and four are exchanged for others until it is no narrower.
  */
 export function ringWithin(x, y, first, last, turns, most, largest) {
   const free = freeRing(x, y, first, last, turns, most);
   if (!free || free.radius <= largest) return free;
-  // The row is flatter than the largest circle, which touches it best somewhere between its ends. About a point in the
-  // middle the centre is turned to where the ring is narrowest: three points tell.
+  // The row is flatter than the largest circle, which touches it best somewhere between its ends. About a
+  // point in the middle the centre is turned to where the ring is narrowest: three points tell.
   const middle = first + ((last - first) >> 1);
   const row = oneWay(x, y, first, last);
   const end = row.last - 1;
@@ -65,11 +66,13 @@ function guessedTurns(x, y, first, last) {
   const end = last - first - 1;
   const part = (by, of) => first + Math.floor((by * end) / of);
   const square = (k) => (x[k] - x[first]) * (x[k] - x[first]) + (y[k] - y[first]) * (y[k] - y[first]);
-  // Where a polynomial of the third degree has its extremes: the first guess is good. Of a row that goes nearly round the
-  // ends are nearly one point, and tell the less.
+  // Where a polynomial of the third degree has its extremes: the first guess is good. Of a row that goes
+  // nearly round the ends are nearly one point, and tell the less.
   const isRound = square(last - 1) < square(first + (end >> 1)) / 4;
   const quarter = Math.floor(end / 4);
-  const four = isRound ? [1, 3, 5, 7].map((k) => part(k, 8)) : [first, first + quarter, last - 1 - quarter, last - 1];
+  const four = isRound
+    ? [1, 3, 5, 7].map((k) => part(k, 8))
+    : [first, first + quarter, last - 1 - quarter, last - 1];
   // A row that goes there and back on one arc has pairs of points in one place.
   return ringThrough(x, y, four) ? four : [1, 6, 11, 17].map((k) => part(k, 20));
 }
@@ -106,7 +109,8 @@ function oneWay(x, y, first, last) {
   return { x: order.map((k) => x[k]), y: order.map((k) => y[k]), first: 0, last: order.length };
 }
 
-// The circles through the first and third of four points, and through the second and fourth; null where there are none.
+// The circles through the first and third of four points, and through the second and fourth; null where there
+// are none.
 function ringThrough(x, y, [a, b, c, d]) {
   // The centre is as far from the one as from the other of each pair.
   const [ux, uy, vx, vy] = [x[c] - x[a], y[c] - y[a], x[d] - x[b], y[d] - y[b]];
@@ -123,7 +127,8 @@ function ringAbout(x, y, cx, cy, a, b) {
   return { x: cx, y: cy, radius: (ra + rb) / 2, width: Math.abs(ra - rb) };
 }
 
-// The narrowest ring of a row of points, by some of them that are by turns on its two circles, which go `through` those.
+// The narrowest ring of a row of points, by some of them that are by turns on its two circles, which go
+// `through` those.
 function exchangedRing(x, y, first, last, turns, most, through) {
   const ROUNDS = 24;
   let ring = through(x, y, turns);

@@ -1,11 +1,11 @@
-// A curve between its samples: about each, the polynomial of the fourth degree, in the length of the chords, through it
-// and two on either side.
+// A curve between its samples: about each, the polynomial of the fourth degree, in the length of the chords,
+// through it and two on either side.
 
 import { sampleAfter } from "./trail.js";
 
 /**
- * The point at a place on a trail, in samples from the first, and the input there: [x, y, input]. Round a closed curve; on
- * that a place may be a little less than nothing.
+ * The point at a place on a trail, in samples from the first, and the input there: [x, y, input]. Round a
+ * closed curve; on that a place may be a little less than nothing.
  */
 export function pointOfTrail(trail, place) {
   const { count: n, x, y, inputs, turn, bends, sharp } = trail;
@@ -30,7 +30,11 @@ export function pointOfTrail(trail, place) {
   if (sharp[i]) bend = bends[next];
   else if (sharp[next]) bend = bends[i];
   const height = Math.min(Math.max((bend * chord * part * (1 - part)) / 2, -0.2), 0.2);
-  const straight = [x[i] + sx * part + sy * height, y[i] + sy * part - sx * height, inputs[i] + (input - inputs[i]) * part];
+  const straight = [
+    x[i] + sx * part + sy * height,
+    y[i] + sy * part - sx * height,
+    inputs[i] + (input - inputs[i]) * part,
+  ];
   // About the sample that is nearer, by the length of the chords; halfway the one goes over into the other.
   const over = Math.min(Math.max((part - 0.25) * 2, 0), 1);
   const before = over < 1 ? pointAbout(trail, i, part * chord, inputs[i], straight, chord) : null;
@@ -43,9 +47,10 @@ export function pointOfTrail(trail, place) {
   return found;
 }
 
-// The point and the input so far along the chords from a sample. Where the path turns back its samples on the other side
-// do not tell of it; and where they lie too unevenly, a polynomial through them strays further from their chord than a
-// curve that is known by its samples does: then it is the point on the arc over the chord.
+// The point and the input so far along the chords from a sample. Where the path turns back its samples on the
+// other side do not tell of it; and where they lie too unevenly, a polynomial through them strays further
+// from their chord than a curve that is known by its samples does: then it is the point on the arc over the
+// chord.
 function pointAbout(trail, k, u, from, straight, chord) {
   const near = nearSample(trail, k);
   if (!near || !near.isSmooth) return [straight[0], straight[1], straight[2]];
@@ -59,7 +64,10 @@ function pointAbout(trail, k, u, from, straight, chord) {
   return isClose ? [px, py, input] : [straight[0], straight[1], straight[2]];
 }
 
-/** The point at a place and how far the input has gone, there and back, from the first sample to it: [x, y, travelled]. */
+/**
+ * The point at a place and how far the input has gone, there and back, from the first sample to it: [x, y,
+ * travelled].
+ */
 export function arrivedAtPlace(trail, place) {
   const { count: n, travel, inputs } = trail;
   if (place < 0) {
@@ -99,7 +107,10 @@ export function curvatureNear(trail, i) {
   });
 }
 
-/** How far a point near a sample is from the curve there, positive to the left, and the curve's normal: [off, nx, ny]. */
+/**
+ * How far a point near a sample is from the curve there, positive to the left, and the curve's normal: [off,
+ * nx, ny].
+ */
 export function offsetFromTrail(trail, px, py, i) {
   const near = nearSample(trail, i);
   if (!near) return null;
@@ -170,9 +181,16 @@ function newtonPowers(values, s) {
 
 // The place, from the sample, and its first two derivatives.
 function derivativesNear({ x, y }, u) {
-  const [p, v, a] = [[0, 0], [0, 0], [0, 0]];
+  const [p, v, a] = [
+    [0, 0],
+    [0, 0],
+    [0, 0],
+  ];
   for (let n = 4; n >= 0; n--) {
-    for (const [k, c] of [[0, x[n]], [1, y[n]]]) {
+    for (const [k, c] of [
+      [0, x[n]],
+      [1, y[n]],
+    ]) {
       a[k] = a[k] * u + v[k] * 2;
       v[k] = v[k] * u + p[k];
       p[k] = p[k] * u + c;

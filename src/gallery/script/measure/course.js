@@ -1,16 +1,17 @@
 // A curve, or a piece of one, as a row of points between which portions of it are looked for.
 //
-// A place on it is a number: place 2.5 is between points 2 and 3. A closed curve is gone round twice, so that a portion
-// that goes over its first point is a row of points too.
+// A place on it is a number: place 2.5 is between points 2 and 3. A closed curve is gone round twice, so that
+// a portion that goes over its first point is a row of points too.
 
 import { arrivedAtPlace, pointOfTrail } from "./between.js";
 import { bendThrough } from "./trail.js";
 
 /**
- * The whole of a trail as a course, by its samples or, where they are few, more points: { trail, first, apart, x, y,
- * travel, way, count, starts, isClosed, longestChord }: where its first point is among the trail's samples and how far its
- * points are apart there; the points; how far the input has gone, there and back, at each; the way by chords up to each;
- * at how many points a portion may begin; and whether it goes on at its first point after its last.
+ * The whole of a trail as a course, by its samples or, where they are few, more points: { trail, first,
+ * apart, x, y, travel, way, count, starts, isClosed, longestChord }: where its first point is among the
+ * trail's samples and how far its points are apart there; the points; how far the input has gone, there and
+ * back, at each; the way by chords up to each; at how many points a portion may begin; and whether it goes on
+ * at its first point after its last.
  */
 export function courseOfTrail(trail) {
   const POINTS = 360;
@@ -40,7 +41,19 @@ function sampledCourse(trail, first, apart, count) {
     longestChord = Math.max(longestChord, chord);
     way[k] = way[k - 1] + chord;
   }
-  return { trail, first, apart, x, y, travel, way, count, starts: Math.max(count - 1, 0), isClosed: false, longestChord };
+  return {
+    trail,
+    first,
+    apart,
+    x,
+    y,
+    travel,
+    way,
+    count,
+    starts: Math.max(count - 1, 0),
+    isClosed: false,
+    longestChord,
+  };
 }
 
 // Closes the row, and goes round a second time.
@@ -131,8 +144,8 @@ export function portionOfCourse(course, [from, to]) {
 }
 
 /**
- * The place a span of input after another; null where there is none. Where it is asked only roughly, the last point that
- * is not beyond it.
+ * The place a span of input after another; null where there is none. Where it is asked only roughly, the last
+ * point that is not beyond it.
  */
 export function placeAfterInput(course, from, wanted, isRough = false) {
   const { isClosed, starts, travel } = course;
@@ -148,10 +161,14 @@ export function placeAfterInput(course, from, wanted, isRough = false) {
   const beyond = firstBeyond(travel, first, last, start + span);
   if (beyond > last) return null;
   const low = Math.max(beyond - 1, from);
-  return isRough ? low : placeOfValue(low, beyond, (place) => spannedInput(course, [0, place]) - start - span);
+  return isRough
+    ? low
+    : placeOfValue(low, beyond, (place) => spannedInput(course, [0, place]) - start - span);
 }
 
-/** The first place a distance away from another; null where there is none; roughly, the last point before it. */
+/**
+ * The first place a distance away from another; null where there is none; roughly, the last point before it.
+ */
 export function placeAfterLength(course, from, length, isRough = false) {
   const { isClosed, starts, x, y } = course;
   if (isClosed && from >= starts) {
@@ -176,7 +193,8 @@ export function placeAfterLength(course, from, length, isRough = false) {
   return isRough ? low : placeOfValue(low, to, distance);
 }
 
-// The first of the places from `first` to `last` at which a rising row comes to a value; one more where none does.
+// The first of the places from `first` to `last` at which a rising row comes to a value; one more where none
+// does.
 function firstBeyond(row, first, last, value) {
   let [low, high] = [first, last + 1];
   while (low < high) {
@@ -187,7 +205,8 @@ function firstBeyond(row, first, last, value) {
   return low;
 }
 
-// Where a function goes from below nothing to nothing or more between two places: by secants that keep it between them.
+// Where a function goes from below nothing to nothing or more between two places: by secants that keep it
+// between them.
 function placeOfValue(from, to, f) {
   let [low, high, below, above] = [from, to, f(from), f(to)];
   if (below >= 0) return low;
@@ -203,8 +222,8 @@ function placeOfValue(from, to, f) {
 }
 
 /**
- * No more than the width of the narrowest strip of the portion between two points: that of a circle which bends as little
- * as any part of it does.
+ * No more than the width of the narrowest strip of the portion between two points: that of a circle which
+ * bends as little as any part of it does.
  */
 export function bendBetween(course, [from, to]) {
   let [least, left] = [Infinity, 0];
@@ -220,7 +239,9 @@ export function bendBetween(course, [from, to]) {
 /** The points at which a course bends less than at their neighbours, the straightest first. */
 export function flattestPoints(course) {
   const { starts: n, count, isClosed } = course;
-  const bends = Array.from({ length: Math.min(n, count - 1) + 1 }, (_, k) => Math.abs(bendOfCourse(course, k)));
+  const bends = Array.from({ length: Math.min(n, count - 1) + 1 }, (_, k) =>
+    Math.abs(bendOfCourse(course, k)),
+  );
   const found = [];
   for (let k = 0; k < n; k++) {
     const before = k > 0 ? bends[k - 1] : bends[isClosed ? n - 1 : 1];

@@ -16,7 +16,8 @@ export function crossingsOfTrail(trail) {
       const j = order[m];
       if (next[i] === j || next[j] === i) continue;
       const crossing = crossingOfChords(trail, i, next[i], j, next[j]);
-      if (crossing && crossesAt(trail, [i, j], next, crossing.parts)) found.push([Math.min(i, j), crossing.at]);
+      if (crossing && crossesAt(trail, [i, j], next, crossing.parts))
+        found.push([Math.min(i, j), crossing.at]);
     }
   }
   found.sort((a, b) => a[0] - b[0]);
@@ -25,13 +26,14 @@ export function crossingsOfTrail(trail) {
   const places = [];
   for (const [, at] of found) {
     // A sample that the curve goes through twice is the end of four chords.
-    if (places.every((other) => Math.hypot(other[0] - at[0], other[1] - at[1]) > 1e-9 * size)) places.push(at);
+    if (places.every((other) => Math.hypot(other[0] - at[0], other[1] - at[1]) > 1e-9 * size))
+      places.push(at);
   }
   return places;
 }
 
-// Where two chords cross, and what part of each is before that. One that ends on the other counts as to its left, so that
-// a crossing at a sample counts once.
+// Where two chords cross, and what part of each is before that. One that ends on the other counts as to its
+// left, so that a crossing at a sample counts once.
 function crossingOfChords({ x, y }, a, b, c, d) {
   const [ux, uy, vx, vy] = [x[b] - x[a], y[b] - y[a], x[d] - x[c], y[d] - y[c]];
   const isLeftOfFirst = (p) => ux * (y[p] - y[a]) - uy * (x[p] - x[a]) >= 0;
@@ -44,8 +46,8 @@ function crossingOfChords({ x, y }, a, b, c, d) {
   return Number.isFinite(parts[0]) ? { at: [x[a] + ux * parts[0], y[a] + uy * parts[0]], parts } : null;
 }
 
-// Whether the curve goes through the crossing of two chords in two directions. Where it goes there and back on one path,
-// as a rocker's pin does, chords of that path cross too.
+// Whether the curve goes through the crossing of two chords in two directions. Where it goes there and back
+// on one path, as a rocker's pin does, chords of that path cross too.
 function crossesAt({ x, y, bends }, chords, next, parts) {
   const [a, b] = chords.map((i, k) => {
     const [dx, dy] = [x[next[i]] - x[i], y[next[i]] - y[i]];

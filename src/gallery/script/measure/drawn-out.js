@@ -5,13 +5,14 @@ import { clampedPlaces } from "./course.js";
 const GOLDEN_SECTION = 0.6180339887498949;
 
 /**
- * The size and the ends, { size, ends }, of a portion whose ends are moved, by a point at most, to where it is largest and
- * still fits; null where nothing fits. What begins at a place is asked how it fits up to some ends: beginning(start) is a
- * function of an end that tells { size, excess }, by how much it does not fit, none where that is not positive.
+ * The size and the ends, { size, ends }, of a portion whose ends are moved, by a point at most, to where it
+ * is largest and still fits; null where nothing fits. What begins at a place is asked how it fits up to some
+ * ends: beginning(start) is a function of an end that tells { size, excess }, by how much it does not fit,
+ * none where that is not positive.
  */
 export function drawnOut(course, ends, beginning) {
-  // Golden sections of the two points between which it begins: to a tenth of the way between points. How near to its
-  // furthest its end is taken, by the way between points, on the way and at last.
+  // Golden sections of the two points between which it begins: to a tenth of the way between points. How near
+  // to its furthest its end is taken, by the way between points, on the way and at last.
   const [ROUNDS, ROUGHLY, FINELY] = [6, 1e-2, 1e-5];
   const fit = beginning(ends[0])(ends[1]);
   const whole = fit.excess <= 0 ? { size: fit.size, ends } : null;
@@ -45,8 +46,9 @@ export function drawnOut(course, ends, beginning) {
   return found && (!whole || found.size > whole.size) ? found : whole;
 }
 
-// The furthest end, of those between two, up to which a portion fits, and its size there, { end, size }; where none does,
-// the end at which it fits best, and for its size by how much it does not, less than nothing.
+// The furthest end, of those between two, up to which a portion fits, and its size there, { end, size };
+// where none does, the end at which it fits best, and for its size by how much it does not, less than
+// nothing.
 function furthestEnd(near, [from, to], fit) {
   let [low, high] = [from, to];
   let first = fit(low);

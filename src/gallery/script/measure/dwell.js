@@ -1,9 +1,10 @@
-// The best circular arc of a curve: where a link from the coupler point to the arc's centre would let its far end dwell.
+// The best circular arc of a curve: where a link from the coupler point to the arc's centre would let its far
+// end dwell.
 //
-// A portion is such an arc if it lies in a ring between two circles about one centre no wider than 0.001 of the curve's
-// greatest extent, about a circle of a radius no larger than the curve is long. Of all the one that spans the most input is
-// the best. What fits a ring fits with any part of it, so that it is found by moving both ends along the curve once, and
-// then between its points.
+// A portion is such an arc if it lies in a ring between two circles about one centre no wider than 0.001 of
+// the curve's greatest extent, about a circle of a radius no larger than the curve is long. Of all the one
+// that spans the most input is the best. What fits a ring fits with any part of it, so that it is found by
+// moving both ends along the curve once, and then between its points.
 
 import { ringRound, ringWithin } from "./annulus.js";
 import { clampedPlaces, lastOfCourse, placeOnCourse, portionOfCourse, spannedInput } from "./course.js";
@@ -11,26 +12,38 @@ import { drawnOut } from "./drawn-out.js";
 import { diameterOfHull, hullOfPoints } from "./hull.js";
 
 /**
- * The best circular portion of a course: { x, y, radius, deviation, start, input }, the centre and the radius of its
- * circle, the greatest distance of its points from that, the input at which it begins and how much it spans, there and back
- * over limits; null of a point or a straight line.
+ * The best circular portion of a course: { x, y, radius, deviation, start, input }, the centre and the radius
+ * of its circle, the greatest distance of its points from that, the input at which it begins and how much it
+ * spans, there and back over limits; null of a point or a straight line.
  */
 export function circularPortion(course) {
   const TOLERANCE = 0.001;
   const corners = hullOfPoints(course.x, course.y, 0, Math.min(course.starts + 1, course.count));
-  const search = { course, width: TOLERANCE * diameterOfHull(corners), largest: course.way[course.starts], fitting: [] };
+  const search = {
+    course,
+    width: TOLERANCE * diameterOfHull(corners),
+    largest: course.way[course.starts],
+    fitting: [],
+  };
   const ends = longestArc(search);
   if (!ends) return null;
   const { x, y } = portionOfCourse(course, ends);
-  // On a long arc the exchange of points may end at a ring that is not the narrowest: then the portion has a better one, by
-  // which it was found to fit.
+  // On a long arc the exchange of points may end at a ring that is not the narrowest: then the portion has a
+  // better one, by which it was found to fit.
   const anew = ringWithin(x, y, 0, x.length, {}, Infinity, search.largest);
   const known = search.fitting.findLast((other) => other.ends[0] === ends[0] && other.ends[1] === ends[1]);
   const before = known ? ringRound(x, y, 0, x.length, known.ring.x, known.ring.y) : null;
   const ring = anew && before ? (before.width < anew.width ? before : anew) : (anew ?? before);
   if (!ring) return null;
   const start = placeOnCourse(course, ends[0])[2];
-  return { x: ring.x, y: ring.y, radius: ring.radius, deviation: ring.width / 2, start, input: spannedInput(course, ends) };
+  return {
+    x: ring.x,
+    y: ring.y,
+    radius: ring.radius,
+    deviation: ring.width / 2,
+    start,
+    input: spannedInput(course, ends),
+  };
 }
 
 function longestArc(search) {
@@ -88,7 +101,9 @@ function longestArcByPoints({ course, width, largest }) {
   for (let from = 0; from < course.starts; from++) {
     const beyond = endBeyond(course, from, best);
     if (beyond < 0) continue;
-    const to = furthestPoint([beyond, lastOfCourse(course, from)], (end) => fitsRing(course, [from, end], width, largest));
+    const to = furthestPoint([beyond, lastOfCourse(course, from)], (end) =>
+      fitsRing(course, [from, end], width, largest),
+    );
     if (to >= 0) [best, found] = [course.travel[to] - course.travel[from], [from, to]];
   }
   return found;
@@ -98,8 +113,8 @@ function fitsRing({ x, y }, [from, to], most, largest) {
   return ringWithin(x, y, from, to + 1, {}, most, largest);
 }
 
-// The ends, between points, of a portion that spans a little more than `span` and lies in the narrowest ring of those: as
-// every portion from point to point that fits spans no more, this one comes nearest to it.
+// The ends, between points, of a portion that spans a little more than `span` and lies in the narrowest ring
+// of those: as every portion from point to point that fits spans no more, this one comes nearest to it.
 function nearestToLonger({ course, largest }, span) {
   let [narrowest, found] = [Infinity, null];
   for (let from = 0; from < course.starts; from++) {
@@ -110,7 +125,8 @@ function nearestToLonger({ course, largest }, span) {
   return found;
 }
 
-// The first point that portions from another may end at which span more than some input; -1 where there is none.
+// The first point that portions from another may end at which span more than some input; -1 where there is
+// none.
 function endBeyond(course, from, span) {
   // Fewer points lie on a circle, or nearly so, whatever the curve does between them.
   const FEW = 5;
@@ -125,8 +141,8 @@ function endBeyond(course, from, span) {
   return low <= last ? low : -1;
 }
 
-// The furthest of some places up to which something holds, in longer and longer steps, and then between the last two; -1
-// where it does not at the first.
+// The furthest of some places up to which something holds, in longer and longer steps, and then between the
+// last two; -1 where it does not at the first.
 function furthestPoint([first, last], holds) {
   if (!holds(first)) return -1;
   let [low, step] = [first, 1];

@@ -1,9 +1,9 @@
-// The equation of a coupler curve, a polynomial of the sixth degree (Samuel Roberts; Natesan 6.5 and 7.1 with the sign of
-// y^2 put right), in the frame with its origin at the crank's pivot and x towards the rocker's.
+// The equation of a coupler curve, a polynomial of the sixth degree (Samuel Roberts; Natesan 6.5 and 7.1 with
+// the sign of y^2 put right), in the frame with its origin at the crank's pivot and x towards the rocker's.
 
 /**
- * The equation for a point [along, left] of the coupler: coefficients c[i][j] of x^i y^j, that of x^6 being 1; null for the
- * pins, which go on circles.
+ * The equation for a point [along, left] of the coupler: coefficients c[i][j] of x^i y^j, that of x^6 being
+ * 1; null for the pins, which go on circles.
  */
 export function couplerEquation({ frame, crank, coupler, rocker }, [ux, uy]) {
   const vx = ux - coupler;
@@ -30,7 +30,9 @@ export function couplerEquation({ frame, crank, coupler, rocker }, [ux, uy]) {
   return scaledPolynomial(equation, 1 / equation[6][0]);
 }
 
-/** The left side of the equation at a point, the sum of its terms' magnitudes, and the length of its gradient. */
+/**
+ * The left side of the equation at a point, the sum of its terms' magnitudes, and the length of its gradient.
+ */
 export function equationAt(equation, x, y) {
   const ladder = (value) => {
     const powers = [1];

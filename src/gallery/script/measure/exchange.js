@@ -1,10 +1,10 @@
-// One point in for another, where the best line, strip or ring is known by a few points that it touches by turns
-// (de la Vallée Poussin, Remez).
+// One point in for another, where the best line, strip or ring is known by a few points that it touches by
+// turns (de la Vallée Poussin, Remez).
 
 /**
- * Points by turns on the one side and on the other, in order, with one of them exchanged for a new point that is further
- * out than they: for a neighbour on the same side, or else for the one at the other end. `isLike(k)` tells whether the
- * k-th of them is on the side of the new point.
+ * Points by turns on the one side and on the other, in order, with one of them exchanged for a new point that
+ * is further out than they: for a neighbour on the same side, or else for the one at the other end.
+ * `isLike(k)` tells whether the k-th of them is on the side of the new point.
  */
 export function exchangedTurns(turns, fresh, isLike) {
   const n = turns.length;

@@ -4,9 +4,9 @@ import { passRange } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 
 /**
- * The least and the greatest value over a circuit of a quantity of the pose: quantity(at), with at(joint) -> [x, y], of
- * joints that something stands on. By its samples, and then by parabolas between them: an extreme is as flat as it is
- * smooth, and what a parabola misses of its place is missed twice over in its value.
+ * The least and the greatest value over a circuit of a quantity of the pose: quantity(at), with at(joint) ->
+ * [x, y], of joints that something stands on. By its samples, and then by parabolas between them: an extreme
+ * is as flat as it is smooth, and what a parabola misses of its place is missed twice over in its value.
  */
 export function extremesOver(linkage, circuit, quantity) {
   const values = Float64Array.from({ length: circuit.count }, (_, i) =>
@@ -25,7 +25,11 @@ export function extremesOver(linkage, circuit, quantity) {
     let least = sign * values[best];
     for (const pass of circuit.passes) {
       const three = inputsAbout(circuit, pass, best);
-      if (three) least = Math.min(least, leastByParabolas((input) => sign * at(pass, input), ...three));
+      if (three)
+        least = Math.min(
+          least,
+          leastByParabolas((input) => sign * at(pass, input), ...three),
+        );
     }
     return sign * least;
   });
@@ -48,7 +52,8 @@ function inputsAbout(circuit, pass, best) {
   return [beside(-1), here, beside(1)];
 }
 
-// The least value of a function about a place where it is less than at both ends, by parabolas through three places.
+// The least value of a function about a place where it is less than at both ends, by parabolas through three
+// places.
 function leastByParabolas(f, from, middle, to) {
   const ROUNDS = 8;
   let [a, b, c] = [from, middle, to];

@@ -7,7 +7,8 @@
 export function hullOfPoints(px, py, first, last) {
   const order = [];
   for (let i = first; i < last; i++) order.push(i);
-  // Points of a nearly straight portion are in order along x or y already, and sorting them again costs little.
+  // Points of a nearly straight portion are in order along x or y already, and sorting them again costs
+  // little.
   const [ex, ey] = [px[last - 1] - px[first], py[last - 1] - py[first]];
   if (Math.abs(ex) >= Math.abs(ey)) order.sort((a, b) => px[a] - px[b] || py[a] - py[b]);
   else order.sort((a, b) => py[a] - py[b] || px[b] - px[a]);

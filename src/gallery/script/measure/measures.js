@@ -14,14 +14,17 @@ import { areaOfTrail, inflectionsOfTrail, lengthOfTrail, trailOf } from "./trail
 import { outputSwing, timeRatio, transmissionRange } from "./transmission.js";
 
 /**
- * The measures of a joint's curve on a circuit, { name: number | string }; those that do not apply are absent.
+ * The measures of a joint's curve on a circuit, { name: number | string }; those that do not apply are
+ * absent.
  *
- * @param asked { straight: { tolerance | input | length } }, what is asked of the straight portion (a tolerance of 0.001
- *   where nothing is)
+ * @param asked { straight: { tolerance | input | length }, portions }: what is asked of the straight portion (a
+ *   tolerance of 0.001 where nothing is); without `portions` (false) the straight and the circular portion are
+ *   left out, which take the most of the time
  */
 export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
   const subject = subjectOf(linkage, motion, circuit, joint);
-  const { trail, fourBar } = subject;
+  const { trail } = subject;
+  const portions = asked.portions === false ? {} : portionMeasures(subject, asked.straight ?? {});
   const found = {
     ...fourBarMeasures(subject),
     ...inputMeasures(circuit),
@@ -31,16 +34,27 @@ export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
     ...shapeMeasures(subject),
     ...symmetryMeasures(subject),
     speed_ratio: speedRatioOf(subject),
-    ...portionMeasures(subject, asked.straight ?? {}),
+    ...portions,
   };
-  for (const name of Object.keys(found)) if (found[name] === null || Number.isNaN(found[name])) delete found[name];
-  return fourBar ? { ...found, [`is_${fourBar.class.replaceAll("-", "_")}`]: 1 } : found;
+  const applies = ([, value]) => value !== null && !Number.isNaN(value);
+  return Object.fromEntries(Object.entries(found).filter(applies));
 }
 
-/** What measures are taken of: a joint on a circuit of a linkage's motion, with its trail, made once for all of them. */
+/**
+ * What measures are taken of: a joint on a circuit of a linkage's motion, with its trail, made once for all
+ * of them.
+ */
 export function subjectOf(linkage, motion, circuit, joint) {
   const trail = trailOf(circuit, joint, linkage.input);
-  return { linkage, motion, circuit, joint, trail, fourBar: fourBarOf(linkage), alone: linkageWithOnePoint(linkage, joint) };
+  return {
+    linkage,
+    motion,
+    circuit,
+    joint,
+    trail,
+    fourBar: fourBarOf(linkage),
+    alone: linkageWithOnePoint(linkage, joint),
+  };
 }
 
 function fourBarMeasures({ linkage, circuit, fourBar }) {

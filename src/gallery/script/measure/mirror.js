@@ -1,4 +1,5 @@
-// A line that a curve may be symmetrical about, { through: [x, y], along: [x, y] of length 1 }, and how nearly it is.
+// A line that a curve may be symmetrical about, { through: [x, y], along: [x, y] of length 1 }, and how
+// nearly it is.
 
 import { cosSinOfDegrees, degreesOf, remainderOf } from "../kinematics/angles.js";
 import { distanceToChord } from "../kinematics/path.js";
@@ -26,9 +27,10 @@ export function mirroredPoint({ through, along }, x, y) {
 }
 
 /**
- * The axis that a curve is symmetrical about if it is about any, by the moments of its length; null where moments of up to
- * the third order tell of none, as of a circle. An axis is a principal axis of the second moments, and moments of an odd
- * order across it vanish; where the second are the same every way, those of the third order tell.
+ * The axis that a curve is symmetrical about if it is about any, by the moments of its length; null where
+ * moments of up to the third order tell of none, as of a circle. An axis is a principal axis of the second
+ * moments, and moments of an odd order across it vanish; where the second are the same every way, those of
+ * the third order tell.
  */
 export function axisByMoments(trail) {
   // What is less than this part of what it might be is taken for nothing.
@@ -82,8 +84,8 @@ function momentsOfTrail(trail) {
 }
 
 /**
- * How far the mirror image of a curve is from it: the greatest distance of mirrored samples, no fewer than ninety of them
- * where there are so many, from the lines between all.
+ * How far the mirror image of a curve is from it: the greatest distance of mirrored samples, no fewer than
+ * ninety of them where there are so many, from the lines between all.
  */
 export function roughMirrorDistance(trail, axis) {
   const ENOUGH = 90;
@@ -112,8 +114,8 @@ function distanceToNeighbours(trail, px, py, i) {
 }
 
 /**
- * The axis about which a nearly symmetrical curve is most nearly so, in the mean of the squares, and how far the image is
- * from the curve there at most, { axis, most }; of a given axis only the latter.
+ * The axis about which a nearly symmetrical curve is most nearly so, in the mean of the squares, and how far
+ * the image is from the curve there at most, { axis, most }; of a given axis only the latter.
  */
 export function fineMirror(trail, begun, isGiven) {
   const [ROUNDS, STRIDE] = [3, 4];
@@ -144,12 +146,16 @@ export function fineMirror(trail, begun, isGiven) {
     if (det <= 1e-12 * a * c) continue;
     const [shift, turn] = [(b * v - c * u) / det, (b * u - a * v) / det];
     const through = [0, 1].map((k) => axis.through[k] + across[k] * shift);
-    axis = mirrorAxis(through, [0, 1].map((k) => axis.along[k] + across[k] * turn)) ?? axis;
+    axis =
+      mirrorAxis(
+        through,
+        [0, 1].map((k) => axis.along[k] + across[k] * turn),
+      ) ?? axis;
   }
 }
 
-// A function of a point and a guess that tells the nearest sample: along the curve from the guess, and then by boxes round
-// samples that follow one another, by which most are seen not to be nearer.
+// A function of a point and a guess that tells the nearest sample: along the curve from the guess, and then
+// by boxes round samples that follow one another, by which most are seen not to be nearer.
 function nearestSamples({ x, y, count }) {
   const IN_BOX = 16;
   const boxes = [];

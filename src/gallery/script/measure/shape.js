@@ -31,16 +31,25 @@ function isNearLimit({ trail, circuit }, i) {
 }
 
 function flatInputs({ passes }) {
-  return passes.flatMap(({ begin, end }) => [begin, end]).filter(({ flat }) => flat !== 0).map(({ at }) => at);
+  return passes
+    .flatMap(({ begin, end }) => [begin, end])
+    .filter(({ flat }) => flat !== 0)
+    .map(({ at }) => at);
 }
 
 // The greatest extent in a direction between a sample and its neighbours, by the poses there.
 function posedExtent({ trail, circuit, alone }, [dx, dy], top) {
   let most = -Infinity;
-  for (const [from, to] of [[sampleAfter(trail, top, -1), top], [top, sampleAfter(trail, top, 1)]]) {
+  for (const [from, to] of [
+    [sampleAfter(trail, top, -1), top],
+    [top, sampleAfter(trail, top, 1)],
+  ]) {
     if (from < 0 || to < 0) continue;
     // The way to a sample has the sides that it has itself, be it the end of a pass.
-    const [low, high] = [Math.min(trail.inputs[from], trail.inputs[to]), Math.max(trail.inputs[from], trail.inputs[to])];
+    const [low, high] = [
+      Math.min(trail.inputs[from], trail.inputs[to]),
+      Math.max(trail.inputs[from], trail.inputs[to]),
+    ];
     const signs = circuit.signs(trail.samples[to]);
     const pass = circuit.passes.find((other) => {
       const [first, last] = passRange(other);
@@ -119,7 +128,8 @@ export function sharpestBend(subject, cusps) {
   let [a, b] = inputsBeside(subject, sample);
   const here = circuit.input[sample];
   // At a limit the path bends as it does elsewhere, but its rates do not tell.
-  if (flatInputs(circuit).some((at) => Math.abs(at - here) <= Math.abs(b - a))) return curvatureNear(trail, sharpest);
+  if (flatInputs(circuit).some((at) => Math.abs(at - here) <= Math.abs(b - a)))
+    return curvatureNear(trail, sharpest);
   const at = (input) => speedAndCurvature(subject, sample, input)[1];
   // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.
   for (let round = 0; round < 18; round++) {
@@ -132,8 +142,8 @@ export function sharpestBend(subject, cusps) {
 }
 
 /**
- * The longest dash to the shortest: the first 3 of every 5 degrees of input, from input 0, without those that a pass's end
- * cuts. Null of what is driven by a length, or has no dashes.
+ * The longest dash to the shortest: the first 3 of every 5 degrees of input, from input 0, without those that
+ * a pass's end cuts. Null of what is driven by a length, or has no dashes.
  */
 export function speedRatioOf({ linkage, circuit, alone }) {
   const [PERIOD, DRAWN, PLACES] = [5, 3, 5];
@@ -158,12 +168,13 @@ export function speedRatioOf({ linkage, circuit, alone }) {
   return greatest > 0 ? greatest / least : null;
 }
 
-// What chords miss of an arc is a quarter for chords half as long, but for the fourth power of their length: of three
-// degrees, less than a millionth.
+// What chords miss of an arc is a quarter for chords half as long, but for the fourth power of their length:
+// of three degrees, less than a millionth.
 function dashLength(x, y, begin, chords) {
   const by = (step) => {
     let length = 0;
-    for (let i = begin; i < begin + chords; i += step) length += Math.hypot(x[i + step] - x[i], y[i + step] - y[i]);
+    for (let i = begin; i < begin + chords; i += step)
+      length += Math.hypot(x[i + step] - x[i], y[i + step] - y[i]);
     return length;
   };
   return (4 * by(1) - by(2)) / 3;

@@ -1,13 +1,13 @@
 // The straightest portion of a curve.
 //
-// A portion lies in a strip, the narrowest band between two parallel lines that holds it. Its length is that of its
-// projection on that band's line, and its deviation half the band's width.
+// A portion lies in a strip, the narrowest band between two parallel lines that holds it. Its length is that
+// of its projection on that band's line, and its deviation half the band's width.
 //
-// Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. What fits a strip of
-// some width fits with any part of it, so that the longest portion for a given width is found by moving both ends along
-// the curve once; the width allowed goes with the length found, begun with the curve's whole extent. It, and whatever
-// might come to be longer, is then drawn out between the points, a short one among many more. A portion may go over
-// sample 0 of a closed curve, and over limits.
+// Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. What
+// fits a strip of some width fits with any part of it, so that the longest portion for a given width is found
+// by moving both ends along the curve once; the width allowed goes with the length found, begun with the
+// curve's whole extent. It, and whatever might come to be longer, is then drawn out between the points, a
+// short one among many more. A portion may go over sample 0 of a closed curve, and over limits.
 
 import {
   bendBetween,
@@ -34,8 +34,8 @@ const FEW_POINTS = 8;
 const LOOSER_PART = 1.02;
 
 /**
- * The straight portion asked for, { tolerance | input | length }, of a course: { length, deviation, start, input, x, y },
- * with its points; null where there is none so long.
+ * The straight portion asked for, { tolerance | input | length }, of a course: { length, deviation, start,
+ * input, x, y }, with its points; null where there is none so long.
  */
 export function straightPortion(course, asked) {
   let ends;
@@ -47,7 +47,14 @@ export function straightPortion(course, asked) {
   if (!ends) return null;
   const { x, y } = portionOfCourse(course, ends);
   const { width, length } = stripOfPoints(x, y, 0, x.length);
-  return { length, deviation: width / 2, start: placeOnCourse(course, ends[0])[2], input: spannedInput(course, ends), x, y };
+  return {
+    length,
+    deviation: width / 2,
+    start: placeOnCourse(course, ends[0])[2],
+    input: spannedInput(course, ends),
+    x,
+    y,
+  };
 }
 
 // The ends of the longest portion anywhere.
@@ -56,12 +63,16 @@ function longestOfAll(search) {
   const RIVALS = 2;
   const { course } = search;
   const flattest = () =>
-    longerOf(...flattestPoints(course).slice(0, RIVALS + 1).map((k) => longestAbout(search, k)));
+    longerOf(
+      ...flattestPoints(course)
+        .slice(0, RIVALS + 1)
+        .map((k) => longestAbout(search, k)),
+    );
   const byPoints = longestByPoints(search, LOOSER_PART);
   if (!byPoints) return flattest()?.ends ?? null;
   const { ends: found, width } = byPoints;
-  // So few points say little: they may only be far apart. Likelier is a portion where the curve is flattest, or one of
-  // more points that is shorter than those seem.
+  // So few points say little: they may only be far apart. Likelier is a portion where the curve is flattest,
+  // or one of more points that is shorter than those seem.
   if (found[1] - found[0] < FEW_POINTS) {
     const byMore = longestByPoints({ ...search, least: FEW_POINTS }, LOOSER_PART);
     const more = byMore && refinedPortion(search, byMore.ends, STRAIGHT_DEPTH);
@@ -106,7 +117,8 @@ function longestAbout(search, point) {
   return found;
 }
 
-// The points at the ends of the longest portion, for a part of the tolerance, and the width no portion may have more of.
+// The points at the ends of the longest portion, for a part of the tolerance, and the width no portion may
+// have more of.
 function longestByPoints(search, part) {
   const { course } = search;
   const { x, y, count, longestChord } = course;
@@ -127,7 +139,8 @@ function longestByPoints(search, part) {
   }
 }
 
-// The points at the ends of the longest portion in a strip of some width; part of it may be upon another portion.
+// The points at the ends of the longest portion in a strip of some width; part of it may be upon another
+// portion.
 function longestWithin({ course, least }, width, upon) {
   const { starts, way, count } = course;
   const order = [];
@@ -146,7 +159,8 @@ function longestWithin({ course, least }, width, upon) {
   return found;
 }
 
-// The end and the length of the longest portion from a point, in a strip of some width, if it is longer than `best`.
+// The end and the length of the longest portion from a point, in a strip of some width, if it is longer than
+// `best`.
 function longestFrom(course, [from, begun], width, longest) {
   const last = lastOfCourse(course, from);
   let [to, best, found] = [begun, longest, null];
@@ -234,7 +248,8 @@ function drawnOutStrip({ course, tolerance }, ends) {
   const [from, to] = clampedPlaces(course, ends);
   const core = portionOfCourse(course, [from + 1, to - 1]);
   // What is passed on the way out is in the portion too.
-  const passed = (end, inner) => [0, 1 / 3, 2 / 3].map((part) => placeOnCourse(course, end + part * (inner - end)));
+  const passed = (end, inner) =>
+    [0, 1 / 3, 2 / 3].map((part) => placeOnCourse(course, end + part * (inner - end)));
   const beginning = (start) => {
     const before = passed(start, from + 1);
     const x = [...before.map((p) => p[0]), ...core.x];

@@ -1,11 +1,13 @@
-// The straightest portion of a given span or length: of those that begin at points of a course, and then between them.
+// The straightest portion of a given span or length: of those that begin at points of a course, and then
+// between them.
 
 import { clampedPlaces, portionOfCourse } from "./course.js";
 import { heightOfTriangle, stripOfPoints } from "./strip.js";
 
 /**
- * The ends of the portion with the narrowest strip, of those that begin anywhere on a course and end where `endAfter(from)`
- * has it, null where it has none; endAfter(from, true) is the last point that is not beyond that.
+ * The ends of the portion with the narrowest strip, of those that begin anywhere on a course and end where
+ * `endAfter(from)` has it, null where it has none; endAfter(from, true) is the last point that is not beyond
+ * that.
  */
 export function straightestEnds(course, endAfter) {
   const RIVALS = 3;
@@ -31,8 +33,9 @@ export function straightestEnds(course, endAfter) {
   return Number.isFinite(best.width) ? [best.from, endAfter(best.from)] : null;
 }
 
-// The widths of portions from each point. One of which three points show that it is wider than the narrowest so far need
-// not be measured; widely spaced ones are first, for the sooner something narrow is found, the more is spared.
+// The widths of portions from each point. One of which three points show that it is wider than the narrowest
+// so far need not be measured; widely spaced ones are first, for the sooner something narrow is found, the
+// more is spared.
 function widthsAtPoints(course, endAfter, width) {
   const STRIDE = 16;
   const { x, y, starts, count } = course;

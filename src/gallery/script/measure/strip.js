@@ -1,6 +1,6 @@
-// The narrowest band between two parallel lines that holds some points, { width, length, along }: across, how far the
-// points reach along it, and the direction it runs in. Rows of points are arrays x and y, from `first` up to, not with,
-// `last`.
+// The narrowest band between two parallel lines that holds some points, { width, length, along }: across, how
+// far the points reach along it, and the direction it runs in. Rows of points are arrays x and y, from
+// `first` up to, not with, `last`.
 
 import { exchangedTurns } from "./exchange.js";
 import { hullOfPoints } from "./hull.js";
@@ -11,9 +11,9 @@ export function stripOfPoints(x, y, first, last) {
 }
 
 /**
- * Of a row of points that goes one way in the main; null, perhaps, if it is wider than `most`. One edge goes through two
- * of three points, and the other through the one between: three are exchanged for others until no point is outside. Begun
- * with `three`, which are those of the strip afterwards.
+ * Of a row of points that goes one way in the main; null, perhaps, if it is wider than `most`. One edge goes
+ * through two of three points, and the other through the one between: three are exchanged for others until no
+ * point is outside. Begun with `three`, which are those of the strip afterwards.
  */
 export function stripOfRow(x, y, first, last, three, most) {
   // Of wider strips, by their length, the narrowest may go through other points.

@@ -1,9 +1,10 @@
 // Whether a curve is symmetrical, and about which line.
 //
-// Two theorems of chapter 7 of Natesan's thesis tell of four-bars whose coupler curves are. Theorem 1: crank and rocker are
-// equal, and the coupler point is as far from the one pin as from the other; the axis is the perpendicular bisector of the
-// frame. Theorem 2: coupler, rocker and the way from the rocker's pin to the coupler point are equal; the axis goes through
-// the rocker's pivot (7.8). The same holds with crank and rocker exchanged. Of any other curve the axis is looked for.
+// Two theorems of chapter 7 of Natesan's thesis tell of four-bars whose coupler curves are. Theorem 1: crank
+// and rocker are equal, and the coupler point is as far from the one pin as from the other; the axis is the
+// perpendicular bisector of the frame. Theorem 2: coupler, rocker and the way from the rocker's pin to the
+// coupler point are equal; the axis goes through the rocker's pivot (7.8). The same holds with crank and
+// rocker exchanged. Of any other curve the axis is looked for.
 
 import { cognatesOf } from "../kinematics/cognates.js";
 import { isOnCoupler } from "../kinematics/four-bar.js";
@@ -17,19 +18,24 @@ import { sagittaOfTrail } from "./trail.js";
 export const SYMMETRY_NEAR = 1e-4;
 
 /**
- * Whether a subject's curve is symmetrical: { axis, residual, theorem }, the line (mirror.js) about which it is, or most
- * nearly so, null of a circle; the greatest distance of its mirror image from it by its greatest extent; and the theorem
- * that says so, or null. Null of a point.
+ * Whether a subject's curve is symmetrical: { axis, residual, theorem }, the line (mirror.js) about which it
+ * is, or most nearly so, null of a circle; the greatest distance of its mirror image from it by its greatest
+ * extent; and the theorem that says so, or null. Null of a point.
  */
 export function symmetryOf(subject) {
-  // A theorem's curve that is no nearer to its image than this, by its extent, is the image of another circuit's.
+  // A theorem's curve that is no nearer to its image than this, by its extent, is the image of another
+  // circuit's.
   const APART = 0.1;
   const { trail, fourBar } = subject;
   const extent = trail.count < 3 ? 0 : diameterOfHull(hullOfPoints(trail.x, trail.y, 0, trail.count));
   if (!(extent > 0)) return null;
   const told = symmetryByTheorem(subject);
-  // Of a linkage with two circuits each may be the mirror image of the other: not so where it is roughly its own.
-  if (told && (fourBar.class === "triple-rocker" || roughMirrorDistance(trail, told.axis) <= APART * extent)) {
+  // Of a linkage with two circuits each may be the mirror image of the other: not so where it is roughly its
+  // own.
+  if (
+    told &&
+    (fourBar.class === "triple-rocker" || roughMirrorDistance(trail, told.axis) <= APART * extent)
+  ) {
     const most = mirrorDistanceByEquation(subject, told.axis) ?? fineMirror(trail, told.axis, true).most;
     return { axis: told.axis, residual: most / extent, theorem: told.theorem };
   }
@@ -87,7 +93,8 @@ function symmetryByTheorem({ linkage, circuit, joint, fourBar }) {
   }
   if (!second) return null;
   const { pivot, other, pin } = second;
-  // The angle from the pin to the point about the pivot is the same in every pose: taken where both are far from it.
+  // The angle from the pin to the point about the pivot is the same in every pose: taken where both are far
+  // from it.
   const seen = (k) => [place(pin, k), place(joint, k)].map(([x, y]) => [x - pivot[0], y - pivot[1]]);
   let [best, reach] = [0, -Infinity];
   for (let k = 0; k < circuit.count; k++) {

@@ -1,15 +1,16 @@
 // A curve as the row of its samples, and what is known of it between them.
 //
-// Between two samples the curve is taken for an arc of the circle that bends as the curve does at both; a circle itself is
-// measured exactly, and any smooth curve to the fourth order of the distance of its samples. That holds over limits too,
-// where the curve goes on smoothly though the input turns.
+// Between two samples the curve is taken for an arc of the circle that bends as the curve does at both; a
+// circle itself is measured exactly, and any smooth curve to the fourth order of the distance of its samples.
+// That holds over limits too, where the curve goes on smoothly though the input turns.
 
 /**
- * The trail of a joint on a circuit: { x, y, samples, inputs, count, closed, turn, travel, bends, sharp, intervals, nears }:
- * the samples that have a place, the number of each in its circuit and its input; whether the last is followed by the
- * first, and how much the input has changed after once round; how far the input has gone, there and back, up to each
- * sample and then to the first again; the signed curvature at each, of the circle through it and its neighbours; whether
- * the path turns sharply about it; how many intervals there are between samples; and room for what between.js finds.
+ * The trail of a joint on a circuit: { x, y, samples, inputs, count, closed, turn, travel, bends, sharp,
+ * intervals, nears }: the samples that have a place, the number of each in its circuit and its input; whether
+ * the last is followed by the first, and how much the input has changed after once round; how far the input
+ * has gone, there and back, up to each sample and then to the first again; the signed curvature at each, of
+ * the circle through it and its neighbours; whether the path turns sharply about it; how many intervals there
+ * are between samples; and room for what between.js finds.
  */
 export function trailOf(circuit, joint, { isLength }) {
   const [x, y] = [circuit.x[joint], circuit.y[joint]];
@@ -42,7 +43,8 @@ function travelOfTrail(inputs, closed, turn) {
   const travel = new Float64Array(count + 1);
   for (let i = 1; i < count; i++) travel[i] = travel[i - 1] + Math.abs(inputs[i] - inputs[i - 1]);
   // An open curve goes no further than its last sample.
-  if (count > 0) travel[count] = travel[count - 1] + (closed ? Math.abs(inputs[0] + turn - inputs[count - 1]) : 0);
+  if (count > 0)
+    travel[count] = travel[count - 1] + (closed ? Math.abs(inputs[0] + turn - inputs[count - 1]) : 0);
   return travel;
 }
 
@@ -88,7 +90,10 @@ export function chordAfter(trail, i) {
   return Math.sqrt(dx * dx + dy * dy);
 }
 
-/** The arcs from each sample to the next: { length, area }, the area between arc and chord, positive to the left. */
+/**
+ * The arcs from each sample to the next: { length, area }, the area between arc and chord, positive to the
+ * left.
+ */
 export function arcsOfTrail(trail) {
   trail.arcs ??= Array.from({ length: trail.intervals }, (_, i) => arcAfter(trail, i));
   return trail.arcs;
@@ -98,7 +103,8 @@ function arcAfter(trail, i) {
   const next = sampleAfter(trail, i, 1);
   const chord = chordAfter(trail, i);
   const bend = (trail.bends[i] + trail.bends[next]) / 2;
-  // The sine of half the arc's angle. Where the samples are too far apart for their bend, at a cusp, the chord does.
+  // The sine of half the arc's angle. Where the samples are too far apart for their bend, at a cusp, the
+  // chord does.
   const sine = (bend * chord) / 2;
   if (Math.abs(sine) > 0.5 || chord === 0) return { length: chord, area: 0 };
   const square = sine * sine;
@@ -138,7 +144,10 @@ export function topOfTrail({ x, y, count }, [dx, dy]) {
   return best;
 }
 
-/** How often the curve begins to bend the other way. Where it is straight, or turns sharply, its samples do not tell. */
+/**
+ * How often the curve begins to bend the other way. Where it is straight, or turns sharply, its samples do
+ * not tell.
+ */
 export function inflectionsOfTrail({ x, y, count, bends, sharp, closed }) {
   let size = 0;
   for (let i = 0; i < count; i++) size = Math.max(size, Math.hypot(x[i] - x[0], y[i] - y[0]));

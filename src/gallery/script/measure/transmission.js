@@ -11,7 +11,8 @@ export function transmissionRange(linkage, circuit, fourBar) {
   const { frame, crank, coupler, rocker, joints } = fourBar;
   const { o, a, b, c } = joints;
   if (!linkage.seenFrom) {
-    // By the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the frame line.
+    // By the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the
+    // frame line.
     const range = pinDistances(linkage, circuit, [o, a, c], [frame, crank]);
     return range.map((side) => oppositeAngle(side, coupler, rocker));
   }
@@ -30,8 +31,8 @@ export function transmissionRange(linkage, circuit, fourBar) {
 
 // The angle opposite a side of a triangle, in degrees; exactly 0 or 180 where it is flat.
 function oppositeAngle(side, x, y) {
-  // Half the angle has sine and cosine by the factors of Heron's formula. At a limit they are zero but for the rounding of
-  // the places the side is taken from.
+  // Half the angle has sine and cosine by the factors of Heron's formula. At a limit they are zero but for
+  // the rounding of the places the side is taken from.
   const rounding = 4 * lengthTolerance(side + x + y);
   const clear = (gap) => (Math.abs(gap) <= rounding ? 0 : gap);
   const sine = clear(side - Math.abs(x - y)) * (side + Math.abs(x - y));
@@ -58,14 +59,18 @@ function pinDistances(linkage, circuit, [o, a, c], [frame, crank]) {
     if (d < least) least = d;
     if (d > greatest) greatest = d;
   }
-  return [isReached(towards) ? Math.abs(frame - crank) : least, isReached(towards + 180) ? frame + crank : greatest];
+  return [
+    isReached(towards) ? Math.abs(frame - crank) : least,
+    isReached(towards + 180) ? frame + crank : greatest,
+  ];
 }
 
 /** The angle the output link swings through over a circuit, in degrees; 360 where it turns round. */
 export function outputSwing(linkage, circuit, { joints: { b, c } }) {
   const { x, y, count, closed } = circuit;
   const arm = (i) => [x[b][i] - x[c][i], y[b][i] - y[c][i]];
-  const angle = (from, to) => degreesOf(Math.atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]));
+  const angle = (from, to) =>
+    degreesOf(Math.atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]));
   // How far it has turned at each sample, from the first; and over the whole, back to where it began.
   let [turned, low, high] = [0, 0, 0];
   for (let i = 1; i < count; i++) {
@@ -85,7 +90,10 @@ export function outputSwing(linkage, circuit, { joints: { b, c } }) {
   return greatest - least;
 }
 
-/** The crank angle of the rocker's slower stroke to that of its faster one; null but of a crank-rocker that turns. */
+/**
+ * The crank angle of the rocker's slower stroke to that of its faster one; null but of a crank-rocker that
+ * turns.
+ */
 export function timeRatio(linkage, circuit, { frame, crank, coupler, rocker, type }) {
   const turns = circuit.closed && circuit.passes.length === 1;
   if (linkage.seenFrom || type !== "crank-rocker" || !turns) return null;
