@@ -151,6 +151,17 @@ export class CurveForward {
     this.desk.app.say(readingInWords(this.at, this.solved).map((row) => row.join(" ")).join(", "));
   }
 
+  /** The zoom has changed: the curve is as fine as it asks for, and what is read stands where the point is now. */
+  zoomed() {
+    if (this.curve === null) return;
+    const solved = this.solve(this.curve);
+    if (solved !== this.solved) {
+      this.solved = solved;
+      this.desk.overlay.show(this.pathOf(this.curve));
+    }
+    this.place();
+  }
+
   /** Puts the point and what is read there where the zoom has them. */
   place() {
     const { desk, at } = this;
@@ -160,18 +171,22 @@ export class CurveForward {
     desk.overlay.point([x, y], 4 / desk.zoom.scale);
     const rows = readingInWords(at, this.solved).map(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
     fill(desk.reading, h("dl", {}, rows));
-    desk.reading.hidden = false;
-    // Outside of the curve, where there is room.
-    const beside = (place, size, room, isBefore) => {
-      const [before, after] = [place - 16 - size, place + 16];
-      return isBefore ? (before < 0 ? after : before) : (after + size > room ? before : after);
-    };
-    const { offsetWidth, offsetHeight } = desk.reading;
     const { clientWidth, clientHeight } = desk.viewport;
-    const left = beside(desk.zoom.x + desk.zoom.scale * x, offsetWidth, clientWidth, 2 * x < box[0] + box[2] - 1);
-    const top = beside(desk.zoom.y + desk.zoom.scale * y, offsetHeight, clientHeight, 2 * y < box[1] + box[3]);
+    const [across, down] = [desk.zoom.x + desk.zoom.scale * x, desk.zoom.y + desk.zoom.scale * y];
+    desk.reading.hidden = across < 0 || down < 0 || across > clientWidth || down > clientHeight;
+    if (desk.reading.hidden) return;
+    const { offsetWidth, offsetHeight } = desk.reading;
+    const left = besidePoint(across, offsetWidth, clientWidth, 2 * x < box[0] + box[2] - 1);
+    const top = besidePoint(down, offsetHeight, clientHeight, 2 * y < box[1] + box[3]);
     desk.reading.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
   }
+}
+
+/** Where something of a size stands beside a point, before or after it as is wished, if there is room. */
+function besidePoint(at, size, room, isBefore) {
+  const [before, after] = [at - 16 - size, at + 16];
+  if (isBefore) return before < 0 ? after : before;
+  return after + size > room ? before : after;
 }
 
 function solvedOrNull(family, curve, tolerance) {

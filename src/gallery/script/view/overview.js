@@ -8,6 +8,8 @@ import { pageThumbnail } from "./thumbnail-page.js";
 
 // With so many families or more they can be searched by name.
 const MANY_FAMILIES = 8;
+// Fewer than these have room to be shown large.
+const FEW_FAMILIES = 4;
 
 /** The room with all families. */
 export const overviewRoom = {
@@ -19,7 +21,7 @@ export const overviewRoom = {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
     const sight = whenSeen((tile) => showFirstPage(app, tiles.get(tile), tile));
-    const list = h("ul", { class: "families" }, [...tiles.keys()]);
+    const list = h("ul", { class: families.length < FEW_FAMILIES ? "families few" : "families" }, [...tiles.keys()]);
     return {
       title: "",
       element: h(

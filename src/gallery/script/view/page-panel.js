@@ -17,7 +17,7 @@ export function curvesPanel(family, page, drawn, { onenter, onleave }) {
   return h(
     "div",
     { class: "panel" },
-    h("h2", {}, one ? captionOf(family, drawn[0].curve) : drawn.length ? sum : "No curves to point at"),
+    h("h2", {}, one ? captionOf(family, drawn[0].curve) : drawn.length ? sum : family.layout === "chart" ? "A chart" : "No curves"),
     one ? h("p", { class: "note" }, sum) : null,
     drawn.length ? null : h("p", { class: "note" }, family.layout === "chart" ? curvesOfChart(family) : "Nothing is drawn on this page."),
     h("ol", { class: "page-curves" }, [...links.values()].map((link) => h("li", {}, link))),
@@ -27,7 +27,7 @@ export function curvesPanel(family, page, drawn, { onenter, onleave }) {
 
 function curvesOfChart(family) {
   return [
-    "A chart of ",
+    "Of ",
     h("a", { href: address([family.id], { show: "curves" }) }, `${family.curves.count} curves`),
     ", which are not drawn on it.",
   ];
@@ -126,7 +126,7 @@ function parameterFacts(family, cell) {
   if (told.length === 0) return null;
   return [
     h("h3", {}, "Parameters"),
-    h("dl", { class: "facts parameters" }, told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))])),
+    h("dl", { class: "facts page-parameters" }, told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))])),
   ];
 }
 
@@ -136,7 +136,7 @@ export function measureFacts(atlas, family, curve) {
   const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
   return [
     h("h3", {}, "Measures"),
-    h("dl", { class: "facts measures" }, told.map(([{ name, definition }, text]) => [
+    h("dl", { class: "facts page-measures" }, told.map(([{ name, definition }, text]) => [
       h("dt", { title: definition }, measureInWords(name), h("span", { class: "unseen" }, `: ${definition}`)),
       h("dd", {}, text),
     ])),

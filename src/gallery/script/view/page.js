@@ -31,8 +31,13 @@ function keysInWords() {
   return h(
     "p",
     { class: "note no-print page-keys", id: "page-keys" },
-    "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
-    "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
+    h(
+      "span",
+      { class: "by-keys" },
+      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
+      "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
+    ),
+    h("span", { class: "by-touch" }, "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate."),
   );
 }
 
@@ -212,7 +217,7 @@ class PageDesk {
 
   zoomed() {
     this.tell();
-    this.forward.place();
+    this.forward.zoomed();
     window.clearTimeout(this.remembering);
     this.remembering = window.setTimeout(() => this.remember(), 400);
   }

@@ -7,7 +7,7 @@ import { countsOf, sourceOf } from "./overview.js";
 import { pageInWords } from "./page-cells.js";
 import { captionInType } from "./page-words.js";
 import { notAssembledSummary } from "./sheet-facts.js";
-import { windowedTiles } from "./sheet-window.js";
+import { TileWindow } from "./sheet-window.js";
 import { sizeInWords } from "./shell-footer.js";
 import { pageThumbnail } from "./thumbnail-page.js";
 import { thumbnail } from "./thumbnail.js";
@@ -107,7 +107,7 @@ function pageJump(family, listed) {
 
 function pageTiles(app, family, listed) {
   const { width, height } = family.paper;
-  return windowedTiles({
+  return new TileWindow({
     count: listed.pages,
     least: listed.pages < 4 ? 340 : 230,
     gap: 20,
@@ -121,7 +121,7 @@ function pageTiles(app, family, listed) {
         "a",
         { href: address([family.id, k + 1]) },
         h("span", { class: "leaf" }),
-        h("span", { class: "label" }, h("b", {}, `${k + 1}`), " ", captionInType(pageInWords(family, k + 1))),
+        h("span", { class: "label" }, h("span", { class: "unseen" }, "Page "), h("b", {}, `${k + 1}`), " ", captionInType(pageInWords(family, k + 1))),
       ),
     ),
     draw: (element, k) => element.querySelector(".leaf").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
@@ -130,7 +130,7 @@ function pageTiles(app, family, listed) {
 
 function curveTiles(family) {
   const { count, cell } = family.curves;
-  return windowedTiles({
+  return new TileWindow({
     count,
     least: 132,
     gap: 16,

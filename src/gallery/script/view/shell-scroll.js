@@ -2,7 +2,7 @@
 
 /**
  * The memory of a window's history: `leave()` notes how far down the present entry is and takes up the next, `arrive()`
- * goes where that one was left, or to the top of a new one; `stay()` after a change of address that changes no view.
+ * goes where that one was left, or to the top of a new one, but for views that go to a goal of their own (`data-goal`).
  */
 export function scrollMemory() {
   const depths = new Map();
@@ -25,6 +25,5 @@ export function scrollMemory() {
       if (depth !== undefined) window.scrollTo(0, depth);
       else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
     },
-    stay: () => {},
   };
 }

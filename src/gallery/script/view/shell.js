@@ -82,45 +82,40 @@ function roomShower(app, rooms, { main, ways, scroll }) {
     app.say(sentence);
     fill(main, h("p", { class: "trouble", role: "alert" }, sentence, " ", h("a", { href: address([]) }, "All families")));
   };
+  const enter = (room, view) => {
+    shown = { room, view };
+    entitle(view.title);
+    fill(main, view.element);
+    view.shown?.();
+    scroll.arrive();
+    // The first view takes the focus only if it wants to; and where there is something to look at, it has it already.
+    if (turn === 1) return;
+    if (!main.contains(document.activeElement)) main.focus({ preventScroll: true });
+    app.say(view.title || app.atlas.title);
+  };
   return async () => {
     const place = parsedAddress(window.location.hash);
     const room = rooms.find((candidate) => candidate.opens(place, app));
     scroll.leave();
     if (shown && shown.room === room && shown.view.update?.(place)) {
       entitle(shown.view.title);
-      scroll.stay();
       return;
     }
     turn += 1;
     const mine = turn;
-    const isFirst = turn === 1;
+    // What was there rests, and is seen until there is something in its place.
     shown?.view.leave?.();
     shown = null;
     ways.mark(room);
-    if (!room) {
-      trouble("There is nothing at this address.");
-      return;
-    }
     const waiting = window.setTimeout(() => {
       main.setAttribute("aria-busy", "true");
       app.say("Opening");
     }, OPENING_PATIENCE);
     try {
+      if (!room) throw new Error("There is nothing at this address.");
       const view = await room.view(app, place);
-      if (mine !== turn) {
-        view.leave?.();
-        return;
-      }
-      shown = { room, view };
-      entitle(view.title);
-      fill(main, view.element);
-      view.shown?.();
-      scroll.arrive();
-      if (!isFirst) {
-        // Where an address says what is to be looked at, the view has gone there itself.
-        if (!main.contains(document.activeElement)) main.focus({ preventScroll: true });
-        app.say(view.title || app.atlas.title);
-      }
+      if (mine === turn) enter(room, view);
+      else view.leave?.();
     } catch (error) {
       if (mine === turn) trouble(error.message);
     } finally {
