@@ -336,7 +336,7 @@ const tests = [
       const scene = page.getByRole("img", { name: "The linkage on its curve" });
       const summary = await page.locator(`#${await scene.getAttribute("aria-describedby")}`).textContent();
       assert.match(summary, /four-bar/);
-      assert.equal(await page.locator(".plate [aria-live], .plate output").count(), 0, "live values chatter");
+      assert.equal(await page.locator(".plate-split :is([aria-live], output)").count(), 0, "live values chatter");
       for (const text of [".plate .note", ".plate .lede", ".input-now", ".measures .definition", ".changed-tag", ".origin dt"]) {
         assert.ok((await contrastOf(page.locator(text).first())) >= 4.5, `${text} in ${colorScheme}`);
       }

@@ -3,7 +3,7 @@
 import { measured } from "../../data/family.js";
 import { stretchOfCircuit } from "../../draw/band.js";
 import { dashData, dashesOfPeriod } from "../../draw/dashes.js";
-import { polylineData } from "../../draw/path-data.js";
+import { gridOfSize, polylineData } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/paper-view.js";
 
 // More other points than this are drawn by fewer of their samples.
@@ -15,23 +15,24 @@ export function dashPeriod(family, { linkage, circuit }) {
   return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
 }
 
-/** Path data { dashes, lead, others, band } of a study's curve, its path, and the stretch of its straight portion. */
-export function pathsOfStudy(family, study, path, stretch) {
+/** Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its straight portion. */
+export function pathsOfStudy(family, study, path, stretch, isRough = false) {
   const { circuit, others } = study;
-  const isMany = others.length > MANY_POINTS;
+  const grid = gridOfSize(study.size);
+  const stride = others.length > MANY_POINTS ? (isRough ? 4 : 2) : 1;
   return {
     dashes: dashData(path, dashesOfPeriod(dashPeriod(family, study))),
     lead: polylineData(path.points),
-    others: others.map((joint) => sampledData(circuit, joint, isMany ? 2 : 1)).join(""),
+    others: others.map((joint) => sampledData(circuit, joint, stride, grid)).join(""),
     band: stretch ? polylineData(stretch.points) : "",
   };
 }
 
-function sampledData({ x, y, count, closed }, joint, stride) {
+function sampledData({ x, y, count, closed }, joint, stride, grid) {
   const points = [];
   for (let i = 0; i < count; i += stride) points.push(x[joint][i], y[joint][i]);
   if (closed) points.push(x[joint][0], y[joint][0]);
-  return polylineData(points, { digits: 5 });
+  return polylineData(points, { grid });
 }
 
 /**

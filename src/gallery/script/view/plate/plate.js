@@ -122,7 +122,8 @@ export class Plate {
 
   // Makes the study of what is changed now; one that cannot be assembled leaves the last that could in view.
   #restudy(fineness) {
-    const study = studyOf(this.family, this.curve, this.changes, this.asked);
+    const isRough = fineness > FINE_PATH;
+    const study = studyOf(this.family, this.curve, this.changes, this.asked, isRough);
     this.sliders.show(changeableParameters(this.family, this.family.curves.cell[this.curve], this.trace, this.changes));
     this.reason = study.reason ?? null;
     this.stage.impossible(this.reason);
@@ -136,9 +137,8 @@ export class Plate {
     this.poser = new Poser(study.linkage);
     this.alone = linkageWithOnePoint(study.linkage, study.joint);
     this.path = pathOfStudy(study, fineness);
-    const isRough = fineness > FINE_PATH;
     this.stretch = this.#stretch(isRough);
-    this.stage.show(study, pathsOfStudy(this.family, study, this.path, this.stretch));
+    this.stage.show(study, pathsOfStudy(this.family, study, this.path, this.stretch, isRough));
     this.overlays.show(study, this.on, isRough);
     this.transport.show(study, routeTitle(study.linkage, study.routes[study.shown]));
     this.dial.show(study);

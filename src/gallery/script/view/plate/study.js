@@ -22,23 +22,24 @@ const STUDY_SAMPLES = 240;
  *
  * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names, `shown` that
  * of the one that is shown, which is `asked` where there is one; -1 where there is none. `circuit` is `shown`, sampled;
- * `joint` the traced one, `others` the further traced ones. `box` is what the linkage sweeps.
+ * `joint` the traced one, `others` the further traced ones. `box` is what the linkage sweeps. A rough study of a circuit
+ * that was not asked for knows no other circuits.
  */
-export function studyOf(family, curve, changes, asked = null) {
+export function studyOf(family, curve, changes, asked = null, isRough = false) {
   const { cell, trace, circuit } = family.curves;
   const values = changedValues(family, cell[curve], changes);
   const changed = templateWithChanges(family.template, trace[curve], values, changes);
   let linkage = null;
   try {
-    linkage = linkageOf({ ...changed.template, circuits: "all" }, values);
+    linkage = linkageOf(changed.template, values);
   } catch (error) {
     if (!(error instanceof LinkageError)) throw error;
     return { values, reason: error.message };
   }
-  const { routes, shortfall } = routesOf(linkage);
-  if (routes.length === 0) return { values, reason: shortfall ?? "no input allows it to be assembled" };
-  const own = { ...linkage, travel: { ...linkage.travel, circuits: family.template.circuits ?? "start" } };
-  const recorded = routesOf(own);
+  const recorded = routesOf(linkage);
+  const all = isRough && asked === null ? recorded : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
+  const { routes } = all;
+  if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
   const home = sameRoute(routes, recorded.routes[circuit[curve] - 1]);
   const shown = routes[asked] ? asked : home;
   if (shown < 0) {
