@@ -16,8 +16,16 @@ export function cellsOnPage(family, page) {
   return [...drawn].sort((a, b) => a - b);
 }
 
+// So many panels a page of each family has, once reckoned: it takes a look at all pages.
+const PANELS_ON_PAGE = new WeakMap();
+
+function panelsOnPage(family) {
+  if (!PANELS_ON_PAGE.has(family)) PANELS_ON_PAGE.set(family, reckonedPanels(family));
+  return PANELS_ON_PAGE.get(family);
+}
+
 /** The least number of panels on a page that agrees with where the drawn ones stand; 0 where none does. */
-function panelsOnPage({ cells: { count }, pages }) {
+function reckonedPanels({ cells: { count }, pages }) {
   const agrees = (each) => pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
   for (let each = Math.ceil(count / pages.length); each < count / Math.max(pages.length - 1, 1); each += 1) {
     if (agrees(each)) return each;
