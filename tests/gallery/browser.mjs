@@ -26,19 +26,21 @@ export async function launched() {
  * Opens `index.html` of the folder of an atlas at a fragment ("/evans/1"), and collects whatever goes wrong in it.
  *
  * Options are those of a browser's context: viewport, colorScheme, reducedMotion, hasTouch, isMobile, deviceScaleFactor;
- * `before(page)` is called before anything is loaded. Returns { page, folder, troubles, go(fragment), fragment(), settled(), close() }: `close`
- * asserts that there were no console errors, no warnings of the policy, and no request but for files of the atlas.
+ * `before(page)` is called before anything is loaded. Returns { page, folder, troubles, requests
+ * (their addresses), go(fragment), fragment(), settled(), close() }: `close` asserts that there were no console errors, no warnings of the policy, and no request but for files of the atlas.
  */
 export async function opened(browser, folder, fragment = "/", { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
   const page = await context.newPage();
   const home = pathToFileURL(join(resolve(folder), "/")).href;
   const troubles = [];
+  const requests = [];
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type())) troubles.push(`${message.type()}: ${message.text()}`);
   });
   page.on("pageerror", (error) => troubles.push(`thrown: ${error.message}`));
   page.on("request", (request) => {
+    requests.push(request.url());
     const isOwn = request.url().startsWith(home) || /^(data|blob):/.test(request.url());
     if (!isOwn) troubles.push(`request: ${request.url()}`);
   });
@@ -53,6 +55,7 @@ export async function opened(browser, folder, fragment = "/", { before, ...optio
     page,
     folder,
     troubles,
+    requests,
     go: (next) => goTo(page, next),
     fragment: () => page.evaluate(() => window.location.hash.slice(1)),
     settled: () => settled(page),

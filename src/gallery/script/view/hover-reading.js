@@ -42,14 +42,15 @@ export function solvedCurve(family, curve, tolerance) {
 }
 
 function readingAt({ linkage, joint, fourBar }, motion, pass, input) {
-  const { place, velocity } = ratesAt(linkage, motion, input);
+  // At some limits there are no rates, but there is a pose.
+  const pose = poseAt(linkage, motion, input);
+  const { velocity } = ratesAt(linkage, motion, input);
   return {
     pass,
     input,
-    place: [place[2 * joint], place[2 * joint + 1]],
-    velocity: [velocity[2 * joint], velocity[2 * joint + 1]],
+    place: [pose[2 * joint], pose[2 * joint + 1]],
     speed: Math.hypot(velocity[2 * joint], velocity[2 * joint + 1]),
-    mu: fourBar ? transmissionAt(linkage, fourBar, poseAt(linkage, motion, input)).mu : null,
+    mu: fourBar ? transmissionAt(linkage, fourBar, pose).mu : null,
   };
 }
 
