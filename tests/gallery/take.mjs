@@ -1,0 +1,197 @@
+// What the page takes away, under node: node tests/gallery/take.mjs ATLAS [PROGRAM]
+//
+// ATLAS is the folder of a rendered atlas with a gallery. With PROGRAM, the binary, what it exports of the atlas's manifest
+// (MANIFEST, in the environment) is compared too. Exit 0 with a line of what was compared, 1 where something is wrong.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import * as zlib from "node:zlib";
+
+import { commandOfCurves, shortenedNames } from "../../src/gallery/script/take/command.js";
+import { csvOfCurve } from "../../src/gallery/script/take/csv.js";
+import { shortestDigits } from "../../src/gallery/script/take/digits.js";
+import { dxfOfCurve } from "../../src/gallery/script/take/dxf.js";
+import { jsonOfCurve } from "../../src/gallery/script/take/json.js";
+import { CATALOGUE, manifestOfCurves } from "../../src/gallery/script/take/manifest.js";
+import { movingSvgOfCurve } from "../../src/gallery/script/take/moving.js";
+import { svgOfCurve } from "../../src/gallery/script/take/svg.js";
+import { namedCase, takenCurve } from "../../src/gallery/script/take/taken.js";
+import { crc32OfBytes, zipOfFiles } from "../../src/gallery/script/take/zip.js";
+import { curveKey } from "../../src/gallery/script/data/family.js";
+import { entitiesOf, familyOf, filesOfZip, pointsOf } from "./taken.mjs";
+
+const [atlas, program] = process.argv.slice(2);
+const here = dirname(fileURLToPath(import.meta.url));
+const told = JSON.parse(readFileSync(join(atlas, "index.html"), "utf8").match(/id="atlas">([\s\S]*?)<\/script>/)[1]);
+const measures = told.measures.map(({ name }) => name);
+// A few curves of each family: the first, the last, and some between.
+const CURVES_OF_EACH = 6;
+// Of a place, by the size of the curve's places: the page's solver agrees with the program's so far.
+const PLACE = 1e-11;
+
+const seen = { curves: 0, rows: 0, same: 0, polylines: 0, circles: 0, arcs: 0, files: 0, identical: 0 };
+
+function namesOf(family) {
+  const { count } = family.curves;
+  const step = Math.max(1, Math.floor(count / CURVES_OF_EACH));
+  const places = new Set([count - 1]);
+  for (let k = 0; k < count; k += step) places.add(k);
+  return [...places].filter((k) => k >= 0).map((k) => `${family.id}:${curveKey(family, k)}`);
+}
+
+function distanceTo(p, a, b) {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+  const length2 = dx * dx + dy * dy;
+  const t = length2 > 0 ? Math.min(Math.max(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0), 1) : 0;
+  return Math.hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+}
+
+function comparedTable(name, taken, { header, rows }) {
+  const [own, ...lines] = csvOfCurve(taken).trimEnd().split("\n");
+  const recorded = rows.get(name.split(":")[1]);
+  assert.ok(header.startsWith(own), `${name}: ${own}`);
+  assert.equal(lines.length, recorded.length, name);
+  const width = own.split(",").length;
+  const numbers = (line) => line.split(",").slice(0, width).map(Number);
+  const size = Math.max(...recorded.flatMap((line) => numbers(line).slice(-2).filter(Number.isFinite).map(Math.abs)));
+  const places = lines.map((line, k) => {
+    const [mine, theirs] = [numbers(line), numbers(recorded[k])];
+    mine.forEach((value, column) => {
+      const isPlace = column >= width - 3;
+      const most = isPlace ? PLACE * Math.max(size, Math.abs(theirs[column])) : 0;
+      assert.ok(value === theirs[column] || Math.abs(value - theirs[column]) <= most, `${name}: ${line} is not ${recorded[k]}`);
+    });
+    seen.same += line === recorded[k].split(",").slice(0, width).join(",") ? 1 : 0;
+    return mine.slice(-2);
+  });
+  seen.rows += lines.length;
+  return places.filter(([x, y]) => Number.isFinite(x + y));
+}
+
+function comparedDrawing(name, taken, places) {
+  const entities = entitiesOf(dxfOfCurve(taken, told.program));
+  const on = (layer) => entities.filter(({ groups }) => groups.get(8) === layer);
+  const [curve, ...more] = on("CURVE");
+  assert.equal(more.length, 0, name);
+  const value = (code) => Number(curve.groups.get(code));
+  const extent = Math.max(...[0, 1].map((k) => Math.max(...places.map((p) => p[k])) - Math.min(...places.map((p) => p[k]))));
+  if (curve.kind === "POLYLINE") {
+    seen.polylines += 1;
+    const vertices = curve.vertices.map(({ groups }) => [Number(groups.get(10)), Number(groups.get(20))]);
+    if (value(70) === 1) vertices.push(vertices[0]);
+    for (const p of places) {
+      let off = Infinity;
+      for (let k = 1; k < vertices.length; k++) off = Math.min(off, distanceTo(p, vertices[k - 1], vertices[k]));
+      assert.ok(off <= 1e-4 * extent, `${name}: a sample is ${off} off`);
+    }
+  } else {
+    seen[curve.kind === "ARC" ? "arcs" : "circles"] += 1;
+    for (const [x, y] of places) {
+      assert.ok(Math.abs(Math.hypot(x - value(10), y - value(20)) - value(40)) <= 2e-9 * value(40), name);
+    }
+  }
+  assert.ok(on("PIVOTS").length > 0 && on("LINKAGE").length > 1, name);
+}
+
+// Tags open and close in their order, and attributes are quoted.
+function assertWellFormed(name, svg) {
+  const open = [];
+  const rest = svg.replace(/<(\/?)([a-z]+)((?:\s[\w:-]+="[^"<]*")*)(\/?)>/gi, (_, closes, tag, attributes, empty) => {
+    if (closes) assert.equal(open.pop(), tag, name);
+    else if (!empty) open.push(tag);
+    return "";
+  });
+  assert.equal(open.length, 0, name);
+  assert.ok(!rest.includes("<") && !svg.includes("NaN") && !svg.includes("undefined") && !/\bInfinity/.test(svg), name);
+}
+
+function comparedFamily({ id }) {
+  const family = familyOf(atlas, id);
+  const table = pointsOf(atlas, id);
+  for (const name of namesOf(family)) {
+    const taken = takenCurve(family, name);
+    const places = comparedTable(name, taken, table);
+    comparedDrawing(name, taken, places);
+    const json = JSON.parse(jsonOfCurve(taken, measures));
+    assert.deepEqual(json.points.map((row) => row.slice(-2)).filter(([x]) => x !== null), places, name);
+    assert.deepEqual(Object.keys(json.measures), measures, name);
+    assertWellFormed(name, svgOfCurve(taken));
+    assert.ok(!svgOfCurve(taken).includes("<animate"), name);
+    const moving = movingSvgOfCurve(taken);
+    assertWellFormed(name, moving);
+    assert.ok(moving.includes("<animate") && !moving.includes("<script"), name);
+    seen.curves += 1;
+  }
+  return family;
+}
+
+function testNumbersAndWords(families) {
+  const digits = [[2, "2"], [-0, "0"], [0.1 + 0.2, "0.30000000000000004"], [1e-7, "1e-7"], [1e-5, "0.00001"], [1e300, "1e300"], [9e-6, "9e-6"], [Infinity, "inf"], [NaN, ""]];
+  for (const [value, expected] of digits) assert.equal(shortestDigits(value), expected);
+  const catalogue = readdirSync(join(here, "../../src/catalogue")).filter((name) => name.endsWith(".toml")).map((name) => name.slice(0, -5));
+  assert.deepEqual(CATALOGUE, catalogue.sort(), "the catalogue");
+  const archive = zipOfFiles([{ name: "a.txt", bytes: new TextEncoder().encode("one") }, { name: "b", bytes: new Uint8Array() }]);
+  assert.deepEqual(filesOfZip(archive).map(({ name, bytes }) => [name, new TextDecoder().decode(bytes)]), [["a.txt", "one"], ["b", ""]]);
+  if (zlib.crc32) assert.equal(crc32OfBytes(archive), zlib.crc32(archive));
+  assert.equal(crc32OfBytes(new TextEncoder().encode("123456789")), 0xcbf43926);
+  const byId = new Map(families.map((family) => [family.id, family]));
+  const evans = byId.get("evans");
+  const all = Array.from({ length: evans.curves.count }, (_, k) => `evans:${curveKey(evans, k)}`);
+  assert.deepEqual(shortenedNames(all, byId), ["evans"]);
+  assert.deepEqual(shortenedNames([all[0], all[1], `${all[0]}?p=3`], byId), [all[0], all[1], `${all[0]}?p=3`]);
+  assert.match(commandOfCurves([`${all[0]}?p=3`], 1), /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=3' /);
+  assert.throws(() => takenCurve(evans, "evans:99.1.1"), /there is no curve/);
+  assert.throws(() => takenCurve(evans, "evans:1.1.1?p=-1"), /must be more than 0/);
+  const changed = takenCurve(evans, "evans:1.1.1?p=3&M.along=1");
+  assert.equal(changed.values[0], 3);
+  const fragment = manifestOfCurves([namedCase(evans, changed.name)]);
+  assert.match(fragment, /# Of evans:1\.1\.1\?p=3&M\.along=1, M\.along = 1 is for a \[\[linkage\]\]/);
+}
+
+// The fragment of everything is a manifest's own, says the program.
+function testAgainstProgram(families) {
+  const folder = mkdtempSync(join(tmpdir(), "taken-"));
+  const names = families.filter(({ linkage }) => CATALOGUE.includes(linkage)).flatMap((family) => namesOf(family).map((name) => [family, name]));
+  const fragment = manifestOfCurves(names.map(([family, name]) => namedCase(family, name)));
+  writeFileSync(join(folder, "atlas.toml"), `[atlas]\ntitle = "T"\n${fragment}`);
+  execFileSync(program, ["validate"], { cwd: folder });
+  const manifest = process.env.MANIFEST;
+  if (manifest) comparedExports(folder, manifest, families);
+  rmSync(folder, { recursive: true });
+}
+
+function comparedExports(folder, manifest, families) {
+  const names = families.flatMap((family) => namesOf(family).map((name) => [family, name]));
+  const words = [...names.map(([, name]) => name), "evans:1.1.1?p=2.5&M.along=3"];
+  execFileSync(program, ["export", manifest, ...words, "--format", "csv,dxf,json,toml", "-o", join(folder, "taken")], { stdio: "ignore" });
+  const off = [];
+  for (const [family, name] of [...names, [families.find(({ id }) => id === "evans"), words[words.length - 1]]]) {
+    const taken = takenCurve(family, name);
+    const stem = name.replace("?", "&").split("&").map((part, k) => (k === 0 ? part.replace(/[:.]/g, "-") : part.replace("=", "-"))).join("-");
+    const made = { csv: csvOfCurve(taken), dxf: dxfOfCurve(taken, told.program), json: jsonOfCurve(taken, measures) };
+    for (const [ending, mine] of Object.entries(made)) {
+      const theirs = readFileSync(join(folder, "taken", `${stem}.${ending}`), "utf8");
+      seen.files += 1;
+      seen.identical += mine === theirs ? 1 : 0;
+      if (!isAlike(mine, theirs)) off.push(`${stem}.${ending}`);
+    }
+  }
+  assert.deepEqual(off, [], "files that are not the program's");
+}
+
+// The same text but for the last digits of its numbers.
+function isAlike(mine, theirs) {
+  const parts = (text) => text.split(/([-+]?\d+(?:\.\d+)?(?:e-?\d+)?)/);
+  const [a, b] = [parts(mine), parts(theirs)];
+  const near = (p, q) => Math.abs(p - q) <= 1e-6 * Math.max(1, Math.abs(q));
+  return a.length === b.length && a.every((part, k) => part === b[k] || (k % 2 === 1 && near(Number(part), Number(b[k]))));
+}
+
+const families = told.families.filter(({ script, curves }) => script && curves > 0).map(comparedFamily);
+testNumbersAndWords(families);
+if (program) testAgainstProgram(families);
+console.log(Object.entries(seen).map(([what, count]) => `${count} ${what}`).join(", "));

@@ -1,0 +1,159 @@
+// Taking away, in a browser: node tests/gallery/taking.mjs ATLAS
+//
+// ATLAS is the folder of a rendered atlas that has a family `evans`. See browser.mjs for the environment.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+
+import { contrastOf, eventually, opened, runTests } from "./browser.mjs";
+import { entitiesOf, filesOfZip, pointsOf } from "./taken.mjs";
+
+const [atlas] = process.argv.slice(2);
+
+/** Takes away by the menu of the view that is open, and returns { name, bytes, text }. */
+async function saved(page, label) {
+  await page.click(".take-button");
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.locator(".take-menu").getByRole("menuitem", { name: label, exact: true }).click(),
+  ]);
+  const bytes = readFileSync(await download.path());
+  return { name: download.suggestedFilename(), bytes, text: bytes.toString("utf8") };
+}
+
+async function onPlate(browser, fragment, test, options) {
+  const view = await opened(browser, atlas, fragment, { acceptDownloads: true, ...options });
+  await view.page.waitForSelector(".take-button");
+  await test(view.page, view);
+  await view.close();
+}
+
+/** What a browser makes of an SVG: an image that can be decoded, of what size, and how much of it is not paper. */
+function looked(page, text) {
+  return page.evaluate(async (svg) => {
+    const parsed = new DOMParser().parseFromString(svg, "image/svg+xml");
+    const image = new Image();
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [400, 300];
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0, 400, 300);
+    const { data } = context.getImageData(0, 0, 400, 300);
+    let ink = 0;
+    for (let k = 0; k < data.length; k += 4) ink += data[k] < 200 ? 1 : 0;
+    return { error: parsed.querySelector("parsererror")?.textContent ?? null, animates: parsed.querySelectorAll("animate").length, ink };
+  }, text);
+}
+
+const tests = [
+  ["6.1", "a curve is saved as every format, and each is what it says", ({ browser }) =>
+    onPlate(browser, "/evans/curve/1.1.1", async (page) => {
+      const still = await saved(page, "SVG still");
+      assert.equal(still.name, "evans-1-1-1.svg");
+      const look = await looked(page, still.text);
+      assert.deepEqual([look.error, look.animates], [null, 0]);
+      assert.ok(look.ink > 300, `${look.ink} dark pixels`);
+      const moving = await saved(page, "SVG, moving by itself .svg");
+      assert.equal(moving.name, "evans-1-1-1-moving.svg");
+      const moved = await looked(page, moving.text);
+      assert.equal(moved.error, null);
+      assert.ok(moved.animates >= 4 && moved.ink > 300);
+      const png = await saved(page, "PNG 300 to the inch");
+      assert.equal(png.bytes.subarray(1, 4).toString("latin1"), "PNG");
+      assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [2362, 1772]);
+      assert.ok(png.bytes.length > 20000, "it is not blank");
+      const csv = await saved(page, "CSV points");
+      const { header, rows } = pointsOf(atlas, "evans");
+      assert.equal(csv.text, `${header}\n${rows.get("1.1.1").join("\n")}\n`);
+      const dxf = await saved(page, "DXF CAD, AutoCAD R12");
+      assert.match(dxf.text, /\$ACADVER\n {2}1\nAC1009\n/);
+      assert.equal(entitiesOf(dxf.text).filter(({ kind }) => kind === "POLYLINE").length, 1);
+      const json = JSON.parse((await saved(page, "JSON all that is known")).text);
+      assert.deepEqual([json.curve, json.points.length, json.measures.class], ["evans:1.1.1", 180, "crank-rocker"]);
+      const toml = await saved(page, "Manifest fragment .toml");
+      assert.equal(toml.name, "curves.toml");
+      assert.match(toml.text, /linkage = "evans"\n[\s\S]*\{ p = 2, r = 1, a = 2\.59, s = 2\.59, k = 2 \}/);
+      await eventually(async () => (await page.textContent(".take-told")) === "Saved as curves.toml", "it says what it did");
+    })],
+  ["6.2", "changed parameters are taken away as they are", ({ browser }) =>
+    onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
+      const csv = await saved(page, "CSV points");
+      assert.equal(csv.name, "evans-1-1-1-p-2.5.csv");
+      assert.notEqual(csv.text.split("\n")[5], pointsOf(atlas, "evans").rows.get("1.1.1")[4]);
+      const json = JSON.parse((await saved(page, "JSON all that is known")).text);
+      assert.equal(json.parameters.p, 2.5);
+      assert.match((await saved(page, "Manifest fragment .toml")).text, /p = 2\.5, /);
+    })],
+  ["6.3", "the command line and the fragment are copied, or shown to be copied", async ({ browser }) => {
+    await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
+      await page.click(".take-button");
+      await page.getByRole("menuitem", { name: "Copy the command line" }).click();
+      await eventually(async () => (await page.textContent(".take-told")) === "Copied the command line", "it is copied");
+    }, { permissions: ["clipboard-read", "clipboard-write"] });
+    const denied = (page) => page.addInitScript(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
+    await onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
+      await page.click(".take-button");
+      await page.getByRole("menuitem", { name: "Copy the command line" }).click();
+      const area = page.locator(".take-copy textarea");
+      await area.waitFor();
+      const [text, selected] = await area.evaluate((element) => [element.value, element.selectionEnd - element.selectionStart]);
+      assert.match(text, /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=2\.5' --format /);
+      assert.equal(selected, text.length);
+      await page.keyboard.press("Escape");
+      await area.waitFor({ state: "detached" });
+      assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
+    }, { before: denied });
+  }],
+  ["6.4", "the menu is worked by keys, says what it is, and closes", ({ browser }) =>
+    onPlate(browser, "/evans/curve/1.1.1", async (page) => {
+      const button = page.locator(".take-button");
+      await button.focus();
+      await page.keyboard.press("Enter");
+      assert.equal(await button.getAttribute("aria-expanded"), "true");
+      const at = () => page.evaluate(() => document.activeElement.firstChild.textContent);
+      assert.equal(await at(), "SVG");
+      await page.keyboard.press("ArrowDown");
+      assert.equal(await at(), "SVG, moving by itself");
+      await page.keyboard.press("End");
+      assert.equal(await at(), "Copy the command line");
+      await page.keyboard.press("ArrowDown");
+      assert.equal(await at(), "SVG");
+      await page.keyboard.press("d");
+      assert.equal(await at(), "DXF");
+      await page.keyboard.press("Escape");
+      assert.equal(await button.getAttribute("aria-expanded"), "false");
+      assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
+      await page.keyboard.press("ArrowUp");
+      assert.equal(await at(), "Copy the command line");
+      await page.keyboard.press("Tab");
+      await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
+      await button.click();
+      await page.mouse.click(5, 5);
+      await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
+    })],
+  ["6.5", "the menu is in sight and legible on a narrow screen, light and dark", async ({ browser }) => {
+    for (const colorScheme of ["light", "dark"]) {
+      await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
+        await page.click(".take-button");
+        const box = await page.locator(".take-menu").boundingBox();
+        assert.ok(box.x >= 0 && box.x + box.width <= 360, JSON.stringify(box));
+        assert.ok((await contrastOf(page.locator(".take-menu button").first())) >= 4.5);
+        assert.ok((await contrastOf(page.locator(".take-menu .note").first())) >= 4.5);
+      }, { colorScheme, viewport: { width: 360, height: 800 } });
+    }
+  }],
+  ["6.6", "several pinned curves come as an archive", ({ browser }) =>
+    onPlate(browser, "/evans/curve/1.1.1", async (page, view) => {
+      await page.click("button.pin");
+      await view.go("/evans/curve/2.1.1");
+      await page.click("button.pin");
+      await view.go("/compare");
+      if ((await page.locator(".take-button").count()) === 0) return;
+      const zip = await saved(page, "DXF CAD, AutoCAD R12");
+      assert.equal(zip.name, "curves.zip");
+      assert.deepEqual(filesOfZip(new Uint8Array(zip.bytes)).map(({ name }) => name), ["evans-1-1-1.dxf", "evans-2-1-1.dxf"]);
+    })],
+];
+
+await runTests(tests);
