@@ -310,6 +310,17 @@ const tests = [
     assert.ok(await page.getByRole("button", { name: "Play" }).isEnabled());
     await plate.close();
   }],
+  ["3.11", "an address of a linkage that cannot be assembled says why, before the one of the atlas", async ({ browser }) => {
+    const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=9", still);
+    const { page } = plate;
+    assert.match(await page.locator(".stage .reason").textContent(), /cannot be placed/);
+    assert.ok((await page.locator(".dashes").getAttribute("d")).length > 100);
+    await page.keyboard.press("+");
+    await page.keyboard.press("ArrowRight");
+    await page.getByRole("button", { name: /^Back: p/ }).click();
+    await eventually(() => page.locator(".stage .reason").isHidden(), "it stays impossible");
+    await plate.close();
+  }],
   ["3.12", "all kinds of linkages open without a complaint, and move", async ({ browser }) => {
     const plate = await opened(browser, folder, "/evans/curve/1.1.1");
     const families = await plate.page.evaluate(() => JSON.parse(document.getElementById("atlas").textContent).families.map(({ id }) => id));

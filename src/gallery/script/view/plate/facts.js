@@ -86,5 +86,6 @@ function toldChange({ word, unit }, before, after) {
   const by = after - before;
   if (!Number.isFinite(by) || Math.abs(by) < 1e-9 * Math.abs(before)) return "";
   const sign = by > 0 ? "+" : "−";
+  if (Number.isInteger(before) && Number.isInteger(after)) return `${sign}${Math.abs(by)}`;
   return unit === "deg" ? `${sign}${Math.abs(by).toFixed(2)}°` : `${sign}${shortLength(Math.abs(by))}`;
 }

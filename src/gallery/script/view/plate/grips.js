@@ -21,7 +21,7 @@ export function gripStage(stage, plate) {
     return [event.clientX - box.left, event.clientY - box.top];
   };
   const down = (event) => {
-    if (event.button !== 0 || !plate.study) return;
+    if (event.button !== 0 || !plate.study || plate.reason) return;
     const at = pointOf(event);
     hands.set(event.pointerId, at);
     const joint = event.target.closest?.("[data-joint]")?.dataset.joint;

@@ -6,6 +6,7 @@ import { fill, h } from "../dom.js";
 import { originOfCurve, wordsOfCell } from "./facts.js";
 import { takeAwayMenu } from "../take/menu.js";
 import { neighbourAddress } from "./keys.js";
+import { plainNumber } from "./sliders.js";
 
 /** The element of a plate, { element, refresh(), leave() }. */
 export function plateLayout(plate) {
@@ -43,7 +44,8 @@ export function plateLayout(plate) {
   );
   const refresh = () => {
     changed.hidden = plate.isRecorded || plate.study === null;
-    fill(changed, plate.changes.size > 0 ? "parameters changed" : "another circuit");
+    const changes = [...plate.changes].map(([name, value]) => `${name} = ${plainNumber(value)}`);
+    fill(changed, changes.length ? `with ${changes.join(", ")}` : "another circuit");
   };
   return { element, refresh, leave: unwatch };
 }

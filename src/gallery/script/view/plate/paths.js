@@ -5,6 +5,8 @@ import { stretchOfCircuit } from "../../draw/band.js";
 import { dashData, dashesOfPeriod } from "../../draw/dashes.js";
 import { gridOfSize, polylineData } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/paper-view.js";
+import { shortLength } from "./speed-view.js";
+import { minusSigned } from "./study.js";
 
 // More other points than this are drawn by fewer of their samples.
 const MANY_POINTS = 12;
@@ -15,15 +17,19 @@ export function dashPeriod(family, { linkage, circuit }) {
   return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
 }
 
-/** Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its straight portion. */
-export function pathsOfStudy(family, study, path, stretch, isRough = false) {
+/**
+ * Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its straight portion.
+ * `on` has the names of what is switched on.
+ */
+export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
   const { circuit, others } = study;
   const grid = gridOfSize(study.size);
+  const shown = on.has("others") ? others : [];
   const stride = others.length > MANY_POINTS ? (isRough ? 4 : 2) : 1;
   return {
     dashes: dashData(path, dashesOfPeriod(dashPeriod(family, study))),
     lead: polylineData(path.points),
-    others: others.map((joint) => sampledData(circuit, joint, stride, grid)).join(""),
+    others: shown.map((joint) => sampledData(circuit, joint, stride, grid)).join(""),
     band: stretch ? polylineData(stretch.points) : "",
   };
 }
@@ -33,6 +39,15 @@ function sampledData({ x, y, count, closed }, joint, stride, grid) {
   for (let i = 0; i < count; i += stride) points.push(x[joint][i], y[joint][i]);
   if (closed) points.push(x[joint][0], y[joint][0]);
   return polylineData(points, { grid });
+}
+
+/** What is told of a curve's straight portion: its length, how far it leaves its line, and the input it spans. */
+export function straightWords({ linkage }, family, curve, measures) {
+  const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"]
+    .map((name) => (measures ? measures[name] : measured(family, curve, name)));
+  if (!Number.isFinite(length)) return "";
+  const over = linkage.input.isLength ? shortLength(span) : `${minusSigned(span, 1)}°`;
+  return `Straight portion: ${shortLength(length)} long, within ${shortLength(deviation)} of its line, over ${over} of input`;
 }
 
 /**

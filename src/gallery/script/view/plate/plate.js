@@ -11,7 +11,7 @@ import { gripStage } from "./grips.js";
 import { plateLayout } from "./layout.js";
 import { OVERLAYS, Overlays } from "./overlays.js";
 import { changeableParameters, changesOfQuery } from "./parameters.js";
-import { pathsOfStudy, straightStretch } from "./paths.js";
+import { pathsOfStudy, straightStretch, straightWords } from "./paths.js";
 import { PlateKeys } from "./keys.js";
 import { Player } from "./player.js";
 import { Poser } from "./poser.js";
@@ -67,6 +67,7 @@ export class Plate {
     this.keys = new PlateKeys(this, drive);
     this.#read(query);
     this.#restudy(FINE_PATH);
+    if (!this.study) this.#showRecorded();
     this.#settle();
   }
 
@@ -111,6 +112,16 @@ export class Plate {
     this.on = new Set(names.map(({ name }) => name));
   }
 
+  // Behind what cannot be assembled from the first, the linkage of the atlas is to be seen.
+  #showRecorded() {
+    const { changes, asked } = this;
+    this.changes = new Map();
+    this.asked = null;
+    this.#restudy(FINE_PATH);
+    Object.assign(this, { changes, asked });
+    this.#restudy(FINE_PATH);
+  }
+
   #address() {
     const query = new Map(this.changes);
     const isAsked = this.asked !== null && this.asked !== this.study?.home;
@@ -127,6 +138,7 @@ export class Plate {
     this.sliders.show(changeableParameters(this.family, this.family.curves.cell[this.curve], this.trace, this.changes));
     this.reason = study.reason ?? null;
     this.stage.impossible(this.reason);
+    this.element.classList.toggle("impossible", this.reason !== null);
     this.candidates = study.routes ? study : null;
     if (this.reason) {
       this.transport.stop();
@@ -138,15 +150,25 @@ export class Plate {
     this.alone = linkageWithOnePoint(study.linkage, study.joint);
     this.path = pathOfStudy(study, fineness);
     this.stretch = this.#stretch(isRough);
-    this.stage.show(study, pathsOfStudy(this.family, study, this.path, this.stretch, isRough));
+    this.stage.show(study, this.#paths(isRough));
     this.overlays.show(study, this.on, isRough);
     this.transport.show(study, routeTitle(study.linkage, study.routes[study.shown]));
+    this.transport.tellStraight(this.#straightWords(isRough));
     this.dial.show(study);
     this.speed.show(study, this.path, this.stretch && [this.#partOf(this.stretch.from), this.#partOf(this.stretch.to)]);
     if (isFirst) this.#begin();
     else this.#keepPlace();
     this.stage.keepInFrame();
     this.#draw();
+  }
+
+  #paths(isRough) {
+    return pathsOfStudy(this.family, this.study, this.path, this.stretch, { on: this.on, isRough });
+  }
+
+  #straightWords(isRough) {
+    if (this.isRecorded) return straightWords(this.study, this.family, this.curve, null);
+    return isRough ? null : straightWords(this.study, this.family, this.curve, this.measured);
   }
 
   #partOf({ pass, input }) {
@@ -226,6 +248,7 @@ export class Plate {
     if (isOn) this.on.add(name);
     else this.on.delete(name);
     const before = this.stage.box;
+    if (name === "others") this.stage.show(this.study, this.#paths(false));
     this.overlays.show(this.study, this.on, false);
     if (before !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
     this.switches.show(this.candidates, this.study, this.on);

@@ -106,7 +106,6 @@ function steppedSlider(event, row, on) {
   const { name, value, grain } = row.parameter;
   const by = ways[event.key] * (event.shiftKey ? 10 : 1) * grain;
   on.change(name, roundedToGrain(value + by, grain));
-  on.settle();
 }
 
 function freedOrTied({ name, kind, value }, on) {

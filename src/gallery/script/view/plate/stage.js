@@ -88,6 +88,7 @@ export class Stage {
   }
 
   zoom(factor, at = [this.size.width / 2, this.size.height / 2]) {
+    if (!this.box) return;
     const least = fittedView(this.box, { ...this.size, margin: this.#margin() }).scale;
     const scale = Math.min(Math.max(this.view.scale * factor, 0.2 * least), 400 * least);
     this.view = zoomedView(this.view, scale / this.view.scale, at);

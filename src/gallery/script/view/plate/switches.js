@@ -15,10 +15,10 @@ export class Switches {
     }));
     this.lengths = h("div", { class: "cognate-lengths" });
     this.circuits = h("div", { class: "circuits", role: "radiogroup", "aria-label": "Circuits" });
-    this.circuitSection = h("section", { class: "gauge" }, h("h3", {}, "Circuits"), this.circuits);
+    this.circuitSection = h("section", { class: "gauge circuits-gauge" }, h("h3", {}, "Circuits"), this.circuits);
     this.element = h(
       "section",
-      { class: "gauge" },
+      { class: "gauge switches" },
       h("h3", {}, "Shown"),
       h("div", { class: "checks" }, [...this.boxes.values()].map(({ row }) => row)),
       this.lengths,

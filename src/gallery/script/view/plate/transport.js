@@ -20,6 +20,7 @@ export class Transport {
     });
     this.input = h("span", { class: "input-now" });
     this.ends = h("p", { class: "note ends" });
+    this.straight = h("p", { class: "note straight-told" });
     this.rate = h(
       "select",
       { "aria-label": "Speed of play", class: "rate" },
@@ -37,7 +38,7 @@ export class Transport {
       h(
         "div",
         { class: "toolbar" },
-        this.ends,
+        h("div", { class: "told" }, this.ends, this.straight),
         h(
           "span",
           { class: "end zooms" },
@@ -62,6 +63,12 @@ export class Transport {
     this.course = course;
     this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
     this.#enable(true);
+  }
+
+  /** What is told of the straight portion; null while it is not known. */
+  tellStraight(words) {
+    this.straight.classList.toggle("stale", words === null);
+    if (words !== null) this.straight.textContent = words;
   }
 
   /** Nothing to drive. */
