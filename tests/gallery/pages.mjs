@@ -218,12 +218,19 @@ const tests = [
   ["1.10", "a place keeps how far it was read", within(large, "/hrones-nelson", {}, async (g, page) => {
     await page.evaluate(() => window.scrollTo(0, 9000));
     await page.waitForTimeout(100);
-    await page.evaluate(() => [...document.querySelectorAll(".window a")].find((a) => a.getBoundingClientRect().top > 0).click());
+    const opened = await page.evaluate(() => {
+      const link = [...document.querySelectorAll(".window a")].find((a) => a.getBoundingClientRect().top > 0);
+      link.focus({ preventScroll: true });
+      link.click();
+      return link.getAttribute("href");
+    });
     await page.waitForSelector(".page-sheet img");
     assert.equal(await page.evaluate(() => window.scrollY), 0);
     await page.goBack();
     await page.waitForSelector(".window svg path");
     await eventually(() => page.evaluate(() => Math.abs(window.scrollY - 9000) < 2), "back where it was");
+    const tile = () => page.evaluate(() => document.activeElement.closest(".window a")?.getAttribute("href"));
+    await eventually(async () => (await tile()) === opened, "the focus too");
     await g.go("/hrones-nelson/400");
     await page.getByRole("link", { name: "All pages" }).click();
     await eventually(() => page.evaluate(() => document.activeElement.getAttribute("href") === "#/hrones-nelson/400"), "its tile has the focus");

@@ -33,7 +33,7 @@ export const overviewRoom = {
           h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, summaryOf(families))),
           families.length >= MANY_FAMILIES ? familySearch(app, tiles) : null,
         ),
-        list,
+        families.length ? list : h("p", { class: "empty" }, "There are no families in this atlas."),
       ),
       shown: () => [...tiles.keys()].forEach((tile) => sight.watch(tile)),
       leave: () => sight.end(),

@@ -16,7 +16,7 @@ export function pageBar(shown, { go, zoom }) {
     if (page >= 1 && page <= shown.pages) go(page);
     else field.setAttribute("aria-invalid", "true");
   };
-  const near = h("output", { class: "near-by", "aria-label": "Zoom" });
+  const near = h("span", { class: "near-by" });
   const button = (label, sign, act) => h("button", { type: "button", "aria-label": label, title: label, onclick: act }, sign);
   const whole = h("button", { type: "button", onclick: () => zoom().fit() }, "Fit");
   const element = h(

@@ -1,5 +1,7 @@
 // The keys of a page.
 
+import { h } from "./dom.js";
+
 /** What a key does on a page's desk: a function, or null where it does nothing there. */
 export function actOfKey(event, desk) {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
@@ -58,4 +60,19 @@ function actOnCurve({ key, shiftKey, target }, desk) {
     desk.viewport.focus({ preventScroll: true });
   };
   return acts[key] ?? ends[key] ?? (key === "Escape" ? away : null);
+}
+
+/** What can be done on a page by wheel and keys, or by touch, as the element "page-keys". */
+export function keysInWords() {
+  return h(
+    "p",
+    { class: "note no-print page-keys", id: "page-keys" },
+    h(
+      "span",
+      { class: "by-keys" },
+      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
+      "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
+    ),
+    h("span", { class: "by-touch" }, "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate."),
+  );
 }

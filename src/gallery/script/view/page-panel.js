@@ -130,15 +130,21 @@ function parameterFacts(family, cell) {
   ];
 }
 
-/** The measures of a curve in words, each explained by its definition. */
+/** The measures of a curve in words, each explained by its definition: at the pointer, and all below them on demand. */
 export function measureFacts(atlas, family, curve) {
   const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
   const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
   return [
     h("h3", {}, "Measures"),
     h("dl", { class: "facts page-measures" }, told.map(([{ name, definition }, text]) => [
-      h("dt", { title: definition }, measureInWords(name), h("span", { class: "unseen" }, `: ${definition}`)),
+      h("dt", { title: definition }, measureInWords(name)),
       h("dd", {}, text),
     ])),
+    h(
+      "details",
+      { class: "definitions note" },
+      h("summary", {}, "What they mean"),
+      h("dl", {}, told.map(([{ name, definition }]) => [h("dt", {}, measureInWords(name)), h("dd", {}, definition)])),
+    ),
   ];
 }

@@ -7,7 +7,7 @@ import { fill, h } from "./dom.js";
 import { curvesOnPaper, nearestCurve } from "./hover.js";
 import { CurveForward } from "./hover-forward.js";
 import { pageBar } from "./page-bar.js";
-import { actOfKey } from "./page-keys.js";
+import { actOfKey, keysInWords } from "./page-keys.js";
 import { curvePanel, curvesPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture } from "./page-picture.js";
 import { Zoom } from "./zoom.js";
@@ -26,20 +26,6 @@ export const pageRoom = {
     return desk;
   },
 };
-
-function keysInWords() {
-  return h(
-    "p",
-    { class: "note no-print page-keys", id: "page-keys" },
-    h(
-      "span",
-      { class: "by-keys" },
-      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
-      "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
-    ),
-    h("span", { class: "by-touch" }, "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate."),
-  );
-}
 
 /** A page on the desk. */
 class PageDesk {
@@ -219,7 +205,15 @@ class PageDesk {
     this.tell();
     this.forward.zoomed();
     window.clearTimeout(this.remembering);
-    this.remembering = window.setTimeout(() => this.remember(), 400);
+    this.remembering = window.setTimeout(() => this.settled(), 400);
+  }
+
+  /** The zoom has come to rest. */
+  settled() {
+    const percent = `${Math.round(this.zoom.nearness * 100)} %`;
+    if (this.saidPercent !== undefined && percent !== this.saidPercent) this.app.say(`Zoom ${percent}`);
+    this.saidPercent = percent;
+    this.remember();
   }
 
   tell() {

@@ -1,11 +1,11 @@
-// How far down each address was read: whoever comes back finds it as it was left.
+// How far down each address was read, and where the focus was: whoever comes back finds it as it was left.
 
 /**
  * The memory of a window's history: `leave()` notes how far down the present entry is and takes up the next, `arrive()`
  * goes where that one was left, or to the top of a new one, but for views that go to a goal of their own (`data-goal`).
  */
 export function scrollMemory() {
-  const depths = new Map();
+  const left = new Map();
   let [present, newest] = [null, 0];
   window.history.scrollRestoration = "manual";
   const entry = () => {
@@ -17,13 +17,25 @@ export function scrollMemory() {
   };
   return {
     leave: () => {
-      if (present !== null) depths.set(present, window.scrollY);
+      const link = document.activeElement?.closest("main a")?.getAttribute("href");
+      if (present !== null) left.set(present, { depth: window.scrollY, link });
       present = entry();
     },
     arrive: () => {
-      const depth = depths.get(present);
-      if (depth !== undefined) window.scrollTo(0, depth);
-      else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
+      const known = left.get(present);
+      if (known) {
+        window.scrollTo(0, known.depth);
+        focusSoon(known.link);
+      } else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
     },
   };
+}
+
+/** Gives the focus back to a link of the room, when what comes into sight by scrolling is there. */
+function focusSoon(href) {
+  if (!href) return;
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    const links = [...document.querySelectorAll("main a")];
+    links.find((link) => link.getAttribute("href") === href && link.tabIndex >= 0)?.focus({ preventScroll: true });
+  }));
 }
