@@ -12,6 +12,7 @@ import { fileURLToPath } from "node:url";
 import * as zlib from "node:zlib";
 
 import { commandOfCurves, shortenedNames } from "../../src/gallery/script/take/command.js";
+import { reckonedColumns } from "../../src/gallery/script/take/columns.js";
 import { csvOfCurve } from "../../src/gallery/script/take/csv.js";
 import { shortestDigits } from "../../src/gallery/script/take/digits.js";
 import { dxfOfCurve } from "../../src/gallery/script/take/dxf.js";
@@ -33,7 +34,7 @@ const CURVES_OF_EACH = 6;
 // Of a place, by the size of the curve's places: the page's solver agrees with the program's so far.
 const PLACE = 1e-11;
 
-const seen = { curves: 0, rows: 0, same: 0, polylines: 0, circles: 0, arcs: 0, files: 0, identical: 0 };
+const seen = { curves: 0, rows: 0, same: 0, columns: 0, polylines: 0, circles: 0, arcs: 0, files: 0, identical: 0 };
 
 function namesOf(family) {
   const { count } = family.curves;
@@ -51,7 +52,8 @@ function distanceTo(p, a, b) {
 }
 
 function comparedTable(name, taken, { header, rows }) {
-  const [own, ...lines] = csvOfCurve(taken).trimEnd().split("\n");
+  // Of further columns there is a test of their own.
+  const [own, ...lines] = csvOfCurve({ ...taken, family: { ...taken.family, columns: [] } }).trimEnd().split("\n");
   const recorded = rows.get(name.split(":")[1]);
   assert.ok(header.startsWith(own), `${name}: ${own}`);
   assert.equal(lines.length, recorded.length, name);
@@ -70,6 +72,23 @@ function comparedTable(name, taken, { header, rows }) {
   });
   seen.rows += lines.length;
   return places.filter(([x, y]) => Number.isFinite(x + y));
+}
+
+// Rates to 1e-9 of their size and of the table's: near a limit, where they grow without bounds, so does what rounding makes
+// of them.
+function comparedColumns(name, taken, { header, rows }) {
+  const family = { ...taken.family, columns: header.split(",").slice(header.split(",").indexOf("y") + 1) };
+  const [own, ...lines] = csvOfCurve({ ...taken, family }).trimEnd().split("\n").map((line) => line.split(","));
+  const recorded = rows.get(name.split(":")[1]).map((line) => line.split(","));
+  for (const column of reckonedColumns(family)) {
+    const [mine, theirs] = [own.indexOf(column), header.split(",").indexOf(column)];
+    lines.forEach((line, k) => {
+      const [a, b] = [line[mine], recorded[k][theirs]];
+      const isNear = a === b || Math.abs(Number(a) - Number(b)) <= 1e-9 * Math.max(1, Math.abs(Number(b)));
+      assert.ok(isNear, `${name}, ${column}, sample ${k}: ${a} is not ${b}`);
+      seen.columns += 1;
+    });
+  }
 }
 
 function comparedDrawing(name, taken, places) {
@@ -115,9 +134,11 @@ function comparedFamily({ id }) {
   for (const name of namesOf(family)) {
     const taken = takenCurve(family, name);
     const places = comparedTable(name, taken, table);
+    comparedColumns(name, taken, table);
     comparedDrawing(name, taken, places);
     const json = JSON.parse(jsonOfCurve(taken, measures));
-    assert.deepEqual(json.points.map((row) => row.slice(-2)).filter(([x]) => x !== null), places, name);
+    const [x, y] = ["x", "y"].map((column) => json.columns.indexOf(column));
+    assert.deepEqual(json.points.map((row) => [row[x], row[y]]).filter(([x]) => x !== null), places, name);
     assert.deepEqual(Object.keys(json.measures), measures, name);
     assertWellFormed(name, svgOfCurve(taken));
     assert.ok(!svgOfCurve(taken).includes("<animate"), name);

@@ -65,7 +65,7 @@ function caseInManifest(family, values) {
 }
 
 // What a family says beside its cells: by it families of one linkage are told apart.
-function settingsInManifest({ linkage, template, sampling, straight }) {
+function settingsInManifest({ linkage, template, sampling, straight, columns }) {
   const isLength = template.joints.some((joint) => "piston" in joint);
   const input = (value) => (isLength ? shortestDigits(value) : `"${shortestDigits(value)} deg"`);
   const { step, samples, spacing } = sampling;
@@ -82,6 +82,7 @@ function settingsInManifest({ linkage, template, sampling, straight }) {
     const [[key, value]] = Object.entries(straight);
     lines.push(`straight = { ${key} = ${key === "input" ? input(value) : shortestDigits(value)} }`);
   }
+  if (columns?.length > 0) lines.push(`columns = [${columns.map((name) => `"${name}"`).join(", ")}]`);
   return lines.map((line) => `${line}\n`).join("");
 }
 

@@ -1,6 +1,7 @@
 // From names of curves to files.
 
 import { commandOfCurves, shortenedNames } from "../../take/command.js";
+import { missingColumns } from "../../take/columns.js";
 import { csvOfCurve } from "../../take/csv.js";
 import { dxfOfCurve } from "../../take/dxf.js";
 import { jsonOfCurve } from "../../take/json.js";
@@ -11,14 +12,14 @@ import { svgOfCurve } from "../../take/svg.js";
 import { fileStem, namedCase, parsedName, takenCurve } from "../../take/taken.js";
 import { zipOfFiles } from "../../take/zip.js";
 
-/** What curves can be saved as: { label, note, ending, type, made(app, taken) -> text or bytes, perhaps in a while }. */
+/** What curves can be saved as: { label, note, ending, type, hasColumns, made(app, taken) -> text or bytes, perhaps in a while }. */
 export const TAKEN_FORMATS = [
   { label: "SVG", note: "still", ending: ".svg", type: "image/svg+xml", made: (app, taken) => svgOfCurve(taken) },
   { label: "SVG, moving by itself", note: ".svg", ending: "-moving.svg", type: "image/svg+xml", made: (app, taken) => movingSvgOfCurve(taken) },
   { label: "PNG", note: "300 to the inch", ending: ".png", type: "image/png", made: (app, taken) => pngOfCurve(taken) },
   { label: "DXF", note: "CAD, AutoCAD R12", ending: ".dxf", type: "image/vnd.dxf", made: (app, taken) => dxfOfCurve(taken, app.atlas.program) },
-  { label: "CSV", note: "points", ending: ".csv", type: "text/csv", made: (app, taken) => csvOfCurve(taken) },
-  { label: "JSON", note: "all that is known", ending: ".json", type: "application/json", made: (app, taken) => jsonOfCurve(taken, measureNames(app)) },
+  { label: "CSV", note: "points", ending: ".csv", type: "text/csv", hasColumns: true, made: (app, taken) => csvOfCurve(taken) },
+  { label: "JSON", note: "all that is known", ending: ".json", type: "application/json", hasColumns: true, made: (app, taken) => jsonOfCurve(taken, measureNames(app)) },
 ];
 
 // The page is left to itself so often, in milliseconds, while many curves are made.
@@ -30,18 +31,23 @@ function measureNames({ atlas }) {
   return atlas.measures.map(({ name }) => name);
 }
 
-/** Curves of some names as one file { name, type, bytes }, several in an archive; `told` is told how many are done. */
+/**
+ * Curves of some names as one file { name, type, bytes, lacks }, several in an archive; `lacks` are the columns of points that
+ * the page does not reckon, and `told` is told how many are done.
+ */
 export async function filesFor(app, names, format, told = () => {}) {
   if (names.length === 0) throw new Error("There is no curve to take away");
   if (names.length > MOST_TAKEN) {
     throw new Error(`Take ${MOST_TAKEN} curves at most here: the command line takes all ${names.length}`);
   }
   const files = [];
+  const lacks = new Set();
   let rested = performance.now();
   for (const name of names) {
     const taken = takenCurve(await familyOfName(app, name), name);
     const made = await format.made(app, taken);
     const bytes = typeof made === "string" ? new TextEncoder().encode(made) : made;
+    if (format.hasColumns) missingColumns(taken.family).forEach((column) => lacks.add(column));
     files.push({ name: `${fileStem(taken)}${format.ending}`, type: format.type, bytes });
     if (performance.now() - rested > TAKEN_PATIENCE) {
       told(files.length);
@@ -49,7 +55,8 @@ export async function filesFor(app, names, format, told = () => {}) {
       rested = performance.now();
     }
   }
-  return files.length === 1 ? files[0] : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
+  const file = files.length === 1 ? files[0] : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
+  return { ...file, lacks: [...lacks] };
 }
 
 function familyOfName(app, name) {

@@ -29,7 +29,8 @@ export function takeAwayMenu(app, names) {
 async function savedCurves(app, names, format, tell) {
   const file = await filesFor(app, names, format, (done) => tell(`${done} of ${names.length}`));
   saveFile(file);
-  return `Saved as ${file.name}`;
+  const without = file.lacks.length > 0 ? `, without ${file.lacks.join(", ")}: the command line has these` : "";
+  return `Saved as ${file.name}${without}`;
 }
 
 async function savedManifest(app, names) {
