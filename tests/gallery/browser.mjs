@@ -1,7 +1,9 @@
-// Opens the gallery of an atlas in Chromium, as a designer opens it from disk, and watches over what it must never do.
+// Opens the gallery of an atlas in Chromium, as a designer opens it from disk, and watches over what it must
+// never do.
 //
-// Taken from the environment: PLAYWRIGHT_CORE, the path of the package playwright-core (its folder or its index.mjs), and
-// CHROMIUM, that of the browser. No test runs without them: `browserIsThere()` says whether they are given.
+// Taken from the environment: PLAYWRIGHT_CORE, the path of the package playwright-core (its folder or its
+// index.mjs), and CHROMIUM, that of the browser. No test runs without them: `browserIsThere()` says whether
+// they are given.
 
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
@@ -19,15 +21,20 @@ export async function launched() {
   const module = statSync(place).isDirectory() ? join(place, "index.mjs") : place;
   const { chromium } = await import(pathToFileURL(module).href);
   // Containers seldom allow the browser's own sandbox; the files are our own. GPU and sound are not needed.
-  return chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", "--disable-gpu", "--mute-audio"] });
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM,
+    args: ["--no-sandbox", "--disable-gpu", "--mute-audio"],
+  });
 }
 
 /**
- * Opens `index.html` of the folder of an atlas at a fragment ("/evans/1"), and collects whatever goes wrong in it.
+ * Opens `index.html` of the folder of an atlas at a fragment ("/evans/1"), and collects whatever goes wrong
+ * in it.
  *
- * Options are those of a browser's context: viewport, colorScheme, reducedMotion, hasTouch, isMobile, deviceScaleFactor;
- * `before(page)` is called before anything is loaded. Returns { page, folder, troubles, requests
- * (their addresses), go(fragment), fragment(), settled(), close() }: `close` asserts that there were no console errors, no warnings of the policy, and no request but for files of the atlas.
+ * Options are those of a browser's context: viewport, colorScheme, reducedMotion, hasTouch, isMobile,
+ * deviceScaleFactor; `before(page)` is called before anything is loaded. Returns { page, folder, troubles,
+ * requests (their addresses), go(fragment), fragment(), settled(), close() }: `close` asserts that there were
+ * no console errors, no warnings of the policy, and no request but for files of the atlas.
  */
 export async function opened(browser, folder, fragment = "/", { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
@@ -68,14 +75,21 @@ export async function opened(browser, folder, fragment = "/", { before, ...optio
 
 /** Goes to another fragment, as a link does, and waits until the room is there. */
 async function goTo(page, fragment) {
-  await page.evaluate((next) => { window.location.hash = next; }, fragment);
+  await page.evaluate((next) => {
+    window.location.hash = next;
+  }, fragment);
   await settled(page);
 }
 
 /** Waits until the room is open and has been painted. */
 export async function settled(page) {
   await page.waitForFunction(() => !document.querySelector("main").hasAttribute("aria-busy"));
-  await page.evaluate(() => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); }));
+  await page.evaluate(
+    () =>
+      new Promise((done) => {
+        requestAnimationFrame(() => requestAnimationFrame(done));
+      }),
+  );
 }
 
 /** Waits until `check()` holds, which throws or is false until then; at most `within` milliseconds. */
@@ -88,13 +102,16 @@ export async function eventually(check, sentence, within = 5000) {
       if (Date.now() > end) throw error;
     }
     assert.ok(Date.now() < end, `${sentence} (not within ${within} ms)`);
-    await new Promise((done) => { setTimeout(done, 25); });
+    await new Promise((done) => {
+      setTimeout(done, 25);
+    });
   }
 }
 
 /**
- * Runs tests [[point, sentence, async function (context)], …] one after another, a line for each: "ok 1.2 sentence" or
- * "FAILED …" with what was wrong. Ends the process with 1 if one failed; with 0 and a message where there is no browser.
+ * Runs tests [[point, sentence, async function (context)], …] one after another, a line for each: "ok 1.2
+ * sentence" or "FAILED …" with what was wrong. Ends the process with 1 if one failed; with 0 and a message
+ * where there is no browser.
  */
 export async function runTests(tests, context = {}) {
   if (!browserIsThere()) {
@@ -110,14 +127,22 @@ export async function runTests(tests, context = {}) {
       console.log(`ok ${point} ${sentence}`);
     } catch (error) {
       failed += 1;
-      console.log(`FAILED ${point} ${sentence}\n  ${String(error.stack ?? error).split("\n").slice(0, 12).join("\n  ")}`);
+      console.log(
+        `FAILED ${point} ${sentence}\n  ${String(error.stack ?? error)
+          .split("\n")
+          .slice(0, 12)
+          .join("\n  ")}`,
+      );
     }
   }
   await browser.close();
   if (failed) process.exitCode = 1;
 }
 
-/** The relative luminances' contrast of the text of an element with what lies behind it, as WCAG has it; 1 to 21. */
+/**
+ * The relative luminances' contrast of the text of an element with what lies behind it, as WCAG has it; 1 to
+ * 21.
+ */
 export function contrastOf(locator) {
   return locator.evaluate((element) => {
     // Colours of any notation are read off a canvas.
@@ -135,7 +160,8 @@ export function contrastOf(locator) {
       }
       return [255, 255, 255, 255];
     };
-    const part = (level) => (level / 255 <= 0.04045 ? level / 255 / 12.92 : ((level / 255 + 0.055) / 1.055) ** 2.4);
+    const part = (level) =>
+      level / 255 <= 0.04045 ? level / 255 / 12.92 : ((level / 255 + 0.055) / 1.055) ** 2.4;
     const luminance = ([r, g, b]) => 0.2126 * part(r) + 0.7152 * part(g) + 0.0722 * part(b);
     const [text, ground] = [luminance(rgba(getComputedStyle(element).color)), luminance(behind(element))];
     return (Math.max(text, ground) + 0.05) / (Math.min(text, ground) + 0.05);

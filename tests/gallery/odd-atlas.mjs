@@ -1,29 +1,34 @@
-// An atlas of odd families, made from a rendered one: what the gallery must bear although a good manifest seldom asks for it.
+// An atlas of odd families, made from a rendered one: what the gallery must bear although a good manifest
+// seldom asks for it.
 
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 /** A title that is markup to whoever would take it for that. */
-export const MARKED_TITLE = "<b>Evans</b> & <img src=x onerror=\"throw 1\">";
+export const MARKED_TITLE = '<b>Evans</b> & <img src=x onerror="throw 1">';
 
 /** Why the third linkage of the family "evans" could not be assembled. */
 export const ODD_REASON = "the links p and a do not reach <one> another";
 
 // A white dot: the least PNG there is.
-const WHITE_DOT = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=";
+const WHITE_DOT =
+  "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=";
 
 /**
- * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages, and its third
- * linkage not assembled; "watt" with a PNG. Returns { folder, remove() }.
+ * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages,
+ * and its third linkage not assembled; "watt" with a PNG. Returns { folder, remove() }.
  */
 export function oddAtlas(from) {
   const folder = mkdtempSync(join(tmpdir(), "coupler-atlas-odd-"));
   cpSync(from, folder, { recursive: true, dereference: true });
-  rewrite(join(folder, "index.html"), (page) => page.replace(
-    /(<script type="application\/json" id="atlas">)([\s\S]*?)(<\/script>)/,
-    (_, before, data, after) => before + JSON.stringify(withOddFamilies(JSON.parse(data))).replaceAll("<", "\\u003c") + after,
-  ));
+  rewrite(join(folder, "index.html"), (page) =>
+    page.replace(
+      /(<script type="application\/json" id="atlas">)([\s\S]*?)(<\/script>)/,
+      (_, before, data, after) =>
+        before + JSON.stringify(withOddFamilies(JSON.parse(data))).replaceAll("<", "\\u003c") + after,
+    ),
+  );
   rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
   writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
   return { folder, remove: () => rmSync(folder, { recursive: true }) };

@@ -1,4 +1,5 @@
-// The curve that is brought forward on a page, while the page recedes, and what it does where it is pointed at.
+// The curve that is brought forward on a page, while the page recedes, and what it does where it is pointed
+// at.
 
 import { h, fill } from "./dom.js";
 import { solvedCurve } from "./hover-reading.js";
@@ -7,7 +8,10 @@ import { figure } from "./page-words.js";
 // The chord error of the curve that is brought forward, in pixels.
 const FORWARD_ERROR = 0.1;
 
-/** At most one curve of a page is forward: the one that is pointed at or has the focus, else the one that was chosen. */
+/**
+ * At most one curve of a page is forward: the one that is pointed at or has the focus, else the one that was
+ * chosen.
+ */
 export class CurveForward {
   constructor(desk) {
     this.desk = desk;
@@ -110,17 +114,26 @@ export class CurveForward {
 
   /** Path data in millimetres of paper. */
   pathOf(curve) {
-    const { view: { origin, scale }, points, closed } = this.drawnOf(curve);
+    const {
+      view: { origin, scale },
+      points,
+      closed,
+    } = this.drawnOf(curve);
     const fine = this.solved?.path.points;
-    const places = fine ? fine.map((at, k) => (k % 2 ? origin[1] - scale * at : origin[0] + scale * at)) : points;
+    const places = fine
+      ? fine.map((at, k) => (k % 2 ? origin[1] - scale * at : origin[0] + scale * at))
+      : points;
     let path = "";
-    for (let k = 0; k < places.length; k += 2) path += `${k ? "L" : "M"}${places[k].toFixed(4)} ${places[k + 1].toFixed(4)}`;
+    for (let k = 0; k < places.length; k += 2)
+      path += `${k ? "L" : "M"}${places[k].toFixed(4)} ${places[k + 1].toFixed(4)}`;
     return closed ? `${path}Z` : path;
   }
 
   read([x, y]) {
     if (!this.solved) return;
-    const { view: { origin, scale } } = this.drawnOf(this.curve);
+    const {
+      view: { origin, scale },
+    } = this.drawnOf(this.curve);
     this.at = this.solved.nearTo((x - origin[0]) / scale, (origin[1] - y) / scale);
     this.place();
   }
@@ -148,10 +161,17 @@ export class CurveForward {
       input = passes[pass].to;
     }
     this.readInput(pass, input);
-    this.desk.app.say(readingInWords(this.at, this.solved).map((row) => row.join(" ")).join(", "));
+    this.desk.app.say(
+      readingInWords(this.at, this.solved)
+        .map((row) => row.join(" "))
+        .join(", "),
+    );
   }
 
-  /** The zoom has changed: the curve is as fine as it asks for, and what is read stands where the point is now. */
+  /**
+   * The zoom has changed: the curve is as fine as it asks for, and what is read stands where the point is
+   * now.
+   */
   zoomed() {
     if (this.curve === null) return;
     const solved = this.solve(this.curve);
@@ -166,10 +186,16 @@ export class CurveForward {
   place() {
     const { desk, at } = this;
     if (!at || this.curve === null || !at.place.every(Number.isFinite)) return;
-    const { view: { origin, scale }, box } = this.drawnOf(this.curve);
+    const {
+      view: { origin, scale },
+      box,
+    } = this.drawnOf(this.curve);
     const [x, y] = [origin[0] + scale * at.place[0], origin[1] - scale * at.place[1]];
     desk.overlay.point([x, y], 4 / desk.zoom.scale);
-    const rows = readingInWords(at, this.solved).map(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
+    const rows = readingInWords(at, this.solved).map(([name, text]) => [
+      h("dt", {}, name),
+      h("dd", {}, text),
+    ]);
     fill(desk.reading, h("dl", {}, rows));
     const { clientWidth, clientHeight } = desk.viewport;
     const [across, down] = [desk.zoom.x + desk.zoom.scale * x, desk.zoom.y + desk.zoom.scale * y];

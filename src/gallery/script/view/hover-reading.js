@@ -12,10 +12,10 @@ import { linkageOf } from "../kinematics/template.js";
 const FOOT_STEPS = 4;
 
 /**
- * The curve of a family, solved: { path: { points, inputs, starts }, isLength, nearTo(x, y), atInput(pass, input) }, the path fine to
- * `tolerance` in the plane's unit. `nearTo` reads it at the foot of a place in the plane: { pass, input, place: [x, y],
- * speed, mu }, the input in degrees or a length, the speed |dP/dinput| per radian or unit of length, mu in degrees or null.
- * Null where the linkage has no such circuit.
+ * The curve of a family, solved: { path: { points, inputs, starts }, isLength, nearTo(x, y), atInput(pass,
+ * input) }, the path fine to `tolerance` in the plane's unit. `nearTo` reads it at the foot of a place in the
+ * plane: { pass, input, place: [x, y], speed, mu }, the input in degrees or a length, the speed |dP/dinput|
+ * per radian or unit of length, mu in degrees or null. Null where the linkage has no such circuit.
  */
 export function solvedCurve(family, curve, tolerance) {
   const { cell, trace, circuit } = family.curves;

@@ -3,26 +3,31 @@
 import { curvePoints } from "../data/family.js";
 
 /**
- * The curves of a page's views on paper: [{ curve, view, points, box }], points [x0, y0, …] and box [x0, y0, x1, y1] in
- * millimetres, y down.
+ * The curves of a page's views on paper: [{ curve, view, points, box }], points [x0, y0, …] and box [x0, y0,
+ * x1, y1] in millimetres, y down.
  */
 export function curvesOnPaper(family, views) {
-  return views.flatMap((view) => view.curves.map((curve) => {
-    const points = curvePoints(family, curve);
-    const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (let k = 0; k < points.length; k += 2) {
-      points[k] = view.origin[0] + view.scale * points[k];
-      points[k + 1] = view.origin[1] - view.scale * points[k + 1];
-      box[0] = Math.min(box[0], points[k]);
-      box[1] = Math.min(box[1], points[k + 1]);
-      box[2] = Math.max(box[2], points[k]);
-      box[3] = Math.max(box[3], points[k + 1]);
-    }
-    return { curve, view, points, box, closed: family.curves.closed[curve] === 1 };
-  }));
+  return views.flatMap((view) =>
+    view.curves.map((curve) => {
+      const points = curvePoints(family, curve);
+      const box = [Infinity, Infinity, -Infinity, -Infinity];
+      for (let k = 0; k < points.length; k += 2) {
+        points[k] = view.origin[0] + view.scale * points[k];
+        points[k + 1] = view.origin[1] - view.scale * points[k + 1];
+        box[0] = Math.min(box[0], points[k]);
+        box[1] = Math.min(box[1], points[k + 1]);
+        box[2] = Math.max(box[2], points[k]);
+        box[3] = Math.max(box[3], points[k + 1]);
+      }
+      return { curve, view, points, box, closed: family.curves.closed[curve] === 1 };
+    }),
+  );
 }
 
-/** The one of `drawn` nearest to a place in millimetres, no further than `reach`; undefined where there is none. */
+/**
+ * The one of `drawn` nearest to a place in millimetres, no further than `reach`; undefined where there is
+ * none.
+ */
 export function nearestCurve(drawn, [x, y], reach) {
   let nearest;
   let least = reach * reach;

@@ -21,7 +21,9 @@ export const overviewRoom = {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
     const sight = whenSeen((tile) => showFirstPage(app, tiles.get(tile), tile));
-    const list = h("ul", { class: families.length < FEW_FAMILIES ? "families few" : "families" }, [...tiles.keys()]);
+    const list = h("ul", { class: families.length < FEW_FAMILIES ? "families few" : "families" }, [
+      ...tiles.keys(),
+    ]);
     return {
       title: "",
       element: h(
@@ -43,8 +45,19 @@ export const overviewRoom = {
 
 function summaryOf(families) {
   const sum = (of) => families.reduce((total, family) => total + of(family), 0);
-  return `${counted(sum((f) => f.curves), "curve", "curves")} of ${counted(sum((f) => f.kept), "linkage", "linkages")} on ${
-    counted(sum((f) => f.pages), "page", "pages")}`;
+  return `${counted(
+    sum((f) => f.curves),
+    "curve",
+    "curves",
+  )} of ${counted(
+    sum((f) => f.kept),
+    "linkage",
+    "linkages",
+  )} on ${counted(
+    sum((f) => f.pages),
+    "page",
+    "pages",
+  )}`;
 }
 
 function familyTile(family) {
@@ -63,13 +76,17 @@ function familyTile(family) {
   );
 }
 
-/** How much there is of a family, in words: curves, pages, and linkages where they are not as many as curves. */
+/**
+ * How much there is of a family, in words: curves, pages, and linkages where they are not as many as curves.
+ */
 export function countsOf(family) {
   return [
     counted(family.curves, "curve", "curves"),
     counted(family.pages, "page", "pages"),
     family.kept === family.curves ? null : counted(family.kept, "linkage", "linkages"),
-  ].filter(Boolean).join(" · ");
+  ]
+    .filter(Boolean)
+    .join(" · ");
 }
 
 /** How many linkages of a family could not be assembled, in words. */
@@ -80,7 +97,7 @@ export function notAssembledInWords({ not_assembled: none, kept }) {
 /** The source of a family, without the legend that its pages add to it. */
 export function sourceOf({ source, legend }) {
   const ending = ` · ${legend}`;
-  return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : source ?? "";
+  return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
 }
 
 async function showFirstPage(app, { id }, tile) {
@@ -108,8 +125,14 @@ function familySearch(app, tiles) {
     }
     app.say(left === total ? `All ${total} families` : counted(left, "family", "families"));
   };
-  return h("div", { class: "field" }, h(
-    "input",
-    { type: "search", "aria-label": "Search families by name", placeholder: `Search ${total} families`, oninput: seek },
-  ));
+  return h(
+    "div",
+    { class: "field" },
+    h("input", {
+      type: "search",
+      "aria-label": "Search families by name",
+      placeholder: `Search ${total} families`,
+      oninput: seek,
+    }),
+  );
 }

@@ -1,8 +1,8 @@
 // Which linkages stand on a page, those that could not be assembled among them.
 
 /**
- * The places of the cells of a page, numbered from 1, in order. What is drawn is known; where a linkage that is not would
- * stand follows from the number of linkages on a page, or of pages for a linkage.
+ * The places of the cells of a page, numbered from 1, in order. What is drawn is known; where a linkage that
+ * is not would stand follows from the number of linkages on a page, or of pages for a linkage.
  */
 export function cellsOnPage(family, page) {
   const views = family.pages[page - 1]?.views ?? [];
@@ -12,7 +12,8 @@ export function cellsOnPage(family, page) {
   const pages = family.pages.length;
   const each = family.layout === "panels" ? panelsOnPage(family) : 0;
   for (let cell = (page - 1) * each; cell < Math.min(page * each, count); cell += 1) drawn.add(cell);
-  if (family.layout === "coupler-grid" && pages % count === 0) drawn.add(Math.floor(((page - 1) * count) / pages));
+  if (family.layout === "coupler-grid" && pages % count === 0)
+    drawn.add(Math.floor(((page - 1) * count) / pages));
   return [...drawn].sort((a, b) => a - b);
 }
 
@@ -26,7 +27,8 @@ function panelsOnPage(family) {
 
 /** The least number of panels on a page that agrees with where the drawn ones stand; 0 where none does. */
 function reckonedPanels({ cells: { count }, pages }) {
-  const agrees = (each) => pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
+  const agrees = (each) =>
+    pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
   for (let each = Math.ceil(count / pages.length); each < count / Math.max(pages.length - 1, 1); each += 1) {
     if (agrees(each)) return each;
   }
@@ -40,7 +42,9 @@ export function pageInWords(family, page) {
   const numbers = cells.map((cell) => family.cells.number[cell]);
   if (cells.length > 1) return `linkages ${numbers[0]}–${numbers.at(-1)}`;
   const caption = family.cells.caption[cells[0]] || `linkage ${numbers[0]}`;
-  const traces = (family.pages[page - 1]?.views ?? []).flatMap((view) => view.curves.map((c) => family.curves.trace[c]));
+  const traces = (family.pages[page - 1]?.views ?? []).flatMap((view) =>
+    view.curves.map((c) => family.curves.trace[c]),
+  );
   if (traces.length < 2) return caption;
   return `${caption} · points ${Math.min(...traces)}–${Math.max(...traces)}`;
 }

@@ -73,6 +73,10 @@ export function keysInWords() {
       "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
       "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
     ),
-    h("span", { class: "by-touch" }, "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate."),
+    h(
+      "span",
+      { class: "by-touch" },
+      "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate.",
+    ),
   );
 }

@@ -7,22 +7,39 @@ import { cellsOnPage } from "./page-cells.js";
 import { captionInType, figure, measureInWords, measureText } from "./page-words.js";
 import { thumbnail } from "./thumbnail.js";
 
-/** The curves of a page as links, { element, links: Map of curve to link }, and what could not be assembled. */
+/** The curves of a page as links, and what could not be assembled. */
 export function curvesPanel(family, page, drawn, { onenter, onleave }) {
   // Of one linkage with several points each row says the point alone.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
-  const links = new Map(drawn.map(({ curve }) => [curve, curveRow(family, curve, { one, onenter, onleave })]));
+  const links = new Map(
+    drawn.map(({ curve }) => [curve, curveRow(family, curve, { one, onenter, onleave })]),
+  );
   const short = cellsOnPage(family, page).filter((cell) => family.cells.status[cell] === 2);
-  const sum = `${drawn.length} ${drawn.length === 1 ? "curve" : "curves"} on this page`;
   return h(
     "div",
     { class: "panel" },
-    h("h2", {}, one ? captionOf(family, drawn[0].curve) : drawn.length ? sum : family.layout === "chart" ? "A chart" : "No curves"),
-    one ? h("p", { class: "note" }, sum) : null,
-    drawn.length ? null : h("p", { class: "note" }, family.layout === "chart" ? curvesOfChart(family) : "Nothing is drawn on this page."),
-    h("ol", { class: "page-curves" }, [...links.values()].map((link) => h("li", {}, link))),
+    one ? h("h2", {}, captionOf(family, drawn[0].curve)) : null,
+    drawn.length ? sumOfCurves(drawn.length, one) : nothingToPointAt(family),
+    h(
+      "ol",
+      { class: "page-curves" },
+      [...links.values()].map((link) => h("li", {}, link)),
+    ),
     short.length ? notAssembled(family, short) : null,
   );
+}
+
+function sumOfCurves(count, isBelowHeading) {
+  const sum = `${count} ${count === 1 ? "curve" : "curves"} on this page`;
+  return isBelowHeading ? h("p", { class: "note" }, sum) : h("h2", {}, sum);
+}
+
+function nothingToPointAt(family) {
+  const [heading, sentence] =
+    family.layout === "chart"
+      ? ["A chart", curvesOfChart(family)]
+      : ["No curves", "Nothing is drawn on this page."];
+  return [h("h2", {}, heading), h("p", { class: "note" }, sentence)];
 }
 
 function curvesOfChart(family) {
@@ -40,8 +57,14 @@ function captionOf(family, curve) {
 
 function curveRow(family, curve, { one, onenter, onleave }) {
   const { cell, circuit } = family.curves;
-  const caption = one ? null : family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`;
-  const words = [caption, pointInWords(family, curve), circuit[curve] > 1 || one ? `circuit ${circuit[curve]}` : null];
+  const caption = one
+    ? null
+    : family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`;
+  const words = [
+    caption,
+    pointInWords(family, curve),
+    circuit[curve] > 1 || one ? `circuit ${circuit[curve]}` : null,
+  ];
   if (one && pointInWords(family, curve) && circuit[curve] === 1) words.pop();
   return h(
     "a",
@@ -70,12 +93,18 @@ export function notAssembled(family, cells) {
     "section",
     { class: "not-assembled" },
     h("h3", {}, "Could not be assembled"),
-    h("ul", {}, cells.map((cell) => h(
-      "li",
+    h(
+      "ul",
       {},
-      h("b", {}, captionInType(caption[cell] || `linkage ${number[cell]}`)),
-      h("span", { class: "note" }, ` ${reason[cell]}`),
-    ))),
+      cells.map((cell) =>
+        h(
+          "li",
+          {},
+          h("b", {}, captionInType(caption[cell] || `linkage ${number[cell]}`)),
+          h("span", { class: "note" }, ` ${reason[cell]}`),
+        ),
+      ),
+    ),
   );
 }
 
@@ -89,8 +118,13 @@ export function curvePanel(app, family, curve, { onall }) {
     "div",
     { class: "panel" },
     h("h2", {}, captionInType(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
-    h("p", { class: "tags" }, [`curve ${key}`, pointInWords(family, curve), ...new Set(words), closed[curve] ? null : "open"].filter(Boolean)
-      .map((word) => [h("span", { class: "tag" }, word), " "])),
+    h(
+      "p",
+      { class: "tags" },
+      [`curve ${key}`, pointInWords(family, curve), ...new Set(words), closed[curve] ? null : "open"]
+        .filter(Boolean)
+        .map((word) => [h("span", { class: "tag" }, word), " "]),
+    ),
     family.cells.note[at] ? h("p", { class: "note" }, family.cells.note[at]) : null,
     family.cells.status[at] === 1 ? h("p", { class: "note" }, `In part: ${family.cells.reason[at]}`) : null,
     h(
@@ -106,11 +140,14 @@ export function curvePanel(app, family, curve, { onall }) {
 }
 
 function pinButton(app, name) {
-  const button = h("button", { type: "button", onclick: () => {
-    app.pins.toggle(name);
-    shown();
-    app.say(app.pins.has(name) ? "Pinned" : "No longer pinned");
-  } });
+  const button = h("button", {
+    type: "button",
+    onclick: () => {
+      app.pins.toggle(name);
+      shown();
+      app.say(app.pins.has(name) ? "Pinned" : "No longer pinned");
+    },
+  });
   const shown = () => {
     button.textContent = app.pins.has(name) ? "Pinned" : "Pin";
     button.setAttribute("aria-pressed", String(app.pins.has(name)));
@@ -126,25 +163,40 @@ function parameterFacts(family, cell) {
   if (told.length === 0) return null;
   return [
     h("h3", {}, "Parameters"),
-    h("dl", { class: "facts page-parameters" }, told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))])),
+    h(
+      "dl",
+      { class: "facts page-parameters" },
+      told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))]),
+    ),
   ];
 }
 
-/** The measures of a curve in words, each explained by its definition: at the pointer, and all below them on demand. */
+/**
+ * The measures of a curve in words, each explained by its definition: at the pointer, and all below them on
+ * demand.
+ */
 export function measureFacts(atlas, family, curve) {
   const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
   const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
   return [
     h("h3", {}, "Measures"),
-    h("dl", { class: "facts page-measures" }, told.map(([{ name, definition }, text]) => [
-      h("dt", { title: definition }, measureInWords(name)),
-      h("dd", {}, text),
-    ])),
+    h(
+      "dl",
+      { class: "facts page-measures" },
+      told.map(([{ name, definition }, text]) => [
+        h("dt", { title: definition }, measureInWords(name)),
+        h("dd", {}, text),
+      ]),
+    ),
     h(
       "details",
       { class: "definitions note" },
       h("summary", {}, "What they mean"),
-      h("dl", {}, told.map(([{ name, definition }]) => [h("dt", {}, measureInWords(name)), h("dd", {}, definition)])),
+      h(
+        "dl",
+        {},
+        told.map(([{ name, definition }]) => [h("dt", {}, measureInWords(name)), h("dd", {}, definition)]),
+      ),
     ),
   ];
 }

@@ -7,8 +7,8 @@ import { fill, h, s } from "./dom.js";
 import { drawnPage } from "./thumbnail-page.js";
 
 /**
- * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where there is none
- * that can be read. Settles when it can be painted.
+ * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where
+ * there is none that can be read. Settles when it can be painted.
  */
 export async function pagePicture(app, family, page, label) {
   const { views } = family.pages[page - 1] ?? { views: [] };
@@ -30,8 +30,9 @@ export async function pagePicture(app, family, page, label) {
 }
 
 /**
- * What lies over the picture: a link for each curve of the page, unseen until it is brought forward. Returns { element,
- * links: Map of curve to link, show(curve, pathData), point([x, y] or null) }, places in millimetres of paper.
+ * What lies over the picture: a link for each curve of the page, unseen until it is brought forward. Returns
+ * { element, links: Map of curve to link, show(curve, pathData), point([x, y] or null) }, places in
+ * millimetres of paper.
  */
 export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const { width, height } = family.paper;
@@ -40,12 +41,20 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const dot = s("g", { class: "at" }, s("circle", { r: 1 }));
   const element = s(
     "svg",
-    { class: "overlay", viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Curves of this page" },
+    {
+      class: "overlay",
+      viewBox: `0 0 ${width} ${height}`,
+      role: "group",
+      "aria-label": "Curves of this page",
+    },
     path,
     dot,
     [...links.values()],
   );
-  for (const { curve, box: [x0, y0, x1, y1] } of drawn) {
+  for (const {
+    curve,
+    box: [x0, y0, x1, y1],
+  } of drawn) {
     // What screen readers and the browser's own focus take for the place of the link.
     const spot = { x: x0, y: y0, width: x1 - x0, height: y1 - y0, class: "spot" };
     fill(links.get(curve), s("rect", spot));

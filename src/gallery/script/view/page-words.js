@@ -69,9 +69,12 @@ export function isDrivenByLength({ template }) {
   return template.joints.some((joint) => joint.piston !== undefined);
 }
 
-/** A caption as on the page: letters before a sign of equality slanted, and none of "a = 2.59" on a line of its own. */
+/**
+ * A caption as on the page: letters before a sign of equality slanted, and none of "a = 2.59" on a line of
+ * its own.
+ */
 export function captionInType(caption) {
-  return caption.split(/([A-Za-z][\w]*(?= = ))/).map((part, k) => (
-    k % 2 ? h("i", {}, part) : part.replaceAll(" = ", "\u00a0=\u00a0")
-  ));
+  return caption
+    .split(/([A-Za-z][\w]*(?= = ))/)
+    .map((part, k) => (k % 2 ? h("i", {}, part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
 }

@@ -20,7 +20,8 @@ export const pageRoom = {
   view: async (app, place) => {
     const family = await app.atlas.family(place.path[0]);
     const listed = app.atlas.families.find(({ id }) => id === family.id);
-    if (Number(place.path[1]) > listed.pages) throw new Error(`${family.title} has ${listed.pages} pages only.`);
+    if (Number(place.path[1]) > listed.pages)
+      throw new Error(`${family.title} has ${listed.pages} pages only.`);
     const desk = new PageDesk(app, family, listed);
     await desk.open(place);
     return desk;
@@ -70,7 +71,12 @@ class PageDesk {
 
   /** Shows what an address says; of another family it is another view's. */
   update(place) {
-    if (!pageRoom.opens(place) || place.path[0] !== this.family.id || Number(place.path[1]) > this.listed.pages) return false;
+    if (
+      !pageRoom.opens(place) ||
+      place.path[0] !== this.family.id ||
+      Number(place.path[1]) > this.listed.pages
+    )
+      return false;
     this.open(place);
     return true;
   }
@@ -137,9 +143,12 @@ class PageDesk {
       this.viewport.focus({ preventScroll: true });
     };
     const enter = { onenter: (other) => this.forward.glance(other), onleave: () => this.forward.leave() };
-    fill(this.panel, curve === null
-      ? curvesPanel(this.family, this.page, this.drawn, enter)
-      : curvePanel(this.app, this.family, curve, { onall: all }));
+    fill(
+      this.panel,
+      curve === null
+        ? curvesPanel(this.family, this.page, this.drawn, enter)
+        : curvePanel(this.app, this.family, curve, { onall: all }),
+    );
     fill(this.legend, this.family.legend ?? "");
   }
 
@@ -185,7 +194,10 @@ class PageDesk {
     this.remember();
   }
 
-  /** How far from a curve a pointer may be, in millimetres: some pixels, or 3 mm where these are few pixels too. */
+  /**
+   * How far from a curve a pointer may be, in millimetres: some pixels, or 3 mm where these are few pixels
+   * too.
+   */
   reach(pixels) {
     return Math.max(pixels, Math.min(3 * this.zoom.scale, 2 * pixels)) / this.zoom.scale;
   }
@@ -198,7 +210,8 @@ class PageDesk {
   }
 
   go(page) {
-    if (page >= 1 && page <= this.listed.pages && page !== this.page) this.app.go(address([this.family.id, page]));
+    if (page >= 1 && page <= this.listed.pages && page !== this.page)
+      this.app.go(address([this.family.id, page]));
   }
 
   zoomed() {
@@ -224,13 +237,14 @@ class PageDesk {
   remember() {
     if (this.hasLeft || this.page === undefined) return;
     const { isFit, nearness, middle } = this.zoom;
-    this.app.replace(address([this.family.id, this.page], {
-      curve: this.forward.chosen === null ? null : curveKey(this.family, this.forward.chosen),
-      zoom: isFit ? null : nearness.toFixed(2),
-      at: isFit ? null : middle.map((mm) => mm.toFixed(1)).join(","),
-    }));
+    this.app.replace(
+      address([this.family.id, this.page], {
+        curve: this.forward.chosen === null ? null : curveKey(this.family, this.forward.chosen),
+        zoom: isFit ? null : nearness.toFixed(2),
+        at: isFit ? null : middle.map((mm) => mm.toFixed(1)).join(","),
+      }),
+    );
   }
-
 
   leave() {
     this.hasLeft = true;

@@ -1,14 +1,19 @@
-// The theme: as the system has it, light, or dark; remembered from one visit to the next where the browser lets a page.
+// The theme: as the system has it, light, or dark; remembered from one visit to the next where the browser
+// lets a page.
 
 import { h } from "./dom.js";
 
 const KEPT_THEME = "coupler-atlas-theme";
 
-const THEME_CHOICES = [["system", "Theme: system"], ["light", "Theme: light"], ["dark", "Theme: dark"]];
+const THEME_CHOICES = [
+  ["system", "Theme: system"],
+  ["light", "Theme: light"],
+  ["dark", "Theme: dark"],
+];
 
 /**
- * The choice of the theme, which takes effect at once. `data-theme` of <html> is always the one in effect, light or dark;
- * "themechange" is dispatched on document when it changes.
+ * The choice of the theme, which takes effect at once. `data-theme` of <html> is always the one in effect,
+ * light or dark; "themechange" is dispatched on document when it changes.
  */
 export function themeChoice() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -26,7 +31,9 @@ export function themeChoice() {
     keepTheme(wish);
     put();
   };
-  const options = THEME_CHOICES.map(([value, label]) => h("option", { value, selected: value === wish }, label));
+  const options = THEME_CHOICES.map(([value, label]) =>
+    h("option", { value, selected: value === wish }, label),
+  );
   return h("select", { class: "theme quiet", "aria-label": "Theme", onchange: choose }, options);
 }
 

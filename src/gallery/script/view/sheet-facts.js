@@ -6,7 +6,10 @@ import { counted } from "./shell-footer.js";
 // So many linkages are named for each reason.
 const NAMED_FOR_REASON = 12;
 
-/** The linkages of a family that could not be assembled, or only in part, by reason, to be unfolded; null where there are none. */
+/**
+ * The linkages of a family that could not be assembled, or only in part, by reason, to be unfolded; null
+ * where there are none.
+ */
 export function notAssembledSummary(family) {
   const { status, reason, caption, number, count } = family.cells;
   const reasons = new Map();
@@ -22,16 +25,26 @@ export function notAssembledSummary(family) {
     none ? `${counted(none, "linkage", "linkages")} could not be assembled` : null,
     part ? `${counted(part, "linkage", "linkages")} only in part` : null,
   ];
-  const named = (cells) => cells.slice(0, NAMED_FOR_REASON).map((cell) => caption[cell] || `linkage ${number[cell]}`).join("; ");
+  const named = (cells) =>
+    cells
+      .slice(0, NAMED_FOR_REASON)
+      .map((cell) => caption[cell] || `linkage ${number[cell]}`)
+      .join("; ");
   return h(
     "details",
     { class: "not-assembled note" },
     h("summary", {}, sums.filter(Boolean).join(", ")),
-    h("ul", {}, [...reasons].map(([sentence, cells]) => h(
-      "li",
+    h(
+      "ul",
       {},
-      h("b", {}, `${sentence} (${cells.length.toLocaleString("en")})`),
-      ` ${named(cells)}${cells.length > NAMED_FOR_REASON ? " …" : ""}`,
-    ))),
+      [...reasons].map(([sentence, cells]) =>
+        h(
+          "li",
+          {},
+          h("b", {}, `${sentence} (${cells.length.toLocaleString("en")})`),
+          ` ${named(cells)}${cells.length > NAMED_FOR_REASON ? " …" : ""}`,
+        ),
+      ),
+    ),
   );
 }

@@ -10,14 +10,18 @@ const TILES_AHEAD = 0.75;
 const PRINTED_TILES = 400;
 
 /**
- * A list of `count` tiles in columns of at least `least` pixels, `gap` apart, each `aspect` times as high as wide, and
- * `below` pixels more. `tile(k)` makes one, an element with a link in it, at once; `draw(element, k)` puts in what takes
- * longer, when there is time. `label` names the list.
+ * A list of `count` tiles in columns of at least `least` pixels, `gap` apart, each `aspect` times as high as
+ * wide, and `below` pixels more. `tile(k)` makes one, an element with a link in it, at once; `draw(element,
+ * k)` puts in what takes longer, when there is time. `label` names the list.
  */
 export class TileWindow {
   constructor(options) {
     Object.assign(this, options);
-    this.element = h("ul", { class: "window", "aria-label": this.label, onkeydown: (event) => this.typed(event) });
+    this.element = h("ul", {
+      class: "window",
+      "aria-label": this.label,
+      onkeydown: (event) => this.typed(event),
+    });
     this.element.style.setProperty("--shape", `1 / ${this.aspect}`);
     this.there = new Map();
     this.queue = [];
@@ -31,7 +35,8 @@ export class TileWindow {
   shown() {
     this.measure();
     this.sizes.observe(this.element);
-    for (const [name, act] of Object.entries(this.listeners)) window.addEventListener(name, act, { passive: true });
+    for (const [name, act] of Object.entries(this.listeners))
+      window.addEventListener(name, act, { passive: true });
   }
 
   /** Ends what watches the window. */

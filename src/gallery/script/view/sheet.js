@@ -12,7 +12,10 @@ import { sizeInWords } from "./shell-footer.js";
 import { pageThumbnail } from "./thumbnail-page.js";
 import { thumbnail } from "./thumbnail.js";
 
-/** The room of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` goes to that page's tile. */
+/**
+ * The room of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` goes to that page's
+ * tile.
+ */
 export const sheetRoom = {
   name: "sheet",
   under: "families",
@@ -52,12 +55,16 @@ function sheetHead(family, listed) {
       h("h1", {}, family.title),
       h("p", { class: "lede" }, sourceOf(family)),
       family.legend ? h("p", { class: "lede" }, family.legend) : null,
-      h("p", { class: "note" }, [
-        countsOf(listed),
-        `linkage ${family.linkage}`,
-        samplingInWords(family.sampling),
-        sizeInWords(listed.bytes),
-      ].join(" · ")),
+      h(
+        "p",
+        { class: "note" },
+        [
+          countsOf(listed),
+          `linkage ${family.linkage}`,
+          samplingInWords(family.sampling),
+          sizeInWords(listed.bytes),
+        ].join(" · "),
+      ),
       notAssembledSummary(family),
     ),
   );
@@ -69,11 +76,12 @@ function samplingInWords({ step, samples, spacing }) {
 }
 
 function sheetBar(family, listed, hasCurves) {
-  const way = (label, query, isHere) => h(
-    "a",
-    { class: "button", href: address([family.id], query), "aria-current": isHere ? "true" : null },
-    label,
-  );
+  const way = (label, query, isHere) =>
+    h(
+      "a",
+      { class: "button", href: address([family.id], query), "aria-current": isHere ? "true" : null },
+      label,
+    );
   return h(
     "div",
     { class: "toolbar no-print" },
@@ -89,7 +97,13 @@ function sheetBar(family, listed, hasCurves) {
 }
 
 function pageJump(family, listed) {
-  const field = h("input", { type: "number", min: 1, max: listed.pages, "aria-label": "Page", required: true });
+  const field = h("input", {
+    type: "number",
+    min: 1,
+    max: listed.pages,
+    "aria-label": "Page",
+    required: true,
+  });
   const go = (event) => {
     event.preventDefault();
     const page = Math.round(Number(field.value));
@@ -114,17 +128,26 @@ function pageTiles(app, family, listed) {
     aspect: height / width,
     below: 44,
     label: "Pages",
-    tile: (k) => h(
-      "li",
-      {},
+    tile: (k) =>
       h(
-        "a",
-        { href: address([family.id, k + 1]) },
-        h("span", { class: "leaf" }),
-        h("span", { class: "label" }, h("span", { class: "unseen" }, "Page "), h("b", {}, `${k + 1}`), " ", captionInType(pageInWords(family, k + 1))),
+        "li",
+        {},
+        h(
+          "a",
+          { href: address([family.id, k + 1]) },
+          h("span", { class: "leaf" }),
+          h(
+            "span",
+            { class: "label" },
+            h("span", { class: "unseen" }, "Page "),
+            h("b", {}, `${k + 1}`),
+            " ",
+            captionInType(pageInWords(family, k + 1)),
+          ),
+        ),
       ),
-    ),
-    draw: (element, k) => element.querySelector(".leaf").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
+    draw: (element, k) =>
+      element.querySelector(".leaf").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
   });
 }
 
@@ -137,16 +160,23 @@ function curveTiles(family) {
     aspect: 0.75,
     below: 40,
     label: "Curves",
-    tile: (k) => h(
-      "li",
-      {},
+    tile: (k) =>
       h(
-        "a",
-        { href: address([family.id, "curve", curveKey(family, k)]) },
-        h("span", { class: "leaf" }),
-        h("span", { class: "label" }, h("b", {}, curveKey(family, k)), " ", captionInType(family.cells.caption[cell[k]])),
+        "li",
+        {},
+        h(
+          "a",
+          { href: address([family.id, "curve", curveKey(family, k)]) },
+          h("span", { class: "leaf" }),
+          h(
+            "span",
+            { class: "label" },
+            h("b", {}, curveKey(family, k)),
+            " ",
+            captionInType(family.cells.caption[cell[k]]),
+          ),
+        ),
       ),
-    ),
     draw: (element, k) => {
       const leaf = element.querySelector(".leaf");
       leaf.append(thumbnail(family, [k], { width: leaf.clientWidth, height: leaf.clientHeight }));

@@ -7,8 +7,16 @@ export function footer(atlas) {
   const sum = (of) => atlas.families.reduce((total, family) => total + of(family), 0);
   const facts = [
     counted(atlas.families.length, "family", "families"),
-    counted(sum((family) => family.pages), "page", "pages"),
-    counted(sum((family) => family.curves), "curve", "curves"),
+    counted(
+      sum((family) => family.pages),
+      "page",
+      "pages",
+    ),
+    counted(
+      sum((family) => family.curves),
+      "curve",
+      "curves",
+    ),
     `${sizeInWords(sum((family) => family.bytes))} of data, read by family`,
   ];
   const books = atlas.book.map((file) => h("a", { href: file }, `The book, ${file}`));
@@ -16,7 +24,12 @@ export function footer(atlas) {
     "footer",
     { class: "footer" },
     h("p", {}, facts.join(" · ")),
-    h("p", {}, books.map((book) => [book, " · "]), `Made by ${atlas.program}`),
+    h(
+      "p",
+      {},
+      books.map((book) => [book, " · "]),
+      `Made by ${atlas.program}`,
+    ),
   );
 }
 

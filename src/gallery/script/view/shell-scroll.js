@@ -1,8 +1,9 @@
 // How far down each address was read, and where the focus was: whoever comes back finds it as it was left.
 
 /**
- * The memory of a window's history: `leave()` notes how far down the present entry is and takes up the next, `arrive()`
- * goes where that one was left, or to the top of a new one, but for views that go to a goal of their own (`data-goal`).
+ * The memory of a window's history: `leave()` notes how far down the present entry is and takes up the next,
+ * `arrive()` goes where that one was left, or to the top of a new one, but for views that go to a goal of
+ * their own (`data-goal`).
  */
 export function scrollMemory() {
   const left = new Map();
@@ -34,8 +35,12 @@ export function scrollMemory() {
 /** Gives the focus back to a link of the room, when what comes into sight by scrolling is there. */
 function focusSoon(href) {
   if (!href) return;
-  requestAnimationFrame(() => requestAnimationFrame(() => {
-    const links = [...document.querySelectorAll("main a")];
-    links.find((link) => link.getAttribute("href") === href && link.tabIndex >= 0)?.focus({ preventScroll: true });
-  }));
+  requestAnimationFrame(() =>
+    requestAnimationFrame(() => {
+      const links = [...document.querySelectorAll("main a")];
+      links
+        .find((link) => link.getAttribute("href") === href && link.tabIndex >= 0)
+        ?.focus({ preventScroll: true });
+    }),
+  );
 }

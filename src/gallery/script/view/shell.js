@@ -10,18 +10,23 @@ import { footer } from "./shell-footer.js";
 const OPENING_PATIENCE = 250;
 
 /**
- * Opens the gallery in an element. `rooms` are [{ name, label, under, opens(place), view(app, place) }]: the first whose
- * `opens` is true of an address shows it; one without a label stands `under` another. A view is, perhaps in a while,
- * { element, title, update(place), shown(), leave() }: `update`, where there is one, is told of further addresses of the
- * same room, and says whether it shows them; `shown` is called when the element is in the page; `leave` ends what it began.
+ * Opens the gallery in an element. `rooms` are [{ name, label, under, opens(place), view(app, place) }]: the
+ * first whose `opens` is true of an address shows it; one without a label stands `under` another. A view is,
+ * perhaps in a while, { element, title, update(place), shown(), leave() }: `update`, where there is one, is
+ * told of further addresses of the same room, and says whether it shows them; `shown` is called when the
+ * element is in the page; `leave` ends what it began.
  */
 export function openShell(app, rooms, root) {
   const main = h("main", { id: "room", tabindex: "-1" });
   const status = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
   const ways = waysToRooms(app, rooms);
   const scroll = scrollMemory();
-  app.say = (text) => { status.textContent = text; };
-  app.go = (fragment) => { window.location.hash = fragment; };
+  app.say = (text) => {
+    status.textContent = text;
+  };
+  app.go = (fragment) => {
+    window.location.hash = fragment;
+  };
   app.replace = (fragment) => window.history.replaceState(window.history.state, "", fragment);
   const skip = (event) => {
     event.preventDefault();
@@ -49,11 +54,16 @@ export function openShell(app, rooms, root) {
 /** The ways to the rooms, { element, mark(room) }; that to the pins says how many there are. */
 function waysToRooms(app, rooms) {
   const count = h("span", { class: "count" });
-  const links = new Map(rooms.filter(({ label }) => label).map(({ name, label, way }) => [
-    name,
-    h("a", { href: way ? way(app) : address([name]) }, label, name === "compare" ? count : null),
-  ]));
-  const counted = (names) => fill(count, names.length ? ` ${names.length}` : "", names.length ? pinned() : null);
+  const links = new Map(
+    rooms
+      .filter(({ label }) => label)
+      .map(({ name, label, way }) => [
+        name,
+        h("a", { href: way ? way(app) : address([name]) }, label, name === "compare" ? count : null),
+      ]),
+  );
+  const counted = (names) =>
+    fill(count, names.length ? ` ${names.length}` : "", names.length ? pinned() : null);
   const pinned = () => h("span", { class: "unseen" }, " pinned");
   app.pins.watch(counted);
   counted(app.pins.names);
@@ -76,11 +86,22 @@ function waysToRooms(app, rooms) {
 function roomShower(app, rooms, { main, ways, scroll }) {
   let shown = null;
   let turn = 0;
-  const entitle = (title) => { document.title = title ? `${title} · ${app.atlas.title}` : app.atlas.title; };
+  const entitle = (title) => {
+    document.title = title ? `${title} · ${app.atlas.title}` : app.atlas.title;
+  };
   const trouble = (sentence) => {
     entitle("Not found");
     app.say(sentence);
-    fill(main, h("p", { class: "trouble", role: "alert" }, sentence, " ", h("a", { href: address([]) }, "All families")));
+    fill(
+      main,
+      h(
+        "p",
+        { class: "trouble", role: "alert" },
+        sentence,
+        " ",
+        h("a", { href: address([]) }, "All families"),
+      ),
+    );
   };
   const enter = (room, view) => {
     shown = { room, view };
@@ -88,7 +109,8 @@ function roomShower(app, rooms, { main, ways, scroll }) {
     fill(main, view.element);
     view.shown?.();
     scroll.arrive();
-    // The first view takes the focus only if it wants to; and where there is something to look at, it has it already.
+    // The first view takes the focus only if it wants to; and where there is something to look at, it has it
+    // already.
     if (turn === 1) return;
     if (!main.contains(document.activeElement)) main.focus({ preventScroll: true });
     app.say(view.title || app.atlas.title);

@@ -1,4 +1,5 @@
-// Curves drawn small, from the points of the data: SVG in the inks of the theme, crisp on any screen and on paper.
+// Curves drawn small, from the points of the data: SVG in the inks of the theme, crisp on any screen and on
+// paper.
 
 import { curvePoints } from "../data/family.js";
 import { s } from "./dom.js";
@@ -9,22 +10,31 @@ const THUMBNAIL_INSET = 3;
 const THUMBNAIL_GRAIN = 0.6;
 
 /**
- * Some curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden from
- * screen readers, since what it shows is said beside it. Several curves take the five inks of curves in turn; with
- * `plain` all take the colour of the text.
+ * Some curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels,
+ * hidden from screen readers, since what it shows is said beside it. Several curves take the five inks of
+ * curves in turn; with `plain` all take the colour of the text.
  */
 export function thumbnail(family, curves, { width, height, plain = curves.length === 1 }) {
   const [x0, y0, x1, y1] = boxOfCurves(family, curves);
   const scale = fittingScale(x1 - x0, y1 - y0, width - 2 * THUMBNAIL_INSET, height - 2 * THUMBNAIL_INSET);
   const across = width / 2 - (scale * (x0 + x1)) / 2;
   const down = height / 2 + (scale * (y0 + y1)) / 2;
-  const paths = curves.map((curve, k) => s("path", {
-    class: plain ? null : `ink-${(k % 5) + 1}`,
-    d: curvePath(family, curve, { scale, origin: [across, down] }, THUMBNAIL_GRAIN),
-  }));
+  const paths = curves.map((curve, k) =>
+    s("path", {
+      class: plain ? null : `ink-${(k % 5) + 1}`,
+      d: curvePath(family, curve, { scale, origin: [across, down] }, THUMBNAIL_GRAIN),
+    }),
+  );
   return s(
     "svg",
-    { class: "thumbnail", width, height, viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" },
+    {
+      class: "thumbnail",
+      width,
+      height,
+      viewBox: `0 0 ${width} ${height}`,
+      "aria-hidden": "true",
+      focusable: "false",
+    },
     paths,
   );
 }
@@ -46,8 +56,8 @@ function fittingScale(wide, high, width, height) {
 }
 
 /**
- * The path data of a curve seen through a view, { scale, origin: [x, y] }: X = x + scale · px, Y = y − scale · py. Places
- * closer than `grain` to the one before are left out; the first and the last are kept.
+ * The path data of a curve seen through a view, { scale, origin: [x, y] }: X = x + scale · px, Y = y − scale
+ * · py. Places closer than `grain` to the one before are left out; the first and the last are kept.
  */
 export function curvePath(family, curve, { scale, origin }, grain) {
   const points = curvePoints(family, curve);

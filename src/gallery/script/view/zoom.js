@@ -1,4 +1,5 @@
-// A sheet of paper under a window that can be moved nearer and about: by wheel, drag, pinch, keys and buttons.
+// A sheet of paper under a window that can be moved nearer and about: by wheel, drag, pinch, keys and
+// buttons.
 //
 // The sheet is sized, never scaled: what is in it is drawn anew at each size, and stays crisp.
 
@@ -10,8 +11,8 @@ const FIT_MARGIN = 12;
 const TAP_SLACK = 5;
 
 /**
- * Where a sheet of `width` × `height` millimetres lies in a viewport: `scale` in pixels per millimetre, the sheet's corner at
- * `x`, `y` pixels. `onchange(this)` is called, once a frame at most, whenever it has moved.
+ * Where a sheet of `width` × `height` millimetres lies in a viewport: `scale` in pixels per millimetre, the
+ * sheet's corner at `x`, `y` pixels. `onchange(this)` is called, once a frame at most, whenever it has moved.
  */
 export class Zoom {
   constructor(viewport, sheet, { width, height, onchange, ontap }) {
@@ -38,7 +39,10 @@ export class Zoom {
   /** The pixels per millimetre at which the whole sheet is seen. */
   get fitScale() {
     const { clientWidth, clientHeight } = this.viewport;
-    const fit = Math.min((clientWidth - 2 * FIT_MARGIN) / this.width, (clientHeight - 2 * FIT_MARGIN) / this.height);
+    const fit = Math.min(
+      (clientWidth - 2 * FIT_MARGIN) / this.width,
+      (clientHeight - 2 * FIT_MARGIN) / this.height,
+    );
     return Math.max(fit, 0.05);
   }
 
@@ -113,7 +117,10 @@ export class Zoom {
     const [left, top] = this.placeAt(0, 0);
     const [right, bottom] = this.placeAt(this.viewport.clientWidth, this.viewport.clientHeight);
     if (x0 >= left && x1 <= right && y0 >= top && y1 <= bottom) return;
-    this.pan(this.scale * ((left + right) / 2 - (x0 + x1) / 2), this.scale * ((top + bottom) / 2 - (y0 + y1) / 2));
+    this.pan(
+      this.scale * ((left + right) / 2 - (x0 + x1) / 2),
+      this.scale * ((top + bottom) / 2 - (y0 + y1) / 2),
+    );
   }
 
   resized() {
@@ -152,12 +159,20 @@ export class Zoom {
     }
     // A pinch on a touchpad is told as a wheel with the control key, in small steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
-    this.by(Math.exp(-rate * Math.min(Math.max(dy, -300), 300)), ...this.pixelOf(event.clientX, event.clientY));
+    this.by(
+      Math.exp(-rate * Math.min(Math.max(dy, -300), 300)),
+      ...this.pixelOf(event.clientX, event.clientY),
+    );
   }
 
   pressed(event) {
     if (event.pointerType === "mouse" && event.button !== 0) return;
-    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, startX: event.clientX, startY: event.clientY });
+    this.pointers.set(event.pointerId, {
+      x: event.clientX,
+      y: event.clientY,
+      startX: event.clientX,
+      startY: event.clientY,
+    });
     this.isTap = this.pointers.size === 1;
   }
 
@@ -178,7 +193,10 @@ export class Zoom {
   /** One finger stays, the other goes from `before` to `after`. */
   pinched(still, before, after) {
     const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
-    this.by(spread(after) / spread(before), ...this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2));
+    this.by(
+      spread(after) / spread(before),
+      ...this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2),
+    );
     this.pan((after.x - before.x) / 2, (after.y - before.y) / 2);
   }
 
