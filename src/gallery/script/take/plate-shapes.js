@@ -10,7 +10,7 @@ const PLATE_PIN = 4;
 const PLATE_INK = "#191816";
 const PLATE_PAPER = "#fffdf8";
 const SHAPE_LOOK = {
-  plate: { fill: "#f0efeb", stroke: PLATE_INK, "stroke-width": 1.9 },
+  body: { fill: "#f0efeb" },
   link: { stroke: PLATE_INK, "stroke-width": 1.9, "stroke-linecap": "round" },
   hollow: { fill: PLATE_PAPER, stroke: PLATE_INK, "stroke-width": 0.9 },
   joint: { fill: PLATE_PAPER, stroke: PLATE_INK, "stroke-width": 0.9 },
@@ -37,7 +37,9 @@ export function plateShapes(mechanism, traced) {
   const rings = (joints, radii) => shape("joint", (at) =>
     joints.flatMap((joint) => radii.map((r) => circleData(pixel(at[2 * joint]), pixel(at[2 * joint + 1]), r))).join(""));
   return [
-    ...plates.map((joints) => shape("plate", (at) => linkData(joints, at, true))),
+    // No plate hides what is behind it.
+    ...plates.map((joints) => shape("body", (at) => linkData(joints, at, true))),
+    ...plates.map((joints) => shape("link", (at) => linkData(joints, at, true))),
     ...bars.map((joints) => shape("link", (at) => linkData(joints, at, false))),
     ...slots.flatMap((slot) => [stem(slot), hole(slot)]),
     ...actuators.flatMap((pair) => [rod(pair), cylinder(pair)]),
