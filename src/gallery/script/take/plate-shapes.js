@@ -10,7 +10,7 @@ const PLATE_PIN = 4;
 const PLATE_INK = "#191816";
 const PLATE_PAPER = "#fffdf8";
 const SHAPE_LOOK = {
-  body: { fill: "#f0efeb" },
+  body: { fill: "#191816", "fill-opacity": 0.07 },
   link: { stroke: PLATE_INK, "stroke-width": 1.9, "stroke-linecap": "round" },
   hollow: { fill: PLATE_PAPER, stroke: PLATE_INK, "stroke-width": 0.9 },
   joint: { fill: PLATE_PAPER, stroke: PLATE_INK, "stroke-width": 0.9 },
