@@ -1,0 +1,156 @@
+// The exact comparison of two outlines: the best similarity, and how far they are then from one another.
+
+import { fitted, fittedToLines, placed } from "./similarity.js";
+
+// What a distance along the curve weighs against one across it.
+const SLIP = 0.02;
+
+/**
+ * Fits an outline to another of the same direction and about the same extent, 1.
+ *
+ * `asked` and `curve` are { points, closed }, evenly spaced; `start` and `span` say between which places of `curve`, counted
+ * in its points, the whole of `asked` lies about. `whole`: all of `curve` is compared, not only what lies between the ends
+ * of `asked`. `rounds` of pairing and fitting; `reach`: how far along the other outline, by its length, the nearest place is
+ * sought from the one expected: far enough for a hand's uneven pace, and not so far that one arm of a figure is taken for
+ * another. Gives { rms, greatest: of the distances both ways, as `asked` measures, similarity: of `curve` to `asked`,
+ * from, to: the places of the ends of `asked` on `curve`, start: where it begins by all of its points }.
+ */
+export function closestFit(asked, curve, { start, span, whole, rounds, reach }) {
+  const match = new Matching(asked, curve, { start, span, whole, reach });
+  let similarity = fitted(match.expected(), asked.points);
+  for (let round = 0; round < rounds; round += 1) {
+    match.pair(placed(similarity, curve.points));
+    const next = fittedToLines(match.from.subarray(0, match.used), match.to, match.along, SLIP);
+    if (!next) break;
+    const moved = Math.abs(next.re - similarity.re) + Math.abs(next.im - similarity.im) + Math.abs(next.x - similarity.x) + Math.abs(next.y - similarity.y);
+    similarity = next;
+    if (moved < 1e-5) break;
+  }
+  match.pair(placed(similarity, curve.points));
+  return { ...match.deviation(), similarity, ...match.where() };
+}
+
+/** Which place of each outline is nearest to the points of the other. */
+class Matching {
+  constructor(asked, curve, given) {
+    Object.assign(this, { asked, curve }, given);
+    this.count = asked.points.length / 2;
+    this.steps = asked.closed ? this.count : this.count - 1;
+    this.places = curve.points.length / 2;
+    this.place = Float64Array.from({ length: this.count }, (_, n) => given.start + (given.span * n) / this.steps);
+    const room = 2 * (this.count + Math.ceil(2 * this.places) + 2);
+    [this.from, this.to, this.along] = [new Float64Array(room), new Float64Array(room), new Float64Array(room)];
+    this.foot = { place: 0, square: 0, x: 0, y: 0, ex: 0, ey: 0 };
+    this.used = 0;
+  }
+
+  /** Where on the curve the points of `asked` are if both are passed evenly. */
+  expected() {
+    const out = new Float64Array(2 * this.count);
+    for (let n = 0; n < this.count; n += 1) this.pointAt(this.place[n], out, 2 * n);
+    return out;
+  }
+
+  pointAt(place, out, at) {
+    const { points, closed } = this.curve;
+    const within = closed ? place : Math.min(Math.max(place, 0), this.places - 1.000001);
+    const k = Math.floor(within);
+    const t = within - k;
+    const a = 2 * (((k % this.places) + this.places) % this.places);
+    const b = 2 * ((a / 2 + 1) % this.places);
+    out[at] = points[a] + t * (points[b] - points[a]);
+    out[at + 1] = points[a + 1] + t * (points[b + 1] - points[a + 1]);
+  }
+
+  /** Pairs the points of both outlines with the other's nearest places, `moved` being the curve as it lies on `asked`. */
+  pair(moved) {
+    const { asked, curve, foot, start, span, steps } = this;
+    this.used = this.forth = this.back = this.forthGreatest = this.backGreatest = 0;
+    const near = Math.max(2, Math.ceil(this.reach * span));
+    for (let n = 0; n < this.count; n += 1) {
+      nearest(moved, curve.closed, start + (span * n) / steps, near, asked.points[2 * n], asked.points[2 * n + 1], foot);
+      this.place[n] = foot.place;
+      this.pointAt(foot.place, this.from, this.used);
+      this.keep(asked.points[2 * n], asked.points[2 * n + 1]);
+      this.forth += foot.square / this.count;
+      this.forthGreatest = Math.max(this.forthGreatest, foot.square);
+    }
+    const [first, last] = this.compared();
+    const around = Math.max(2, Math.ceil(this.reach * steps));
+    for (let m = first; m <= last; m += 1) {
+      const k = 2 * (((m % this.places) + this.places) % this.places);
+      nearest(asked.points, asked.closed, ((m - start) / span) * steps, around, moved[k], moved[k + 1], foot);
+      this.from[this.used] = curve.points[k];
+      this.from[this.used + 1] = curve.points[k + 1];
+      this.keep(foot.x, foot.y);
+      this.back += foot.square / (last - first + 1);
+      this.backGreatest = Math.max(this.backGreatest, foot.square);
+    }
+  }
+
+  /** The first and the last of the curve's points that are compared, counted on round a closed one. */
+  compared() {
+    if (this.whole) return [0, this.places - 1];
+    const first = Math.ceil(this.place[0]);
+    return [first, Math.min(Math.floor(this.place[this.count - 1]), first + 2 * this.places - 1)];
+  }
+
+  keep(x, y) {
+    this.to[this.used] = x;
+    this.to[this.used + 1] = y;
+    this.along[this.used] = this.foot.ex;
+    this.along[this.used + 1] = this.foot.ey;
+    this.used += 2;
+  }
+
+  /** The places of both ends, and where on the curve the shape begins, of all its points' places. */
+  where() {
+    const { place, count, steps, span } = this;
+    let start = 0;
+    for (let n = 0; n < count; n += 1) start += (place[n] - (span * n) / steps) / count;
+    return { from: place[0], to: place[count - 1], start };
+  }
+
+  deviation() {
+    return {
+      rms: Math.sqrt((this.forth + this.back) / 2),
+      greatest: Math.sqrt(Math.max(this.forthGreatest, this.backGreatest)),
+    };
+  }
+}
+
+/**
+ * The nearest place to (x, y) on the segments of an outline within `reach` of a place: in `foot`, { place, square: of the
+ * distance, x, y, ex, ey: the direction of the segment }.
+ */
+function nearest(points, closed, about, reach, x, y, foot) {
+  const count = points.length / 2;
+  let [first, last] = [Math.floor(about) - reach, Math.floor(about) + reach];
+  if (!closed) {
+    first = Math.min(Math.max(first, 0), Math.max(count - 2, 0));
+    last = Math.max(Math.min(last, count - 2), first);
+  }
+  foot.square = Infinity;
+  const end = points.length;
+  let a = 2 * (((first % count) + count) % count);
+  for (let s = first; s <= last; s += 1, a = a + 2 === end ? 0 : a + 2) {
+    const b = a + 2 === end ? 0 : a + 2;
+    const dx = points[b] - points[a];
+    const dy = points[b + 1] - points[a + 1];
+    const size = dx * dx + dy * dy;
+    const along = size > 0 ? ((x - points[a]) * dx + (y - points[a + 1]) * dy) / size : 0;
+    const t = along < 0 ? 0 : along > 1 ? 1 : along;
+    const u = points[a] + t * dx - x;
+    const v = points[a + 1] + t * dy - y;
+    const square = u * u + v * v;
+    if (square < foot.square) {
+      const norm = size > 0 ? 1 / Math.sqrt(size) : 0;
+      foot.square = square;
+      foot.place = s + t;
+      foot.x = u + x;
+      foot.y = v + y;
+      foot.ex = dx * norm;
+      foot.ey = dy * norm;
+    }
+  }
+}

@@ -1,0 +1,155 @@
+// Which curves have a portion like a shape, by the windows of the index.
+
+import { evenShape } from "./asked.js";
+import { CHORDS, SPANS, WINDOW, directionOf, windowAt, windowsOf } from "./indexing.js";
+import { correlation, settled } from "./settle.js";
+import { Shortlist } from "./shortlist.js";
+import { normalised } from "./spectrum.js";
+
+// Curves whose best windows are looked at more closely.
+const CLOSER = 800;
+
+/**
+ * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than `least` of the
+ * curve's length: [{ index, curve, value, seeds: [{ mirror, reversed, start, span }] }], as `likelyWhole`, with `start` and
+ * `span` by the curve's length in its own direction. The index must have its windows.
+ */
+export function* likelyParts(index, shape, { mirror, least, most }) {
+  const own = windowOf(shape);
+  if (!own) return [];
+  const best = bestWindows(index.count);
+  for (let s = 0; s < SPANS.length && (s === 0 || SPANS[s - 1] > least); s += 1) yield* scan(index, s, own, mirror, best);
+  const closer = new Shortlist(CLOSER);
+  for (let curve = 0; curve < index.count; curve += 1) {
+    const seeds = seedsOf(index, curve, own, best);
+    if (seeds.length) closer.offer({ index, curve, value: seeds[0].value, seeds });
+    if (curve % 256 === 255) yield;
+  }
+  const list = new Shortlist(most);
+  let k = 0;
+  for (const { curve, seeds } of closer.best()) {
+    const settling = seeds.slice(0, SEEDS).map((seed) => ({ ...seed, ...settled(index, curve, own.ways[seed.way], seed, 0.9 * least) }));
+    settling.sort((a, b) => b.value - a.value);
+    list.offer({ index, curve, value: settling[0].value, seeds: settling.slice(0, 1) });
+    if ((k += 1) % 32 === 0) yield;
+  }
+  return list.best();
+}
+
+/** The window that a shape is, with unit energy, in four ways, and the directions of its chords; null if it is a point. */
+function windowOf(shape) {
+  const { points } = evenShape(shape, WINDOW, true);
+  const re = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n]);
+  const im = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n + 1]);
+  if (!normalised(re, im)) return null;
+  const ends = evenShape(shape, CHORDS + 1, true).points;
+  const chords = Uint8Array.from({ length: CHORDS }, (_, k) => (
+    directionOf(ends[2 * k + 2] - ends[2 * k], ends[2 * k + 3] - ends[2 * k + 1])
+  ));
+  const back = (values) => values.slice().reverse();
+  const mirrored = im.map((value) => -value);
+  // 0 as it is, 1 the other way, 2 and 3 their mirror images.
+  const ways = [{ re, im }, { re: back(re), im: back(im) }, { re, im: mirrored }, { re: back(re), im: back(mirrored) }];
+  return { chords, ways };
+}
+
+/** For each half of each curve and each way the window whose chords differ least in direction from the shape's, once turned. */
+function bestWindows(count) {
+  const slots = SLOTS * count;
+  return { difference: new Uint8Array(slots).fill(NOT_LIKE), span: new Uint8Array(slots), window: new Uint16Array(slots) };
+}
+
+// The sum of differences of seven chords, in 256ths of a turn, at which a window is not like a shape at all.
+const NOT_LIKE = 80;
+// Windows that are kept of a curve: one that begins in each half of it, in each of four ways.
+const SLOTS = 8;
+const SEEDS = 3;
+// The difference of one chord, likewise.
+const OTHER_CHORD = 18;
+
+/** Compares the directions of the chords of all windows of an extent. */
+function* scan(index, s, { chords }, mirror, best) {
+  const each = windowsOf(SPANS[s]);
+  const away = Uint8Array.from({ length: 256 }, (_, k) => Math.min(k, 256 - k));
+  const steps = Uint16Array.from({ length: CHORDS }, (_, k) => Math.round((k * SPANS[s] * each) / CHORDS));
+  const turn = (chords[CHORDS - 1] - chords[0]) & 255;
+  const slice = Math.max(Math.floor(30000 / each), 1);
+  for (let from = 0; from < index.count; from += slice) {
+    for (let curve = from; curve < Math.min(from + slice, index.count); curve += 1) {
+      scanCurve(index, curve, s, { each, away, steps, turn, chords, mirror }, best);
+    }
+    yield;
+  }
+}
+
+/**
+ * The first and the last chord alone tell most windows away: their angle is that of the shape as it is, and of its mirror
+ * image passed the other way; or it is the opposite, for the two other ways.
+ */
+function scanCurve(index, curve, s, given, best) {
+  const { each, away, turn, mirror } = given;
+  const windows = index.windows[s];
+  const base = curve * each;
+  const beyond = base + each;
+  const last = base + (index.closed[curve] ? each : Math.floor((1 - SPANS[s]) * each) + 1);
+  const end = given.steps[CHORDS - 1];
+  let at = SLOTS * curve;
+  const half = base + (each >> 1);
+  const { difference } = best;
+  const tried = (way, w) => {
+    const sum = differenceOf(windows, base, w, given, way, difference[at + way]);
+    if (sum >= difference[at + way]) return;
+    difference[at + way] = sum;
+    best.span[at + way] = s;
+    best.window[at + way] = w;
+  };
+  for (let from = base; from < last; from += 1) {
+    if (from === half) at += 4;
+    const to = from + end < beyond ? from + end : from + end - each;
+    const angle = windows[to] - windows[from];
+    const same = away[(angle - turn) & 255];
+    const other = away[(angle + turn) & 255];
+    if (same < OTHER_CHORD) {
+      if (same < difference[at]) tried(0, from - base);
+      if (mirror && same < difference[at + 3]) tried(3, from - base);
+    }
+    if (other < OTHER_CHORD) {
+      if (other < difference[at + 1]) tried(1, from - base);
+      if (mirror && other < difference[at + 2]) tried(2, from - base);
+    }
+  }
+}
+
+/** The sum of the differences in direction of a window's chords, turned so that the fourth agrees; or more than `most`. */
+function differenceOf(windows, base, w, { each, away, steps, chords }, way, most) {
+  const reversed = way % 2 === 1;
+  const sign = way < 2 ? 1 : -1;
+  let sum = 0;
+  let turned = 0;
+  // From the middle outwards.
+  for (let n = 0; n < CHORDS; n += 1) {
+    const k = n % 2 ? (CHORDS - 1 - n) >> 1 : (CHORDS + n) >> 1;
+    const at = w + steps[reversed ? CHORDS - 1 - k : k];
+    const delta = sign * windows[base + (at < each ? at : at - each)] - chords[k];
+    if (n === 0) turned = delta;
+    const other = away[(delta - turned) & 255];
+    sum += other;
+    if (other > OTHER_CHORD || sum >= most) return most;
+  }
+  return sum;
+}
+
+/** The best windows of a curve, one for each half and way that has one, with their correlations, the likeliest first. */
+function seedsOf(index, curve, own, best) {
+  const [re, im] = [new Float64Array(WINDOW), new Float64Array(WINDOW)];
+  const seeds = [];
+  for (let at = SLOTS * curve; at < SLOTS * (curve + 1); at += 1) {
+    const way = at % 4;
+    if (best.difference[at] >= NOT_LIKE) continue;
+    const span = SPANS[best.span[at]];
+    const seed = { way, mirror: way >= 2, reversed: way % 2 === 1, span, start: best.window[at] / windowsOf(span) };
+    windowAt(index, curve, seed.start, span, re, im);
+    seeds.push({ ...seed, value: correlation(own.ways[way], re, im) });
+  }
+  return seeds.sort((a, b) => b.value - a.value);
+}
