@@ -5,6 +5,7 @@ import { curveKey } from "../data/family.js";
 import { h } from "./dom.js";
 import { countsOf, sourceOf } from "./overview.js";
 import { pageInWords } from "./page-cells.js";
+import { pageField } from "./page-field.js";
 import { captionInType } from "./page-words.js";
 import { notAssembledSummary } from "./sheet-facts.js";
 import { TileWindow } from "./sheet-window.js";
@@ -97,26 +98,10 @@ function sheetBar(family, listed, hasCurves) {
 }
 
 function pageJump(family, listed) {
-  const field = h("input", {
-    type: "number",
-    min: 1,
-    max: listed.pages,
-    "aria-label": "Page",
-    required: true,
-  });
-  const go = (event) => {
-    event.preventDefault();
-    const page = Math.round(Number(field.value));
-    if (page >= 1 && page <= listed.pages) window.location.hash = address([family.id, page]);
-    else field.setAttribute("aria-invalid", "true");
+  const go = (page) => {
+    window.location.hash = address([family.id, page]);
   };
-  return h(
-    "form",
-    { class: "field row end", novalidate: true, onsubmit: go },
-    h("span", {}, "Go to page"),
-    field,
-    h("span", {}, `of ${listed.pages.toLocaleString("en")}`),
-  );
+  return h("div", { class: "end" }, pageField(listed, "Go to page", go).element);
 }
 
 function pageTiles(app, family, listed) {

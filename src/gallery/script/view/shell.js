@@ -20,7 +20,6 @@ export function openShell(app, rooms, root) {
   const main = h("main", { id: "room", tabindex: "-1" });
   const status = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
   const ways = waysToRooms(app, rooms);
-  const scroll = scrollMemory();
   app.say = (text) => {
     status.textContent = text;
   };
@@ -46,9 +45,9 @@ export function openShell(app, rooms, root) {
     footer(app.atlas),
     status,
   );
-  const show = roomShower(app, rooms, { main, ways, scroll });
-  window.addEventListener("hashchange", show);
-  return show();
+  const shower = new RoomShower(app, rooms, { main, ways, scroll: scrollMemory() });
+  window.addEventListener("hashchange", () => shower.show());
+  return shower.show();
 }
 
 /** The ways to the rooms, { element, mark(room) }; that to the pins says how many there are. */
@@ -82,67 +81,68 @@ function waysToRooms(app, rooms) {
   return { element: h("nav", { class: "ways", "aria-label": "Gallery" }, [...links.values()]), mark };
 }
 
-/** A function that shows what the address says. */
-function roomShower(app, rooms, { main, ways, scroll }) {
-  let shown = null;
-  let turn = 0;
-  const entitle = (title) => {
-    document.title = title ? `${title} · ${app.atlas.title}` : app.atlas.title;
-  };
-  const trouble = (sentence) => {
-    entitle("Not found");
-    app.say(sentence);
-    fill(
-      main,
-      h(
-        "p",
-        { class: "trouble", role: "alert" },
-        sentence,
-        " ",
-        h("a", { href: address([]) }, "All families"),
-      ),
-    );
-  };
-  const enter = (room, view) => {
-    shown = { room, view };
-    entitle(view.title);
-    fill(main, view.element);
-    view.shown?.();
-    scroll.arrive();
-    // The first view takes the focus only if it wants to; and where there is something to look at, it has it
-    // already.
-    if (turn === 1) return;
-    if (!main.contains(document.activeElement)) main.focus({ preventScroll: true });
-    app.say(view.title || app.atlas.title);
-  };
-  return async () => {
+/** What shows the room that the address says. */
+class RoomShower {
+  constructor(app, rooms, { main, ways, scroll }) {
+    Object.assign(this, { app, rooms, main, ways, scroll });
+    [this.shown, this.turn] = [null, 0];
+  }
+
+  /** Shows what the address says, in the view that is there if it can, or else in a new one. */
+  async show() {
     const place = parsedAddress(window.location.hash);
-    const room = rooms.find((candidate) => candidate.opens(place, app));
-    scroll.leave();
-    if (shown && shown.room === room && shown.view.update?.(place)) {
-      entitle(shown.view.title);
+    const room = this.rooms.find((candidate) => candidate.opens(place, this.app));
+    this.scroll.leave();
+    if (this.shown && this.shown.room === room && this.shown.view.update?.(place)) {
+      this.entitle(this.shown.view.title);
       return;
     }
-    turn += 1;
-    const mine = turn;
+    this.turn += 1;
+    const mine = this.turn;
     // What was there rests, and is seen until there is something in its place.
-    shown?.view.leave?.();
-    shown = null;
-    ways.mark(room);
-    const waiting = window.setTimeout(() => {
-      main.setAttribute("aria-busy", "true");
-      app.say("Opening");
-    }, OPENING_PATIENCE);
+    this.shown?.view.leave?.();
+    this.shown = null;
+    this.ways.mark(room);
+    const waiting = window.setTimeout(() => this.wait(), OPENING_PATIENCE);
     try {
       if (!room) throw new Error("There is nothing at this address.");
-      const view = await room.view(app, place);
-      if (mine === turn) enter(room, view);
+      const view = await room.view(this.app, place);
+      if (mine === this.turn) this.enter(room, view);
       else view.leave?.();
     } catch (error) {
-      if (mine === turn) trouble(error.message);
+      if (mine === this.turn) this.trouble(error.message);
     } finally {
       window.clearTimeout(waiting);
-      if (mine === turn) main.removeAttribute("aria-busy");
+      if (mine === this.turn) this.main.removeAttribute("aria-busy");
     }
-  };
+  }
+
+  wait() {
+    this.main.setAttribute("aria-busy", "true");
+    this.app.say("Opening");
+  }
+
+  enter(room, view) {
+    this.shown = { room, view };
+    this.entitle(view.title);
+    fill(this.main, view.element);
+    view.shown?.();
+    this.scroll.arrive();
+    // The first view takes the focus only if it wants to; and where there is something to look at, it has it
+    // already.
+    if (this.turn === 1) return;
+    if (!this.main.contains(document.activeElement)) this.main.focus({ preventScroll: true });
+    this.app.say(view.title || this.app.atlas.title);
+  }
+
+  trouble(sentence) {
+    this.entitle("Not found");
+    this.app.say(sentence);
+    const families = h("a", { href: address([]) }, "All families");
+    fill(this.main, h("p", { class: "trouble", role: "alert" }, sentence, " ", families));
+  }
+
+  entitle(title) {
+    document.title = title ? `${title} · ${this.app.atlas.title}` : this.app.atlas.title;
+  }
 }
