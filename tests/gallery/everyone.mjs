@@ -157,7 +157,7 @@ check("7.5", "nothing is cut off at 360 pixels", on(atlas, "/", PHONE), async (g
     assert.ok(wide <= 360, `${wide} pixels wide at ${fragment}`);
   }
   await g.go("/evans/1");
-  for (const button of await page.locator(".page-bar :is(button, a)").all()) {
+  for (const button of await page.locator(".page-bar :is(button, a):visible").all()) {
     const { width, height } = await button.boundingBox();
     assert.ok(Math.min(width, height) >= 24, "a finger meets it");
   }
@@ -232,3 +232,20 @@ check("7.9", "a strict policy, and no style in markup", on(atlas, "/evans/1"), a
   const html = await page.content();
   assert.doesNotMatch(html.replace(/<script[\s\S]*?<\/script>/g, ""), /\son\w+="/);
 });
+
+check(
+  "7.10",
+  "in the dark pages are turned, or as printed if that is chosen",
+  on(atlas, "/evans/1", { colorScheme: "dark" }),
+  async (g, page) => {
+    const filter = () => page.locator(".page-sheet img").evaluate((image) => getComputedStyle(image).filter);
+    assert.match(await filter(), /invert/);
+    await page.getByRole("button", { name: "As printed" }).click();
+    assert.equal(await filter(), "none");
+    await page.reload();
+    await page.waitForSelector(".page-sheet img");
+    assert.equal(await filter(), "none", "it is remembered");
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
+    assert.equal(await page.getByRole("button", { name: "As printed" }).count(), 0, "of no use in the light");
+  },
+);

@@ -3,6 +3,7 @@
 import { address } from "../data/address.js";
 import { h } from "./dom.js";
 import { pageField } from "./page-field.js";
+import { printedSwitch } from "./settings.js";
 
 /**
  * { element, tell({ page, nearness, isFit }) }: ways to the page before and after, a field for the number of
@@ -15,7 +16,8 @@ export function pageBar(listed, { go, zoom }) {
   const number = pageField(listed, "page", go);
   const near = zoomControls(zoom);
   const steps = h("div", { class: "segments" }, before, after);
-  const element = h("div", { class: "toolbar page-bar" }, contents, steps, number.element, near.element);
+  const parts = [contents, steps, number.element, printedSwitch(), near.element];
+  const element = h("div", { class: "toolbar page-bar" }, parts);
   const tell = ({ page, nearness, isFit }) => {
     contents.setAttribute("href", address([listed.id], { page }));
     pointStep(before, listed, page - 1);

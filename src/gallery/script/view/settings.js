@@ -4,6 +4,7 @@
 import { h } from "./dom.js";
 
 const KEPT_THEME = "coupler-atlas-theme";
+const KEPT_PAGES = "coupler-atlas-pages";
 
 const THEME_CHOICES = [
   ["system", "Theme: system"],
@@ -28,7 +29,7 @@ export function themeChoice() {
   put();
   const choose = (event) => {
     wish = event.target.value;
-    keepTheme(wish);
+    keepChoice(KEPT_THEME, wish);
     put();
   };
   const options = THEME_CHOICES.map(([value, label]) =>
@@ -37,19 +38,43 @@ export function themeChoice() {
   return h("select", { class: "theme quiet", "aria-label": "Theme", onchange: choose }, options);
 }
 
+/**
+ * A switch, of use in the dark alone: pages as they were printed, or turned to light ink on dark paper.
+ * `data-pages` of <html> is "printed" or absent.
+ */
+export function printedSwitch() {
+  const root = document.documentElement;
+  const put = (isPrinted) => {
+    if (isPrinted) root.dataset.pages = "printed";
+    else delete root.dataset.pages;
+    button.setAttribute("aria-pressed", String(isPrinted));
+  };
+  const act = () => {
+    put(root.dataset.pages !== "printed");
+    keepChoice(KEPT_PAGES, root.dataset.pages ?? "turned");
+  };
+  const button = h("button", { type: "button", class: "as-printed", onclick: act }, "As printed");
+  put(keptChoice(KEPT_PAGES) === "printed");
+  return button;
+}
+
 function keptTheme() {
+  const theme = keptChoice(KEPT_THEME);
+  return THEME_CHOICES.some(([value]) => value === theme) ? theme : "system";
+}
+
+function keptChoice(name) {
   try {
-    const kept = window.localStorage.getItem(KEPT_THEME);
-    return THEME_CHOICES.some(([value]) => value === kept) ? kept : "system";
+    return window.localStorage.getItem(name);
   } catch {
-    return "system";
+    return null;
   }
 }
 
-/** Where the browser keeps nothing for pages from disk, the choice lasts as long as the page. */
-function keepTheme(theme) {
+/** Where the browser keeps nothing for pages from disk, a choice lasts as long as the page. */
+function keepChoice(name, value) {
   try {
-    window.localStorage.setItem(KEPT_THEME, theme);
+    window.localStorage.setItem(name, value);
   } catch {
     // There is nothing to be done about it, and nothing lost but a convenience.
   }

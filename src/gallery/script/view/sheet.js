@@ -1,7 +1,7 @@
 // A family: what it is, and its pages, or its curves, on a contact sheet.
 
 import { address } from "../data/address.js";
-import { curveKey } from "../data/family.js";
+import { curveAt, curveKey } from "../data/family.js";
 import { h } from "./dom.js";
 import { countsOf, sourceOf } from "./overview.js";
 import { pageInWords } from "./page-cells.js";
@@ -26,7 +26,7 @@ export const sheetRoom = {
     const listed = app.atlas.families.find((candidate) => candidate.id === id);
     const hasCurves = query.get("show") === "curves" || listed.pages === 0;
     const tiles = hasCurves ? curveTiles(family) : pageTiles(app, family, listed);
-    const goal = Number(query.get(hasCurves ? "curve" : "page")) - 1;
+    const goal = hasCurves ? curveAt(family, query.get("curve")) : Number(query.get("page")) - 1;
     if (goal >= 0) tiles.element.dataset.goal = goal;
     return {
       title: family.title,
