@@ -21,7 +21,9 @@ export class JointNames {
       const near = [...new Set(links.filter((link) => link.includes(joint)).flat())].filter((other) => other !== joint);
       // A point of a grid hangs on the joints it is placed from.
       const arms = near.length ? near : (linkage.joints[joint].step.base ?? []);
-      return { element, joint, near: arms, isFixed: fixed.includes(joint), angle: -Math.PI / 2, angles: [] };
+      // Names are set about their middles: a long one keeps its beginning, or its end, off the joint.
+      const over = Math.max(0, 3.6 * element.textContent.length - 4);
+      return { element, joint, near: arms, over, isFixed: fixed.includes(joint), angle: -Math.PI / 2, angles: [] };
     });
     this.element.replaceChildren(...this.names.map(({ element }) => element));
   }
@@ -31,7 +33,7 @@ export class JointNames {
       const [x, y] = [at[2 * name.joint], at[2 * name.joint + 1]];
       if (!Number.isFinite(x + y)) continue;
       name.angle = widestGap(anglesOfLinks(name, at), name.angle);
-      name.element.setAttribute("x", pixel(x + NAME_DISTANCE * Math.cos(name.angle)));
+      name.element.setAttribute("x", pixel(x + (NAME_DISTANCE + name.over) * Math.cos(name.angle)));
       name.element.setAttribute("y", pixel(y + NAME_DISTANCE * Math.sin(name.angle) + 4));
     }
   }
