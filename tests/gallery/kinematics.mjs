@@ -139,6 +139,54 @@ test("at a limit the dyad lies flat", () => {
   close((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0, 4e-15);
 });
 
+test("a limit that is searched for lies flat too, and nothing closes beyond it", () => {
+  const template = sixBar();
+  // The second dyad is too short to follow all the way round.
+  template.joints[6].lengths = [1.2, 1.4];
+  const linkage = linkageOf(template, []);
+  const { circuits } = motionOf(linkage, { step: 3 });
+  const passes = circuits.flatMap((circuit) => circuit.passes);
+  const limits = passes.flatMap((pass) => [pass.begin, pass.end].map((end) => ({ pass, end })));
+  const searched = limits.filter(({ end }) => (end.flat >> 1) & 1);
+  assert.ok(searched.length > 0);
+  const apart = (pass, input) => {
+    const pose = poseAt(linkage, pass, input);
+    return distance(pointOf(pose, 4), pointOf(pose, 5));
+  };
+  for (const { pass, end } of searched) {
+    // To the rate of the base, about 1 a radian, times the last bits of some hundred degrees.
+    close(apart(pass, end.at), 2.6, 1e-12, "the base of a flat dyad");
+    const outwards = end === pass.begin ? pass.from - pass.to : pass.to - pass.from;
+    assert.ok(apart(pass, end.at + 1e-6 * Math.sign(outwards)) > 2.6, "beyond the limit");
+  }
+});
+
+test("at a change point rates are as they are beside it", () => {
+  let compared = 0;
+  for (const lengths of [
+    [3, 1, 2, 2],
+    [4, 2, 1, 3],
+    [3, 1, 3, 1],
+  ]) {
+    const linkage = linkageOf(fourBar(lengths), []);
+    for (const { passes } of motionOf(linkage, { step: 90 }).circuits) {
+      for (const pass of passes) {
+        if (pass.end.flat === 0 || Math.abs(pass.end.sin) > 1e-9) continue;
+        compared += 1;
+        const h = 0.03 * Math.sign(pass.from - pass.to);
+        const [at, one, two, three] = [0, 1, 2, 3].map((k) => ratesAt(linkage, pass, pass.to + k * h));
+        // Drawn on from three places beside it, nearer to which rounding would have too great a part.
+        const drawnOn = (name, k) => 3 * one[name][k] - 3 * two[name][k] + three[name][k];
+        for (let k = 0; k < at.place.length; k++) {
+          close(at.velocity[k], drawnOn("velocity", k), 1e-6, "velocity");
+          close(at.acceleration[k], drawnOn("acceleration", k), 1e-4, "acceleration");
+        }
+      }
+    }
+  }
+  assert.ok(compared > 4);
+});
+
 test("rates are what differences come to", () => {
   const linkage = linkageOf(sixBar(), []);
   const { circuits } = motionOf(linkage, { samples: 40 });
@@ -185,6 +233,35 @@ test("the coupler's point at the pole stands still, and its centrodes meet there
     close(fixed[2 * i], pole[0], tolerance, "fixed centrode");
     close(va[0] - turning * (pole[1] - a[1]), 0, tolerance, "velocity at the pole");
     close(va[1] + turning * (pole[0] - a[0]), 0, tolerance, "velocity at the pole");
+  }
+});
+
+test("points of the inflection circle go straight", () => {
+  const linkage = linkageOf(fourBar([4, 1, 3, 3.5]), []);
+  const [{ passes }] = motionOf(linkage, { step: 90 }).circuits;
+  for (const input of [20, 110, 205, 300]) {
+    const { pole, inflection } = poleAt(linkage, passes[0], input, 4);
+    const { place, velocity, acceleration } = ratesAt(linkage, passes[0], input);
+    // A point of the coupler: its coordinates on it, and its rates by those of A and B.
+    const rates = ([x, y]) => {
+      const [a, b] = [2, 3].map((joint) => pointOf(place, joint));
+      const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+      const size2 = dx * dx + dy * dy;
+      const along = ((x - a[0]) * dx + (y - a[1]) * dy) / size2;
+      const across = ((y - a[1]) * dx - (x - a[0]) * dy) / size2;
+      return [velocity, acceleration].map((all) => {
+        const [p, q] = [2, 3].map((joint) => pointOf(all, joint));
+        const [ex, ey] = [q[0] - p[0], q[1] - p[1]];
+        return [p[0] + along * ex - across * ey, p[1] + along * ey + across * ex];
+      });
+    };
+    const radius = distance(pole, inflection) / 2;
+    const centre = [0, 1].map((k) => (pole[k] + inflection[k]) / 2);
+    for (const turn of [10, 100, 250]) {
+      const [c, s] = cosSinOfDegrees(turn);
+      const [v, a] = rates([centre[0] + radius * c, centre[1] + radius * s]);
+      close((v[0] * a[1] - v[1] * a[0]) / Math.hypot(...v) ** 3, 0, 1e-11, "curvature");
+    }
   }
 });
 
