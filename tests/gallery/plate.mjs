@@ -162,6 +162,29 @@ const tests = [
     assert.ok(Math.abs(after[0] - foot[0]) > 30, `the foot went from ${foot} to ${after}`);
     await plate.close();
   }],
+  ["3.3", "a finger drags joints, and two fingers zoom", async ({ browser }) => {
+    const plate = await opened(browser, folder, "/chebyshev/curve/1.1.1", { ...still, hasTouch: true, viewport: { width: 360, height: 740 } });
+    const { page } = plate;
+    await page.locator(".stage").scrollIntoViewIfNeeded();
+    const session = await page.context().newCDPSession(page);
+    const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const joint = Number(await page.locator(".grip:not(.crank-grip)").first().getAttribute("data-joint"));
+    const [x, y] = await gripAt(page, joint);
+    const before = await inputNow(page);
+    await touch("touchStart", [x, y]);
+    for (let k = 1; k <= 8; k += 1) await touch("touchMove", [x + 4 * k, y + 2 * k]);
+    await touch("touchEnd");
+    assert.notEqual(await inputNow(page), before);
+    const scale = async () => Number(/matrix\(([\d.]+)/.exec(await page.locator(".still > g").getAttribute("transform"))[1]);
+    const fitted = await scale();
+    const { left, top } = await page.locator(".stage").evaluate((stage) => stage.getBoundingClientRect().toJSON());
+    await touch("touchStart", [left + 20, top + 20]);
+    await touch("touchStart", [left + 20, top + 20], [left + 60, top + 20]);
+    for (let k = 1; k <= 8; k += 1) await touch("touchMove", [left + 20, top + 20], [left + 60 + 8 * k, top + 20]);
+    await touch("touchEnd");
+    assert.ok((await scale()) > 1.5 * fitted, `the scale went from ${fitted} to ${await scale()}`);
+    await plate.close();
+  }],
   ["3.4", "both branches can be chosen, and the choice is in the address", async ({ browser }) => {
     const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
     const { page } = plate;
