@@ -92,6 +92,28 @@ function narrowestBand(x, y) {
   return { width: width(a), length: reach(Math.cos(a), Math.sin(a)) };
 }
 
+test("a circular portion fits its ring", () => {
+  const { linkage, motion, found } = measured(evans([4, 1, 3, 3.5, 0.5]), 4);
+  const [{ passes, x, y, count }] = motion.circuits;
+  let extent = 0;
+  for (let i = 0; i < count; i++) {
+    for (let j = 0; j < i; j++) extent = Math.max(extent, Math.hypot(x[4][i] - x[4][j], y[4][i] - y[4][j]));
+  }
+  // The ring is as wide as it may be; the extent is known to the flatness of its samples.
+  close(found.dwell_deviation / extent, 0.0005, 1e-6);
+  const step = found.dwell_input_deg / 500;
+  const places = posesAt(
+    linkage,
+    passes[0],
+    Array.from({ length: 501 }, (_, k) => found.dwell_start_deg + k * step),
+  );
+  places.x[4].forEach((at, k) => {
+    const radius = Math.hypot(at - found.dwell_x, places.y[4][k] - found.dwell_y);
+    // Between the points it was found by the curve leaves the ring by less than a part in a thousand.
+    assert.ok(Math.abs(radius - found.dwell_radius) <= 1.001 * found.dwell_deviation, `part ${k}`);
+  });
+});
+
 test("a straight portion of a span or of a length has it", () => {
   const span = measured(evans([2, 1, 2.59, 2.59, 2]), 4, { step: 2 }, { straight: { input: 90 } }).found;
   close(span.straight_input_deg, 90, 1e-9);
