@@ -33,7 +33,13 @@ export function originOfCurve(app, family, curve) {
 /** The table of measures: `show(now)` puts those of the page beside the recorded ones, null takes them off. */
 export class MeasureTable {
   constructor(app, family, curve, isLength) {
-    this.rows = app.atlas.measures.map((measure) => rowOfMeasure(measure, measured(family, curve, measure.name), isLength));
+    const names = new Set(app.atlas.measures.map(({ name }) => name));
+    this.rows = app.atlas.measures.map((measure) => {
+      const short = measure.name.replace(/_deg$/, "");
+      // An angle is known by its unit, but where a word has the same name.
+      const title = (short !== measure.name && names.has(short) ? `${short}, direction` : short).replaceAll("_", " ");
+      return rowOfMeasure(title, measure, measured(family, curve, measure.name), isLength);
+    });
     this.body = h("tbody", {}, this.rows.map(({ element }) => element));
     this.note = h("p", { class: "note" });
     this.table = h(
@@ -61,8 +67,7 @@ export class MeasureTable {
   }
 }
 
-function rowOfMeasure(measure, recorded, isLength) {
-  const name = measure.name.replace(/_deg$/, "").replaceAll("_", " ");
+function rowOfMeasure(name, measure, recorded, isLength) {
   const now = h("td", { class: "now" });
   const change = h("td", { class: "now" });
   const title = h("th", { scope: "row", class: "text" }, h("span", { class: "measure-name" }, name), h("span", { class: "definition" }, measure.definition));

@@ -15,7 +15,8 @@ export class Switches {
     }));
     this.lengths = h("div", { class: "cognate-lengths" });
     this.circuits = h("div", { class: "circuits", role: "radiogroup", "aria-label": "Circuits" });
-    this.circuitSection = h("section", { class: "gauge circuits-gauge" }, h("h3", {}, "Circuits"), this.circuits);
+    this.aside = h("p", { class: "note", hidden: true }, "What is pinned and taken away is this curve’s own circuit.");
+    this.circuitSection = h("section", { class: "gauge circuits-gauge" }, h("h3", {}, "Circuits"), this.circuits, this.aside);
     this.element = h(
       "section",
       { class: "gauge switches" },
@@ -36,6 +37,7 @@ export class Switches {
     const routes = candidates?.routes ?? [];
     fill(this.circuits, routes.map((route, k) => this.#circuit(candidates, route, k)));
     this.circuitSection.hidden = routes.length < 2;
+    this.aside.hidden = !candidates || candidates.shown === candidates.home;
   }
 
   #circuit({ linkage, home, shown }, route, k) {
