@@ -13,3 +13,4 @@ mod template;
 pub use data::{SCRIPT, Statements};
 pub use index::{PAGE, Shown, index};
 pub use parts::{Part, SCRIPTS, STYLES, joined};
+pub use template::template;

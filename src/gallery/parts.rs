@@ -9,15 +9,7 @@ pub struct Part {
     pub text: &'static str,
 }
 
-macro_rules! parts {
-    ($($name:literal),* $(,)?) => { &[$(Part { name: $name, text: include_str!($name) }),*] };
-}
-
-/// The style sheets, in the order in which they stand in the page.
-pub const STYLES: &[Part] = parts!["style/base.css"];
-
-/// The modules, each after those it imports.
-pub const SCRIPTS: &[Part] = parts!["script/main.js"];
+include!(concat!(env!("OUT_DIR"), "/gallery_parts.rs"));
 
 /// Modules as one script: what they import from one another is there already, so that imports go and exports are plain
 /// definitions. No two of them may use one name for two things at their top level.

@@ -91,7 +91,7 @@ fn parameter(parameter: &Parameter, scope: &[(&str, crate::expression::Kind)]) -
 }
 
 /// A template, in the words of a manifest.
-pub(super) fn template(template: &Template) -> Value {
+pub fn template(template: &Template) -> Value {
     let number = crate::expression::Kind::Number;
     let scope: Vec<(&str, crate::expression::Kind)> =
         template.parameters.iter().map(|parameter| (parameter.name.as_str(), number)).collect();

@@ -17,6 +17,7 @@ mod expressions;
 mod faults;
 mod folder;
 mod formats;
+mod gallery;
 mod house;
 mod instant;
 mod lettering;

@@ -1,0 +1,62 @@
+//! Lists the files of the gallery's page: its modules in an order in which each comes after those it imports.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+const GALLERY: &str = "src/gallery";
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    println!("cargo::rerun-if-changed={GALLERY}");
+    let root = Path::new(&std::env::var("CARGO_MANIFEST_DIR")?).join(GALLERY);
+    let mut scripts = Vec::new();
+    visit(&root.join("script/main.js"), &mut Vec::new(), &mut scripts)?;
+    let mut styles: Vec<PathBuf> =
+        fs::read_dir(root.join("style"))?.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
+    // What all others build on comes first, and what has the last word when printing last.
+    let is = |path: &Path, name: &str| path.file_name().is_some_and(|file| file == name);
+    styles.sort_by_key(|path| (!is(path, "base.css"), is(path, "print.css"), path.clone()));
+    let list = |name: &str, files: &[PathBuf]| -> Result<String, Box<dyn std::error::Error>> {
+        let mut text = format!("/// The page's {name}, in order.\npub const {}: &[Part] = &[\n", name.to_uppercase());
+        for file in files {
+            let parts: Vec<_> = file.strip_prefix(&root)?.iter().map(|part| part.to_string_lossy()).collect();
+            text.push_str(&format!("    Part {{ name: {:?}, text: include_str!({file:?}) }},\n", parts.join("/")));
+        }
+        Ok(text + "];\n")
+    };
+    let out = Path::new(&std::env::var("OUT_DIR")?).join("gallery_parts.rs");
+    Ok(fs::write(out, list("styles", &styles)? + &list("scripts", &scripts)?)?)
+}
+
+/// Puts a module after those it imports; `open` are those that are on the way to it.
+fn visit(module: &Path, open: &mut Vec<PathBuf>, found: &mut Vec<PathBuf>) -> Result<(), Box<dyn std::error::Error>> {
+    if found.iter().any(|known| known == module) {
+        return Ok(());
+    }
+    if open.iter().any(|known| known == module) {
+        return Err(format!("{} imports itself, by way of others", module.display()).into());
+    }
+    open.push(module.to_owned());
+    let text = fs::read_to_string(module).map_err(|error| format!("{}: {error}", module.display()))?;
+    for import in text.lines().filter_map(source) {
+        let mut path = module.parent().unwrap_or(Path::new("")).to_owned();
+        for step in import.split('/') {
+            match step {
+                "." => {}
+                ".." => drop(path.pop()),
+                name => path.push(name),
+            }
+        }
+        visit(&path, open, found)?;
+    }
+    open.pop();
+    found.push(module.to_owned());
+    Ok(())
+}
+
+/// Where an import statement that ends on a line imports from.
+fn source(line: &str) -> Option<&str> {
+    let is_end = line.starts_with("import {") || line.starts_with("} from ");
+    let (_, rest) = line.split_once(" from \"").filter(|_| is_end)?;
+    rest.strip_suffix("\";")
+}

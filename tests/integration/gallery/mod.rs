@@ -1,0 +1,7 @@
+//! The gallery: its data, its page, the files the page is joined from, and its solver. What takes a browser is in
+//! `tests/gallery/`, and run by `.ci/gallery`.
+
+mod data;
+mod page;
+mod parts;
+mod solver;

@@ -1,0 +1,137 @@
+//! The files the page is joined from.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use coupler_atlas::gallery::{Part, SCRIPTS, STYLES, joined};
+
+/// The names that a module imports, with the file each comes from.
+fn imports(part: &Part) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    for statement in part.text.split("import ").skip(1) {
+        let Some((names, rest)) = statement.strip_prefix('{').and_then(|rest| rest.split_once("} from \"")) else {
+            continue;
+        };
+        let from = rest.split('"').next().unwrap();
+        let folder = Path::new(part.name).parent().unwrap();
+        let mut path: Vec<&str> = folder.iter().map(|part| part.to_str().unwrap()).collect();
+        for step in from.split('/') {
+            match step {
+                "." => {}
+                ".." => drop(path.pop()),
+                name => path.push(name),
+            }
+        }
+        let path = path.join("/");
+        found.extend(
+            names.split(',').map(str::trim).filter(|name| !name.is_empty()).map(|name| (name.to_owned(), path.clone())),
+        );
+    }
+    found
+}
+
+/// The names that a module defines at its top level, and whether it exports them.
+fn definitions(part: &Part) -> Vec<(String, bool)> {
+    let definition = |line: &str| {
+        let (line, is_exported) = line.strip_prefix("export ").map_or((line, false), |line| (line, true));
+        let kinds = ["async function* ", "async function ", "function* ", "function ", "class ", "const ", "let "];
+        let rest = kinds.iter().find_map(|kind| line.strip_prefix(kind))?;
+        let name: String = rest.chars().take_while(|c| c.is_alphanumeric() || "_$".contains(*c)).collect();
+        Some((name, is_exported))
+    };
+    part.text.lines().filter_map(definition).collect()
+}
+
+#[test]
+fn every_file_of_the_page_is_in_it() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/gallery");
+    let mut open = vec![root.join("script"), root.join("style")];
+    let mut found = Vec::new();
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let name = path.strip_prefix(&root).unwrap();
+                found.push(name.iter().map(|part| part.to_str().unwrap()).collect::<Vec<_>>().join("/"));
+            }
+        }
+    }
+    found.sort();
+    let mut named: Vec<&str> = SCRIPTS.iter().chain(STYLES).map(|part| part.name).collect();
+    named.sort_unstable();
+    assert_eq!(named, found);
+}
+
+#[test]
+fn a_module_comes_after_those_it_imports_and_they_export_what_it_asks_for() {
+    let mut known: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for part in SCRIPTS {
+        for (name, from) in imports(part) {
+            let exported =
+                known.get(from.as_str()).unwrap_or_else(|| panic!("{}: {from} comes later, or not at all", part.name));
+            assert!(exported.contains(&name), "{}: {from} has no {name}", part.name);
+        }
+        let exported = definitions(part).into_iter().filter(|(_, is_exported)| *is_exported).map(|(name, _)| name);
+        known.insert(part.name, exported.collect());
+    }
+}
+
+#[test]
+fn no_name_is_used_twice() {
+    let mut of: BTreeMap<String, &str> = BTreeMap::new();
+    for part in SCRIPTS {
+        for (name, _) in definitions(part) {
+            assert!(!name.is_empty(), "{}: a definition without a single name", part.name);
+            if let Some(other) = of.insert(name.clone(), part.name) {
+                panic!("{name} is in {other} and in {}", part.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn joined_modules_import_and_export_nothing() {
+    let parts = [
+        Part { name: "a.js", text: "export const A = 1;\n" },
+        Part { name: "b.js", text: "import {\n  A,\n} from \"./a.js\";\n\nexport function b() {\n  return A;\n}\n" },
+    ];
+    assert_eq!(joined(&parts), "// a.js\nconst A = 1;\n// b.js\n\nfunction b() {\n  return A;\n}\n");
+    let all = joined(SCRIPTS);
+    assert!(all.lines().all(|line| !line.starts_with("import ") && !line.starts_with("export ")));
+}
+
+#[test]
+fn text_never_becomes_markup_or_code() {
+    let banned = [
+        "innerHTML",
+        "outerHTML",
+        "insertAdjacentHTML",
+        "document.write",
+        "eval(",
+        "new Function",
+        "fetch(",
+        "XMLHttpRequest",
+        "WebSocket",
+        "</script",
+        "import(",
+        "style: `",
+        "setAttribute(\"style\"",
+    ];
+    for part in SCRIPTS {
+        for word in banned {
+            assert!(!part.text.contains(word), "{} has {word}", part.name);
+        }
+    }
+}
+
+/// A file of a few hundred lines reads in one go.
+#[test]
+fn files_are_small() {
+    for part in SCRIPTS.iter().chain(STYLES) {
+        let lines = part.text.lines().count();
+        assert!(lines <= 400, "{} has {lines} lines", part.name);
+    }
+}
