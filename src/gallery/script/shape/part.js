@@ -60,12 +60,12 @@ function bestWindows(count) {
 }
 
 // The sum of differences of seven chords, in 256ths of a turn, at which a window is not like a shape at all.
-const NOT_LIKE = 80;
+const NOT_LIKE = 160;
 // Windows that are kept of a curve: one that begins in each half of it, in each of four ways.
 const SLOTS = 8;
 const SEEDS = 3;
 // The difference of one chord, likewise.
-const OTHER_CHORD = 18;
+const OTHER_CHORD = 40;
 
 /** Compares the directions of the chords of all windows of an extent. */
 function* scan(index, s, { chords }, mirror, best) {

@@ -1,0 +1,49 @@
+// Which columns of a table can be asked about, in the order in which people ask.
+
+import { NO_WORD } from "../data/family.js";
+import { DERIVED } from "./table.js";
+
+const FIRST_WORDS = ["class", "symmetric", "turn"];
+const FIRST_NUMBERS = ["mu_worst_deg", "straight_length", "straight_tolerance", "straight_share", "length", "time_ratio"];
+const LATER_WORDS = ["type", "shortest", "symmetry"];
+
+/**
+ * The columns of a table with two different values: [{ name, group: "first" | "more" | "parameters", kind: "words" | "numbers",
+ * unit, definition }]. Columns in `kept` (their names) are there whatever their values.
+ */
+export function columnsOf(table, measures, kept = new Set()) {
+  const told = new Map(measures.map((measure) => [measure.name, measure]));
+  const numbers = measures.filter(({ word }) => !word).map(({ name }) => name);
+  const words = measures.filter(({ word }) => word).map(({ name }) => name);
+  const parameters = [...new Set(table.families.flatMap(({ names }) => names))].map((name) => `p.${name}`);
+  const column = (group, kind) => (name) => {
+    const { unit = "", definition = "" } = DERIVED[name] ?? told.get(name) ?? {};
+    return { name, group, kind, unit, definition };
+  };
+  const listed = [
+    ...FIRST_NUMBERS.slice(0, 1).map(column("first", "numbers")),
+    ...FIRST_WORDS.map(column("first", "words")),
+    ...FIRST_NUMBERS.slice(1).map(column("first", "numbers")),
+    ...[...LATER_WORDS, ...words.filter((name) => ![...FIRST_WORDS, ...LATER_WORDS].includes(name))].map(column("more", "words")),
+    ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
+    ...parameters.map(column("parameters", "numbers")),
+  ];
+  return listed.filter(({ name, kind }) => kept.has(name) || (kind === "words" ? hasTwoWords : hasTwoNumbers)(table, name));
+}
+
+function hasTwoWords(table, name) {
+  const { codes } = table.words(name);
+  const first = codes[0];
+  return codes.some((code) => code !== first) && codes.some((code) => code !== NO_WORD);
+}
+
+function hasTwoNumbers(table, name) {
+  const values = table.numbers(name);
+  let first = NaN;
+  for (let row = 0; row < values.length; row += 1) {
+    if (Number.isNaN(values[row])) continue;
+    if (Number.isNaN(first)) first = values[row];
+    else if (values[row] !== first) return true;
+  }
+  return false;
+}

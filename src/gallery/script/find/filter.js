@@ -1,0 +1,62 @@
+// Which rows of a table pass its filters.
+
+/**
+ * Filters of a table by the names of columns: { low, high } of numbers, either of them missing, both within; or a Set of
+ * words. A row that misses what a filter asks for does not pass it.
+ */
+export class Filters {
+  constructor(table) {
+    this.table = table;
+    this.failing = new Uint16Array(table.count);
+    this.fails = new Map();
+    this.rest = null;
+  }
+
+  /** Sets the filter of a column, or takes it away with null. */
+  set(name, filter) {
+    const before = this.fails.get(name);
+    const after = filter && this.failsOf(name, filter);
+    if (before) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] -= before[row];
+    if (after) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] += after[row];
+    if (after) this.fails.set(name, after);
+    else this.fails.delete(name);
+    this.rest = null;
+  }
+
+  failsOf(name, filter) {
+    const out = new Uint8Array(this.table.count);
+    if (filter instanceof Set) {
+      const { values, codes } = this.table.words(name);
+      const passes = new Uint8Array(256);
+      values.forEach((word, code) => { passes[code] = filter.has(word) ? 1 : 0; });
+      for (let row = 0; row < out.length; row += 1) out[row] = 1 - passes[codes[row]];
+      return out;
+    }
+    const [low, high] = [filter.low ?? -Infinity, filter.high ?? Infinity];
+    const values = this.table.numbers(name);
+    // A comparison with a missing number is false.
+    for (let row = 0; row < out.length; row += 1) out[row] = values[row] >= low && values[row] <= high ? 0 : 1;
+    return out;
+  }
+
+  /** The rows that pass all filters, in the table's order. */
+  left() {
+    if (this.rest) return this.rest;
+    const rows = new Uint32Array(this.table.count);
+    let count = 0;
+    for (let row = 0; row < rows.length; row += 1) if (this.failing[row] === 0) rows[count++] = row;
+    this.rest = rows.subarray(0, count);
+    return this.rest;
+  }
+
+  /** Of each word of a column, how many rows have it that pass all other filters. */
+  wordCounts(name) {
+    const { values, codes } = this.table.words(name);
+    const own = this.fails.get(name);
+    const counts = new Uint32Array(256);
+    for (let row = 0; row < codes.length; row += 1) {
+      if (this.failing[row] === (own ? own[row] : 0)) counts[codes[row]] += 1;
+    }
+    return counts.subarray(0, values.length);
+  }
+}

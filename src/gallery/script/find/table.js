@@ -1,0 +1,114 @@
+// All curves of some families as one table: a row for each, a column for each measure and parameter.
+
+import { NO_WORD, curveKey } from "../data/family.js";
+
+/** Columns that are reckoned from measures: what people ask for that no one measure says. */
+export const DERIVED = {
+  mu_worst_deg: {
+    unit: "deg",
+    definition: "how far the transmission angle stays from 0 and 180 all round: the lesser of its least and 180 less its greatest",
+    of: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
+  },
+  straight_tolerance: {
+    unit: "",
+    definition: "departure of the straightest portion from its line, by the portion's length",
+    of: (at) => at("straight_deviation") / at("straight_length"),
+  },
+  straight_share: {
+    unit: "",
+    definition: "length of the straightest portion, by the greater side of the curve's box",
+    of: (at) => at("straight_length") / Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
+  },
+};
+
+const SYMMETRIC = ["not symmetric", "symmetric"];
+const TURNS = ["between limits", "full turn"];
+
+/** The rows of families: `family[row]`, `curve[row]` say whose; columns are made when they are first asked for. */
+export class CurveTable {
+  constructor(families) {
+    this.families = families;
+    this.count = families.reduce((sum, { curves }) => sum + curves.count, 0);
+    this.family = new Uint16Array(this.count);
+    this.curve = new Uint32Array(this.count);
+    this.known = new Map();
+    let row = 0;
+    families.forEach(({ curves }, k) => {
+      for (let curve = 0; curve < curves.count; curve += 1, row += 1) [this.family[row], this.curve[row]] = [k, curve];
+    });
+  }
+
+  /** The name of a row's curve beyond its family. */
+  nameOf(row) {
+    const family = this.families[this.family[row]];
+    return `${family.id}:${curveKey(family, this.curve[row])}`;
+  }
+
+  /** A column of numbers, f64[count], NaN where they are missing; a parameter's name has "p." before it. */
+  numbers(name) {
+    if (!this.known.has(name)) this.known.set(name, this.made(name));
+    return this.known.get(name);
+  }
+
+  made(name) {
+    const out = new Float64Array(this.count).fill(NaN);
+    if (DERIVED[name]) {
+      const at = (row) => (other) => this.numbers(other)[row];
+      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED[name].of(at(row));
+      return out;
+    }
+    const own = name.startsWith("p.") ? parameterOf(name.slice(2)) : measureOf(name);
+    let row = 0;
+    for (const family of this.families) {
+      const value = own(family);
+      for (let curve = 0; curve < family.curves.count; curve += 1, row += 1) if (value) out[row] = value(curve);
+    }
+    return out;
+  }
+
+  /** A column of words: { values, codes u8[count] }, NO_WORD where there is none. */
+  words(name) {
+    const key = `words ${name}`;
+    if (!this.known.has(key)) this.known.set(key, this.madeWords(name));
+    return this.known.get(key);
+  }
+
+  madeWords(name) {
+    const codes = new Uint8Array(this.count).fill(NO_WORD);
+    if (name === "symmetric") {
+      const { codes: own } = this.words("symmetry");
+      const measures = this.families.map(({ curves }) => "symmetry" in curves.words);
+      for (let row = 0; row < this.count; row += 1) if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
+      return { values: SYMMETRIC, codes };
+    }
+    if (name === "turn") {
+      const limits = this.numbers("input_min_deg");
+      for (let row = 0; row < this.count; row += 1) codes[row] = Number.isNaN(limits[row]) ? 1 : 0;
+      return { values: TURNS, codes };
+    }
+    const values = [];
+    let row = 0;
+    for (const { curves } of this.families) {
+      const own = curves.words[name];
+      const renamed = own?.values.map((word) => (values.includes(word) ? values.indexOf(word) : values.push(word) - 1));
+      for (let curve = 0; curve < curves.count; curve += 1, row += 1) {
+        if (own && own.codes[curve] !== NO_WORD) codes[row] = renamed[own.codes[curve]];
+      }
+    }
+    return { values, codes };
+  }
+}
+
+function measureOf(name) {
+  return ({ curves }) => {
+    const values = curves.measures[name];
+    return values && ((curve) => values[curve]);
+  };
+}
+
+function parameterOf(name) {
+  return ({ names, cells, curves }) => {
+    const at = names.indexOf(name);
+    return at >= 0 && ((curve) => cells.values[curves.cell[curve] * names.length + at]);
+  };
+}
