@@ -9,8 +9,8 @@ import { Poser } from "./poser.js";
 const LIMIT_SLACK = 3;
 
 /**
- * Takes pointers on a stage. `plate` has study, place { pass, input }, part, pose, hold() when a hand takes hold, move()
- * after it has put `place` elsewhere, seek(part). Returns a function that takes the listeners off.
+ * Takes pointers on a stage. `plate` has study, pose, reason (why there is nothing to be dragged, or null) and drive. Returns
+ * a function that takes the listeners off.
  */
 export function gripStage(stage, plate) {
   const { picture } = stage;
@@ -26,7 +26,7 @@ export function gripStage(stage, plate) {
     hands.set(event.pointerId, at);
     const joint = event.target.closest?.("[data-joint]")?.dataset.joint;
     if (joint !== undefined && hands.size === 1) {
-      plate.hold();
+      plate.drive.hold();
       drag = begunDrag(plate, stage, Number(joint), planePoint(stage.view, at));
       stage.element.classList.add("dragging");
     }
@@ -49,7 +49,7 @@ export function gripStage(stage, plate) {
     if (hands.size > 0) return;
     drag = null;
     stage.element.classList.remove("dragging");
-    plate.place.isBeyond = false;
+    plate.drive.place.isBeyond = false;
   };
   let scrolled = -Infinity;
   const scroll = () => { scrolled = performance.now(); };
@@ -82,7 +82,8 @@ function begunDrag(plate, stage, joint, hand) {
 
 // The crank follows the direction of the hand about its pivot, turn after turn, and over limits.
 function draggedCrank(plate, pivot, pin, hand) {
-  const { study, pose, place } = plate;
+  const { study, pose, drive } = plate;
+  const { place } = drive;
   const sense = study.linkage.placement.mirror ? -1 : 1;
   const directionOf = ([x, y]) => (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
   const turned = (from, to) => sense * ((((to - from + 180) % 360) + 360) % 360 - 180);
@@ -90,7 +91,7 @@ function draggedCrank(plate, pivot, pin, hand) {
   let wanted = place.input + turned(directionOf([pose[2 * pin], pose[2 * pin + 1]]), direction);
   const follow = () => {
     wanted = followedInput(plate.study.course, place, wanted, LIMIT_SLACK);
-    plate.move();
+    drive.move();
   };
   follow();
   return (at) => {
@@ -116,6 +117,6 @@ function draggedJoint(plate, joint, hand) {
       const far = Math.hypot(at[2 * alone.joint] - x - offX, at[2 * alone.joint + 1] - y - offY);
       return Number.isFinite(far) ? far : Infinity;
     };
-    plate.seek(nearestPart(course, plate.part, distance));
+    plate.drive.seek(nearestPart(course, plate.drive.part, distance));
   };
 }

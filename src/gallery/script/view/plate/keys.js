@@ -6,8 +6,8 @@ import { steppedByKey } from "./transport.js";
 
 /** Listens for keys until `leave()`. */
 export class PlateKeys {
-  constructor(plate, drive) {
-    this.listener = (event) => pressedKey(plate, drive, event);
+  constructor(plate) {
+    this.listener = (event) => pressedKey(plate, event);
     window.addEventListener("keydown", this.listener);
   }
 
@@ -16,16 +16,17 @@ export class PlateKeys {
   }
 }
 
-function pressedKey(plate, drive, event) {
+function pressedKey(plate, event) {
+  const { drive, stage } = plate;
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
   const { target } = event;
   const isField = target.matches?.("input:not([type=range]):not([type=checkbox]), select, textarea");
   if (isField) return;
   const isPressed = target.matches?.("button, a, summary, input[type=checkbox]");
   if (event.key === " " && !isPressed) drive.toggle();
-  else if (event.key === "0") drive.fit();
-  else if (event.key === "+" || event.key === "=") drive.zoom(1.3);
-  else if (event.key === "-") drive.zoom(1 / 1.3);
+  else if (event.key === "0") stage.fit();
+  else if (event.key === "+" || event.key === "=") stage.zoom(1.3);
+  else if (event.key === "-") stage.zoom(1 / 1.3);
   else if (event.key === "[" || event.key === "]") toNeighbour(plate, event.key === "]" ? 1 : -1);
   else if (target.matches?.("input[type=range], select")) return;
   else if (/^Arrow(Left|Right)$/.test(event.key)) {

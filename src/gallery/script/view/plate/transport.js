@@ -7,16 +7,16 @@ import { minusSigned } from "./study.js";
 const PLAY_RATES = [[15, "¼"], [30, "½"], [60, "1"], [120, "2"], [240, "4"]];
 
 /**
- * The controls under a stage. `on` has { toggle(), seek(part), step(direction, share), limit(direction), fit(), zoom(factor) }.
- * `show(study)`, `now(part, input)` and `playing(isPlaying)` say what there is to see.
+ * The controls under a stage, of a drive and of the stage's view. `show(study, title)`, `now(part, input)` and
+ * `playing(isPlaying)` say what there is to see.
  */
 export class Transport {
-  constructor(on) {
-    this.play = h("button", { type: "button", class: "play", onclick: on.toggle, "aria-keyshortcuts": "Space" });
+  constructor(drive, stage) {
+    this.play = h("button", { type: "button", class: "play", onclick: () => drive.toggle(), "aria-keyshortcuts": "Space" });
     this.scrub = h("input", {
       type: "range", class: "scrub", min: "0", max: "1", step: "any", value: "0", "aria-label": "Place on the circuit",
-      oninput: () => on.seek(Number(this.scrub.value)),
-      onkeydown: (event) => steppedByKey(event, on),
+      oninput: () => drive.seekByHand(Number(this.scrub.value)),
+      onkeydown: (event) => steppedByKey(event, drive),
     });
     this.input = h("span", { class: "input-now" });
     this.ends = h("p", { class: "note ends" });
@@ -28,8 +28,8 @@ export class Transport {
     );
     const button = (label, title, onclick, keys) => h("button", { type: "button", class: "step", title, "aria-label": title, "aria-keyshortcuts": keys, onclick }, label);
     this.toLimits = [
-      button("⇤", "To the limit before, or the beginning", () => on.limit(-1), "Home"),
-      button("⇥", "To the next limit, or the end", () => on.limit(1), "End"),
+      button("⇤", "To the limit before, or the beginning", () => drive.toLimit(-1), "Home"),
+      button("⇥", "To the next limit, or the end", () => drive.toLimit(1), "End"),
     ];
     this.element = h(
       "div",
@@ -43,9 +43,9 @@ export class Transport {
           "span",
           { class: "end zooms" },
           this.rate,
-          button("−", "Zoom out", () => on.zoom(1 / 1.3), "-"),
-          button("+", "Zoom in", () => on.zoom(1.3), "+"),
-          button("Fit", "Fit into the frame", on.fit, "0"),
+          button("−", "Zoom out", () => stage.zoom(1 / 1.3), "-"),
+          button("+", "Zoom in", () => stage.zoom(1.3), "+"),
+          button("Fit", "Fit into the frame", () => stage.fit(), "0"),
         ),
       ),
     );
@@ -100,12 +100,12 @@ export class Transport {
 }
 
 /** Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits. */
-export function steppedByKey(event, on) {
+export function steppedByKey(event, drive) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
   const limits = { Home: -1, End: 1 };
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
-  if (event.key in ways) on.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
-  else if (event.key in limits) on.limit(limits[event.key]);
+  if (event.key in ways) drive.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
+  else if (event.key in limits) drive.toLimit(limits[event.key]);
   else return false;
   event.preventDefault();
   return true;

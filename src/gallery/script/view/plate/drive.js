@@ -1,0 +1,128 @@
+// What moves a linkage along its circuit: time, the slider, keys, hands.
+
+import { heldPart, partOfInput, placeAtPart, turningParts } from "./course.js";
+import { Player } from "./player.js";
+
+// A range shorter than this many degrees is not rattled through: it takes as long as this would.
+const SHORTEST_RANGE = 150;
+
+/**
+ * A place on the course of a study: `part`, and `place` { pass, input }. `on` has moved(), playing(isPlaying), and rate(), the
+ * degrees of input to a second. `isHalted` while there is nothing to move.
+ */
+export class Drive {
+  constructor(on) {
+    this.on = on;
+    this.place = { pass: 0, input: 0, isBeyond: false };
+    this.part = 0;
+    this.heading = 1;
+    this.course = null;
+    this.isHalted = true;
+    this.player = new Player((seconds) => this.#advance(seconds));
+  }
+
+  /** Takes the course of a study: at the same input as before, or as near it as there is. */
+  take({ course, linkage }) {
+    const isFirst = this.course === null;
+    this.course = course;
+    this.isLength = linkage.input.isLength;
+    this.isHalted = false;
+    if (isFirst) {
+      this.begin();
+      return;
+    }
+    const { passes } = course;
+    this.place.pass = Math.min(this.place.pass, passes.length - 1);
+    const { from, to } = passes[this.place.pass];
+    this.place.input = Math.min(Math.max(this.place.input, Math.min(from, to)), Math.max(from, to));
+    this.part = partOfInput(course, this.place.pass, this.place.input);
+  }
+
+  /** To where a plate opens: some way along, where links seldom lie on one another. */
+  begin() {
+    this.part = this.course.closed ? 0.13 : 0.3;
+    placeAtPart(this.course, this.part, this.place);
+  }
+
+  /** The pass that the place is on. */
+  get pass() {
+    return this.course.passes[this.place.pass];
+  }
+
+  /** Plays or pauses. */
+  toggle(isPlaying = !this.player.isPlaying) {
+    if (isPlaying && !this.isHalted) this.player.play();
+    else this.player.pause();
+    this.on.playing(this.player.isPlaying);
+  }
+
+  /** A hand has taken hold of the linkage. */
+  hold() {
+    this.toggle(false);
+  }
+
+  /** `place` has been moved. */
+  move() {
+    this.part = partOfInput(this.course, this.place.pass, this.place.input);
+    this.on.moved();
+  }
+
+  /** Goes to a part of the course. */
+  seek(part) {
+    this.part = part;
+    placeAtPart(this.course, part, this.place);
+    this.on.moved();
+  }
+
+  /** The same, when a hand asks for it. */
+  seekByHand(part) {
+    if (this.isHalted) return;
+    this.hold();
+    this.seek(part);
+  }
+
+  /** So many degrees on along the course, or 1/200 of a stroke; over limits. */
+  step(direction, times = 1) {
+    if (this.isHalted) return;
+    this.hold();
+    const by = direction * times * (this.isLength ? this.course.whole / 200 : 1);
+    const { from, to } = this.pass;
+    const next = this.place.input + Math.sign(to - from) * by;
+    const isInside = (next - from) * (next - to) <= 0;
+    if (isInside) {
+      this.place.input = next;
+      this.move();
+      return;
+    }
+    // A step over a limit ends beyond it, by so much of the course.
+    this.seek(heldPart(this.course, this.part + by / this.course.whole));
+  }
+
+  /** To the next place where the input turns round, or, of a full turn, to its beginning. */
+  toLimit(direction) {
+    if (this.isHalted) return;
+    this.hold();
+    const { closed } = this.course;
+    const parts = turningParts(this.course);
+    const stops = parts.length ? parts : [0];
+    const all = closed ? [-1, 0, 1].flatMap((turn) => stops.map((part) => part + turn)) : stops;
+    const ahead = all.filter((part) => direction * (part - this.part) > 1e-9);
+    if (ahead.length === 0) return;
+    const next = direction > 0 ? Math.min(...ahead) : Math.max(...ahead);
+    this.seek(closed ? next - Math.floor(next) : next);
+  }
+
+  #advance(seconds) {
+    if (this.isHalted) return;
+    const { closed, whole } = this.course;
+    const rate = this.on.rate();
+    // An actuator's stroke takes as long as a turn.
+    const range = this.isLength ? 360 : Math.max(whole, SHORTEST_RANGE);
+    let part = this.part + (this.heading * seconds * rate) / range;
+    if (!closed && (part > 1 || part < 0)) {
+      this.heading = part > 1 ? -1 : 1;
+      part = part > 1 ? 2 - part : -part;
+    }
+    this.seek(heldPart(this.course, part));
+  }
+}

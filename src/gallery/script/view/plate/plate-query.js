@@ -1,0 +1,33 @@
+// What the query of a plate's address says: changed parameters, the circuit, and what is switched on.
+
+import { address } from "../../data/address.js";
+import { curveKey } from "../../data/family.js";
+import { OVERLAYS } from "./overlays.js";
+import { changesOfQuery } from "./parameters.js";
+
+/** { changes: Map, asked: the place of a circuit among all, or null, on: Set of overlays' names } of a query. */
+export function readPlateQuery(family, trace, query) {
+  const circuit = Number(query.get("circuit"));
+  const shown = query.get("show");
+  const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
+  return {
+    changes: changesOfQuery(family, trace, query),
+    asked: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
+    on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
+  };
+}
+
+/** The address of a plate, as short as it can be: what is as it was at first is not said. */
+export function plateAddress({ family, curve, changes, asked, on, study }) {
+  const query = new Map(changes);
+  if (asked !== null && asked !== study?.home) query.set("circuit", asked + 1);
+  const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
+  if (!isUsual) query.set("show", [...on].join(",") || "nothing");
+  return address([family.id, "curve", curveKey(family, curve)], query);
+}
+
+/** The name of a curve beyond its family, with what is changed of it. */
+export function changedName({ family, curve, changes }) {
+  const words = [...changes].map(([name, value]) => `${encodeURIComponent(name)}=${value}`);
+  return `${family.id}:${curveKey(family, curve)}${words.length ? `?${words.join("&")}` : ""}`;
+}

@@ -1,0 +1,30 @@
+// The velocity of a study's traced point.
+
+import { linkageWithOnePoint } from "../../kinematics/linkage.js";
+import { ratesAt } from "../../kinematics/poses.js";
+
+/** Asks for velocities of one point, whatever other points there are. */
+export class PointVelocity {
+  constructor({ linkage, joint }) {
+    this.alone = linkageWithOnePoint(linkage, joint);
+  }
+
+  /** [vx, vy] at an input of a pass, to a radian of input or a unit of length; infinite at limits. */
+  at(pass, input) {
+    const { linkage, joint } = this.alone;
+    const { velocity } = ratesAt(linkage, pass, input);
+    return [velocity[2 * joint], velocity[2 * joint + 1]];
+  }
+}
+
+/**
+ * The arrow of a velocity in pixels, y down: a fifth of the frame at the speed `top`, half as much again at most, and the
+ * other way where the input falls. Null of what is infinite.
+ */
+export function velocityArrow([vx, vy], { top, size, heading }) {
+  const speed = Math.hypot(vx, vy);
+  if (!Number.isFinite(speed)) return null;
+  const longest = Math.min(size.width, size.height) / 5;
+  const by = (heading * longest * Math.min(1, (1.5 * top) / speed)) / top;
+  return [by * vx, -by * vy];
+}
