@@ -11,8 +11,19 @@ import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clippin
 import { dashData, dashesOfPeriod } from "../../src/gallery/script/draw/dashes.js";
 import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/paper-view.js";
 import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
-import { courseOf, followedInput, nearestPart, partOfInput, placeAtPart, turningParts } from "../../src/gallery/script/view/plate/course.js";
-import { changeableParameters, changedValues, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
+import {
+  courseOf,
+  followedInput,
+  nearestPart,
+  partOfInput,
+  placeAtPart,
+  turningParts,
+} from "../../src/gallery/script/view/plate/course.js";
+import {
+  changeableParameters,
+  changedValues,
+  roundedToGrain,
+} from "../../src/gallery/script/view/plate/parameters.js";
 import { Poser } from "../../src/gallery/script/view/plate/poser.js";
 import { studyOf } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./taken.mjs";
@@ -21,9 +32,14 @@ const [folder] = process.argv.slice(2);
 const ids = readdirSync(folder).filter((id) => existsSync(join(folder, id, "gallery.js")));
 
 /** Polylines [[x, y], …] of path data in M and L. */
-const linesOf = (data) => data.split("M").filter(Boolean).map((line) => line.split("L").map((pair) => pair.split(" ").map(Number)));
+const linesOf = (data) =>
+  data
+    .split("M")
+    .filter(Boolean)
+    .map((line) => line.split("L").map((pair) => pair.split(" ").map(Number)));
 
-const lengthOf = (line) => line.slice(1).reduce((sum, [x, y], k) => sum + Math.hypot(x - line[k][0], y - line[k][1]), 0);
+const lengthOf = (line) =>
+  line.slice(1).reduce((sum, [x, y], k) => sum + Math.hypot(x - line[k][0], y - line[k][1]), 0);
 
 /** A path along the x-axis, as long as its input, over inputs in turn. */
 const straightPath = (...ends) => {
@@ -38,129 +54,198 @@ const straightPath = (...ends) => {
   return { inputs: Float64Array.from(inputs), points: Float64Array.from(points), starts };
 };
 
-const pass = (from, to, flats = [0, 0]) => ({ from, to, signs: 0, begin: { at: from, flat: flats[0] }, end: { at: to, flat: flats[1] } });
+const pass = (from, to, flats = [0, 0]) => ({
+  from,
+  to,
+  signs: 0,
+  begin: { at: from, flat: flats[0] },
+  end: { at: to, flat: flats[1] },
+});
 
 const tests = [
-  ["a dash is the first 3 of every 5 degrees, from input 0", () => {
-    const lines = linesOf(dashData(straightPath(0, 360), dashesOfPeriod(5)));
-    assert.equal(lines.length, 72);
-    lines.forEach((line, k) => {
-      // Numbers are written in seven digits.
-      assert.ok(Math.abs(line[0][0] - 5 * k) < 1e-4, `dash ${k} begins at ${line[0][0]}`);
-      assert.ok(Math.abs(lengthOf(line) - 3) < 2e-4, `dash ${k} is ${lengthOf(line)} long`);
-    });
-  }],
-  ["on the way back dashes are at the same inputs", () => {
-    const spans = (data) => linesOf(data).map((line) => [line[0][0], line[line.length - 1][0]].map(Math.round).sort((a, b) => a - b).join());
-    const there = spans(dashData(straightPath(-40, 40), dashesOfPeriod(5)));
-    const back = spans(dashData(straightPath(40, -40), dashesOfPeriod(5)));
-    assert.deepEqual([...back].sort(), [...there].sort());
-    assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashesOfPeriod(5))), [...there, ...back]);
-  }],
-  ["a polyline is cut at the edges of a box", () => {
-    assert.deepEqual(segmentInBox(-2, 0, 2, 0, [-1, -1, 1, 1]), [-1, 0, 1, 0]);
-    assert.equal(segmentInBox(-2, 2, 2, 2, [-1, -1, 1, 1]), null);
-    assert.equal(segmentInBox(0, NaN, 2, 2, [-1, -1, 1, 1]), null);
-    assert.equal(clippedData([0, 0, 1e9, 1e9, 0, 0.5], [-1, -1, 1, 1]), "M0 0L1 1M0.5 1L0 0.5");
-  }],
-  ["a view fits a box, keeps the place it zooms about, and is undone", () => {
-    const view = fittedView([-1, 2, 3, 4], { width: 400, height: 400, margin: 40 });
-    assert.equal(view.scale, 80);
-    assert.deepEqual(planePoint(view, [200, 200]), [1, 3]);
-    const near = zoomedView(view, 2.5, [90, 120]);
-    planePoint(near, [90, 120]).forEach((x, k) => assert.ok(Math.abs(x - planePoint(view, [90, 120])[k]) < 1e-12));
-    assert.deepEqual([0.99, 1, 4.9, 73, 0.0021].map(roundBelow), [0.5, 1, 2, 50, 0.002]);
-  }],
-  ["a crank goes on from turn to turn, and inputs with it", () => {
-    const course = courseOf({ passes: [pass(0, 360)], closed: true });
-    const place = { pass: 0, input: 350 };
-    assert.equal(followedInput(course, place, 370, 3), 10);
-    assert.equal(place.input, 10);
-    assert.equal(followedInput(course, place, -725, 3), 355);
-    assert.deepEqual(turningParts(course), []);
-  }],
-  ["a crank stays at a limit, and comes back on the other branch when it was pushed", () => {
-    const course = courseOf({ passes: [pass(-40, 40, [1, 1]), pass(40, -40, [1, 1])], closed: true });
-    const place = { pass: 0, input: 30 };
-    followedInput(course, place, 42, 3);
-    assert.deepEqual([place.pass, place.input], [0, 40]);
-    followedInput(course, place, 35, 3);
-    assert.deepEqual([place.pass, place.input], [0, 35]);
-    followedInput(course, place, 50, 3);
-    followedInput(course, place, 60, 3);
-    assert.deepEqual([place.pass, place.input], [1, 40]);
-    followedInput(course, place, 30, 3);
-    assert.deepEqual([place.pass, place.input], [1, 30]);
-    followedInput(course, place, -60, 3);
-    followedInput(course, place, -30, 3);
-    assert.deepEqual([place.pass, place.input], [0, -30]);
-    assert.deepEqual(turningParts(course), [0, 0.5]);
-  }],
-  ["the ends of an open course hold", () => {
-    const course = courseOf({ passes: [pass(10, 80)], closed: false });
-    const place = { pass: 0, input: 30 };
-    followedInput(course, place, 100, 3);
-    assert.deepEqual([place.pass, place.input], [0, 80]);
-    assert.deepEqual(turningParts(course), [0, 1]);
-    const nearest = nearestPart(course, 0.9, (part) => Math.abs(part - 0.97), 0.15);
-    assert.ok(Math.abs(nearest - 0.97) < 1e-6);
-  }],
-  ["places by part and by input are the same, on every linkage, and so are poses", () => {
-    for (const id of ids) {
-      const study = studyOf(familyOf(folder, id), 0, new Map());
-      assert.equal(study.reason, undefined, `${id}: ${study.reason}`);
-      const poser = new Poser(study.linkage);
-      const place = {};
-      for (let k = 0; k <= 64; k += 1) {
-        placeAtPart(study.course, k / 64, place);
-        const part = partOfInput(study.course, place.pass, place.input);
-        assert.ok(Math.abs(part - k / 64) < 1e-7, `${id}: part ${k / 64} became ${part}`);
-        const on = study.course.passes[place.pass];
-        assert.deepEqual([...poser.take(on, place.input)], [...poseAt(study.linkage, on, place.input)], id);
+  [
+    "a dash is the first 3 of every 5 degrees, from input 0",
+    () => {
+      const lines = linesOf(dashData(straightPath(0, 360), dashesOfPeriod(5)));
+      assert.equal(lines.length, 72);
+      lines.forEach((line, k) => {
+        // Numbers are written in seven digits.
+        assert.ok(Math.abs(line[0][0] - 5 * k) < 1e-4, `dash ${k} begins at ${line[0][0]}`);
+        assert.ok(Math.abs(lengthOf(line) - 3) < 2e-4, `dash ${k} is ${lengthOf(line)} long`);
+      });
+    },
+  ],
+  [
+    "on the way back dashes are at the same inputs",
+    () => {
+      const spans = (data) =>
+        linesOf(data).map((line) =>
+          [line[0][0], line[line.length - 1][0]]
+            .map(Math.round)
+            .sort((a, b) => a - b)
+            .join(),
+        );
+      const there = spans(dashData(straightPath(-40, 40), dashesOfPeriod(5)));
+      const back = spans(dashData(straightPath(40, -40), dashesOfPeriod(5)));
+      assert.deepEqual([...back].sort(), [...there].sort());
+      assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashesOfPeriod(5))), [...there, ...back]);
+    },
+  ],
+  [
+    "a polyline is cut at the edges of a box",
+    () => {
+      assert.deepEqual(segmentInBox(-2, 0, 2, 0, [-1, -1, 1, 1]), [-1, 0, 1, 0]);
+      assert.equal(segmentInBox(-2, 2, 2, 2, [-1, -1, 1, 1]), null);
+      assert.equal(segmentInBox(0, NaN, 2, 2, [-1, -1, 1, 1]), null);
+      assert.equal(clippedData([0, 0, 1e9, 1e9, 0, 0.5], [-1, -1, 1, 1]), "M0 0L1 1M0.5 1L0 0.5");
+    },
+  ],
+  [
+    "a view fits a box, keeps the place it zooms about, and is undone",
+    () => {
+      const view = fittedView([-1, 2, 3, 4], { width: 400, height: 400, margin: 40 });
+      assert.equal(view.scale, 80);
+      assert.deepEqual(planePoint(view, [200, 200]), [1, 3]);
+      const near = zoomedView(view, 2.5, [90, 120]);
+      planePoint(near, [90, 120]).forEach((x, k) =>
+        assert.ok(Math.abs(x - planePoint(view, [90, 120])[k]) < 1e-12),
+      );
+      assert.deepEqual([0.99, 1, 4.9, 73, 0.0021].map(roundBelow), [0.5, 1, 2, 50, 0.002]);
+    },
+  ],
+  [
+    "a crank goes on from turn to turn, and inputs with it",
+    () => {
+      const course = courseOf({ passes: [pass(0, 360)], closed: true });
+      const place = { pass: 0, input: 350 };
+      assert.equal(followedInput(course, place, 370, 3), 10);
+      assert.equal(place.input, 10);
+      assert.equal(followedInput(course, place, -725, 3), 355);
+      assert.deepEqual(turningParts(course), []);
+    },
+  ],
+  [
+    "a crank stays at a limit, and comes back on the other branch when it was pushed",
+    () => {
+      const course = courseOf({ passes: [pass(-40, 40, [1, 1]), pass(40, -40, [1, 1])], closed: true });
+      const place = { pass: 0, input: 30 };
+      followedInput(course, place, 42, 3);
+      assert.deepEqual([place.pass, place.input], [0, 40]);
+      followedInput(course, place, 35, 3);
+      assert.deepEqual([place.pass, place.input], [0, 35]);
+      followedInput(course, place, 50, 3);
+      followedInput(course, place, 60, 3);
+      assert.deepEqual([place.pass, place.input], [1, 40]);
+      followedInput(course, place, 30, 3);
+      assert.deepEqual([place.pass, place.input], [1, 30]);
+      followedInput(course, place, -60, 3);
+      followedInput(course, place, -30, 3);
+      assert.deepEqual([place.pass, place.input], [0, -30]);
+      assert.deepEqual(turningParts(course), [0, 0.5]);
+    },
+  ],
+  [
+    "the ends of an open course hold",
+    () => {
+      const course = courseOf({ passes: [pass(10, 80)], closed: false });
+      const place = { pass: 0, input: 30 };
+      followedInput(course, place, 100, 3);
+      assert.deepEqual([place.pass, place.input], [0, 80]);
+      assert.deepEqual(turningParts(course), [0, 1]);
+      const nearest = nearestPart(course, 0.9, (part) => Math.abs(part - 0.97), 0.15);
+      assert.ok(Math.abs(nearest - 0.97) < 1e-6);
+    },
+  ],
+  [
+    "places by part and by input are the same, on every linkage, and so are poses",
+    () => {
+      for (const id of ids) {
+        const study = studyOf(familyOf(folder, id), 0, new Map());
+        assert.equal(study.reason, undefined, `${id}: ${study.reason}`);
+        const poser = new Poser(study.linkage);
+        const place = {};
+        for (let k = 0; k <= 64; k += 1) {
+          placeAtPart(study.course, k / 64, place);
+          const part = partOfInput(study.course, place.pass, place.input);
+          assert.ok(Math.abs(part - k / 64) < 1e-7, `${id}: part ${k / 64} became ${part}`);
+          const on = study.course.passes[place.pass];
+          assert.deepEqual([...poser.take(on, place.input)], [...poseAt(study.linkage, on, place.input)], id);
+        }
       }
-    }
-  }],
-  ["a rough study shows the circuit that a fine one does", () => {
-    for (const id of ids) {
-      const family = familyOf(folder, id);
-      const fine = studyOf(family, 0, new Map());
-      const rough = studyOf(family, 0, new Map(), null, true);
-      assert.deepEqual(rough.routes[rough.shown].passes.map(({ from, to, signs }) => [from, to, signs]),
-        fine.routes[fine.shown].passes.map(({ from, to, signs }) => [from, to, signs]), id);
-    }
-  }],
-  ["what is derived follows its expression", () => {
-    const family = familyOf(folder, "evans-straight");
-    const slots = family.derived.filter(([, expression]) => typeof expression !== "number");
-    assert.ok(slots.length > 0);
-    const recorded = changedValues(family, 3, new Map());
-    // With a parameter changed to what it is, everything follows to what it was.
-    const name = family.names[family.free[0]];
-    const same = changedValues(family, 3, new Map([[name, recorded[family.free[0]]]]));
-    recorded.forEach((value, slot) => assert.ok(Math.abs(same[slot] - value) <= 1e-14 * Math.abs(value), family.names[slot]));
-    const kinds = new Map(changeableParameters(family, 3, 1, new Map()).map((parameter) => [parameter.name, parameter.kind]));
-    for (const [slot] of slots) assert.equal(kinds.get(family.names[slot]), "follows");
-  }],
-  ["ranges hold what the atlas has, and no value out of bounds", () => {
-    for (const id of ids) {
-      const family = familyOf(folder, id);
-      for (const { name, low, high, recorded, min, max, grain } of changeableParameters(family, 0, 1, new Map())) {
-        assert.ok(low <= recorded && recorded <= high && low < high && grain > 0, `${id}: ${name} from ${low} to ${high}`);
-        assert.ok(min === null || (min === 0 ? low > 0 : low >= min), `${id}: ${name} from ${low}`);
-        assert.ok(max === null || high <= max, `${id}: ${name} to ${high}`);
+    },
+  ],
+  [
+    "a rough study shows the circuit that a fine one does",
+    () => {
+      for (const id of ids) {
+        const family = familyOf(folder, id);
+        const fine = studyOf(family, 0, new Map());
+        const rough = studyOf(family, 0, new Map(), null, true);
+        assert.deepEqual(
+          rough.routes[rough.shown].passes.map(({ from, to, signs }) => [from, to, signs]),
+          fine.routes[fine.shown].passes.map(({ from, to, signs }) => [from, to, signs]),
+          id,
+        );
       }
-    }
-    assert.equal(roundedToGrain(2.4999999, 0.01), 2.5);
-    assert.equal(roundedToGrain(-0.123456, 0.002), -0.124);
-  }],
-  ["the straight portion of Peaucellier's inversor is the whole of its line", () => {
-    const family = familyOf(folder, "peaucellier-lipkin");
-    const { linkage, circuit, joint, course } = studyOf(family, 0, new Map());
-    const { from, to } = course.passes[0];
-    const { points } = stretchOfCircuit(linkage, circuit, joint, { start: from, span: to - from, length: family.curves.measures.straight_length[0] });
-    const long = Math.hypot(points[points.length - 2] - points[0], points[points.length - 1] - points[1]);
-    assert.ok(Math.abs(long - family.curves.measures.straight_length[0]) < 1e-9 * long);
-  }],
+    },
+  ],
+  [
+    "what is derived follows its expression",
+    () => {
+      const family = familyOf(folder, "evans-straight");
+      const slots = family.derived.filter(([, expression]) => typeof expression !== "number");
+      assert.ok(slots.length > 0);
+      const recorded = changedValues(family, 3, new Map());
+      // With a parameter changed to what it is, everything follows to what it was.
+      const name = family.names[family.free[0]];
+      const same = changedValues(family, 3, new Map([[name, recorded[family.free[0]]]]));
+      recorded.forEach((value, slot) =>
+        assert.ok(Math.abs(same[slot] - value) <= 1e-14 * Math.abs(value), family.names[slot]),
+      );
+      const kinds = new Map(
+        changeableParameters(family, 3, 1, new Map()).map((parameter) => [parameter.name, parameter.kind]),
+      );
+      for (const [slot] of slots) assert.equal(kinds.get(family.names[slot]), "follows");
+    },
+  ],
+  [
+    "ranges hold what the atlas has, and no value out of bounds",
+    () => {
+      for (const id of ids) {
+        const family = familyOf(folder, id);
+        for (const { name, low, high, recorded, min, max, grain } of changeableParameters(
+          family,
+          0,
+          1,
+          new Map(),
+        )) {
+          assert.ok(
+            low <= recorded && recorded <= high && low < high && grain > 0,
+            `${id}: ${name} from ${low} to ${high}`,
+          );
+          assert.ok(min === null || (min === 0 ? low > 0 : low >= min), `${id}: ${name} from ${low}`);
+          assert.ok(max === null || high <= max, `${id}: ${name} to ${high}`);
+        }
+      }
+      assert.equal(roundedToGrain(2.4999999, 0.01), 2.5);
+      assert.equal(roundedToGrain(-0.123456, 0.002), -0.124);
+    },
+  ],
+  [
+    "the straight portion of Peaucellier's inversor is the whole of its line",
+    () => {
+      const family = familyOf(folder, "peaucellier-lipkin");
+      const { linkage, circuit, joint, course } = studyOf(family, 0, new Map());
+      const { from, to } = course.passes[0];
+      const { points } = stretchOfCircuit(linkage, circuit, joint, {
+        start: from,
+        span: to - from,
+        length: family.curves.measures.straight_length[0],
+      });
+      const long = Math.hypot(points[points.length - 2] - points[0], points[points.length - 1] - points[1]);
+      assert.ok(Math.abs(long - family.curves.measures.straight_length[0]) < 1e-9 * long);
+    },
+  ],
 ];
 
 let failed = 0;
@@ -170,7 +255,12 @@ for (const [sentence, test] of tests) {
     console.log(`ok ${sentence}`);
   } catch (error) {
     failed += 1;
-    console.log(`FAILED ${sentence}\n  ${String(error.stack ?? error).split("\n").slice(0, 8).join("\n  ")}`);
+    console.log(
+      `FAILED ${sentence}\n  ${String(error.stack ?? error)
+        .split("\n")
+        .slice(0, 8)
+        .join("\n  ")}`,
+    );
   }
 }
 process.exitCode = failed ? 1 : 0;

@@ -4,9 +4,10 @@ import { linkageWithOnePoint } from "../kinematics/linkage.js";
 import { posesAt } from "../kinematics/poses.js";
 
 /**
- * The stretch of a joint's path over a circuit { passes, closed } from the input `start` over `span` of input, on over
- * limits, and of a closed circuit over its beginning: { points: [x, y, …], from: { pass, input }, to: { pass, input } }.
- * Where more than one pass has that input, the stretch is taken whose ends are `length` apart. Null where no pass has it.
+ * The stretch of a joint's path over a circuit { passes, closed } from the input `start` over `span` of
+ * input, on over limits, and of a closed circuit over its beginning: { points: [x, y, …], from: { pass, input
+ * }, to: { pass, input } }. Where more than one pass has that input, the stretch is taken whose ends are
+ * `length` apart. Null where no pass has it.
  */
 export function stretchOfCircuit(linkage, circuit, joint, { start, span, length }) {
   const alone = linkageWithOnePoint(linkage, joint);
@@ -37,7 +38,9 @@ function walkedStretch({ linkage, joint }, { passes, closed }, first, start, spa
     const heading = to >= from ? 1 : -1;
     const far = Math.min(left, Math.abs(to - at));
     const isWhole = far < left;
-    const inputs = Array.from({ length: PARTS + 1 }, (_, i) => (i === PARTS && isWhole ? to : at + (heading * far * i) / PARTS));
+    const inputs = Array.from({ length: PARTS + 1 }, (_, i) =>
+      i === PARTS && isWhole ? to : at + (heading * far * i) / PARTS,
+    );
     const { x, y } = posesAt(linkage, passes[k], inputs);
     for (let i = 0; i <= PARTS; i++) points.push(x[joint][i], y[joint][i]);
     left -= far;

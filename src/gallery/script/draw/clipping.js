@@ -2,7 +2,9 @@
 
 import { dataNumber } from "./path-data.js";
 
-/** Path data of what of a polyline [x, y, …] is in a box [x0, y0, x1, y1]; points that are not finite part it. */
+/**
+ * Path data of what of a polyline [x, y, …] is in a box [x0, y0, x1, y1]; points that are not finite part it.
+ */
 export function clippedData(points, box, digits = 6) {
   const number = (x) => dataNumber(x, digits);
   let data = "";
@@ -24,7 +26,12 @@ export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   if (!Number.isFinite(dx + dy)) return null;
   let [from, to] = [0, 1];
-  const edges = [[-dx, x0 - left], [dx, right - x0], [-dy, y0 - low], [dy, high - y0]];
+  const edges = [
+    [-dx, x0 - left],
+    [dx, right - x0],
+    [-dy, y0 - low],
+    [dy, high - y0],
+  ];
   for (const [rate, room] of edges) {
     if (rate === 0 && room < 0) return null;
     if (rate === 0) continue;

@@ -1,5 +1,5 @@
-// A curve in dashes that show its speed: a dash is the first part of every so much input, so that fast stretches have long
-// dashes. Dash k starts at the input k times the period, and on the way back ends there.
+// A curve in dashes that show its speed: a dash is the first part of every so much input, so that fast
+// stretches have long dashes. Dash k starts at the input k times the period, and on the way back ends there.
 
 import { dataNumber } from "./path-data.js";
 
@@ -9,8 +9,8 @@ export function dashesOfPeriod(period) {
 }
 
 /**
- * Path data of the dashes of a path { points: [x, y, …], inputs, starts } (kinematics/path.js), passes apart: `starts` has
- * the first point of each. `dashes` is { period, drawn } in the unit of the inputs.
+ * Path data of the dashes of a path { points: [x, y, …], inputs, starts } (kinematics/path.js), passes apart:
+ * `starts` has the first point of each. `dashes` is { period, drawn } in the unit of the inputs.
  */
 export function dashData({ points, inputs, starts }, dashes, digits = 7) {
   const data = [];
@@ -30,7 +30,12 @@ function dashesOfPass(points, inputs, first, last, { period, drawn }, digits, da
     const k = Math.floor(at / period);
     const rest = at - k * period;
     const slack = 1e-9 * period;
-    if (heading > 0) return rest < drawn - slack ? k * period + drawn : rest < period - slack ? (k + 1) * period : (k + 1) * period + drawn;
+    if (heading > 0)
+      return rest < drawn - slack
+        ? k * period + drawn
+        : rest < period - slack
+          ? (k + 1) * period
+          : (k + 1) * period + drawn;
     return rest > drawn + slack ? k * period + drawn : rest > slack ? k * period : (k - 1) * period + drawn;
   };
   let isDown = false;

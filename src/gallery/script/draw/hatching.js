@@ -8,7 +8,9 @@ export function groundData(x, y, width = 22) {
   const top = y + 0.5 * width;
   const [left, deep, step] = [x - width / 2, 0.24 * width, width / STROKES];
   let data = `M${pixel(left)} ${pixel(top)}h${pixel(width)}`;
-  for (let k = 1; k <= STROKES; k++) data += `M${pixel(left + k * step)} ${pixel(top)}l${pixel(-deep)} ${pixel(deep)}`;
+  for (let k = 1; k <= STROKES; k++)
+    data += `M${pixel(left + k * step)} ${pixel(top)}l${pixel(-deep)} ${pixel(deep)}`;
   // Two legs from the pivot's rim to the ground.
-  return `${data}M${pixel(x - 3.2)} ${pixel(y + 5)}L${pixel(x - 6.5)} ${pixel(top)}M${pixel(x + 3.2)} ${pixel(y + 5)}L${pixel(x + 6.5)} ${pixel(top)}`;
+  const leg = (side) => `M${pixel(x + 3.2 * side)} ${pixel(y + 5)}L${pixel(x + 6.5 * side)} ${pixel(top)}`;
+  return data + leg(-1) + leg(1);
 }

@@ -1,4 +1,5 @@
-// The parts of a linkage as path data on the screen. `at` is the places of all joints in pixels, [X0, Y0, X1, Y1, …].
+// The parts of a linkage as path data on the screen. `at` is the places of all joints in pixels, [X0, Y0, X1,
+// Y1, …].
 
 import { pixel } from "./path-data.js";
 
@@ -18,7 +19,13 @@ export function linkData(joints, at, isPlate) {
 export function blockData(x, y, dx, dy) {
   const size = Math.hypot(dx, dy);
   const [ux, uy] = size > 0 ? [dx / size, dy / size] : [1, 0];
-  return boxData(x - SLIDER_BLOCK.long * ux, y - SLIDER_BLOCK.long * uy, x + SLIDER_BLOCK.long * ux, y + SLIDER_BLOCK.long * uy, SLIDER_BLOCK.wide);
+  return boxData(
+    x - SLIDER_BLOCK.long * ux,
+    y - SLIDER_BLOCK.long * uy,
+    x + SLIDER_BLOCK.long * ux,
+    y + SLIDER_BLOCK.long * uy,
+    SLIDER_BLOCK.wide,
+  );
 }
 
 /** Path data of the cylinder of an actuator, on the nearer half of it; its rod goes from end to end. */
@@ -27,19 +34,25 @@ export function cylinderData(x0, y0, x1, y1) {
   return boxData(x0 + 0.1 * dx, y0 + 0.1 * dy, x0 + 0.6 * dx, y0 + 0.6 * dy, 5.5);
 }
 
-/** Path data of a slot's hole from end to end, as wide as a block, with round ends and room for a block's length. */
+/**
+ * Path data of a slot's hole from end to end, as wide as a block, with round ends and room for a block's
+ * length.
+ */
 export function slotData(x0, y0, x1, y1) {
   const size = Math.hypot(x1 - x0, y1 - y0);
   const [ux, uy] = size > 0 ? [(x1 - x0) / size, (y1 - y0) / size] : [1, 0];
   const over = SLIDER_BLOCK.long - SLIDER_BLOCK.wide + 1;
   const [r, nx, ny] = [SLIDER_BLOCK.wide, -uy * SLIDER_BLOCK.wide, ux * SLIDER_BLOCK.wide];
   const [ax, ay, bx, by] = [x0 - over * ux, y0 - over * uy, x1 + over * ux, y1 + over * uy];
-  return `M${pixel(ax + nx)} ${pixel(ay + ny)}A${r} ${r} 0 0 1 ${pixel(ax - nx)} ${pixel(ay - ny)}`
-    + `L${pixel(bx - nx)} ${pixel(by - ny)}A${r} ${r} 0 0 1 ${pixel(bx + nx)} ${pixel(by + ny)}Z`;
+  return (
+    `M${pixel(ax + nx)} ${pixel(ay + ny)}A${r} ${r} 0 0 1 ${pixel(ax - nx)} ${pixel(ay - ny)}` +
+    `L${pixel(bx - nx)} ${pixel(by - ny)}A${r} ${r} 0 0 1 ${pixel(bx + nx)} ${pixel(by + ny)}Z`
+  );
 }
 
 /**
- * Where the ends of a slot (mechanism.js) are on the screen, [X0, Y0, X1, Y1], at so many pixels to a unit, into `out`.
+ * Where the ends of a slot (mechanism.js) are on the screen, [X0, Y0, X1, Y1], at so many pixels to a unit,
+ * into `out`.
  */
 export function slotEnds({ foot, base: [from, to], near, far }, at, scale, out) {
   const [bx, by] = [at[2 * to] - at[2 * from], at[2 * to + 1] - at[2 * from + 1]];
@@ -59,8 +72,10 @@ export function arrowData(x, y, dx, dy) {
   if (!(size > 1)) return "";
   const [ux, uy] = [dx / size, dy / size];
   const [tx, ty, head] = [x + dx, y + dy, Math.min(8, size)];
-  const barb = (side) => `${pixel(tx - head * ux + side * 0.36 * head * uy)} ${pixel(ty - head * uy - side * 0.36 * head * ux)}`;
-  return `M${pixel(x)} ${pixel(y)}L${pixel(tx)} ${pixel(ty)}M${barb(1)}L${pixel(tx)} ${pixel(ty)}L${barb(-1)}`;
+  const barb = (side) =>
+    `${pixel(tx - head * ux + side * 0.36 * head * uy)} ${pixel(ty - head * uy - side * 0.36 * head * ux)}`;
+  const tip = `${pixel(tx)} ${pixel(ty)}`;
+  return `M${pixel(x)} ${pixel(y)}L${tip}M${barb(1)}L${tip}L${barb(-1)}`;
 }
 
 function boxData(x0, y0, x1, y1, half) {

@@ -1,16 +1,17 @@
-// What of a linkage is drawn: bars and plates, pivots and pins, sliders with their guides, slots, actuators, wheels.
+// What of a linkage is drawn: bars and plates, pivots and pins, sliders with their guides, slots, actuators,
+// wheels.
 
 import { groundOf, placeOnLink } from "../kinematics/linkage.js";
 import { emptyBox, widenedBox } from "./paper-view.js";
 
 /**
- * The parts of a linkage over a sampled circuit (kinematics/motion.js), joints by their places:
- * { bars: [[joints]], plates: [[joints]], frame: [joints], fixed: [joints], pins: [joints], blocks: [{ at, line: [p, q] }],
- *   slots: [{ foot, through, base: [from, to], near: [x, y], far: [x, y] }], actuators: [[pivot, joint]],
- *   guides: [[x0, y0, x1, y1]], wheels: [{ joint, radius }] }
- * Plates are links with three joints or more that are not in line, in the order of their outline. The ends of a slot are
- * from its foot, in the frame whose x-axis goes from `base[0]` to `base[1]`. Of the points of a grid only the one `traced`
- * is on its plate.
+ * The parts of a linkage over a sampled circuit (kinematics/motion.js), joints by their places: { bars:
+ * [[joints]], plates: [[joints]], frame: [joints], fixed: [joints], pins: [joints], blocks: [{ at, line: [p,
+ * q] }], slots: [{ foot, through, base: [from, to], near: [x, y], far: [x, y] }], actuators: [[pivot,
+ * joint]], guides: [[x0, y0, x1, y1]], wheels: [{ joint, radius }] } Plates are links with three joints or
+ * more that are not in line, in the order of their outline. The ends of a slot are from its foot, in the
+ * frame whose x-axis goes from `base[0]` to `base[1]`. Of the points of a grid only the one `traced` is on
+ * its plate.
  */
 export function mechanismOf(linkage, circuit, traced) {
   const { joints } = linkage;
@@ -28,8 +29,21 @@ export function mechanismOf(linkage, circuit, traced) {
   for (const { foot, through } of slots) blocks.push({ at: through, line: [foot, through] });
   const guides = joints.map((_, id) => guideOf(linkage, circuit, id)).filter(Boolean);
   const isShown = (id) => !(joints[id].step.kind === "slot" && joints[id].step.offset === 0);
-  const pins = [...new Set(outlines.flatMap(({ joints: outline }) => outline))].filter((id) => !frame.includes(id) && isShown(id));
-  return { bars, plates, frame, fixed: frame.filter(isShown), pins, blocks, slots, actuators, guides, wheels: wheelsOf(linkage, circuit) };
+  const pins = [...new Set(outlines.flatMap(({ joints: outline }) => outline))].filter(
+    (id) => !frame.includes(id) && isShown(id),
+  );
+  return {
+    bars,
+    plates,
+    frame,
+    fixed: frame.filter(isShown),
+    pins,
+    blocks,
+    slots,
+    actuators,
+    guides,
+    wheels: wheelsOf(linkage, circuit),
+  };
 }
 
 /** The joints of the link at rest that something moves about. */
@@ -62,11 +76,15 @@ function movingOutlines(linkage, traced) {
 // The joints of a link along a bar or round a plate.
 function linkOutline({ joints }, link, traced) {
   // The points of a grid stand side by side, under one name.
-  const isGrid = (id) => id !== traced && joints[id].step.kind === "rigid"
-    && (joints[id + 1]?.name === joints[id].name || joints[id - 1]?.name === joints[id].name);
+  const isGrid = (id) =>
+    id !== traced &&
+    joints[id].step.kind === "rigid" &&
+    (joints[id + 1]?.name === joints[id].name || joints[id - 1]?.name === joints[id].name);
   const places = link.filter(({ joint }) => !isGrid(joint));
   const isPlate = places.length > 2 && !isFlatOutline(places);
-  const centre = ["x", "y"].map((axis) => places.reduce((sum, place) => sum + place[axis], 0) / Math.max(places.length, 1));
+  const centre = ["x", "y"].map(
+    (axis) => places.reduce((sum, place) => sum + place[axis], 0) / Math.max(places.length, 1),
+  );
   const [first, last] = [places[0], places[places.length - 1]];
   const key = isPlate
     ? ({ x, y }) => Math.atan2(y - centre[1], x - centre[0])
@@ -77,7 +95,11 @@ function linkOutline({ joints }, link, traced) {
 
 // Whether places lie on one line, to a thousandth of their extent.
 function isFlatOutline(places) {
-  const [x0, y0, x1, y1] = widenedBox(emptyBox(), places.map(({ x }) => x), places.map(({ y }) => y));
+  const [x0, y0, x1, y1] = widenedBox(
+    emptyBox(),
+    places.map(({ x }) => x),
+    places.map(({ y }) => y),
+  );
   const size2 = (x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0);
   const [first, ...rest] = places;
   const area = (a, b) => (a.x - first.x) * (b.y - first.y) - (a.y - first.y) * (b.x - first.x);
@@ -98,13 +120,14 @@ function guideOf(linkage, circuit, id) {
   return [circuit.x[id][least], circuit.y[id][least], circuit.x[id][most], circuit.y[id][most]];
 }
 
-// What a joint uses of the line it slides along, on a link that moves. The line's direction follows the base: that of a
-// slot its pivot and foot, that of a yoke its guide, that of a slot without offset the line itself.
+// What a joint uses of the line it slides along, on a link that moves. The line's direction follows the base:
+// that of a slot its pivot and foot, that of a yoke its guide, that of a slot without offset the line itself.
 function slotOf(linkage, circuit, id) {
   const { step } = linkage.joints[id];
   let base = null;
   let through = null;
-  if (step.kind === "slot") [base, through] = [step.offset === 0 ? step.base : [step.base[0], id], step.base[1]];
+  if (step.kind === "slot")
+    [base, through] = [step.offset === 0 ? step.base : [step.base[0], id], step.base[1]];
   else if (step.kind === "yoke") [base, through] = [step.line, step.from];
   else return null;
   const { x, y, count } = circuit;
@@ -121,7 +144,8 @@ function slotOf(linkage, circuit, id) {
   return { foot: id, through, base, near: arms[least], far: arms[most] };
 }
 
-// Where a function of whole numbers up to `count` is least and where it is greatest; -1 where it has no value.
+// Where a function of whole numbers up to `count` is least and where it is greatest; -1 where it has no
+// value.
 function extremeSamples(count, value) {
   let [least, most] = [-1, -1];
   for (let i = 0; i < count; i++) {
@@ -133,15 +157,30 @@ function extremeSamples(count, value) {
   return [least, most];
 }
 
-// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler, which is not
-// drawn: they are kept apart. The slower wheel is the larger.
+// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
+// which is not drawn: they are kept apart. The slower wheel is the larger.
 function wheelsOf({ joints }, circuit) {
   const crank = joints.find(({ step }) => step.kind === "crank");
   if (!crank) return [];
   const first = crank.step.pivot;
-  return joints.filter(({ step }) => step.kind === "gear").flatMap(({ step: { pivot, ratio: [turns, of] } }) => {
-    const [dx, dy] = [circuit.x[pivot][0] - circuit.x[first][0], circuit.y[pivot][0] - circuit.y[first][0]];
-    const room = ((turns < 0 ? 1 : 0.8) * Math.hypot(dx, dy)) / (Math.abs(turns) + Math.abs(of));
-    return [{ joint: pivot, radius: room * Math.abs(of) }, { joint: first, radius: room * Math.abs(turns) }];
-  });
+  return joints
+    .filter(({ step }) => step.kind === "gear")
+    .flatMap(
+      ({
+        step: {
+          pivot,
+          ratio: [turns, of],
+        },
+      }) => {
+        const [dx, dy] = [
+          circuit.x[pivot][0] - circuit.x[first][0],
+          circuit.y[pivot][0] - circuit.y[first][0],
+        ];
+        const room = ((turns < 0 ? 1 : 0.8) * Math.hypot(dx, dy)) / (Math.abs(turns) + Math.abs(of));
+        return [
+          { joint: pivot, radius: room * Math.abs(of) },
+          { joint: first, radius: room * Math.abs(turns) },
+        ];
+      },
+    );
 }

@@ -18,7 +18,10 @@ export function emptyBox() {
   return [Infinity, Infinity, -Infinity, -Infinity];
 }
 
-/** The view { scale, x, y } that has a box of the plane in the middle of a frame, `margin` pixels from its edges. */
+/**
+ * The view { scale, x, y } that has a box of the plane in the middle of a frame, `margin` pixels from its
+ * edges.
+ */
 export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
   const [w, h] = [Math.max(width - 2 * margin, 1), Math.max(height - 2 * margin, 1)];
   const size = Math.max(x1 - x0, y1 - y0);

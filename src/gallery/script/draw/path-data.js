@@ -5,16 +5,22 @@ export function dataNumber(x, digits = 7) {
   return Number.isFinite(x) ? String(Number(x.toPrecision(digits))) : "0";
 }
 
-/** The power of ten by which numbers of a size are multiplied to be whole where they are good to 1e-4 of it. */
+/**
+ * The power of ten by which numbers of a size are multiplied to be whole where they are good to 1e-4 of it.
+ */
 export function gridOfSize(size) {
   return 10 ** Math.min(Math.max(Math.ceil(4 - Math.log10(size)), -12), 12);
 }
 
 /**
- * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`; points that are not finite
- * part it. Empty of fewer than two points. With a `grid` numbers are rounded to one part of it, else to `digits`.
+ * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`; points that are
+ * not finite part it. Empty of fewer than two points. With a `grid` numbers are rounded to one part of it,
+ * else to `digits`.
  */
-export function polylineData(points, { first = 0, last = points.length / 2, closed = false, digits = 7, grid = 0 } = {}) {
+export function polylineData(
+  points,
+  { first = 0, last = points.length / 2, closed = false, digits = 7, grid = 0 } = {},
+) {
   // Rounding to a grid is many times quicker than to digits.
   const number = grid > 0 ? (x) => Math.round(x * grid) / grid : (x) => dataNumber(x, digits);
   let data = "";

@@ -3,8 +3,8 @@
 import { clippedData } from "./clipping.js";
 
 /**
- * The speeds on a path { points, inputs }, by chords: { inputs, speeds }, in units of length to `perInput` of input (a
- * radian in degrees, or 1), each at the middle of its chord.
+ * The speeds on a path { points, inputs }, by chords: { inputs, speeds }, in units of length to `perInput` of
+ * input (a radian in degrees, or 1), each at the middle of its chord.
  */
 export function speedsOfPath({ points, inputs }, perInput) {
   const at = [];
@@ -18,7 +18,9 @@ export function speedsOfPath({ points, inputs }, perInput) {
   return { inputs: at, speeds };
 }
 
-/** The greatest speed a graph shows: towards limits speeds grow without bound, and the graph is of the rest. */
+/**
+ * The greatest speed a graph shows: towards limits speeds grow without bound, and the graph is of the rest.
+ */
 export function shownSpeed(speeds) {
   const finite = speeds.filter(Number.isFinite).sort((a, b) => a - b);
   if (finite.length === 0) return 1;
@@ -27,7 +29,10 @@ export function shownSpeed(speeds) {
   return most > 4 * usual && usual > 0 ? 2.5 * usual : most || 1;
 }
 
-/** Path data of speeds over parts of the circuit (0 to 1) in a frame { width, height }, 0 at its foot, `top` at its top. */
+/**
+ * Path data of speeds over parts of the circuit (0 to 1) in a frame { width, height }, 0 at its foot, `top`
+ * at its top.
+ */
 export function speedData(parts, speeds, top, { width, height }) {
   const points = [];
   parts.forEach((part, k) => points.push(part * width, height * (1 - speeds[k] / top)));

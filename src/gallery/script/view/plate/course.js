@@ -1,16 +1,22 @@
-// A circuit as a course to travel: places on it by part, 0 at its beginning and 1 at its end, and by pass and input.
+// A circuit as a course to travel: places on it by part, 0 at its beginning and 1 at its end, and by pass and
+// input.
 //
-// Equal parts are equal times of play: the input goes evenly, and slows down towards limits, as a hand would move it, so
-// that no joint leaps there.
+// Equal parts are equal times of play: the input goes evenly, and slows down towards limits, as a hand would
+// move it, so that no joint leaps there.
 
 import { smoothInput } from "../../kinematics/spacing.js";
 
-/** The course of a circuit { passes, closed }: { passes, closed, starts }, `starts` being the part each pass begins at. */
+/**
+ * The course of a circuit { passes, closed }: { passes, closed, starts }, `starts` being the part each pass
+ * begins at.
+ */
 export function courseOf({ passes, closed }) {
   const lengths = passes.map(({ from, to }) => Math.abs(to - from));
   const whole = lengths.reduce((sum, length) => sum + length, 0);
   const starts = new Float64Array(passes.length + 1);
-  lengths.forEach((length, k) => { starts[k + 1] = whole > 0 ? starts[k] + length / whole : (k + 1) / passes.length; });
+  lengths.forEach((length, k) => {
+    starts[k + 1] = whole > 0 ? starts[k] + length / whole : (k + 1) / passes.length;
+  });
   starts[passes.length] = 1;
   return { passes, closed, starts, whole };
 }
@@ -57,10 +63,10 @@ export function heldPart({ closed }, part) {
 }
 
 /**
- * Moves a place { pass, input } of a course towards the input `wanted`, which a hand on the crank asks for, and returns
- * `wanted` as it is then to be counted, whole turns having been taken off. Over the end of a pass it goes on to the next
- * one. Where the input turns round there, it stays at the limit; a hand that goes `slack` beyond comes back on the other
- * branch. `place.isBeyond` remembers that it has.
+ * Moves a place { pass, input } of a course towards the input `wanted`, which a hand on the crank asks for,
+ * and returns `wanted` as it is then to be counted, whole turns having been taken off. Over the end of a pass
+ * it goes on to the next one. Where the input turns round there, it stays at the limit; a hand that goes
+ * `slack` beyond comes back on the other branch. `place.isBeyond` remembers that it has.
  */
 export function followedInput(course, place, wanted, slack) {
   const { passes, closed } = course;
@@ -105,13 +111,15 @@ function neighbouringPass(passes, k, forward, closed) {
 }
 
 /**
- * The part of a course, within `reach` of a part, at which a distance is least: `distance(part)` is asked for on parts of
- * the course. A hand that drags a joint goes on along its path so.
+ * The part of a course, within `reach` of a part, at which a distance is least: `distance(part)` is asked for
+ * on parts of the course. A hand that drags a joint goes on along its path so.
  */
 export function nearestPart(course, from, distance, reach = 0.15) {
   const STEPS = 24;
   const at = (part) => distance(heldPart(course, part));
-  const [low, high] = course.closed ? [from - reach, from + reach] : [Math.max(from - reach, 0), Math.min(from + reach, 1)];
+  const [low, high] = course.closed
+    ? [from - reach, from + reach]
+    : [Math.max(from - reach, 0), Math.min(from + reach, 1)];
   const step = (high - low) / (2 * STEPS);
   let best = from;
   let least = at(from);

@@ -10,21 +10,34 @@ const DIAL_RADIUS = 78;
 // A linkage is said to run well while its transmission angle keeps so far from 0 and 180.
 const LEAST_GOOD = 40;
 
-/** The dial: `show(study)` its range, `pose(pose)` where it is now. Hidden where the linkage is no four-bar. */
+/**
+ * The dial: `show(study)` its range, `pose(pose)` where it is now. Hidden where the linkage is no four-bar.
+ */
 export class DialView {
   constructor() {
     this.range = s("path", { class: "dial-range" });
-    this.needle = s("path", { class: "dial-needle", d: `M${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]}h${DIAL_RADIUS - 6}` });
+    this.needle = s("path", {
+      class: "dial-needle",
+      d: `M${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]}h${DIAL_RADIUS - 6}`,
+    });
     this.now = h("span", { class: "dial-now" });
     this.least = h("span", {});
     this.most = h("span", {});
-    const ticks = Array.from({ length: 19 }, (_, k) => dialStroke(DIAL_CENTRE, DIAL_RADIUS - (k % 3 === 0 ? 7 : 4), DIAL_RADIUS, 10 * k)).join("");
-    const bounds = [LEAST_GOOD, 180 - LEAST_GOOD].map((deg) => dialStroke(DIAL_CENTRE, 14, DIAL_RADIUS + 9, deg)).join("");
-    const words = [[0, 190, 98], [90, 100, 12], [180, 10, 98], [40, 170, 38], [140, 30, 38]].map(([deg, x, y]) => s(
-      "text",
-      { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" },
-      deg,
-    ));
+    const ticks = Array.from({ length: 19 }, (_, k) =>
+      dialStroke(DIAL_CENTRE, DIAL_RADIUS - (k % 3 === 0 ? 7 : 4), DIAL_RADIUS, 10 * k),
+    ).join("");
+    const bounds = [LEAST_GOOD, 180 - LEAST_GOOD]
+      .map((deg) => dialStroke(DIAL_CENTRE, 14, DIAL_RADIUS + 9, deg))
+      .join("");
+    const words = [
+      [0, 190, 98],
+      [90, 100, 12],
+      [180, 10, 98],
+      [40, 170, 38],
+      [140, 30, 38],
+    ].map(([deg, x, y]) =>
+      s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg),
+    );
     this.drawing = s(
       "svg",
       { class: "dial", viewBox: "0 0 200 112", role: "img", "aria-label": "Dial of the transmission angle" },
@@ -40,7 +53,15 @@ export class DialView {
       { class: "gauge dial-gauge" },
       h("h3", {}, "Transmission angle ", this.now),
       this.drawing,
-      h("p", { class: "note" }, "least ", this.least, ", greatest ", this.most, " over the circuit; the hairlines are at 40° and 140°"),
+      h(
+        "p",
+        { class: "note" },
+        "least ",
+        this.least,
+        ", greatest ",
+        this.most,
+        " over the circuit; the hairlines are at 40° and 140°",
+      ),
     );
     this.study = null;
     this.shown = NaN;
@@ -53,8 +74,14 @@ export class DialView {
     const [least, most] = dialRange(study);
     this.least.textContent = `${minusSigned(least, 1)}°`;
     this.most.textContent = `${minusSigned(most, 1)}°`;
-    this.range.setAttribute("d", dialField(DIAL_CENTRE, DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3)));
-    this.drawing.setAttribute("aria-label", `Dial of the transmission angle: from ${minusSigned(least, 1)} to ${minusSigned(most, 1)} degrees over the circuit`);
+    this.range.setAttribute(
+      "d",
+      dialField(DIAL_CENTRE, DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3)),
+    );
+    this.drawing.setAttribute(
+      "aria-label",
+      `Dial of the transmission angle: from ${this.least.textContent} to ${this.most.textContent} over the circuit`,
+    );
   }
 
   pose(pose) {
@@ -73,7 +100,8 @@ function dialRange({ linkage, fourBar, circuit }) {
   const pose = new Float64Array(2 * linkage.joints.length);
   let [least, most] = [180, 0];
   for (let i = 0; i < circuit.count; i++) {
-    for (const joint of Object.values(fourBar.joints)) pose.set([circuit.x[joint][i], circuit.y[joint][i]], 2 * joint);
+    for (const joint of Object.values(fourBar.joints))
+      pose.set([circuit.x[joint][i], circuit.y[joint][i]], 2 * joint);
     const { mu } = transmissionAt(linkage, fourBar, pose);
     if (!Number.isFinite(mu)) continue;
     least = Math.min(least, mu);

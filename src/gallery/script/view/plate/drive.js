@@ -7,8 +7,9 @@ import { Player } from "./player.js";
 const SHORTEST_RANGE = 150;
 
 /**
- * A place on the course of a study: `part`, and `place` { pass, input }. `on` has moved(), playing(isPlaying), and rate(), the
- * degrees of input to a second. `isHalted` while there is nothing to move.
+ * A place on the course of a study: `part`, and `place` { pass, input }. `on` has moved(),
+ * playing(isPlaying), and rate(), the degrees of input to a second. `isHalted` while there is nothing to
+ * move.
  */
 export class Drive {
   constructor(on) {

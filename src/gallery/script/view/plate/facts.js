@@ -22,41 +22,82 @@ export function originOfCurve(app, family, curve) {
     ["Caption", family.cells.caption[cell]],
     ["Note", family.cells.note[cell]],
     ["Status", family.cells.status[cell] === 1 ? `partial: ${family.cells.reason[cell]}` : ""],
-    ["Page", page > 0 ? h("a", { href: address([family.id, String(page)], { curve: curveKey(family, curve) }) }, `page ${page}`) : ""],
+    [
+      "Page",
+      page > 0
+        ? h(
+            "a",
+            { href: address([family.id, String(page)], { curve: curveKey(family, curve) }) },
+            `page ${page}`,
+          )
+        : "",
+    ],
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
     ["Source", family.source],
   ];
   const told = rows.filter(([, value]) => value);
-  return h("dl", { class: "facts origin" }, told.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
+  return h(
+    "dl",
+    { class: "facts origin" },
+    told.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
+  );
 }
 
-/** The table of measures: `show(now)` puts those of the page beside the recorded ones, null takes them off. */
+/**
+ * The table of measures: `show(now)` puts those of the page beside the recorded ones, null takes them off.
+ */
 export class MeasureTable {
   constructor(app, family, curve, isLength) {
     const names = new Set(app.atlas.measures.map(({ name }) => name));
     this.rows = app.atlas.measures.map((measure) => {
       const short = measure.name.replace(/_deg$/, "");
       // An angle is known by its unit, but where a word has the same name.
-      const title = (short !== measure.name && names.has(short) ? `${short}, direction` : short).replaceAll("_", " ");
+      const title = (short !== measure.name && names.has(short) ? `${short}, direction` : short).replaceAll(
+        "_",
+        " ",
+      );
       return rowOfMeasure(title, measure, measured(family, curve, measure.name), isLength);
     });
-    this.body = h("tbody", {}, this.rows.map(({ element }) => element));
+    this.body = h(
+      "tbody",
+      {},
+      this.rows.map(({ element }) => element),
+    );
     this.note = h("p", { class: "note" });
     this.table = h(
       "table",
       { class: "figures measures" },
       h("caption", { class: "unseen" }, "Measures of the curve"),
-      h("thead", {}, h("tr", {}, ["Measure", "Atlas", "Now", "Change"].map((word, k) => h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word)))),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          ["Measure", "Atlas", "Now", "Change"].map((word, k) =>
+            h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
+          ),
+        ),
+      ),
       this.body,
     );
-    this.element = h("section", { class: "measures-section" }, h("h2", {}, "Measures"), this.note, h("div", { class: "scroll" }, this.table));
+    this.element = h(
+      "section",
+      { class: "measures-section" },
+      h("h2", {}, "Measures"),
+      this.note,
+      h("div", { class: "scroll" }, this.table),
+    );
     this.show(null);
   }
 
   /** `now` is { name: number or word } of changed parameters, or null where nothing is changed. */
   show(now) {
     this.table.classList.toggle("compared", now !== null);
-    fill(this.note, now ? "The atlas's own measures, and those of the changed parameters as this page reckons them." : []);
+    fill(
+      this.note,
+      now ? "The atlas's own measures, and those of the changed parameters as this page reckons them." : [],
+    );
     for (const row of this.rows) {
       const value = now?.[row.measure.name];
       // What neither has is not told.
@@ -70,7 +111,12 @@ export class MeasureTable {
 function rowOfMeasure(name, measure, recorded, isLength) {
   const now = h("td", { class: "now" });
   const change = h("td", { class: "now" });
-  const title = h("th", { scope: "row", class: "text" }, h("span", { class: "measure-name" }, name), h("span", { class: "definition" }, measure.definition));
+  const title = h(
+    "th",
+    { scope: "row", class: "text" },
+    h("span", { class: "measure-name" }, name),
+    h("span", { class: "definition" }, measure.definition),
+  );
   const ofLength = isLength && /^(input_m|straight_(start|input)|dwell_(start|input))/.test(measure.name);
   const element = h("tr", {}, title, h("td", {}, toldMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };
@@ -81,7 +127,8 @@ export function toldMeasure({ word, unit }, value, isLength = false) {
   if (value === undefined || value === null || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
   if (value === Infinity) return "∞";
-  if (Number.isInteger(value) && Math.abs(value) < 1e6 && unit !== "deg") return String(value).replace("-", "−");
+  if (Number.isInteger(value) && Math.abs(value) < 1e6 && unit !== "deg")
+    return String(value).replace("-", "−");
   return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : shortLength(value);
 }
 

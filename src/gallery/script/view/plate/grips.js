@@ -1,4 +1,5 @@
-// Hands on the stage: a joint is dragged along its path, the crank about its pivot, the picture moved and zoomed.
+// Hands on the stage: a joint is dragged along its path, the crank about its pivot, the picture moved and
+// zoomed.
 
 import { linkageWithOnePoint } from "../../kinematics/linkage.js";
 import { planePoint } from "../../draw/paper-view.js";
@@ -9,8 +10,8 @@ import { Poser } from "./poser.js";
 const LIMIT_SLACK = 3;
 
 /**
- * Takes pointers on a stage. `plate` has study, pose, reason (why there is nothing to be dragged, or null) and drive. Returns
- * a function that takes the listeners off.
+ * Takes pointers on a stage. `plate` has study, pose, reason (why there is nothing to be dragged, or null)
+ * and drive. Returns a function that takes the listeners off.
  */
 export function gripStage(stage, plate) {
   const { picture } = stage;
@@ -52,14 +53,22 @@ export function gripStage(stage, plate) {
     plate.drive.place.isBeyond = false;
   };
   let scrolled = -Infinity;
-  const scroll = () => { scrolled = performance.now(); };
+  const scroll = () => {
+    scrolled = performance.now();
+  };
   const wheel = (event) => {
     // A page that is being scrolled goes on over the picture.
     if (!event.ctrlKey && performance.now() - scrolled < 400) return;
     event.preventDefault();
     stage.zoom(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0015)), pointOf(event));
   };
-  const listeners = [["pointerdown", down], ["pointermove", moved], ["pointerup", up], ["pointercancel", up], ["wheel", wheel]];
+  const listeners = [
+    ["pointerdown", down],
+    ["pointermove", moved],
+    ["pointerup", up],
+    ["pointercancel", up],
+    ["wheel", wheel],
+  ];
   for (const [name, listener] of listeners) picture.addEventListener(name, listener, { passive: false });
   window.addEventListener("scroll", scroll, { passive: true });
   return () => window.removeEventListener("scroll", scroll);
@@ -70,7 +79,8 @@ function pinch(stage, hands, id, at) {
   if (!other) return;
   const before = hands.get(id);
   const apart = ([x, y]) => Math.hypot(x - other[0], y - other[1]);
-  if (apart(before) > 0) stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
+  if (apart(before) > 0)
+    stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
 }
 
 // A function to be called with the places, in the plane, where the hand is.
@@ -86,7 +96,7 @@ function draggedCrank(plate, pivot, pin, hand) {
   const { place } = drive;
   const sense = study.linkage.placement.mirror ? -1 : 1;
   const directionOf = ([x, y]) => (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
-  const turned = (from, to) => sense * ((((to - from + 180) % 360) + 360) % 360 - 180);
+  const turned = (from, to) => sense * (((((to - from + 180) % 360) + 360) % 360) - 180);
   let direction = directionOf(hand);
   let wanted = place.input + turned(directionOf([pose[2 * pin], pose[2 * pin + 1]]), direction);
   const follow = () => {

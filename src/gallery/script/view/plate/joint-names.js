@@ -17,13 +17,27 @@ export class JointNames {
     const links = [...bars, ...plates, frame];
     const named = [...new Set([...fixed, ...pins, traced])];
     this.names = named.map((joint) => {
-      const element = s("text", { class: joint === traced ? "name traced" : "name" }, nameOfJoint(linkage, joint));
-      const near = [...new Set(links.filter((link) => link.includes(joint)).flat())].filter((other) => other !== joint);
+      const element = s(
+        "text",
+        { class: joint === traced ? "name traced" : "name" },
+        nameOfJoint(linkage, joint),
+      );
+      const near = [...new Set(links.filter((link) => link.includes(joint)).flat())].filter(
+        (other) => other !== joint,
+      );
       // A point of a grid hangs on the joints it is placed from.
       const arms = near.length ? near : (linkage.joints[joint].step.base ?? []);
       // Names are set about their middles: a long one keeps its beginning, or its end, off the joint.
       const over = Math.max(0, 3.6 * element.textContent.length - 4);
-      return { element, joint, near: arms, over, isFixed: fixed.includes(joint), angle: -Math.PI / 2, angles: [] };
+      return {
+        element,
+        joint,
+        near: arms,
+        over,
+        isFixed: fixed.includes(joint),
+        angle: -Math.PI / 2,
+        angles: [],
+      };
     });
     this.element.replaceChildren(...this.names.map(({ element }) => element));
   }
@@ -46,7 +60,8 @@ function nameOfJoint({ joints, traced }, joint) {
   return isGrid ? `${name} ${traced.indexOf(joint) + 1}` : name;
 }
 
-// The directions, in radians on the screen, in which links leave a joint; of a fixed one, the ground is below.
+// The directions, in radians on the screen, in which links leave a joint; of a fixed one, the ground is
+// below.
 function anglesOfLinks({ joint, near, isFixed, angles }, at) {
   angles.length = 0;
   if (isFixed) angles.push(Math.PI / 2);

@@ -39,7 +39,9 @@ function pressedKey(plate, event) {
 /** The address of the curve before (-1) or after (1) one of a family; null at the ends. */
 export function neighbourAddress(family, curve, way) {
   const next = curve + way;
-  return next >= 0 && next < family.curves.count ? address([family.id, "curve", curveKey(family, next)]) : null;
+  return next >= 0 && next < family.curves.count
+    ? address([family.id, "curve", curveKey(family, next)])
+    : null;
 }
 
 function toNeighbour({ app, family, curve }, way) {

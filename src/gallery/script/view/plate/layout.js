@@ -14,7 +14,11 @@ export function plateLayout(plate) {
   const { caption, note } = wordsOfCell(family, family.curves.cell[curve]);
   const key = curveKey(family, curve);
   const changed = h("span", { class: "tag changed-tag", hidden: true }, "parameters changed");
-  const pin = h("button", { type: "button", class: "pin", onclick: () => app.pins.toggle(`${family.id}:${key}`) });
+  const pin = h("button", {
+    type: "button",
+    class: "pin",
+    onclick: () => app.pins.toggle(`${family.id}:${key}`),
+  });
   const pinned = () => {
     const isPinned = app.pins.has(`${family.id}:${key}`);
     pin.setAttribute("aria-pressed", String(isPinned));
@@ -29,18 +33,56 @@ export function plateLayout(plate) {
     h(
       "div",
       {},
-      h("h1", {}, h("a", { href: address([family.id]), class: "family-title" }, family.title), " ", h("span", { class: "key" }, key)),
-      h("p", { class: "lede" }, caption, note ? h("span", { class: "note" }, ` · ${note}`) : null, " ", changed),
+      h(
+        "h1",
+        {},
+        h("a", { href: address([family.id]), class: "family-title" }, family.title),
+        " ",
+        h("span", { class: "key" }, key),
+      ),
+      h(
+        "p",
+        { class: "lede" },
+        caption,
+        note ? h("span", { class: "note" }, ` · ${note}`) : null,
+        " ",
+        changed,
+      ),
     ),
-    h("nav", { class: "toolbar", "aria-label": "Curve" }, neighbourLink(family, curve, -1), neighbourLink(family, curve, 1), pin, take),
+    h(
+      "nav",
+      { class: "toolbar", "aria-label": "Curve" },
+      neighbourLink(family, curve, -1),
+      neighbourLink(family, curve, 1),
+      pin,
+      take,
+    ),
   );
-  const side = h("aside", { class: "panel plate-panel", "aria-label": "Readings and parameters" }, dial.element, speed.element, sliders.element, switches.element, switches.circuitSection);
+  const side = h(
+    "aside",
+    { class: "panel plate-panel", "aria-label": "Readings and parameters" },
+    dial.element,
+    speed.element,
+    sliders.element,
+    switches.element,
+    switches.circuitSection,
+  );
   const element = h(
     "div",
     { class: "room plate" },
     heading,
-    h("div", { class: "split plate-split" }, h("div", { class: "plate-main" }, stage.element, transport.element), side),
-    h("div", { class: "plate-facts" }, h("section", {}, h("h2", {}, "Where it is from"), originOfCurve(app, family, curve)), measures.element),
+    h(
+      "div",
+      { class: "split plate-split" },
+      h("div", { class: "plate-main" }, stage.element, transport.element),
+      side,
+    ),
+    h(
+      "div",
+      { class: "plate-facts" },
+      h("section", {}, h("h2", {}, "Where it is from"), originOfCurve(app, family, curve)),
+      measures.element,
+    ),
   );
   const refresh = () => {
     changed.hidden = plate.isRecorded || plate.study === null;
@@ -55,5 +97,9 @@ function neighbourLink(family, curve, way) {
   const words = way < 0 ? "← Previous" : "Next →";
   const keys = way < 0 ? "[" : "]";
   if (!next) return h("span", { class: "button", "aria-disabled": "true" }, words);
-  return h("a", { class: "button", href: next, rel: way < 0 ? "prev" : "next", "aria-keyshortcuts": keys }, words);
+  return h(
+    "a",
+    { class: "button", href: next, rel: way < 0 ? "prev" : "next", "aria-keyshortcuts": keys },
+    words,
+  );
 }

@@ -6,5 +6,7 @@ import { measuresOf } from "../../measure/measures.js";
 /** { name: value } of a study's curve, under the names of the atlas's, sampled as its family is. */
 export function measuresOfStudy(family, { linkage, routes, shown, joint }) {
   const circuit = sampledCircuit(linkage, samplerOf(family.sampling), routes[shown]);
-  return measuresOf(linkage, { circuits: [circuit], shortfall: null }, circuit, joint, { straight: family.straight });
+  return measuresOf(linkage, { circuits: [circuit], shortfall: null }, circuit, joint, {
+    straight: family.straight,
+  });
 }

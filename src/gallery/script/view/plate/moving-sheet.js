@@ -21,7 +21,14 @@ export class MovingSheet {
     this.element = s(
       "svg",
       { class: "sheet moving", "aria-hidden": "true" },
-      this.links, this.overlays, this.others, this.pins, this.velocity, this.tracer, this.names.element, this.handles,
+      this.links,
+      this.overlays,
+      this.others,
+      this.pins,
+      this.velocity,
+      this.tracer,
+      this.names.element,
+      this.handles,
     );
     this.study = null;
     this.at = new Float64Array(0);
@@ -37,11 +44,21 @@ export class MovingSheet {
   show(study) {
     this.study = study;
     const { mechanism, linkage, joint } = study;
-    const likeness = JSON.stringify([mechanism.bars, mechanism.plates, mechanism.fixed, mechanism.pins, mechanism.slots.map(({ foot }) => foot), joint]);
-    this.at = this.at.length === 2 * linkage.joints.length ? this.at : new Float64Array(2 * linkage.joints.length);
+    const likeness = JSON.stringify([
+      mechanism.bars,
+      mechanism.plates,
+      mechanism.fixed,
+      mechanism.pins,
+      mechanism.slots.map(({ foot }) => foot),
+      joint,
+    ]);
+    this.at =
+      this.at.length === 2 * linkage.joints.length ? this.at : new Float64Array(2 * linkage.joints.length);
     if (likeness === this.likeness) {
       // The ends of slots are numbers of the study.
-      this.parts.forEach((part) => { if (part.slot !== undefined) part.kept = mechanism.slots[part.slot]; });
+      this.parts.forEach((part) => {
+        if (part.slot !== undefined) part.kept = mechanism.slots[part.slot];
+      });
       return;
     }
     this.likeness = likeness;
@@ -68,10 +85,12 @@ export class MovingSheet {
       at[k] = x + scale * pose[k];
       at[k + 1] = y - scale * pose[k + 1];
     }
-    for (const part of this.parts) part.element.setAttribute("d", placedData(part.data(at, scale, this.ends, part)));
+    for (const part of this.parts)
+      part.element.setAttribute("d", placedData(part.data(at, scale, this.ends, part)));
     for (const { element, joint } of this.circles) putCircle(element, at, joint);
     for (const { element, joint } of this.grips) putCircle(element, at, joint);
-    for (const { element, joints } of this.crankGrips) element.setAttribute("d", placedData(linkData(joints, at, false)));
+    for (const { element, joints } of this.crankGrips)
+      element.setAttribute("d", placedData(linkData(joints, at, false)));
     putCircle(this.tracer, at, this.study.joint);
     this.#otherPoints();
     this.names.pose(at);
@@ -87,7 +106,10 @@ export class MovingSheet {
   #arrow() {
     const { at, arrow, velocity, study } = this;
     const k = 2 * study.joint;
-    velocity.setAttribute("d", arrow && Number.isFinite(arrow[0] + arrow[1]) ? arrowData(at[k], at[k + 1], arrow[0], arrow[1]) : "");
+    velocity.setAttribute(
+      "d",
+      arrow && Number.isFinite(arrow[0] + arrow[1]) ? arrowData(at[k], at[k + 1], arrow[0], arrow[1]) : "",
+    );
   }
 
   #otherPoints() {
@@ -111,7 +133,10 @@ function putCircle(element, at, joint) {
 // Paths, each with how its data follows from the places of joints.
 function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
   const path = (name) => s("path", { class: name });
-  const link = (joints, isPlate) => ({ element: path(isPlate ? "link plate" : "link"), data: (at) => linkData(joints, at, isPlate) });
+  const link = (joints, isPlate) => ({
+    element: path(isPlate ? "link plate" : "link"),
+    data: (at) => linkData(joints, at, isPlate),
+  });
   const rod = ([p, q]) => ({ element: path("link"), data: (at) => linkData([p, q], at, false) });
   const cylinder = ([p, q]) => ({
     element: path("hollow"),
@@ -123,7 +148,9 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
     slot,
     data: (at, scale, ends, part) => {
       slotEnds(part.kept, at, scale, ends);
-      return `M${pixel(at[2 * part.kept.foot])} ${pixel(at[2 * part.kept.foot + 1])}L${pixel(ends[0])} ${pixel(ends[1])}L${pixel(ends[2])} ${pixel(ends[3])}`;
+      const { foot } = part.kept;
+      const [x0, y0, x1, y1] = ends;
+      return linkData([0, 1, 2], [at[2 * foot], at[2 * foot + 1], x0, y0, x1, y1], false);
     },
   });
   const hole = (kept, slot) => ({
@@ -138,7 +165,8 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
   // A block in a slot lies along the slot, one on a guide along the guide.
   const block = ({ at: joint, line: [p, q] }) => ({
     element: path("hollow"),
-    data: (at) => blockData(at[2 * joint], at[2 * joint + 1], at[2 * q] - at[2 * p], at[2 * q + 1] - at[2 * p + 1]),
+    data: (at) =>
+      blockData(at[2 * joint], at[2 * joint + 1], at[2 * q] - at[2 * p], at[2 * q + 1] - at[2 * p + 1]),
   });
   return [
     ...plates.map((joints) => link(joints, true)),
@@ -155,7 +183,10 @@ function circlesOfMechanism({ mechanism, joint: traced }) {
   const circle = (name, r, joint) => ({ element: s("circle", { class: name, r }), joint });
   const pins = mechanism.pins.filter((joint) => joint !== traced);
   return [
-    ...mechanism.fixed.flatMap((joint) => [circle("pivot", 1.5 * PIN_RADIUS, joint), circle("pivot inner", 0.7 * PIN_RADIUS, joint)]),
+    ...mechanism.fixed.flatMap((joint) => [
+      circle("pivot", 1.5 * PIN_RADIUS, joint),
+      circle("pivot inner", 0.7 * PIN_RADIUS, joint),
+    ]),
     ...pins.map((joint) => circle("pin", PIN_RADIUS, joint)),
   ];
 }
@@ -163,11 +194,19 @@ function circlesOfMechanism({ mechanism, joint: traced }) {
 // What a hand can take hold of: the crank along its length, and every joint that moves.
 function handlesOfStudy({ linkage, mechanism, joint: traced }, sheet) {
   const joints = [...new Set([...mechanism.pins, traced, ...mechanism.slots.map(({ through }) => through)])];
-  const cranks = linkage.joints.map(({ step }, id) => (step.kind === "crank" && mechanism.fixed.includes(step.pivot) ? [step.pivot, id] : null));
-  sheet.crankGrips = cranks.filter(Boolean).slice(0, 1).map((pair) => ({
-    element: s("path", { class: "grip crank-grip", "data-joint": pair[1] }),
-    joints: pair,
+  const cranks = linkage.joints.map(({ step }, id) =>
+    step.kind === "crank" && mechanism.fixed.includes(step.pivot) ? [step.pivot, id] : null,
+  );
+  sheet.crankGrips = cranks
+    .filter(Boolean)
+    .slice(0, 1)
+    .map((pair) => ({
+      element: s("path", { class: "grip crank-grip", "data-joint": pair[1] }),
+      joints: pair,
+    }));
+  sheet.grips = joints.map((joint) => ({
+    element: s("circle", { class: "grip", r: 15, "data-joint": joint }),
+    joint,
   }));
-  sheet.grips = joints.map((joint) => ({ element: s("circle", { class: "grip", r: 15, "data-joint": joint }), joint }));
   return [...sheet.crankGrips, ...sheet.grips].map(({ element }) => element);
 }

@@ -1,5 +1,5 @@
-// What can be switched on over a linkage: its cognates, the centrodes of the link that draws the curve, its inflection
-// circle, the velocity of the point, names, the straight portion, and the curves of other points.
+// What can be switched on over a linkage: its cognates, the centrodes of the link that draws the curve, its
+// inflection circle, the velocity of the point, names, the straight portion, and the curves of other points.
 
 import { cognatePins, cognatesOf } from "../../kinematics/cognates.js";
 import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instant.js";
@@ -21,7 +21,9 @@ export const OVERLAYS = [
   { name: "inflection", label: "Inflection circle", isOn: false, there: hasPole },
 ];
 
-/** The cognates of a study's curve (kinematics/cognates.js), or null; the first of them is the linkage itself. */
+/**
+ * The cognates of a study's curve (kinematics/cognates.js), or null; the first of them is the linkage itself.
+ */
 export function cognatesOfStudy(study) {
   return study.isCouplerPoint ? cognatesOf(study.linkage, study.joint) : null;
 }
@@ -70,15 +72,22 @@ export class Overlays {
     this.stage.still.centrode("");
     if (!this.on.has("centrodes")) return;
     const { linkage, joint, size } = study;
-    const circuit = isRough ? study.circuit : sampledCircuit(linkage, samplerOf({ samples: 1440, spacing: "smooth" }), study.circuit);
+    const circuit = isRough
+      ? study.circuit
+      : sampledCircuit(linkage, samplerOf({ samples: 1440, spacing: "smooth" }), study.circuit);
     const moving = movingCentrode(linkage, circuit, joint);
     if (!moving.frame) return;
     const [x0, y0, x1, y1] = study.box;
     // Centrodes run to infinity: what is drawn ends some way beyond the frame.
     const reach = 6 * size;
     const box = [x0 - reach, y0 - reach, x1 + reach, y1 + reach];
-    this.stage.still.centrode(clippedData(ringOf(fixedCentrode(linkage, circuit, joint), circuit.closed), box));
-    this.rolling.setAttribute("d", clippedData(ringOf(moving.points, circuit.closed), [-reach, -reach, reach, reach]));
+    this.stage.still.centrode(
+      clippedData(ringOf(fixedCentrode(linkage, circuit, joint), circuit.closed), box),
+    );
+    this.rolling.setAttribute(
+      "d",
+      clippedData(ringOf(moving.points, circuit.closed), [-reach, -reach, reach, reach]),
+    );
     this.arm = moving.frame;
   }
 
@@ -91,9 +100,15 @@ export class Overlays {
     const instant = poleAt(linkage, pass, input, joint);
     const { x, y, scale } = view;
     const place = ([px, py]) => [x + scale * px, y - scale * py];
-    const isFar = !instant || Math.hypot(...instant.pole) > 1e3 * this.study.size + Math.hypot(this.study.box[0], this.study.box[1]);
+    const isFar =
+      !instant ||
+      Math.hypot(...instant.pole) > 1e3 * this.study.size + Math.hypot(this.study.box[0], this.study.box[1]);
     if (this.arm) this.pole.setAttribute("d", isFar ? "" : crossData(...place(instant.pole)));
-    if (this.on.has("inflection")) this.circle.setAttribute("d", isFar ? "" : inflectionData(place(instant.pole), place(instant.inflection)));
+    if (this.on.has("inflection"))
+      this.circle.setAttribute(
+        "d",
+        isFar ? "" : inflectionData(place(instant.pole), place(instant.inflection)),
+      );
   }
 
   #poseCognates(pose, { x, y, scale }) {
@@ -104,7 +119,10 @@ export class Overlays {
       const [ax, ay, bx, by] = cognatePins(study.linkage, cognate, pose);
       const [o, c] = cognate.pivots;
       const at = [o, [ax, ay], [bx, by], c, point].flatMap(([px, py]) => [x + scale * px, y - scale * py]);
-      this.cognates[k].setAttribute("d", placedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`));
+      this.cognates[k].setAttribute(
+        "d",
+        placedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`),
+      );
       for (const joint of [1, 2]) pins += circleData(at[2 * joint], at[2 * joint + 1], 3.5, 6);
       for (const joint of [0, 3]) pins += circleData(at[2 * joint], at[2 * joint + 1], 5, 6);
     });

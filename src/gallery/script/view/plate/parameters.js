@@ -1,7 +1,8 @@
 // What can be changed of a linkage on its plate, and what follows from it.
 //
-// Changes are a Map of names to numbers, as the address has them: parameters and helpers by their names, and where the
-// traced point is on its link as "M.along" and "M.across". What is not changed is as the atlas has it, or follows.
+// Changes are a Map of names to numbers, as the address has them: parameters and helpers by their names, and
+// where the traced point is on its link as "M.along" and "M.across". What is not changed is as the atlas has
+// it, or follows.
 
 import { evaluateExpression } from "../../kinematics/expression.js";
 import { roundBelow } from "../../draw/paper-view.js";
@@ -13,14 +14,19 @@ export function changedValues(family, cell, changes) {
   const has = (slot) => changes.has(family.names[slot]);
   const isChanged = family.names.some((name) => changes.has(name));
   if (!isChanged) return values;
-  family.names.forEach((name, slot) => { if (has(slot)) values[slot] = changes.get(name); });
+  family.names.forEach((name, slot) => {
+    if (has(slot)) values[slot] = changes.get(name);
+  });
   for (const [slot, expression] of family.derived) {
     if (!has(slot) && typeof expression !== "number") values[slot] = evaluateExpression(expression, values);
   }
   return values;
 }
 
-/** The traced joint of a template, { joint (its place), name, along, across } with coordinates as numbers or expressions. */
+/**
+ * The traced joint of a template, { joint (its place), name, along, across } with coordinates as numbers or
+ * expressions.
+ */
 export function tracedPoint(template, trace) {
   let left = trace - 1;
   for (const joint of template.trace) {
@@ -61,12 +67,17 @@ function coordinatePart(coordinate, k) {
   return { isKept: false, isParameter: false, at };
 }
 
-/** A template whose traced point is where changes have it; a point of a grid comes to stand beside the grid, traced last. */
+/**
+ * A template whose traced point is where changes have it; a point of a grid comes to stand beside the grid,
+ * traced last.
+ */
 export function templateWithChanges(template, trace, values, changes) {
   const point = tracedPoint(template, trace);
   const names = point ? ["along", "across"].map((way) => `${point.name}.${way}`) : [];
   if (!names.some((name) => changes.has(name))) return { template, trace };
-  const [along, across] = [point.along, point.across].map((way, k) => changes.get(names[k]) ?? way.at(values));
+  const [along, across] = [point.along, point.across].map(
+    (way, k) => changes.get(names[k]) ?? way.at(values),
+  );
   const moved = { ...template.joints[point.joint], along, across };
   const joints = [...template.joints];
   if (!point.isGrid) {
@@ -78,9 +89,10 @@ export function templateWithChanges(template, trace, values, changes) {
 }
 
 /**
- * What a plate offers to change: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind` is "free" for what the
- * atlas varies, "kept" for what it keeps, "follows" for what is derived from others, and "freed" for that when it has
- * been changed; `low` to `high` is a sensible range, `grain` the step of a slider.
+ * What a plate offers to change: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind` is
+ * "free" for what the atlas varies, "kept" for what it keeps, "follows" for what is derived from others, and
+ * "freed" for that when it has been changed; `low` to `high` is a sensible range, `grain` the step of a
+ * slider.
  */
 export function changeableParameters(family, cell, trace, changes) {
   const width = family.names.length;
@@ -92,10 +104,24 @@ export function changeableParameters(family, cell, trace, changes) {
   const offered = family.names.map((name, slot) => {
     const bounds = family.template.parameters[slot] ?? {};
     const follows = derived.has(slot) && typeof derived.get(slot) !== "number";
-    const kind = family.free.includes(slot) ? "free" : !follows ? "kept" : changes.has(name) ? "freed" : "follows";
+    const kind = family.free.includes(slot)
+      ? "free"
+      : !follows
+        ? "kept"
+        : changes.has(name)
+          ? "freed"
+          : "follows";
     const spread = spreadOfSlot(family, slot);
     const range = sensibleRange(recorded[slot], spread, bounds, size, whole.has(slot));
-    return { name, kind, value: values[slot], recorded: recorded[slot], min: bounds.min ?? null, max: bounds.max ?? null, ...range };
+    return {
+      name,
+      kind,
+      value: values[slot],
+      recorded: recorded[slot],
+      min: bounds.min ?? null,
+      max: bounds.max ?? null,
+      ...range,
+    };
   });
   return [...offered, ...changeableCoordinates(family, recorded, values, trace, changes, size)];
 }
@@ -103,13 +129,23 @@ export function changeableParameters(family, cell, trace, changes) {
 function changeableCoordinates({ template }, recorded, values, trace, changes, size) {
   const point = tracedPoint(template, trace);
   if (!point) return [];
-  return ["along", "across"].filter((way) => !point[way].isParameter).map((way) => {
-    const name = `${point.name}.${way}`;
-    const [kept, follows] = [point[way].at(recorded), !point[way].isKept];
-    const kind = !follows ? "kept" : changes.has(name) ? "freed" : "follows";
-    const value = changes.get(name) ?? point[way].at(values);
-    return { name, kind, value, recorded: kept, min: null, max: null, ...sensibleRange(kept, [kept, kept], {}, size, false) };
-  });
+  return ["along", "across"]
+    .filter((way) => !point[way].isParameter)
+    .map((way) => {
+      const name = `${point.name}.${way}`;
+      const [kept, follows] = [point[way].at(recorded), !point[way].isKept];
+      const kind = !follows ? "kept" : changes.has(name) ? "freed" : "follows";
+      const value = changes.get(name) ?? point[way].at(values);
+      return {
+        name,
+        kind,
+        value,
+        recorded: kept,
+        min: null,
+        max: null,
+        ...sensibleRange(kept, [kept, kept], {}, size, false),
+      };
+    });
 }
 
 function spreadOfSlot({ cells, names }, slot) {

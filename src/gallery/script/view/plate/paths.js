@@ -18,8 +18,8 @@ export function dashPeriod(family, { linkage, circuit }) {
 }
 
 /**
- * Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its straight portion.
- * `on` has the names of what is switched on.
+ * Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its
+ * straight portion. `on` has the names of what is switched on.
  */
 export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
   const { circuit, others } = study;
@@ -41,18 +41,23 @@ function sampledData({ x, y, count, closed }, joint, stride, grid) {
   return polylineData(points, { grid });
 }
 
-/** What is told of a curve's straight portion: its length, how far it leaves its line, and the input it spans. */
+/**
+ * What is told of a curve's straight portion: its length, how far it leaves its line, and the input it spans.
+ */
 export function straightWords({ linkage }, family, curve, measures) {
-  const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"]
-    .map((name) => (measures ? measures[name] : measured(family, curve, name)));
+  const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
+    (name) => (measures ? measures[name] : measured(family, curve, name)),
+  );
   if (!Number.isFinite(length)) return "";
   const over = linkage.input.isLength ? shortLength(span) : `${minusSigned(span, 1)}°`;
-  return `Straight portion: ${shortLength(length)} long, within ${shortLength(deviation)} of its line, over ${over} of input`;
+  const within = `within ${shortLength(deviation)} of its line`;
+  return `Straight portion: ${shortLength(length)} long, ${within}, over ${over} of input`;
 }
 
 /**
- * The straight portion of a study's curve as a stretch (draw/band.js), from the measures { name: value } of the page, or,
- * where they are null, those of the atlas. Null where there is none, or one too short to be seen.
+ * The straight portion of a study's curve as a stretch (draw/band.js), from the measures { name: value } of
+ * the page, or, where they are null, those of the atlas. Null where there is none, or one too short to be
+ * seen.
  */
 export function straightStretch(study, family, curve, measures) {
   const { linkage, circuit, joint, curveBox } = study;

@@ -5,7 +5,9 @@ import { curveKey } from "../../data/family.js";
 import { OVERLAYS } from "./overlays.js";
 import { changesOfQuery } from "./parameters.js";
 
-/** { changes: Map, asked: the place of a circuit among all, or null, on: Set of overlays' names } of a query. */
+/**
+ * { changes: Map, asked: the place of a circuit among all, or null, on: Set of overlays' names } of a query.
+ */
 export function readPlateQuery(family, trace, query) {
   const circuit = Number(query.get("circuit"));
   const shown = query.get("show");

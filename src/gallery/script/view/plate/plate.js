@@ -22,13 +22,16 @@ import { Switches } from "./switches.js";
 import { Transport } from "./transport.js";
 import { PointVelocity, velocityArrow } from "./velocity.js";
 
-// Chord errors of a path, by parts of the size: rough while a slider is being moved, fine once it rests for so many
-// milliseconds.
+// Chord errors of a path, by parts of the size: rough while a slider is being moved, fine once it rests for
+// so many milliseconds.
 const ROUGH_PATH = 3e-4;
 const FINE_PATH = 2e-5;
 const REST_MILLISECONDS = 160;
 
-/** The plate of a curve of a family, with what a query of its address says; `element` is shown, then `shown()` called. */
+/**
+ * The plate of a curve of a family, with what a query of its address says; `element` is shown, then `shown()`
+ * called.
+ */
 export class Plate {
   constructor(app, family, curve, query) {
     Object.assign(this, { app, family, curve, study: null, pose: null });
@@ -71,7 +74,10 @@ export class Plate {
     this.keys = new PlateKeys(this);
   }
 
-  /** To be called when the element is in the page: measures the frame, and begins to play where motion is welcome. */
+  /**
+   * To be called when the element is in the page: measures the frame, and begins to play where motion is
+   * welcome.
+   */
   shown() {
     this.stage.observe();
     this.stage.fit();
@@ -229,7 +235,11 @@ export class Plate {
   #draw() {
     const { study, poser, stage, drive } = this;
     if (!study) return;
-    const { pass, part, place: { input } } = drive;
+    const {
+      pass,
+      part,
+      place: { input },
+    } = drive;
     this.pose = poser.take(pass, input);
     stage.pose(this.pose);
     this.overlays.pose(this.pose, stage.view, pass, input);

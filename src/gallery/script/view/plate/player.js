@@ -1,6 +1,9 @@
 // Time: calls a function with the seconds that have passed, frame by frame, while it plays.
 
-/** A clock of frames. A frame that comes late, as after another page was looked at, counts for a twentieth of a second. */
+/**
+ * A clock of frames. A frame that comes late, as after another page was looked at, counts for a twentieth of
+ * a second.
+ */
 export class Player {
   constructor(advance) {
     this.advance = advance;

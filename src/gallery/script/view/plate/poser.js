@@ -1,5 +1,5 @@
-// A linkage's pose at one input, again and again, in the same arrays: sixty times a second nothing is left to be swept up
-// but a few small objects.
+// A linkage's pose at one input, again and again, in the same arrays: sixty times a second nothing is left to
+// be swept up but a few small objects.
 
 import { newColumns, placeJoints, seeColumns, stopAt } from "../../kinematics/columns.js";
 import { placeEnd } from "../../kinematics/ends.js";

@@ -11,8 +11,8 @@ const PARAMETER_KINDS = {
 };
 
 /**
- * The controls of parameters (parameters.js). `on` has change(name, value), clear(name), settle() when a hand lets go, and
- * reset(). `show(parameters)` says what they are now; rows stay while their names do.
+ * The controls of parameters (parameters.js). `on` has change(name, value), clear(name), settle() when a hand
+ * lets go, and reset(). `show(parameters)` says what they are now; rows stay while their names do.
  */
 export class Sliders {
   constructor(on) {
@@ -20,9 +20,21 @@ export class Sliders {
     this.rows = new Map();
     this.free = h("div", { class: "parameters" });
     this.kept = h("div", { class: "parameters" });
-    this.more = h("details", { class: "kept-parameters" }, h("summary", {}, "Kept in the atlas, and what follows"), this.kept);
+    this.more = h(
+      "details",
+      { class: "kept-parameters" },
+      h("summary", {}, "Kept in the atlas, and what follows"),
+      this.kept,
+    );
     this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "As in the atlas");
-    this.element = h("section", { class: "gauge sliders" }, h("h3", {}, "Parameters"), this.free, this.more, this.reset);
+    this.element = h(
+      "section",
+      { class: "gauge sliders" },
+      h("h3", {}, "Parameters"),
+      this.free,
+      this.more,
+      this.reset,
+    );
   }
 
   show(parameters) {
@@ -48,12 +60,16 @@ export class Sliders {
     row.field.readOnly = kind === "follows";
     if (document.activeElement !== row.field) row.field.value = plainNumber(value);
     const { min, max } = parameter;
-    const isOut = (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
+    const isOut =
+      (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
     row.field.setAttribute("aria-invalid", String(isOut));
     const isTied = kind === "follows" || kind === "freed";
     const label = kind === "follows" ? "Set free" : kind === "freed" ? "Let follow" : "Back";
     row.button.textContent = label;
-    row.button.setAttribute("aria-label", `${label}: ${parameter.name}${kind === "free" || kind === "kept" ? ` to ${plainNumber(recorded)}` : ""}`);
+    row.button.setAttribute(
+      "aria-label",
+      `${label}: ${parameter.name}${isTied ? "" : ` to ${plainNumber(recorded)}`}`,
+    );
     row.button.classList.toggle("unneeded", !isTied && !isChangedParameter(parameter));
     row.button.disabled = !isTied && !isChangedParameter(parameter);
   }
@@ -62,9 +78,15 @@ export class Sliders {
     this.rows.clear();
     const rows = parameters.map((parameter) => [parameter, this.#row(parameter)]);
     const isFree = ([{ kind }]) => kind === "free";
-    fill(this.free, rows.filter(isFree).map(([, { element }]) => element));
+    fill(
+      this.free,
+      rows.filter(isFree).map(([, { element }]) => element),
+    );
     const kept = rows.filter((row) => !isFree(row));
-    fill(this.kept, kept.map(([, { element }]) => element));
+    fill(
+      this.kept,
+      kept.map(([, { element }]) => element),
+    );
     this.more.hidden = kept.length === 0;
     this.more.open = rows.length <= 6 || rows.length === kept.length;
   }
@@ -74,14 +96,20 @@ export class Sliders {
     const { on } = this;
     const row = { parameter };
     row.range = h("input", {
-      type: "range", step: "any", min: parameter.low, max: parameter.high, value: parameter.value,
+      type: "range",
+      step: "any",
+      min: parameter.low,
+      max: parameter.high,
+      value: parameter.value,
       "aria-label": `${name}, ${PARAMETER_KINDS[parameter.kind]}`,
       oninput: () => on.change(name, roundedToGrain(Number(row.range.value), row.parameter.grain)),
       onchange: () => on.settle(),
       onkeydown: (event) => steppedSlider(event, row, on),
     });
     row.field = h("input", {
-      type: "number", step: "any", "aria-label": `Value of ${name}`,
+      type: "number",
+      step: "any",
+      "aria-label": `Value of ${name}`,
       oninput: () => {
         const value = row.field.valueAsNumber;
         if (Number.isFinite(value) && !row.field.readOnly) on.change(name, value);
@@ -91,8 +119,19 @@ export class Sliders {
         row.field.value = plainNumber(row.parameter.value);
       },
     });
-    row.button = h("button", { type: "button", class: "quiet tie", onclick: () => freedOrTied(row.parameter, on) });
-    row.element = h("div", { class: "parameter" }, h("span", { class: "parameter-name" }, name), row.range, row.field, row.button);
+    row.button = h("button", {
+      type: "button",
+      class: "quiet tie",
+      onclick: () => freedOrTied(row.parameter, on),
+    });
+    row.element = h(
+      "div",
+      { class: "parameter" },
+      h("span", { class: "parameter-name" }, name),
+      row.range,
+      row.field,
+      row.button,
+    );
     this.rows.set(name, row);
     return row;
   }

@@ -20,7 +20,12 @@ export class SpeedView {
     this.foot = h("p", { class: "note" });
     this.drawing = s(
       "svg",
-      { class: "speed", viewBox: `-4 -8 ${SPEED_FRAME.width + 8} ${SPEED_FRAME.height + 12}`, role: "img", "aria-label": "Speed of the traced point over the circuit" },
+      {
+        class: "speed",
+        viewBox: `-4 -8 ${SPEED_FRAME.width + 8} ${SPEED_FRAME.height + 12}`,
+        role: "img",
+        "aria-label": "Speed of the traced point over the circuit",
+      },
       this.band,
       s("path", { class: "speed-axis", d: `M0 ${SPEED_FRAME.height}h${SPEED_FRAME.width}` }),
       this.limits,
@@ -28,11 +33,22 @@ export class SpeedView {
       this.mark,
       this.dot,
     );
-    this.element = h("section", { class: "gauge speed-gauge" }, h("h3", {}, "Speed along the curve ", this.value), this.drawing, this.foot);
+    this.element = h(
+      "section",
+      { class: "gauge speed-gauge" },
+      h("h3", {}, "Speed along the curve ", this.value),
+      this.drawing,
+      this.foot,
+    );
     const pressed = (event) => {
       if (event.type === "pointermove" && event.buttons !== 1) return;
       const box = this.drawing.getBoundingClientRect();
-      choose(Math.min(Math.max(((event.clientX - box.left) / box.width) * (SPEED_FRAME.width + 8) - 4, 0), SPEED_FRAME.width) / SPEED_FRAME.width);
+      choose(
+        Math.min(
+          Math.max(((event.clientX - box.left) / box.width) * (SPEED_FRAME.width + 8) - 4, 0),
+          SPEED_FRAME.width,
+        ) / SPEED_FRAME.width,
+      );
     };
     this.drawing.addEventListener("pointerdown", pressed);
     this.drawing.addEventListener("pointermove", pressed);
@@ -53,14 +69,22 @@ export class SpeedView {
     this.top = shownSpeed(speeds);
     this.unit = isLength ? "a unit of input" : "a radian of input";
     this.line.setAttribute("d", speedData(parts, speeds, this.top, SPEED_FRAME));
-    this.limits.setAttribute("d", turningParts(course).map((part) => `M${pixel(part * SPEED_FRAME.width)} 0V${SPEED_FRAME.height}`).join(""));
+    this.limits.setAttribute(
+      "d",
+      turningParts(course)
+        .map((part) => `M${pixel(part * SPEED_FRAME.width)} 0V${SPEED_FRAME.height}`)
+        .join(""),
+    );
     this.band.setAttribute("d", stretch ? bandData(stretch) : "");
     const finite = speeds.filter(Number.isFinite);
     const [least, most] = [Math.min(...finite), Math.max(...finite)];
     const isCut = most > this.top * 1.05;
     const until = isCut ? "without bound towards the limits" : `to ${shortLength(most)}`;
     this.foot.textContent = `from ${shortLength(least)} ${until}, in lengths to ${this.unit}`;
-    this.drawing.setAttribute("aria-label", `Speed of the traced point over the circuit: from ${shortLength(least)} ${until} to ${this.unit}`);
+    this.drawing.setAttribute(
+      "aria-label",
+      `Speed of the traced point over the circuit: from ${shortLength(least)} ${until} to ${this.unit}`,
+    );
   }
 
   now(part, speed) {
@@ -68,7 +92,10 @@ export class SpeedView {
     this.mark.setAttribute("transform", `translate(${x} 0)`);
     const isFinite = Number.isFinite(speed);
     this.dot.setAttribute("cx", x);
-    this.dot.setAttribute("cy", isFinite ? pixel(SPEED_FRAME.height * (1 - Math.min(speed / this.top, 1.06))) : -5);
+    this.dot.setAttribute(
+      "cy",
+      isFinite ? pixel(SPEED_FRAME.height * (1 - Math.min(speed / this.top, 1.06))) : -5,
+    );
     this.value.textContent = isFinite ? shortLength(speed) : "∞";
   }
 }

@@ -1,5 +1,6 @@
-// The stage of a plate: what stays, the curves and the ground, on one sheet, and the linkage that moves on another above
-// it, so that a frame of the motion paints the linkage alone. Weights of lines are in pixels of the screen at any zoom.
+// The stage of a plate: what stays, the curves and the ground, on one sheet, and the linkage that moves on
+// another above it, so that a frame of the motion paints the linkage alone. Weights of lines are in pixels of
+// the screen at any zoom.
 
 import { fittedView, zoomedView } from "../../draw/paper-view.js";
 import { fill, h, s } from "../dom.js";
@@ -8,7 +9,10 @@ import { StillSheet } from "./still-sheet.js";
 
 const STAGE_MARGIN = 44;
 
-/** A stage; `element` is to be put into the page, then `observe()` it. `onview` is called when its view has changed. */
+/**
+ * A stage; `element` is to be put into the page, then `observe()` it. `onview` is called when its view has
+ * changed.
+ */
 export class Stage {
   constructor() {
     this.size = { width: 0, height: 0 };
@@ -22,7 +26,12 @@ export class Stage {
     this.reason = h("p", { class: "reason trouble", hidden: true });
     this.picture = h(
       "div",
-      { class: "scene", role: "img", "aria-describedby": "plate-summary", "aria-label": "The linkage on its curve" },
+      {
+        class: "scene",
+        role: "img",
+        "aria-describedby": "plate-summary",
+        "aria-label": "The linkage on its curve",
+      },
       this.still.element,
       this.moving.element,
     );
@@ -40,7 +49,9 @@ export class Stage {
     this.observer.disconnect();
   }
 
-  /** Shows a study and what its curve is drawn with: { dashes, lead, others, band } as path data in the plane. */
+  /**
+   * Shows a study and what its curve is drawn with: { dashes, lead, others, band } as path data in the plane.
+   */
   show(study, paths) {
     const isFirst = !this.study;
     this.study = study;
@@ -60,7 +71,10 @@ export class Stage {
   impossible(reason) {
     this.element.classList.toggle("impossible", reason !== null);
     this.reason.hidden = reason === null;
-    fill(this.reason, reason === null ? [] : `It cannot be assembled: ${reason}`);
+    fill(
+      this.reason,
+      reason === null ? [] : `It cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
+    );
   }
 
   /** Moves the linkage into a pose [x0, y0, …] of the plane. */
@@ -82,8 +96,11 @@ export class Stage {
     const [x0, y0, x1, y1] = this.box;
     const { scale, x, y } = this.view;
     const slack = 0.5 * this.#margin();
-    const isInside = x + scale * x0 >= slack && x + scale * x1 <= this.size.width - slack
-      && y - scale * y1 >= slack && y - scale * y0 <= this.size.height - slack;
+    const isInside =
+      x + scale * x0 >= slack &&
+      x + scale * x1 <= this.size.width - slack &&
+      y - scale * y1 >= slack &&
+      y - scale * y0 <= this.size.height - slack;
     if (!isInside || scale < 0.55 * fitted.scale) this.fit();
   }
 
@@ -111,7 +128,8 @@ export class Stage {
     if (width === 0 || height === 0 || (width === this.size.width && height === this.size.height)) return;
     const before = this.size;
     this.size = { width, height };
-    for (const sheet of [this.still, this.moving]) sheet.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    for (const sheet of [this.still, this.moving])
+      sheet.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
     if (this.isZoomed) this.pan((width - before.width) / 2, (height - before.height) / 2);
     else this.fit();
   }
@@ -124,7 +142,10 @@ export class Stage {
   }
 }
 
-/** The elements of a list, one for each of `count`, made by `make` as they come to be needed and hidden as they are not. */
+/**
+ * The elements of a list, one for each of `count`, made by `make` as they come to be needed and hidden as
+ * they are not.
+ */
 export function keptElements(parent, list, count, make) {
   while (list.length < count) list.push(parent.appendChild(make()));
   list.forEach((element, k) => element.toggleAttribute("hidden", k >= count));

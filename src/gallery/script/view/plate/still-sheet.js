@@ -1,5 +1,5 @@
-// What of a plate stays where it is while the linkage moves: the curve in dashes, other curves, guides, wheels, the
-// straight portion, the fixed centrode, the ground, and a scale.
+// What of a plate stays where it is while the linkage moves: the curve in dashes, other curves, guides,
+// wheels, the straight portion, the fixed centrode, the ground, and a scale.
 
 import { groundData } from "../../draw/hatching.js";
 import { circleData, pixel, polylineData } from "../../draw/path-data.js";
@@ -13,7 +13,17 @@ export class StillSheet {
     const path = (name) => s("path", { class: name, "vector-effect": "non-scaling-stroke" });
     // In the plane: one transform places all of it, and pens keep their weight.
     this.plane = {};
-    for (const name of ["frame-line", "wheels", "guides", "crank-range", "others", "centrode fixed", "band", "lead", "dashes"]) {
+    for (const name of [
+      "frame-line",
+      "wheels",
+      "guides",
+      "crank-range",
+      "others",
+      "centrode fixed",
+      "band",
+      "lead",
+      "dashes",
+    ]) {
       this.plane[name.split(" ")[0]] = path(name);
     }
     this.group = s("g", {}, Object.values(this.plane));
@@ -21,7 +31,15 @@ export class StillSheet {
     this.limitMarks = s("path", { class: "limit-marks" });
     this.bar = s("path", { class: "scale-bar" });
     this.barLabel = s("text", { class: "scale-label" });
-    this.element = s("svg", { class: "sheet still", "aria-hidden": "true" }, this.ground, this.group, this.limitMarks, this.bar, this.barLabel);
+    this.element = s(
+      "svg",
+      { class: "sheet still", "aria-hidden": "true" },
+      this.ground,
+      this.group,
+      this.limitMarks,
+      this.bar,
+      this.barLabel,
+    );
     this.pivots = [];
     this.limits = [];
   }
@@ -30,7 +48,10 @@ export class StillSheet {
     const { fixed, frame, guides, wheels } = mechanism;
     const at = (joint) => [circuit.x[joint][0], circuit.y[joint][0]];
     this.pivots = fixed.map(at);
-    this.#data("frame-line", frame.length > 1 ? polylineData(frame.flatMap(at), { closed: frame.length > 2 }) : "");
+    this.#data(
+      "frame-line",
+      frame.length > 1 ? polylineData(frame.flatMap(at), { closed: frame.length > 2 }) : "",
+    );
     this.#data("wheels", wheels.map(({ joint, radius }) => circleData(...at(joint), radius)).join(""));
     this.#data("guides", guides.map(([x0, y0, x1, y1]) => polylineData([x0, y0, x1, y1])).join(""));
     const { arc, limits } = crankRange(linkage, circuit, course, fixed);
@@ -55,7 +76,10 @@ export class StillSheet {
   place(view, { width, height }) {
     const { scale, x, y } = view;
     this.group.setAttribute("transform", `matrix(${scale} 0 0 ${-scale} ${x} ${y})`);
-    this.ground.setAttribute("d", this.pivots.map(([px, py]) => groundData(x + scale * px, y - scale * py)).join(""));
+    this.ground.setAttribute(
+      "d",
+      this.pivots.map(([px, py]) => groundData(x + scale * px, y - scale * py)).join(""),
+    );
     this.limitMarks.setAttribute("d", this.limits.map((limit) => limitData(limit, view)).join(""));
     const length = roundBelow(Math.min(0.22 * width, 160) / scale);
     const [left, foot] = [14, height - 14];
@@ -71,8 +95,8 @@ export class StillSheet {
   }
 }
 
-// Where the crank's pin goes, as path data, and its places at the limits of the input, each with the pivot, [x, y, ox, oy];
-// of a crank on a fixed pivot that has limits.
+// Where the crank's pin goes, as path data, and its places at the limits of the input, each with the pivot,
+// [x, y, ox, oy]; of a crank on a fixed pivot that has limits.
 function crankRange({ joints }, { x, y, count, input }, course, fixed) {
   const pin = joints.findIndex(({ step }) => step.kind === "crank" && fixed.includes(step.pivot));
   if (pin < 0 || turningParts(course).length === 0) return { arc: "", limits: [] };
@@ -85,7 +109,10 @@ function crankRange({ joints }, { x, y, count, input }, course, fixed) {
   // From one limit to the other, on one pass.
   const arc = [];
   for (let i = Math.min(least, most); i <= Math.max(least, most); i++) arc.push(x[pin][i], y[pin][i]);
-  return { arc: polylineData(arc), limits: [least, most].map((i) => [x[pin][i], y[pin][i], x[pivot][0], y[pivot][0]]) };
+  return {
+    arc: polylineData(arc),
+    limits: [least, most].map((i) => [x[pin][i], y[pin][i], x[pivot][0], y[pivot][0]]),
+  };
 }
 
 // A stroke across the crank's range, as long at any zoom.

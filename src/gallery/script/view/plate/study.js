@@ -16,14 +16,14 @@ import { courseOf } from "./course.js";
 const STUDY_SAMPLES = 240;
 
 /**
- * The study of a curve of a family with changes (parameters.js): { values, reason } where it cannot be assembled, `reason`
- * a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint, others, course, mechanism, box, size,
- * fourBar, isCouplerPoint, template }.
+ * The study of a curve of a family with changes (parameters.js): { values, reason } where it cannot be
+ * assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
+ * others, course, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
- * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names, `shown` that
- * of the one that is shown, which is `asked` where there is one; -1 where there is none. `circuit` is `shown`, sampled;
- * `joint` the traced one, `others` the further traced ones. `box` is what the linkage sweeps. A rough study of a circuit
- * that was not asked for knows no other circuits.
+ * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names,
+ * `shown` that of the one that is shown, which is `asked` where there is one; -1 where there is none.
+ * `circuit` is `shown`, sampled; `joint` the traced one, `others` the further traced ones. `box` is what the
+ * linkage sweeps. A rough study of a circuit that was not asked for knows no other circuits.
  */
 export function studyOf(family, curve, changes, asked = null, isRough = false) {
   const { cell, trace, circuit } = family.curves;
@@ -37,31 +37,60 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
     return { values, reason: error.message };
   }
   const recorded = routesOf(linkage);
-  const all = isRough && asked === null ? recorded : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
+  const all =
+    isRough && asked === null
+      ? recorded
+      : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
   if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
   const home = sameRoute(routes, recorded.routes[circuit[curve] - 1]);
   const shown = routes[asked] ? asked : home;
   if (shown < 0) {
-    const reason = recorded.shortfall ?? "the circuit of this curve is there no more: it has come together with another, or apart";
+    const reason =
+      recorded.shortfall ??
+      "the circuit of this curve is there no more: it has come together with another, or apart";
     return { values, linkage, routes, home, shown, reason };
   }
-  const study = { values, linkage, routes, home, shown, shortfall: recorded.shortfall, template: changed.template };
+  const study = {
+    values,
+    linkage,
+    routes,
+    home,
+    shown,
+    shortfall: recorded.shortfall,
+    template: changed.template,
+  };
   return { ...study, ...shownCircuit(study, changed.trace ?? linkage.traced.length) };
 }
 
 function shownCircuit({ linkage, routes, shown }, trace) {
-  const circuit = sampledCircuit(linkage, samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }), routes[shown]);
+  const circuit = sampledCircuit(
+    linkage,
+    samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }),
+    routes[shown],
+  );
   const joint = linkage.traced[trace - 1];
   const mechanism = mechanismOf(linkage, circuit, joint);
   const others = linkage.traced.filter((other) => other !== joint);
   const box = boxWithOthers(sweptBox(mechanism, circuit, [joint]), circuit, others);
   const curveBox = widenedBox(emptyBox(), circuit.x[joint], circuit.y[joint], circuit.count);
   const size = Math.hypot(box[2] - box[0], box[3] - box[1]);
-  if (!(size > 0) || !Number.isFinite(size)) return { reason: "its lengths are too unlike one another to be drawn" };
+  if (!(size > 0) || !Number.isFinite(size))
+    return { reason: "its lengths are too unlike one another to be drawn" };
   const fourBar = fourBarOf(linkage);
   const isCouplerPoint = fourBar !== null && isOnCoupler(linkage, fourBar, joint);
-  return { circuit, joint, others, course: courseOf(routes[shown]), mechanism, box, curveBox, size, fourBar, isCouplerPoint };
+  return {
+    circuit,
+    joint,
+    others,
+    course: courseOf(routes[shown]),
+    mechanism,
+    box,
+    curveBox,
+    size,
+    fourBar,
+    isCouplerPoint,
+  };
 }
 
 // Other points' curves are in the frame as long as the linkage does not become small in it.
@@ -80,9 +109,12 @@ export function pathOfStudy({ linkage, circuit, joint, size }, part) {
 function sameRoute(routes, route) {
   if (!route) return -1;
   const [first] = route.passes;
-  const isOn = ({ passes }) => passes.some(
-    (pass) => pass.signs === first.signs && Math.abs(Math.min(pass.from, pass.to) - Math.min(first.from, first.to)) < 1e-9,
-  );
+  const isOn = ({ passes }) =>
+    passes.some(
+      (pass) =>
+        pass.signs === first.signs &&
+        Math.abs(Math.min(pass.from, pass.to) - Math.min(first.from, first.to)) < 1e-9,
+    );
   return routes.findIndex(isOn);
 }
 
@@ -92,7 +124,9 @@ export function routeTitle(linkage, { passes, closed }) {
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
   const branches = [...new Set(passes.map(({ signs }) => branchWords(linkage, signs)))].filter(Boolean);
-  const turns = passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) && closed;
+  const turns =
+    passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) &&
+    closed;
   const travel = turns ? turnWords(high - low) : `${told(low)} to ${told(high)}`;
   return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
 }

@@ -16,10 +16,16 @@ export function summaryOfStudy(family, curve, study, isRecorded) {
   words.push(`The curve is ${shortLength(box[2] - box[0])} wide and ${shortLength(box[3] - box[1])} high.`);
   const of = (name) => (isRecorded ? measured(family, curve, name) : undefined);
   if (of("straight_length")) {
-    words.push(`Its straightest portion is ${shortLength(of("straight_length"))} long, within ${shortLength(of("straight_deviation"))}.`);
+    words.push(
+      `Its straightest portion is ${shortLength(of("straight_length"))} long, ` +
+        `within ${shortLength(of("straight_deviation"))}.`,
+    );
   }
   if (of("mu_min_deg") !== undefined) {
-    words.push(`Transmission angle ${minusSigned(of("mu_min_deg"), 1)} to ${minusSigned(of("mu_max_deg"), 1)} degrees.`);
+    words.push(
+      `Transmission angle from ${minusSigned(of("mu_min_deg"), 1)} ` +
+        `to ${minusSigned(of("mu_max_deg"), 1)} degrees.`,
+    );
   }
   if (!isRecorded) words.push("Its parameters, or its circuit, are not those of the atlas.");
   return words.join(" ");

@@ -9,19 +9,39 @@ import { shortLength } from "./speed-view.js";
 export class Switches {
   constructor(on) {
     this.on = on;
-    this.boxes = new Map(OVERLAYS.map(({ name, label }) => {
-      const box = h("input", { type: "checkbox", name: `show-${name}`, onchange: () => on.overlay(name, box.checked) });
-      return [name, { box, row: h("label", { class: "check" }, box, label) }];
-    }));
+    this.boxes = new Map(
+      OVERLAYS.map(({ name, label }) => {
+        const box = h("input", {
+          type: "checkbox",
+          name: `show-${name}`,
+          onchange: () => on.overlay(name, box.checked),
+        });
+        return [name, { box, row: h("label", { class: "check" }, box, label) }];
+      }),
+    );
     this.lengths = h("div", { class: "cognate-lengths" });
     this.circuits = h("div", { class: "circuits", role: "radiogroup", "aria-label": "Circuits" });
-    this.aside = h("p", { class: "note", hidden: true }, "What is pinned and taken away is this curve’s own circuit.");
-    this.circuitSection = h("section", { class: "gauge circuits-gauge" }, h("h3", {}, "Circuits"), this.circuits, this.aside);
+    this.aside = h(
+      "p",
+      { class: "note", hidden: true },
+      "What is pinned and taken away is this curve’s own circuit.",
+    );
+    this.circuitSection = h(
+      "section",
+      { class: "gauge circuits-gauge" },
+      h("h3", {}, "Circuits"),
+      this.circuits,
+      this.aside,
+    );
     this.element = h(
       "section",
       { class: "gauge switches" },
       h("h3", {}, "Shown"),
-      h("div", { class: "checks" }, [...this.boxes.values()].map(({ row }) => row)),
+      h(
+        "div",
+        { class: "checks" },
+        [...this.boxes.values()].map(({ row }) => row),
+      ),
       this.lengths,
     );
   }
@@ -35,15 +55,29 @@ export class Switches {
     }
     this.#cognates(study, on);
     const routes = candidates?.routes ?? [];
-    fill(this.circuits, routes.map((route, k) => this.#circuit(candidates, route, k)));
+    fill(
+      this.circuits,
+      routes.map((route, k) => this.#circuit(candidates, route, k)),
+    );
     this.circuitSection.hidden = routes.length < 2;
     this.aside.hidden = !candidates || candidates.shown === candidates.home;
   }
 
   #circuit({ linkage, home, shown }, route, k) {
-    const radio = h("input", { type: "radio", name: "circuit", value: k + 1, checked: k === shown, onchange: () => this.on.circuit(k) });
+    const radio = h("input", {
+      type: "radio",
+      name: "circuit",
+      value: k + 1,
+      checked: k === shown,
+      onchange: () => this.on.circuit(k),
+    });
     const words = `${k + 1}: ${routeTitle(linkage, route)}`;
-    return h("label", { class: "check" }, radio, h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve’s") : null));
+    return h(
+      "label",
+      { class: "check" },
+      radio,
+      h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve’s") : null),
+    );
   }
 
   #cognates(study, on) {
@@ -51,22 +85,36 @@ export class Switches {
     this.lengths.hidden = !pair;
     if (!pair) return;
     const head = ["", "frame", "crank", "coupler", "rocker", "along", "across"];
-    const row = ({ lengths, point }, k) => h(
-      "tr",
-      {},
-      h("th", { scope: "row", class: "text" }, ["itself", "first", "second"][k]),
-      [lengths.frame, lengths.crank, lengths.coupler, lengths.rocker, ...point].map((x) => h("td", {}, shortLength(x))),
-    );
-    fill(this.lengths, h(
-      "div",
-      { class: "scroll" },
+    const row = ({ lengths, point }, k) =>
       h(
-        "table",
-        { class: "figures" },
-        h("caption", { class: "unseen" }, "The three four-bars that draw this curve"),
-        h("thead", {}, h("tr", {}, head.map((word) => h("th", { scope: "col" }, word)))),
-        h("tbody", {}, pair.cognates.map(row)),
+        "tr",
+        {},
+        h("th", { scope: "row", class: "text" }, ["itself", "first", "second"][k]),
+        [lengths.frame, lengths.crank, lengths.coupler, lengths.rocker, ...point].map((x) =>
+          h("td", {}, shortLength(x)),
+        ),
+      );
+    fill(
+      this.lengths,
+      h(
+        "div",
+        { class: "scroll" },
+        h(
+          "table",
+          { class: "figures" },
+          h("caption", { class: "unseen" }, "The three four-bars that draw this curve"),
+          h(
+            "thead",
+            {},
+            h(
+              "tr",
+              {},
+              head.map((word) => h("th", { scope: "col" }, word)),
+            ),
+          ),
+          h("tbody", {}, pair.cognates.map(row)),
+        ),
       ),
-    ));
+    );
   }
 }

@@ -4,17 +4,34 @@ import { h } from "../dom.js";
 import { minusSigned } from "./study.js";
 
 /** Rates of play, in degrees of input to a second, and what they are called. */
-const PLAY_RATES = [[15, "¼"], [30, "½"], [60, "1"], [120, "2"], [240, "4"]];
+const PLAY_RATES = [
+  [15, "¼"],
+  [30, "½"],
+  [60, "1"],
+  [120, "2"],
+  [240, "4"],
+];
 
 /**
- * The controls under a stage, of a drive and of the stage's view. `show(study, title)`, `now(part, input)` and
- * `playing(isPlaying)` say what there is to see.
+ * The controls under a stage, of a drive and of the stage's view. `show(study, title)`, `now(part, input)`
+ * and `playing(isPlaying)` say what there is to see.
  */
 export class Transport {
   constructor(drive, stage) {
-    this.play = h("button", { type: "button", class: "play", onclick: () => drive.toggle(), "aria-keyshortcuts": "Space" });
+    this.play = h("button", {
+      type: "button",
+      class: "play",
+      onclick: () => drive.toggle(),
+      "aria-keyshortcuts": "Space",
+    });
     this.scrub = h("input", {
-      type: "range", class: "scrub", min: "0", max: "1", step: "any", value: "0", "aria-label": "Place on the circuit",
+      type: "range",
+      class: "scrub",
+      min: "0",
+      max: "1",
+      step: "any",
+      value: "0",
+      "aria-label": "Place on the circuit",
       oninput: () => drive.seekByHand(Number(this.scrub.value)),
       onkeydown: (event) => steppedByKey(event, drive),
     });
@@ -26,7 +43,12 @@ export class Transport {
       { "aria-label": "Speed of play", class: "rate" },
       PLAY_RATES.map(([rate, label]) => h("option", { value: rate, selected: rate === 60 }, `${label} ×`)),
     );
-    const button = (label, title, onclick, keys) => h("button", { type: "button", class: "step", title, "aria-label": title, "aria-keyshortcuts": keys, onclick }, label);
+    const button = (label, title, onclick, keys) =>
+      h(
+        "button",
+        { type: "button", class: "step", title, "aria-label": title, "aria-keyshortcuts": keys, onclick },
+        label,
+      );
     this.toLimits = [
       button("⇤", "To the limit before, or the beginning", () => drive.toLimit(-1), "Home"),
       button("⇥", "To the next limit, or the end", () => drive.toLimit(1), "End"),
@@ -90,7 +112,8 @@ export class Transport {
   now(part, input) {
     const text = this.isLength ? minusSigned(input, 4) : `${minusSigned(input, 1)}°`;
     this.input.textContent = text;
-    if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part) this.scrub.value = part;
+    if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
+      this.scrub.value = part;
     // A screen reader need not hear sixty angles in a second.
     const time = performance.now();
     if (this.isPlaying && time - this.told < 500) return;
@@ -99,12 +122,15 @@ export class Transport {
   }
 }
 
-/** Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits. */
+/**
+ * Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits.
+ */
 export function steppedByKey(event, drive) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
   const limits = { Home: -1, End: 1 };
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
-  if (event.key in ways) drive.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
+  if (event.key in ways)
+    drive.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
   else if (event.key in limits) drive.toLimit(limits[event.key]);
   else return false;
   event.preventDefault();

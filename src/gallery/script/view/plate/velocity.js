@@ -18,8 +18,8 @@ export class PointVelocity {
 }
 
 /**
- * The arrow of a velocity in pixels, y down: a fifth of the frame at the speed `top`, half as much again at most, and the
- * other way where the input falls. Null of what is infinite.
+ * The arrow of a velocity in pixels, y down: a fifth of the frame at the speed `top`, half as much again at
+ * most, and the other way where the input falls. Null of what is infinite.
  */
 export function velocityArrow([vx, vy], { top, size, heading }) {
   const speed = Math.hypot(vx, vy);

@@ -1,0 +1,124 @@
+// The plate of a curve: all kinds of linkages, and everyone.
+
+import assert from "node:assert/strict";
+
+import { contrastOf, eventually, opened } from "./browser.mjs";
+import { still, inputNow, changed } from "./plate-screen.mjs";
+
+export const EVERYONE = [
+  [
+    "3.12",
+    "all kinds of linkages open without a complaint, and move",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1");
+      const families = await plate.page.evaluate(() =>
+        JSON.parse(document.getElementById("atlas").textContent).families.map(({ id }) => id),
+      );
+      for (const id of families) {
+        await plate.go(`/${id}/curve/1.1.1`);
+        const { page } = plate;
+        assert.ok(await page.locator(".tracer").count(), id);
+        const before = await inputNow(page);
+        await eventually(async () => (await inputNow(page)) !== before, `${id} does not move`);
+        for (const box of await page.locator(".checks input:visible").all()) await box.check();
+        await page.keyboard.press("End");
+        await page.keyboard.press("ArrowRight");
+        const strange = await page
+          .locator(".stage")
+          .evaluate((stage) =>
+            [...stage.querySelectorAll("*")].some((element) =>
+              ["d", "cx", "cy", "x", "y", "transform"].some((name) =>
+                /NaN|Infinity|undefined/.test(element.getAttribute(name) ?? ""),
+              ),
+            ),
+          );
+        assert.ok(!strange, `${id} draws what is no number`);
+      }
+      await plate.close();
+    },
+  ],
+  [
+    "3.13",
+    "everything is told to screen readers, and the text stands out",
+    async ({ browser, folder }) => {
+      for (const colorScheme of ["light", "dark"]) {
+        const plate = await opened(browser, folder, "/watt/curve/1.1.1?p=1.9", { ...still, colorScheme });
+        const { page } = plate;
+        const scene = page.getByRole("img", { name: "The linkage on its curve" });
+        const summary = await page.locator(`#${await scene.getAttribute("aria-describedby")}`).textContent();
+        assert.match(summary, /four-bar/);
+        assert.equal(
+          await page.locator(".plate-split :is([aria-live], output)").count(),
+          0,
+          "live values chatter",
+        );
+        for (const text of [
+          ".plate .note",
+          ".plate .lede",
+          ".input-now",
+          ".measures .definition",
+          ".changed-tag",
+          ".origin dt",
+        ]) {
+          assert.ok((await contrastOf(page.locator(text).first())) >= 4.5, `${text} in ${colorScheme}`);
+        }
+        const unnamed = await page
+          .locator(".plate :is(input, button, select)")
+          .evaluateAll(
+            (all) =>
+              all.filter(
+                (control) =>
+                  !(
+                    control.getAttribute("aria-label") ||
+                    control.textContent.trim() ||
+                    control.closest("label")
+                  ),
+              ).length,
+          );
+        assert.equal(unnamed, 0);
+        await plate.close();
+      }
+    },
+  ],
+  [
+    "3.14",
+    "a narrow screen has the drawing first, and nothing sticks out",
+    async ({ browser, folder }) => {
+      for (const width of [360, 768, 1400]) {
+        const plate = await opened(browser, folder, "/hrones-nelson/curve/1.3.1?A=2.4", {
+          ...still,
+          viewport: { width, height: 800 },
+        });
+        const { page } = plate;
+        const [stage, panel, wide] = await page.evaluate(() => [
+          document.querySelector(".stage").getBoundingClientRect().top,
+          document.querySelector(".plate-panel").getBoundingClientRect().top,
+          document.documentElement.scrollWidth,
+        ]);
+        assert.ok(wide <= width, `${wide} px wide on ${width}`);
+        assert.ok(width > 960 || stage < panel);
+        await plate.close();
+      }
+    },
+  ],
+  [
+    "3.15",
+    "pins, neighbours and the zoom work by keys",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const { page } = plate;
+      await page.keyboard.press("]");
+      await eventually(async () => (await plate.fragment()) === "/evans/curve/2.1.1", "it stays");
+      await page.waitForSelector("h1 .key:text('2.1.1')");
+      const wide = () => page.locator(".still > g").getAttribute("transform");
+      const fitted = await wide();
+      await page.keyboard.press("+");
+      assert.notEqual(await wide(), fitted);
+      await page.keyboard.press("0");
+      assert.equal(await wide(), fitted);
+      await page.getByRole("button", { name: "Pin", exact: true }).press("Enter");
+      assert.ok(await page.getByRole("button", { name: "Pinned" }).isVisible());
+      await plate.close();
+    },
+  ],
+];

@@ -1,0 +1,106 @@
+// The plate of a curve: its parameters.
+
+import assert from "node:assert/strict";
+
+import { eventually, opened } from "./browser.mjs";
+import { still, fieldOf, sliderOf, changed, measureNow, near } from "./plate-screen.mjs";
+
+export const PARAMETERS = [
+  [
+    "3.10",
+    "a slider recomputes curve and measures at once, and the address tells it",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const { page } = plate;
+      const before = await page.locator(".dashes").getAttribute("d");
+      await sliderOf(page, "p").fill("2.5");
+      await page.waitForTimeout(400);
+      assert.notEqual(await page.locator(".dashes").getAttribute("d"), before);
+      assert.match(await plate.fragment(), /\?p=2\.5$/);
+      // Extreme transmission angles: frame less crank 1.5, frame and crank 3.5.
+      const at = (d) => (Math.acos((2 * 2.59 * 2.59 - d * d) / (2 * 2.59 * 2.59)) * 180) / Math.PI;
+      const [, least] = await measureNow(page, "mu min");
+      const [, most] = await measureNow(page, "mu max");
+      near(Number(least), at(1.5), 0.006, "mu min");
+      near(Number(most), at(3.5), 0.006, "mu max");
+      const [recorded, , change] = await measureNow(page, "mu min");
+      near(Number(change), at(1.5) - Number(recorded), 0.02, "the change");
+      await page.getByRole("button", { name: "As in the atlas" }).click();
+      await eventually(
+        async () => (await plate.fragment()) === "/evans/curve/1.1.1",
+        "the address keeps the change",
+      );
+      assert.equal(await page.locator(".dashes").getAttribute("d"), before);
+      await plate.close();
+    },
+  ],
+  [
+    "3.10",
+    "an address with changed parameters opens so",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=2.5&k=1.9", still);
+      assert.equal(await fieldOf(plate.page, "p").inputValue(), "2.5");
+      await plate.page.locator(".kept-parameters > summary").evaluate((summary) => {
+        summary.parentElement.open = true;
+      });
+      assert.equal(await fieldOf(plate.page, "k").inputValue(), "1.9");
+      assert.ok(await plate.page.locator(".changed-tag").isVisible());
+      await plate.close();
+    },
+  ],
+  [
+    "3.10",
+    "what is derived follows, and can be set free",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const { page } = plate;
+      // The coupler point is k a along the coupler.
+      await page.locator(".kept-parameters").evaluate((details) => {
+        details.open = true;
+      });
+      assert.equal(await fieldOf(page, "M.along").inputValue(), "5.18");
+      await changed(page, "k", 1.5);
+      assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
+      await page.getByRole("button", { name: /Set free: M\.along/ }).click();
+      await changed(page, "k", 2);
+      assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
+      await plate.close();
+    },
+  ],
+  [
+    "3.11",
+    "a linkage that cannot be assembled says why, and the last one stays in view",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const { page } = plate;
+      await changed(page, "p", 9);
+      const reason = page.locator(".stage .reason");
+      assert.ok(await reason.isVisible());
+      assert.match(await reason.textContent(), /^It cannot be assembled: .{10,}/);
+      assert.ok(await page.getByRole("button", { name: "Play" }).isDisabled());
+      assert.ok((await page.locator(".link").count()) > 2);
+      await changed(page, "p", -1);
+      assert.match(await reason.textContent(), /must be more than 0/);
+      assert.equal(await fieldOf(page, "p").getAttribute("aria-invalid"), "true");
+      await changed(page, "p", 2);
+      assert.ok(await reason.isHidden());
+      assert.ok(await page.getByRole("button", { name: "Play" }).isEnabled());
+      await plate.close();
+    },
+  ],
+  [
+    "3.11",
+    "an address of a linkage that cannot be assembled says why, before the one of the atlas",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=9", still);
+      const { page } = plate;
+      assert.match(await page.locator(".stage .reason").textContent(), /cannot be placed/);
+      assert.ok((await page.locator(".dashes").getAttribute("d")).length > 100);
+      await page.keyboard.press("+");
+      await page.keyboard.press("ArrowRight");
+      await page.getByRole("button", { name: /^Back: p/ }).click();
+      await eventually(() => page.locator(".stage .reason").isHidden(), "it stays impossible");
+      await plate.close();
+    },
+  ],
+];
