@@ -3,6 +3,7 @@
 import { openAtlas } from "./data/atlas.js";
 import { Pins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
+import { findRoom } from "./view/find/room.js";
 import { overviewRoom } from "./view/overview.js";
 import { pageRoom } from "./view/page.js";
 import { plateRoom } from "./view/plate/room.js";
@@ -11,6 +12,6 @@ import { sheetRoom } from "./view/sheet.js";
 const app = { atlas: openAtlas(document, window), pins: new Pins() };
 
 /** The rooms, the particular before the general. */
-const rooms = [overviewRoom, plateRoom, pageRoom, sheetRoom];
+const rooms = [overviewRoom, findRoom, plateRoom, pageRoom, sheetRoom];
 
 openShell(app, rooms, document.getElementById("gallery"));

@@ -1,0 +1,25 @@
+// Columns in words.
+
+import { figure, measureInWords } from "../page-words.js";
+
+const DERIVED_WORDS = {
+  mu_worst_deg: "transmission angle at least",
+  straight_tolerance: "straight within, by its length",
+  straight_share: "straight portion, by the extent",
+  symmetric: "symmetry",
+  turn: "input",
+  symmetry: "kind of symmetry",
+  family: "family",
+};
+
+/** What a column is called. */
+export function columnInWords(name) {
+  if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
+  return DERIVED_WORDS[name] ?? measureInWords(name);
+}
+
+/** A number of a column as it is written beside a curve. */
+export function columnValueText({ unit }, value) {
+  if (Number.isNaN(value)) return "–";
+  return unit === "deg" ? `${figure(value)}°` : figure(value);
+}

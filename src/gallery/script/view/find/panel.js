@@ -1,0 +1,63 @@
+// The filters of a table, those that people want first before the others.
+
+import { fill, h } from "../dom.js";
+import { RangeFilter } from "./range.js";
+import { WordFilter } from "./words.js";
+
+/** `changed(name, filter)` is called whenever a filter is changed; null takes it away. */
+export class FilterPanel {
+  constructor(changed) {
+    this.changed = changed;
+    this.filters = new Map();
+    this.element = h("div", { class: "filters" });
+    this.opened = new Set();
+  }
+
+  /** Makes the filters of a table's columns, as a question has them. */
+  put(columns, table, question) {
+    this.filters.clear();
+    const groups = { first: [], more: [], parameters: [] };
+    for (const column of columns) groups[column.group].push(this.made(column, table, question.filters.get(column.name)));
+    const isAsked = (group) => columns.some((column) => column.group === group && question.filters.has(column.name));
+    fill(
+      this.element,
+      groups.first,
+      this.unfolding("parameters", "Parameters", groups.parameters, isAsked("parameters")),
+      this.unfolding("more", "More measures", groups.more, isAsked("more")),
+    );
+  }
+
+  made(column, table, filter) {
+    const changed = (next) => this.changed(column.name, next);
+    const kind = column.kind === "words" ? WordFilter : RangeFilter;
+    const one = new kind(column, table, filter, changed);
+    this.filters.set(column.name, one);
+    return one.element;
+  }
+
+  unfolding(group, label, elements, isOpen) {
+    if (!elements.length) return null;
+    if (isOpen) this.opened.add(group);
+    const toggled = ({ target }) => {
+      if (target.open) this.opened.add(group);
+      else this.opened.delete(group);
+      this.show(this.shown);
+    };
+    return h(
+      "details",
+      { class: "more-filters", open: this.opened.has(group), ontoggle: toggled },
+      h("summary", {}, label, h("span", { class: "note" }, ` ${elements.length}`)),
+      elements,
+    );
+  }
+
+  /** Shows what filters leave, in the groups that are unfolded. */
+  show(filters) {
+    this.shown = filters;
+    const rows = filters.left();
+    for (const [name, one] of this.filters) {
+      if (one.column.group !== "first" && !this.opened.has(one.column.group)) continue;
+      one.show(one instanceof WordFilter ? filters.wordCounts(name) : rows);
+    }
+  }
+}

@@ -1,0 +1,65 @@
+// What the filters leave, as a table of which only the rows near the window are in the page.
+
+import { address } from "../../data/address.js";
+import { curveKey, NO_WORD } from "../../data/family.js";
+import { fill, h } from "../dom.js";
+import { columnInWords, columnValueText } from "./column-words.js";
+
+const ROW_HEIGHT = 34;
+const ROWS_AHEAD = 12;
+
+/** A table of rows; `sorted(name)` is called when a heading is pressed. */
+export class ResultRows {
+  constructor(sorted) {
+    this.sorted = sorted;
+    this.rows = [];
+    this.head = h("thead", {});
+    this.body = h("tbody", {});
+    this.figures = h("table", { class: "figures results-table" }, h("caption", { class: "unseen" }, "Curves"), this.head, this.body);
+    this.element = h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of curves", onscroll: () => this.fill() }, this.figures);
+  }
+
+  put(table, rows, columns, sort) {
+    Object.assign(this, { table, rows, columns });
+    this.figures.setAttribute("aria-rowcount", rows.length + 1);
+    const heading = ({ name, kind }) => h(
+      "th",
+      { class: kind === "words" ? "text" : null, scope: "col", "aria-sort": sort.name === name ? (sort.down ? "descending" : "ascending") : null },
+      h("button", { type: "button", onclick: () => this.sorted(name) }, columnInWords(name), sort.name === name ? (sort.down ? " ↓" : " ↑") : ""),
+    );
+    fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
+    this.fill();
+  }
+
+  fill() {
+    if (!this.table || !this.element.isConnected) return;
+    const first = Math.max(Math.floor(this.element.scrollTop / ROW_HEIGHT) - ROWS_AHEAD, 0);
+    const last = Math.min(first + Math.ceil(this.element.clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD, this.rows.length);
+    const space = (rows) => {
+      const cell = h("td", { colspan: this.columns.length + 1, class: "space" });
+      cell.style.height = `${rows * ROW_HEIGHT}px`;
+      return rows > 0 ? h("tr", { "aria-hidden": "true" }, cell) : null;
+    };
+    const shown = [];
+    for (let k = first; k < last; k += 1) shown.push(this.line(k));
+    fill(this.body, space(first), shown, space(this.rows.length - last));
+  }
+
+  line(k) {
+    const { table } = this;
+    const row = this.rows[k];
+    const family = table.families[table.family[row]];
+    const key = curveKey(family, table.curve[row]);
+    const text = (column) => {
+      if (column.kind === "numbers") return columnValueText(column, table.numbers(column.name)[row]);
+      const { values, codes } = table.words(column.name);
+      return codes[row] === NO_WORD ? "–" : values[codes[row]];
+    };
+    return h(
+      "tr",
+      { "aria-rowindex": k + 2 },
+      h("th", { scope: "row", class: "text" }, h("a", { href: address([family.id, "curve", key]) }, `${family.id}:${key}`)),
+      this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
+    );
+  }
+}

@@ -1,0 +1,73 @@
+// What the filters leave, as a contact sheet.
+
+import { address } from "../../data/address.js";
+import { curveKey } from "../../data/family.js";
+import { h } from "../dom.js";
+import { captionInType } from "../page-words.js";
+import { TileWindow } from "../sheet-window.js";
+import { thumbnail } from "../thumbnail.js";
+
+/** Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null. */
+export class ResultTiles extends TileWindow {
+  constructor(app) {
+    super({ count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" });
+    Object.assign(this, { app, rows: [], table: null, valueOf: () => null });
+    this.element.classList.add("results");
+    this.element.addEventListener("keydown", (event) => this.pinned(event));
+  }
+
+  /** Shows rows in place of those that were there. */
+  put(table, rows, valueOf) {
+    Object.assign(this, { table, rows, valueOf, count: rows.length });
+    for (const element of this.there.values()) element.remove();
+    this.there.clear();
+    this.queue = [];
+    if (this.element.isConnected) this.measure();
+  }
+
+  tile(k) {
+    const { app, table } = this;
+    const row = this.rows[k];
+    const family = table.families[table.family[row]];
+    const curve = table.curve[row];
+    const name = table.nameOf(row);
+    const value = this.valueOf(row);
+    const caption = family.cells.caption[family.curves.cell[curve]];
+    return h(
+      "li",
+      {},
+      h(
+        "a",
+        { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
+        h("span", { class: "leaf" }),
+        h("span", { class: "label" }, value ? [h("b", {}, value), " "] : null, captionInType(caption || name)),
+      ),
+      pinOnTile(app, name),
+    );
+  }
+
+  draw(element, k) {
+    const { table } = this;
+    const row = this.rows[k];
+    const leaf = element.querySelector(".leaf");
+    const size = { width: Math.max(leaf.clientWidth, 40), height: Math.max(leaf.clientHeight, 40) };
+    leaf.replaceChildren(thumbnail(table.families[table.family[row]], [table.curve[row]], size));
+  }
+
+  pinned(event) {
+    const name = event.target.dataset.name;
+    if (event.key !== "p" || !name || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.target.parentElement.querySelector(".pin").click();
+  }
+}
+
+/** A button that pins a curve and takes it down again. */
+export function pinOnTile(app, name) {
+  const button = h("button", { type: "button", class: "pin quiet", tabindex: "-1", title: "Pin (p)", onclick: () => {
+    app.pins.toggle(name);
+    button.setAttribute("aria-pressed", String(app.pins.has(name)));
+    app.say(app.pins.has(name) ? `${name} pinned` : `${name} no longer pinned`);
+  } }, h("span", { "aria-hidden": "true" }, "⚲"), h("span", { class: "unseen" }, `Pin ${name}`));
+  button.setAttribute("aria-pressed", String(app.pins.has(name)));
+  return button;
+}
