@@ -4,6 +4,7 @@ import { openAtlas } from "./data/atlas.js";
 import { Pins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { findRoom } from "./view/find/room.js";
+import { shapeRoom } from "./view/shape/room.js";
 import { overviewRoom } from "./view/overview.js";
 import { pageRoom } from "./view/page.js";
 import { plateRoom } from "./view/plate/room.js";
@@ -12,6 +13,6 @@ import { sheetRoom } from "./view/sheet.js";
 const app = { atlas: openAtlas(document, window), pins: new Pins() };
 
 /** The rooms, the particular before the general. */
-const rooms = [overviewRoom, findRoom, plateRoom, pageRoom, sheetRoom];
+const rooms = [overviewRoom, findRoom, shapeRoom, plateRoom, pageRoom, sheetRoom];
 
 openShell(app, rooms, document.getElementById("gallery"));

@@ -1,0 +1,62 @@
+// A drawn shape in a word of an address.
+
+import { lengthsAlong } from "./outline.js";
+
+const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+// Twelve bits of a coordinate: one in 4,096 of the greater side of the shape's box.
+const GRAIN = 4095;
+
+/** A shape of at most `most` points in letters of base64url: "c" for a closed one or "o", then four letters a point. */
+export function encodedShape(points, closed, most = 48) {
+  const few = simplified(points, closed, most);
+  const xs = few.filter((_, k) => k % 2 === 0);
+  const ys = few.filter((_, k) => k % 2 === 1);
+  const [x0, y0] = [Math.min(...xs), Math.min(...ys)];
+  const side = Math.max(Math.max(...xs) - x0, Math.max(...ys) - y0) || 1;
+  let word = closed ? "c" : "o";
+  few.forEach((value, k) => {
+    const whole = Math.round(((value - (k % 2 ? y0 : x0)) / side) * GRAIN);
+    word += LETTERS[whole >> 6] + LETTERS[whole & 63];
+  });
+  return word;
+}
+
+/** The shape of such a word, { points, closed }, with a side of 100; null if it is none. */
+export function decodedShape(word) {
+  if (!/^[co](?:[\w-]{4}){2,}$/.test(word)) return null;
+  const points = new Float64Array((word.length - 1) / 2);
+  for (let k = 0; k < points.length; k += 1) {
+    const at = 1 + 2 * k;
+    points[k] = (100 * (64 * LETTERS.indexOf(word[at]) + LETTERS.indexOf(word[at + 1]))) / GRAIN;
+  }
+  return { points, closed: word[0] === "c" };
+}
+
+/**
+ * The points of an outline without those that matter least: again and again the one goes that spans the smallest triangle
+ * with its neighbours (Visvalingam and Whyatt 1993), until there are `most`. The ends of an open outline stay.
+ */
+export function simplified(points, closed, most) {
+  const kept = Array.from({ length: points.length / 2 }, (_, k) => k);
+  const area = (a, b, c) => Math.abs(
+    (points[2 * b] - points[2 * a]) * (points[2 * c + 1] - points[2 * a + 1])
+    - (points[2 * c] - points[2 * a]) * (points[2 * b + 1] - points[2 * a + 1]),
+  );
+  // A path of very many points is thinned evenly first: the choice below takes the square of their number.
+  while (kept.length > 2000) for (let k = kept.length - 2; k > 0; k -= 2) kept.splice(k, 1);
+  const at = (k) => kept[(k + kept.length) % kept.length];
+  while (kept.length > Math.max(most, 3)) {
+    let [least, which] = [Infinity, -1];
+    for (let k = closed ? 0 : 1; k < kept.length - (closed ? 0 : 1); k += 1) {
+      const here = area(at(k - 1), kept[k], at(k + 1));
+      if (here < least) [least, which] = [here, k];
+    }
+    kept.splice(which, 1);
+  }
+  return Float64Array.from(kept.flatMap((k) => [points[2 * k], points[2 * k + 1]]));
+}
+
+/** Whether an outline has a length. */
+export function hasLength(points) {
+  return points.length >= 4 && lengthsAlong(points, false).at(-1) > 0;
+}

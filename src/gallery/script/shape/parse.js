@@ -1,0 +1,110 @@
+// Points from what is pasted: CSV, JSON, numbers in lines, points.csv, SVG path data, a whole SVG.
+
+import { hasLength } from "./encode.js";
+import { lengthsAlong, looksClosed } from "./outline.js";
+import { subpathsOf } from "./path.js";
+
+/** The shape in a text: { points: flat array, y up, closed, said: what was read }. Throws an Error with a sentence. */
+export function shapeIn(text) {
+  const plain = text.trim();
+  if (!plain) throw new Error("There is nothing to read.");
+  const found = /<(svg|path|poly)/i.test(plain) ? svgShape(plain)
+    : /^m[\s,.\d+-]/i.test(plain) ? pathShape(plain, 1)
+      : /^[[{]/.test(plain) ? jsonShape(plain)
+        : tableShape(plain);
+  if (!hasLength(found.points)) throw new Error("Fewer than two different points could be read.");
+  return found;
+}
+
+/** The longest of the paths of an SVG; its coordinates point down. */
+function svgShape(text) {
+  const data = [...text.matchAll(/<path\b[^>]*?\sd\s*=\s*("([^"]*)"|'([^']*)')/gi)].map((match) => match[2] ?? match[3]);
+  const polylines = [...text.matchAll(/<poly(line|gon)\b[^>]*?\spoints\s*=\s*("([^"]*)"|'([^']*)')/gi)];
+  for (const match of polylines) data.push(`M${match[3] ?? match[4]}${match[1].toLowerCase() === "gon" ? "Z" : ""}`);
+  if (!data.length) throw new Error("The SVG has no path, polyline or polygon.");
+  return pathShape(data.join(" "), data.length);
+}
+
+function pathShape(data, count) {
+  const paths = subpathsOf(data);
+  if (!paths.length) throw new Error("The path data could not be read: it begins with M and a point.");
+  const length = ({ points, closed }) => lengthsAlong(points, closed).at(-1);
+  const longest = paths.reduce((best, path) => (length(path) > length(best) ? path : best));
+  const several = paths.length > 1 || count > 1 ? `, the longest of ${paths.length} paths` : "";
+  return {
+    points: longest.points.map((value, k) => (k % 2 ? -value : value)),
+    closed: longest.closed || looksClosed(longest.points),
+    said: `${longest.points.length / 2} points of SVG${several}`,
+  };
+}
+
+function jsonShape(text) {
+  let value;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    throw new Error("The JSON cannot be read.");
+  }
+  const points = pointsWithin(value);
+  if (!points) throw new Error("The JSON has no list of points: [[x, y], …], [{ \"x\": …, \"y\": … }, …] or [x, y, x, y, …].");
+  const closed = typeof value.closed === "boolean" ? value.closed : looksClosed(points);
+  return { points, closed, said: `${points.length / 2} points of JSON` };
+}
+
+/** The first list of points in a value of JSON, looked for in depth, or null. */
+function pointsWithin(value) {
+  if (Array.isArray(value)) {
+    const isPair = (one) => Array.isArray(one) && one.length >= 2 && one.slice(0, 2).every(Number.isFinite);
+    const isPoint = (one) => Number.isFinite(one?.x) && Number.isFinite(one?.y);
+    if (value.length > 1 && value.every(isPair)) return Float64Array.from(value.flatMap((one) => one.slice(0, 2)));
+    if (value.length > 1 && value.every(isPoint)) return Float64Array.from(value.flatMap(({ x, y }) => [x, y]));
+    if (value.length > 3 && value.every(Number.isFinite)) return Float64Array.from(value.slice(0, 2 * Math.floor(value.length / 2)));
+  }
+  if (value === null || typeof value !== "object") return null;
+  if (Array.isArray(value.x) && Array.isArray(value.y)) return Float64Array.from(value.x.flatMap((x, k) => [x, value.y[k] ?? NaN]));
+  for (const one of Object.values(value)) {
+    const points = pointsWithin(one);
+    if (points) return points;
+  }
+  return null;
+}
+
+/** Numbers in lines: two columns, or those headed x and y; of several curves the first. */
+function tableShape(text) {
+  const lines = text.split(/\r?\n/).map((line) => line.replace(/#.*$/, "").trim()).filter(Boolean);
+  const cut = cutterOf(lines);
+  let rows = lines.map(cut);
+  const isHead = (row) => row.some((word) => word !== "" && Number.isNaN(Number(word)));
+  const head = isHead(rows[0]) ? rows[0].map((word) => word.replace(/^"|"$/g, "").toLowerCase()) : null;
+  rows = rows.filter((row) => !isHead(row)).map((row) => row.map((word) => (word === "" ? NaN : Number(word))));
+  if (!head && rows.length <= 2 && rows.flat().length > 4) return listed(rows.flat());
+  const [x, y] = head && head.includes("x") && head.includes("y") ? [head.indexOf("x"), head.indexOf("y")] : [0, 1];
+  const { kept, curves } = firstCurve(rows, head);
+  const points = Float64Array.from(kept.flatMap((row) => [row[x], row[y]]).map((value) => value ?? NaN));
+  const finite = points.filter((_, k) => Number.isFinite(points[k - (k % 2)]) && Number.isFinite(points[k - (k % 2) + 1]));
+  const first = curves > 1 ? `, the first of ${curves} curves` : "";
+  return { points: finite, closed: finite.length >= 4 && looksClosed(finite), said: `${finite.length / 2} points${first}` };
+}
+
+function listed(numbers) {
+  const points = Float64Array.from(numbers.slice(0, 2 * Math.floor(numbers.length / 2)).filter(Number.isFinite));
+  return { points, closed: looksClosed(points), said: `${points.length / 2} points` };
+}
+
+/** What cuts a line into words: semicolons, with commas in the numbers; or commas; or blanks. */
+function cutterOf(lines) {
+  const most = lines.slice(0, 20).join("\n");
+  if (most.includes(";")) return (line) => line.split(";").map((word) => word.trim().replace(",", "."));
+  if (most.includes("\t")) return (line) => line.split("\t").map((word) => word.trim());
+  // "1,2 3,4" are two points in a line; "1, 2" is one.
+  if (most.includes(",")) return (line) => line.split(/\s*,\s*|\s+/).map((word) => word.trim());
+  return (line) => line.split(/\s+/);
+}
+
+/** The rows of the first curve of a points.csv: those of one cell, trace and circuit. */
+function firstCurve(rows, head) {
+  const keys = ["cell", "trace", "circuit"].map((name) => head?.indexOf(name) ?? -1).filter((at) => at >= 0);
+  if (!keys.length || !rows.length) return { kept: rows, curves: 1 };
+  const keyOf = (row) => keys.map((at) => row[at]).join(".");
+  return { kept: rows.filter((row) => keyOf(row) === keyOf(rows[0])), curves: new Set(rows.map(keyOf)).size };
+}

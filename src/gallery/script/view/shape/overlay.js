@@ -1,0 +1,47 @@
+// A curve with a shape laid over it as it fits best.
+
+import { curvePoints } from "../../data/family.js";
+import { inverted, placed } from "../../shape/similarity.js";
+import { portion } from "../../shape/outline.js";
+import { s } from "../dom.js";
+
+const INSET = 6;
+
+/** The picture of a result of `searching` with the shape that was asked for, of `width` × `height` pixels. */
+export function overlayPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
+  const points = curvePoints(family, curve);
+  const closed = family.curves.closed[curve] === 1;
+  const laid = placed(inverted(similarity), shape.points);
+  const seen = framing([points, laid], width, height);
+  const isPart = from !== 0 || to !== 1;
+  const part = isPart ? portion(points, closed, from, to, 96).points : points;
+  return s(
+    "svg",
+    { class: "thumbnail overlay", width, height, viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" },
+    s("path", { class: isPart ? "rest" : "curve", d: pathThrough(points, closed, seen) }),
+    isPart ? s("path", { class: "curve", d: pathThrough(part, false, seen) }) : null,
+    s("path", { class: "asked", d: pathThrough(laid, shape.closed, seen) }),
+  );
+}
+
+/** The view that has some outlines in a frame: { scale, x, y } with X = x + scale·px, Y = y − scale·py. */
+export function framing(outlines, width, height) {
+  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const points of outlines) {
+    for (let k = 0; k < points.length; k += 2) {
+      [x0, x1] = [Math.min(x0, points[k]), Math.max(x1, points[k])];
+      [y0, y1] = [Math.min(y0, points[k + 1]), Math.max(y1, points[k + 1])];
+    }
+  }
+  const scale = Math.min((width - 2 * INSET) / (x1 - x0 || 1e-9), (height - 2 * INSET) / (y1 - y0 || 1e-9));
+  return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
+}
+
+/** The path data of an outline in a view. */
+export function pathThrough(points, closed, { scale, x, y }) {
+  let path = "";
+  for (let k = 0; k < points.length; k += 2) {
+    path += `${k ? "L" : "M"}${(x + scale * points[k]).toFixed(1)} ${(y - scale * points[k + 1]).toFixed(1)}`;
+  }
+  return closed ? `${path}Z` : path;
+}

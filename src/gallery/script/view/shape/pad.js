@@ -1,0 +1,134 @@
+// The pad on which a shape is drawn.
+
+import { simplified } from "../../shape/encode.js";
+import { looksClosed } from "../../shape/outline.js";
+import { fill, h, s } from "../dom.js";
+
+const WIDE = 400;
+const HIGH = 300;
+// The keys move the pen by this much, and by five times as much with Shift.
+const STEP = 5;
+
+/** A pad of 400 × 300; `drawn(points, closed)` is called with a shape, y up, when it is finished. */
+export class DrawingPad {
+  constructor(drawn, say) {
+    Object.assign(this, { drawn, say });
+    this.points = [];
+    this.pen = [WIDE / 2, HIGH / 2];
+    this.line = s("path", { class: "drawn" });
+    this.dots = s("g", { class: "dots" });
+    this.cross = s("path", { class: "pen", d: "M-7 0h14M0-7v14" });
+    this.element = s(
+      "svg",
+      {
+        class: "pad",
+        viewBox: `0 0 ${WIDE} ${HIGH}`,
+        tabindex: "0",
+        role: "application",
+        "aria-label": "Drawing pad",
+        "aria-describedby": "pad-help",
+        onpointerdown: (event) => this.pressed(event),
+        onkeydown: (event) => this.typed(event),
+      },
+      s("path", { class: "grid", d: gridLines() }),
+      this.line,
+      this.dots,
+      this.cross,
+    );
+    this.help = h("p", { class: "note", id: "pad-help" }, "Draw in one stroke. With keys: arrows move the pen (Shift: further), Enter sets a point, Backspace takes one back, C closes, Escape begins anew.");
+  }
+
+  /** Shows a shape, fitted into the pad. */
+  show(points, closed) {
+    const [xs, ys] = [0, 1].map((part) => Array.from(points).filter((_, k) => k % 2 === part));
+    const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    const scale = Math.min((WIDE - 40) / (x1 - x0 || 1), (HIGH - 40) / (y1 - y0 || 1));
+    const place = (k) => [WIDE / 2 + scale * (points[k] - (x0 + x1) / 2), HIGH / 2 - scale * (points[k + 1] - (y0 + y1) / 2)];
+    this.points = xs.map((_, k) => place(2 * k));
+    this.closed = closed;
+    this.isByKeys = false;
+    this.laid();
+  }
+
+  clear() {
+    [this.points, this.closed] = [[], false];
+    this.laid();
+  }
+
+  laid() {
+    const path = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+    this.line.setAttribute("d", this.closed ? `${path}Z` : path);
+    fill(this.dots, this.isByKeys ? this.points.map(([cx, cy]) => s("circle", { cx, cy, r: 3 })) : null);
+    this.cross.setAttribute("transform", `translate(${this.pen[0]} ${this.pen[1]})`);
+  }
+
+  placeOf({ clientX, clientY }) {
+    const box = this.element.getBoundingClientRect();
+    const scale = Math.min(box.width / WIDE, box.height / HIGH);
+    return [(clientX - box.left - (box.width - scale * WIDE) / 2) / scale, (clientY - box.top - (box.height - scale * HIGH) / 2) / scale];
+  }
+
+  pressed(event) {
+    if (event.button) return;
+    event.preventDefault();
+    this.element.focus({ preventScroll: true });
+    this.element.setPointerCapture(event.pointerId);
+    [this.points, this.closed, this.isByKeys] = [[this.placeOf(event)], false, false];
+    this.laid();
+    this.element.onpointermove = (moved) => {
+      const seen = moved.getCoalescedEvents?.() ?? [];
+      for (const one of seen.length ? seen : [moved]) this.points.push(this.placeOf(one));
+      this.laid();
+    };
+    this.element.onlostpointercapture = () => {
+      [this.element.onpointermove, this.element.onlostpointercapture] = [null, null];
+      this.finish();
+    };
+  }
+
+  flat() {
+    return Float64Array.from(this.points.flatMap(([x, y]) => [x, HIGH - y]));
+  }
+
+  finish(closed = null) {
+    if (this.points.length < 2) return;
+    const flat = this.flat();
+    this.closed = closed ?? looksClosed(flat);
+    this.laid();
+    this.drawn(flat.length > 600 ? simplified(flat, this.closed, 300) : flat, this.closed);
+  }
+
+  typed(event) {
+    const step = event.shiftKey ? 5 * STEP : STEP;
+    const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
+    const acts = { Enter: () => this.set(), " ": () => this.set(), Backspace: () => this.takeBack(), Escape: () => this.clear(), c: () => this.finish(true) };
+    if (event.ctrlKey || event.metaKey || event.altKey || (!move && !acts[event.key])) return;
+    event.preventDefault();
+    if (!move) return void acts[event.key]();
+    this.pen = [Math.min(Math.max(this.pen[0] + move[0], 0), WIDE), Math.min(Math.max(this.pen[1] + move[1], 0), HIGH)];
+    this.say(`${Math.round(this.pen[0])}, ${Math.round(HIGH - this.pen[1])}`);
+    this.laid();
+  }
+
+  set() {
+    if (!this.isByKeys) [this.points, this.closed, this.isByKeys] = [[], false, true];
+    this.points.push([...this.pen]);
+    this.say(`Point ${this.points.length}`);
+    this.laid();
+    if (this.points.length > 2) this.finish(false);
+  }
+
+  takeBack() {
+    this.points.pop();
+    this.closed = false;
+    this.laid();
+    if (this.points.length > 2) this.finish(false);
+  }
+}
+
+function gridLines() {
+  let path = "";
+  for (let x = 50; x < WIDE; x += 50) path += `M${x} 0V${HIGH}`;
+  for (let y = 50; y < HIGH; y += 50) path += `M0 ${y}H${WIDE}`;
+  return path;
+}
