@@ -5,6 +5,7 @@ import { Pins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { findRoom } from "./view/find/room.js";
 import { shapeRoom } from "./view/shape/room.js";
+import { compareRoom } from "./view/compare/room.js";
 import { overviewRoom } from "./view/overview.js";
 import { pageRoom } from "./view/page.js";
 import { plateRoom } from "./view/plate/room.js";
@@ -13,6 +14,6 @@ import { sheetRoom } from "./view/sheet.js";
 const app = { atlas: openAtlas(document, window), pins: new Pins() };
 
 /** The rooms, the particular before the general. */
-const rooms = [overviewRoom, findRoom, shapeRoom, plateRoom, pageRoom, sheetRoom];
+const rooms = [overviewRoom, findRoom, shapeRoom, compareRoom, plateRoom, pageRoom, sheetRoom];
 
 openShell(app, rooms, document.getElementById("gallery"));

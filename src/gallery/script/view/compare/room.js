@@ -1,0 +1,153 @@
+// The room where pinned curves are compared.
+
+import { address } from "../../data/address.js";
+import { curveAt } from "../../data/family.js";
+import { fill, h } from "../dom.js";
+import { captionInType } from "../page-words.js";
+import { takeAwayMenu } from "../take/menu.js";
+import { thumbnail } from "../thumbnail.js";
+import { laidOver } from "./aligned.js";
+import { ALIGNMENTS, comparisonOf, comparisonQuery, MOST_COMPARED } from "./asked.js";
+import { factsTable } from "./facts.js";
+import { letterOf, overPicture, strokeSample } from "./picture.js";
+
+/** `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`: opening such an address pins its curves. */
+export const compareRoom = {
+  name: "compare",
+  label: "Compare",
+  way: (app) => address(["compare"], app.pins.names.length ? { c: app.pins.names.join(",") } : {}),
+  opens: ({ path }) => path[0] === "compare",
+  view: async (app, { query }) => {
+    const room = new Comparison(app);
+    await room.ask(comparisonOf(query));
+    return {
+      title: "Compare",
+      element: room.element,
+      update: (place) => { room.ask(comparisonOf(place.query)); return true; },
+      leave: () => room.leave(),
+    };
+  },
+};
+
+class Comparison {
+  constructor(app) {
+    this.app = app;
+    this.body = h("div", { class: "comparison" });
+    this.tools = h("div", { class: "toolbar" });
+    this.take = h("div", {});
+    this.count = h("p", { class: "lede" });
+    this.element = h(
+      "div",
+      { class: "room wide compare-room" },
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, "Compare"), this.count), this.take),
+      this.tools,
+      this.body,
+    );
+    this.unwatch = app.pins.watch(() => this.change());
+  }
+
+  async ask(asked) {
+    this.asked = asked;
+    if (asked.names && String(asked.names) !== String(this.app.pins.names)) this.app.pins.put(asked.names);
+    else await this.change();
+  }
+
+  /** Shows what is pinned now, and says so in the address. */
+  async change() {
+    const { app, asked } = this;
+    const names = [...app.pins.names];
+    app.replace(address(["compare"], comparisonQuery(asked, names)));
+    const missing = [];
+    const curves = [];
+    for (const name of names) {
+      const [id, key] = name.split("?")[0].split(":");
+      const family = await app.atlas.family(id).catch(() => null);
+      const curve = family ? curveAt(family, key) : undefined;
+      if (curve === undefined) missing.push(name);
+      else curves.push({ name, family, curve, key });
+    }
+    // More may have been pinned meanwhile.
+    if (String(names) !== String(app.pins.names)) return;
+    this.show(curves, missing);
+  }
+
+  show(all, missing) {
+    const curves = all.slice(0, MOST_COMPARED);
+    const { asked, app } = this;
+    const beyond = all.length - curves.length;
+    fill(
+      this.count,
+      all.length ? `${all.length} pinned` : "Nothing is pinned yet. Pin curves in Find (p), By shape, on a page or on a plate.",
+      beyond ? `; the first ${MOST_COMPARED} are compared` : "",
+      missing.length ? `; not in this atlas: ${missing.join(", ")}` : "",
+    );
+    fill(this.take, all.length ? takeAwayMenu(app, () => all.map(({ name }) => name)) : null);
+    fill(this.tools, all.length ? this.controls() : null);
+    const laid = curves.map((one) => (curves.length > 1 ? laidOver(curves[0], one, asked.align) : null));
+    const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
+    fill(
+      this.body,
+      asked.view === "over" && curves.length > 1 ? overPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`) : null,
+      h("ol", { class: asked.view === "over" ? "pinned-list" : "pinned-tiles" }, curves.map((one, k) => this.entry(one, k, curves, laid[k]))),
+      curves.length ? factsTable(curves, app.atlas.measures, labels) : null,
+    );
+  }
+
+  controls() {
+    const { asked, app } = this;
+    const view = (name, label) => h("button", { type: "button", "aria-pressed": String(asked.view === name), onclick: () => { asked.view = name; this.change(); } }, label);
+    const align = h(
+      "select",
+      { id: "compare-align", onchange: (event) => { asked.align = event.target.value; this.change(); } },
+      Object.entries(ALIGNMENTS).map(([value, label]) => h("option", { value }, label)),
+    );
+    align.value = asked.align;
+    return [
+      h("div", { class: "segments", role: "group", "aria-label": "Show" }, view("side", "Side by side"), view("over", "Over one another")),
+      h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Aligned"), align),
+      h("button", { type: "button", class: "quiet end", onclick: () => app.pins.put([]) }, "Unpin all"),
+    ];
+  }
+
+  entry({ name, family, curve, key }, k, curves, laid) {
+    const { asked, app } = this;
+    const move = (by, label, sign) => h(
+      "button",
+      { type: "button", class: "quiet", disabled: k + by < 0 || k + by >= curves.length, "aria-label": `Move ${letterOf(k)} ${label}`, onclick: () => this.moved(k, by) },
+      sign,
+    );
+    const percent = (value) => `${(100 * value).toFixed(2)} %`;
+    return h(
+      "li",
+      {},
+      asked.view === "over" ? strokeSample(k) : h("div", { class: "leaf" }, thumbnail(family, [curve], { width: 300, height: 220 })),
+      h(
+        "div",
+        { class: "named" },
+        h("b", {}, letterOf(k)),
+        " ",
+        h("a", { href: address([family.id, "curve", key]) }, `${family.title}, ${key}`),
+        h("p", { class: "caption" }, captionInType(family.cells.caption[family.curves.cell[curve]])),
+        laid && k > 0 ? h("p", { class: "deviation" }, `${percent(laid.rms)} rms from A, ${percent(laid.greatest)} at most`) : null,
+      ),
+      h(
+        "div",
+        { class: "acts" },
+        move(-1, "forward", "←"),
+        move(1, "back", "→"),
+        h("button", { type: "button", class: "quiet", onclick: () => app.pins.toggle(name), "aria-label": `Unpin ${letterOf(k)}` }, "Unpin"),
+      ),
+    );
+  }
+
+  moved(k, by) {
+    const names = [...this.app.pins.names];
+    names.splice(k + by, 0, ...names.splice(k, 1));
+    this.app.pins.put(names);
+    this.app.say(`${names[k + by]} is now ${letterOf(k + by)}`);
+  }
+
+  leave() {
+    this.unwatch();
+  }
+}
