@@ -2,12 +2,12 @@
 
 import { evenShape } from "./asked.js";
 import { CHORDS, SPANS, WINDOW, directionOf, windowAt, windowsOf } from "./indexing.js";
-import { correlation, settled } from "./settle.js";
+import { correlation, Settler } from "./settle.js";
 import { Shortlist } from "./shortlist.js";
 import { normalised } from "./spectrum.js";
 
 // Curves whose best windows are looked at more closely.
-const CLOSER = 800;
+const CLOSER = 600;
 
 /**
  * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than `least` of the
@@ -20,17 +20,22 @@ export function* likelyParts(index, shape, { mirror, least, most }) {
   const best = bestWindows(index.count);
   for (let s = 0; s < SPANS.length && (s === 0 || SPANS[s - 1] > least); s += 1) yield* scan(index, s, own, mirror, best);
   const closer = new Shortlist(CLOSER);
+  const settler = new Settler(index);
+  const settle = (curve, seeds, rounds) => {
+    const moved = seeds.map((seed) => ({ ...seed, ...settler.settled(curve, own.ways[seed.way], seed, 0.9 * least, rounds) }));
+    return moved.sort((a, b) => b.value - a.value);
+  };
   for (let curve = 0; curve < index.count; curve += 1) {
-    const seeds = seedsOf(index, curve, own, best);
+    // Windows are so far apart that only after a round or two their likeness can be told.
+    const seeds = settle(curve, seedsOf(index, curve, own, best).slice(0, SEEDS), 2);
     if (seeds.length) closer.offer({ index, curve, value: seeds[0].value, seeds });
-    if (curve % 256 === 255) yield;
+    if (curve % 128 === 127) yield;
   }
   const list = new Shortlist(most);
   let k = 0;
   for (const { curve, seeds } of closer.best()) {
-    const settling = seeds.slice(0, SEEDS).map((seed) => ({ ...seed, ...settled(index, curve, own.ways[seed.way], seed, 0.9 * least) }));
-    settling.sort((a, b) => b.value - a.value);
-    list.offer({ index, curve, value: settling[0].value, seeds: settling.slice(0, 1) });
+    const [nearest] = settle(curve, seeds.slice(0, 3), 6);
+    list.offer({ index, curve, value: nearest.value, seeds: [nearest] });
     if ((k += 1) % 32 === 0) yield;
   }
   return list.best();
@@ -60,12 +65,12 @@ function bestWindows(count) {
 }
 
 // The sum of differences of seven chords, in 256ths of a turn, at which a window is not like a shape at all.
-const NOT_LIKE = 160;
+const NOT_LIKE = 110;
 // Windows that are kept of a curve: one that begins in each half of it, in each of four ways.
 const SLOTS = 8;
-const SEEDS = 3;
+const SEEDS = 4;
 // The difference of one chord, likewise.
-const OTHER_CHORD = 40;
+const OTHER_CHORD = 28;
 
 /** Compares the directions of the chords of all windows of an extent. */
 function* scan(index, s, { chords }, mirror, best) {

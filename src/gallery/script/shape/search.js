@@ -9,7 +9,7 @@ import { likelyWhole } from "./whole.js";
 
 // Curves that are compared roughly, those of them that are compared exactly, and the points of the shape for each.
 const ROUGH = 320;
-const EXACT = 48;
+const EXACT = 64;
 const ROUGH_POINTS = 32;
 const EXACT_POINTS = 96;
 

@@ -2,110 +2,125 @@
 
 import { WINDOW, windowAt } from "./indexing.js";
 
-const ROUNDS = 6;
-
-/**
- * Moves the ends of a window, { start, span } by the curve's length, by Gauss and Newton's rounds to where it is most like a
- * shape of unit energy { re, im }: { start, span, value }, the square of their correlation, 1 for a similar portion.
- */
-export function settled(index, curve, own, { start, span }, least) {
-  const window = new Window(index, curve, own);
-  let [from, to] = [start, start + Math.min(span, 1)];
-  let best = window.valueAt(from, to);
-  let trust = 1;
-  for (let round = 0; round < ROUNDS && trust > 0.05; round += 1) {
-    const [first, last] = window.stepFrom(from, to);
-    const most = 0.2 * (to - from);
-    const limit = (move) => Math.min(Math.max(trust * move, -most), most);
-    const [nextFrom, nextTo] = window.allowed(from + limit(first), to + limit(last), least);
-    const value = window.valueAt(nextFrom, nextTo);
-    const done = value - best < 1e-9;
-    if (value > best) [best, from, to] = [value, nextFrom, nextTo];
-    else trust /= 4;
-    if (done && trust === 1) break;
-  }
-  return { start: from, span: to - from, value: best };
-}
-
-class Window {
-  constructor(index, curve, own) {
-    Object.assign(this, { index, curve, own });
-    this.parts = [0, 1, 2].map(() => ({ re: new Float64Array(WINDOW), im: new Float64Array(WINDOW) }));
+/** Moves windows of the curves of an index to where they are most like a shape. */
+export class Settler {
+  constructor(index) {
+    this.index = index;
+    [this.w, this.u, this.v, this.left] = [0, 1, 2, 3].map(() => ({ re: new Float64Array(WINDOW), im: new Float64Array(WINDOW) }));
+    [this.x, this.y] = [0, 0];
+    [this.first, this.last] = [0, 0];
   }
 
-  valueAt(from, to) {
-    const [{ re, im }] = this.parts;
-    windowAt(this.index, this.curve, from, to - from, re, im);
-    return correlation(this.own, re, im);
+  /**
+   * Moves the ends of a window, { start, span } by the curve's length, by `rounds` of Gauss and Newton to where it is most
+   * like a shape of unit energy { re, im }: { start, span, value }, the square of their correlation, 1 for a similar portion.
+   */
+  settled(curve, own, { start, span }, least, rounds) {
+    let [from, to] = [start, start + Math.min(span, 1)];
+    let best = this.valueAt(curve, own, from, to);
+    let trust = 1;
+    for (let round = 0; round < rounds && trust > 0.05; round += 1) {
+      if (trust === 1) this.step(curve, own, from, to);
+      const most = 0.2 * (to - from);
+      const limit = (move) => Math.min(Math.max(trust * move, -most), most);
+      const [nextFrom, nextTo] = this.allowed(curve, from + limit(this.first), to + limit(this.last), least);
+      const value = this.valueAt(curve, own, nextFrom, nextTo);
+      const gain = value - best;
+      if (gain > 0) [best, from, to, trust] = [value, nextFrom, nextTo, 1];
+      else trust /= 4;
+      if (gain > 0 && gain < 1e-9) break;
+    }
+    return { start: from, span: to - from, value: best };
+  }
+
+  valueAt(curve, own, from, to) {
+    const { re, im } = this.w;
+    windowAt(this.index, curve, from, to - from, re, im);
+    return correlation(own, re, im);
   }
 
   /** Ends that the curve has: of an open one none beyond its own, and an extent from the least to the whole. */
-  allowed(from, to, least) {
-    let [a, b] = this.index.closed[this.curve] ? [from, to] : [Math.max(from, 0), Math.min(to, 1)];
+  allowed(curve, from, to, least) {
+    const [a, b] = this.index.closed[curve] ? [from, to] : [Math.max(from, 0), Math.min(to, 1)];
     const span = Math.min(Math.max(b - a, least), 1);
     const middle = (a + b) / 2;
-    if (span !== b - a) [a, b] = [middle - span / 2, middle + span / 2];
-    return [a, b];
+    return span === b - a ? [a, b] : [middle - span / 2, middle + span / 2];
   }
 
-  /** How far to move both ends by the derivatives of the window, apart from what a similarity can do. */
-  stepFrom(from, to) {
-    const { own, parts: [w, u, v] } = this;
+  /** How far to move both ends, by the derivatives of the window apart from what a similarity can do. */
+  step(curve, own, from, to) {
+    const { w, u, v, left } = this;
     const h = 0.01 * (to - from);
-    centredWindow(this, from, to, w);
-    centredWindow(this, from + h, to, u);
-    centredWindow(this, from, to + h, v);
-    const energy = product(w, w)[0];
-    if (!(energy > 1e-12)) return [0, 0];
-    const [x, y] = product(own, w).map((value) => value / energy);
-    for (const moved of [u, v]) {
+    this.centred(curve, from, to, w);
+    this.centred(curve, from + h, to, u);
+    this.centred(curve, from, to + h, v);
+    [this.first, this.last] = [0, 0];
+    const energy = shared(w, w);
+    if (!(energy > 1e-12)) return;
+    this.product(own, w, energy);
+    const [x, y] = [this.x, this.y];
+    for (let n = 0; n < WINDOW; n += 1) {
+      left.re[n] = own.re[n] - x * w.re[n] + y * w.im[n];
+      left.im[n] = own.im[n] - x * w.im[n] - y * w.re[n];
+    }
+    for (let side = 0; side < 2; side += 1) {
+      const moved = side ? v : u;
       for (let n = 0; n < WINDOW; n += 1) {
-        const [p, q] = [(moved.re[n] - w.re[n]) / h, (moved.im[n] - w.im[n]) / h];
+        const p = (moved.re[n] - w.re[n]) / h;
+        const q = (moved.im[n] - w.im[n]) / h;
         moved.re[n] = x * p - y * q;
         moved.im[n] = x * q + y * p;
       }
-      withoutPart(moved, w, energy);
+      this.withoutWindow(moved, energy);
     }
-    const residue = { re: own.re.map((value, n) => value - x * w.re[n] + y * w.im[n]), im: own.im.map((value, n) => value - x * w.im[n] - y * w.re[n]) };
-    const [uu, vv, uv] = [product(u, u)[0], product(v, v)[0], product(u, v)[0]];
-    const [ur, vr] = [product(u, residue)[0], product(v, residue)[0]];
+    const uv = shared(u, v);
+    const [uu, vv, ur, vr] = [shared(u, u), shared(v, v), shared(u, left), shared(v, left)];
     const damped = 1e-3 * (uu + vv) + 1e-12;
-    const [a, b] = [uu + damped, vv + damped];
-    const whole = a * b - uv * uv;
-    return [(b * ur - uv * vr) / whole, (a * vr - uv * ur) / whole];
+    const whole = (uu + damped) * (vv + damped) - uv * uv;
+    this.first = ((vv + damped) * ur - uv * vr) / whole;
+    this.last = ((uu + damped) * vr - uv * ur) / whole;
+  }
+
+  centred(curve, from, to, { re, im }) {
+    windowAt(this.index, curve, from, to - from, re, im);
+    let [x, y] = [0, 0];
+    for (let n = 0; n < WINDOW; n += 1) {
+      x += re[n] / WINDOW;
+      y += im[n] / WINDOW;
+    }
+    for (let n = 0; n < WINDOW; n += 1) {
+      re[n] -= x;
+      im[n] -= y;
+    }
+  }
+
+  /** The complex product of one with the other's conjugate, by the other's energy, in x and y. */
+  product(one, other, energy) {
+    let [x, y] = [0, 0];
+    for (let n = 0; n < WINDOW; n += 1) {
+      x += one.re[n] * other.re[n] + one.im[n] * other.im[n];
+      y += one.im[n] * other.re[n] - one.re[n] * other.im[n];
+    }
+    this.x = x / energy;
+    this.y = y / energy;
+  }
+
+  /** Takes from a vector, in place, the part of it that is a multiple of the window. */
+  withoutWindow(one, energy) {
+    const { w } = this;
+    this.product(one, w, energy);
+    for (let n = 0; n < WINDOW; n += 1) {
+      one.re[n] -= this.x * w.re[n] - this.y * w.im[n];
+      one.im[n] -= this.x * w.im[n] + this.y * w.re[n];
+    }
   }
 }
 
-function centredWindow({ index, curve }, from, to, { re, im }) {
-  windowAt(index, curve, from, to - from, re, im);
-  let [x, y] = [0, 0];
-  for (let n = 0; n < WINDOW; n += 1) {
-    x += re[n] / WINDOW;
-    y += im[n] / WINDOW;
-  }
-  for (let n = 0; n < WINDOW; n += 1) {
-    re[n] -= x;
-    im[n] -= y;
-  }
-}
-
-/** The complex product of one with the other's conjugate: [real, imaginary]. */
-function product(one, other) {
-  let [x, y] = [0, 0];
-  for (let n = 0; n < WINDOW; n += 1) {
-    x += one.re[n] * other.re[n] + one.im[n] * other.im[n];
-    y += one.im[n] * other.re[n] - one.re[n] * other.im[n];
-  }
-  return [x, y];
-}
-
-/** Takes from a vector, in place, the part of it that is a multiple of another. */
-function withoutPart(one, other, energy) {
-  const [x, y] = product(one, other).map((value) => value / energy);
-  for (let n = 0; n < WINDOW; n += 1) {
-    one.re[n] -= x * other.re[n] - y * other.im[n];
-    one.im[n] -= x * other.im[n] + y * other.re[n];
-  }
+/** The real part of the product of one with the other's conjugate. */
+function shared(one, other) {
+  let sum = 0;
+  for (let n = 0; n < WINDOW; n += 1) sum += one.re[n] * other.re[n] + one.im[n] * other.im[n];
+  return sum;
 }
 
 /** The square of the correlation of a window, about its own mean, with a shape of unit energy. */
