@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 
 import { contrastOf, eventually, opened } from "./browser.mjs";
-import { still, inputNow, changed } from "./plate-screen.mjs";
+import { gripAt, inputNow, still } from "./plate-screen.mjs";
 
 export const EVERYONE = [
   [
@@ -118,6 +118,43 @@ export const EVERYONE = [
       assert.equal(await wide(), fitted);
       await page.getByRole("button", { name: "Pin", exact: true }).press("Enter");
       assert.ok(await page.getByRole("button", { name: "Pinned" }).isVisible());
+      await plate.close();
+    },
+  ],
+  [
+    "3.15",
+    "the wheel zooms about the pointer, and a hand moves the picture",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const { page } = plate;
+      const pin = await gripAt(page, 2);
+      await page.mouse.move(...pin);
+      await page.mouse.wheel(0, -300);
+      await eventually(async () => !(await page.locator(".scale-label").textContent()).startsWith("2"), "no zoom");
+      const after = await gripAt(page, 2);
+      // A pointer is told of in whole pixels.
+      assert.ok(Math.hypot(after[0] - pin[0], after[1] - pin[1]) < 1, "the place under the pointer moved");
+      const { left, top } = await page.locator(".stage").evaluate((stage) => stage.getBoundingClientRect().toJSON());
+      await page.mouse.move(left + 15, top + 15);
+      await page.mouse.down();
+      await page.mouse.move(left + 55, top + 45, { steps: 4 });
+      await page.mouse.up();
+      const moved = await gripAt(page, 2);
+      assert.ok(Math.hypot(moved[0] - after[0] - 40, moved[1] - after[1] - 30) < 1, "the picture");
+      await plate.close();
+    },
+  ],
+  [
+    "3.16",
+    "a plate in print is still, and has its facts",
+    async ({ browser, folder }) => {
+      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const { page } = plate;
+      await page.emulateMedia({ media: "print" });
+      for (const name of [".drive", ".sliders", ".circuits-gauge"]) assert.ok(await page.locator(name).isHidden(), name);
+      for (const name of [".stage", ".told", "table.measures", ".origin", ".dial"]) {
+        assert.ok(await page.locator(name).isVisible(), name);
+      }
       await plate.close();
     },
   ],

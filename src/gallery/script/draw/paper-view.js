@@ -37,6 +37,16 @@ export function zoomedView({ scale, x, y }, factor, [atX, atY]) {
   return { scale: scale * factor, x: atX + (x - atX) * factor, y: atY + (y - atY) * factor };
 }
 
+/** A view so much of the way (0 to 1) from one to another. */
+export function viewBetween(from, to, part) {
+  const between = (a, b) => a + (b - a) * part;
+  return {
+    scale: from.scale * (to.scale / from.scale) ** part,
+    x: between(from.x, to.x),
+    y: between(from.y, to.y),
+  };
+}
+
 /** The place in the plane under a place on the screen. */
 export function planePoint({ scale, x, y }, [atX, atY]) {
   return [(atX - x) / scale, (y - atY) / scale];

@@ -2,7 +2,7 @@
 // another above it, so that a frame of the motion paints the linkage alone. Weights of lines are in pixels of
 // the screen at any zoom.
 
-import { fittedView, zoomedView } from "../../draw/paper-view.js";
+import { fittedView, viewBetween, zoomedView } from "../../draw/paper-view.js";
 import { fill, h, s } from "../dom.js";
 import { MovingSheet } from "./moving-sheet.js";
 import { StillSheet } from "./still-sheet.js";
@@ -38,6 +38,7 @@ export class Stage {
     this.element = h("div", { class: "stage" }, this.picture, this.reason, this.summary);
     this.observer = new ResizeObserver(() => this.#measured());
     this.onview = () => {};
+    this.gliding = 0;
   }
 
   observe() {
@@ -46,6 +47,7 @@ export class Stage {
   }
 
   leave() {
+    this.#stay();
     this.observer.disconnect();
   }
 
@@ -84,6 +86,7 @@ export class Stage {
 
   /** Fits all that is swept into the frame. */
   fit() {
+    this.#stay();
     this.isZoomed = false;
     if (this.box) this.view = fittedView(this.box, { ...this.size, margin: this.#margin() });
     this.#place();
@@ -101,11 +104,12 @@ export class Stage {
       x + scale * x1 <= this.size.width - slack &&
       y - scale * y1 >= slack &&
       y - scale * y0 <= this.size.height - slack;
-    if (!isInside || scale < 0.55 * fitted.scale) this.fit();
+    if (!isInside || scale < 0.55 * fitted.scale) this.#glideTo(fitted);
   }
 
   zoom(factor, at = [this.size.width / 2, this.size.height / 2]) {
     if (!this.box) return;
+    this.#stay();
     const least = fittedView(this.box, { ...this.size, margin: this.#margin() }).scale;
     const scale = Math.min(Math.max(this.view.scale * factor, 0.2 * least), 400 * least);
     this.view = zoomedView(this.view, scale / this.view.scale, at);
@@ -114,9 +118,34 @@ export class Stage {
   }
 
   pan(dx, dy) {
+    this.#stay();
     this.view = { ...this.view, x: this.view.x + dx, y: this.view.y + dy };
     this.isZoomed = true;
     this.#place();
+  }
+
+  // Not at a jump, so that the eye can follow, unless motion is not wanted.
+  #glideTo(view) {
+    if (window.matchMedia("(prefers-reduced-motion: reduce)").matches) {
+      this.view = view;
+      this.#place();
+      return;
+    }
+    this.aim = view;
+    this.gliding ||= window.requestAnimationFrame(() => this.#glide());
+  }
+
+  #glide() {
+    const { view, aim } = this;
+    const isThere = Math.abs(aim.scale / view.scale - 1) < 2e-3 && Math.hypot(aim.x - view.x, aim.y - view.y) < 0.5;
+    this.view = isThere ? aim : viewBetween(view, aim, 0.22);
+    this.gliding = isThere ? 0 : window.requestAnimationFrame(() => this.#glide());
+    this.#place();
+  }
+
+  #stay() {
+    window.cancelAnimationFrame(this.gliding);
+    this.gliding = 0;
   }
 
   #margin() {
