@@ -130,11 +130,16 @@ export const EVERYONE = [
       const pin = await gripAt(page, 2);
       await page.mouse.move(...pin);
       await page.mouse.wheel(0, -300);
-      await eventually(async () => !(await page.locator(".scale-label").textContent()).startsWith("2"), "no zoom");
+      await eventually(
+        async () => !(await page.locator(".scale-label").textContent()).startsWith("2"),
+        "no zoom",
+      );
       const after = await gripAt(page, 2);
       // A pointer is told of in whole pixels.
       assert.ok(Math.hypot(after[0] - pin[0], after[1] - pin[1]) < 1, "the place under the pointer moved");
-      const { left, top } = await page.locator(".stage").evaluate((stage) => stage.getBoundingClientRect().toJSON());
+      const { left, top } = await page
+        .locator(".stage")
+        .evaluate((stage) => stage.getBoundingClientRect().toJSON());
       await page.mouse.move(left + 15, top + 15);
       await page.mouse.down();
       await page.mouse.move(left + 55, top + 45, { steps: 4 });
@@ -151,7 +156,8 @@ export const EVERYONE = [
       const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
       const { page } = plate;
       await page.emulateMedia({ media: "print" });
-      for (const name of [".drive", ".sliders", ".circuits-gauge"]) assert.ok(await page.locator(name).isHidden(), name);
+      for (const name of [".drive", ".sliders", ".circuits-gauge"])
+        assert.ok(await page.locator(name).isHidden(), name);
       for (const name of [".stage", ".told", "table.measures", ".origin", ".dial"]) {
         assert.ok(await page.locator(name).isVisible(), name);
       }

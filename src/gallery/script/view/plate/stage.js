@@ -137,7 +137,8 @@ export class Stage {
 
   #glide() {
     const { view, aim } = this;
-    const isThere = Math.abs(aim.scale / view.scale - 1) < 2e-3 && Math.hypot(aim.x - view.x, aim.y - view.y) < 0.5;
+    const isThere =
+      Math.abs(aim.scale / view.scale - 1) < 2e-3 && Math.hypot(aim.x - view.x, aim.y - view.y) < 0.5;
     this.view = isThere ? aim : viewBetween(view, aim, 0.22);
     this.gliding = isThere ? 0 : window.requestAnimationFrame(() => this.#glide());
     this.#place();
