@@ -93,7 +93,7 @@ export class MeasureTable {
 
   /** `now` is { name: number or word } of changed parameters, or null where nothing is changed. */
   show(now) {
-    this.table.classList.toggle("compared", now !== null);
+    this.table.classList.toggle("with-changes", now !== null);
     fill(
       this.note,
       now ? "The atlas's own measures, and those of the changed parameters as this page reckons them." : [],

@@ -84,15 +84,17 @@ export class Switches {
     const pair = study && on.has("cognates") ? cognatesOfStudy(study) : null;
     this.lengths.hidden = !pair;
     if (!pair) return;
-    const head = ["", "frame", "crank", "coupler", "rocker", "along", "across"];
-    const row = ({ lengths, point }, k) =>
+    const head = ["", "itself", "first", "second"];
+    const rows = ["frame", "crank", "coupler", "rocker", "along", "across"].map((name, k) => [
+      name,
+      pair.cognates.map(({ lengths, point }) => lengths[name] ?? point[k - 4]),
+    ]);
+    const row = ([name, values]) =>
       h(
         "tr",
         {},
-        h("th", { scope: "row", class: "text" }, ["itself", "first", "second"][k]),
-        [lengths.frame, lengths.crank, lengths.coupler, lengths.rocker, ...point].map((x) =>
-          h("td", {}, shortLength(x)),
-        ),
+        h("th", { scope: "row", class: "text" }, name),
+        values.map((x) => h("td", {}, shortLength(x))),
       );
     fill(
       this.lengths,
@@ -112,7 +114,7 @@ export class Switches {
               head.map((word) => h("th", { scope: "col" }, word)),
             ),
           ),
-          h("tbody", {}, pair.cognates.map(row)),
+          h("tbody", {}, rows.map(row)),
         ),
       ),
     );
