@@ -95,7 +95,7 @@ function listed(numbers) {
 function cutterOf(lines) {
   const most = lines.slice(0, 20).join("\n");
   if (most.includes(";")) return (line) => line.split(";").map((word) => word.trim().replace(",", "."));
-  if (most.includes("\t")) return (line) => line.split("\t").map((word) => word.trim());
+  if (lines.slice(0, 20).every((line) => line.includes("\t"))) return (line) => line.split("\t").map((word) => word.trim());
   // "1,2 3,4" are two points in a line; "1, 2" is one.
   if (most.includes(",")) return (line) => line.split(/\s*,\s*|\s+/).map((word) => word.trim());
   return (line) => line.split(/\s+/);

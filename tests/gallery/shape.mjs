@@ -1,0 +1,176 @@
+// Tries the search by shape: node tests/gallery/shape.mjs ATLAS…
+//
+// Of each atlas, curves are turned, scaled, mirrored, begun elsewhere, passed the other way, sampled anew and disturbed; the
+// search must find them again. Times are printed, not asserted: they depend on the machine.
+
+import assert from "node:assert/strict";
+
+import { curveKey, curvePoints } from "../../src/gallery/script/data/family.js";
+import { askedShape } from "../../src/gallery/script/shape/asked.js";
+import { decodedShape, encodedShape } from "../../src/gallery/script/shape/encode.js";
+import { indexing, indexingWindows } from "../../src/gallery/script/shape/indexing.js";
+import { extentOf, portion, resampled, reversedOutline } from "../../src/gallery/script/shape/outline.js";
+import { shapeIn } from "../../src/gallery/script/shape/parse.js";
+import { searching } from "../../src/gallery/script/shape/search.js";
+import { composed, fitted, inverted, placed } from "../../src/gallery/script/shape/similarity.js";
+import { fourier } from "../../src/gallery/script/shape/spectrum.js";
+import { atlasOf, finished, randoms } from "./atlas-data.mjs";
+
+const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, `${what}: ${a}, not ${b}`);
+
+/* The parts, against closed forms. */
+
+{
+  const circle = Float64Array.from({ length: 800 }, (_, k) => (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / 400));
+  near(extentOf(circle), 2, 1e-4, "extent of a circle");
+  const even = resampled(Float64Array.of(0, 0, 3, 0, 3, 1), false, 5);
+  assert.deepEqual([...even], [0, 0, 1, 0, 2, 0, 3, 0, 3, 1]);
+  assert.deepEqual([...reversedOutline(Float64Array.of(0, 0, 1, 0, 1, 1), true)], [0, 0, 1, 1, 1, 0]);
+
+  const { forward, inverse } = fourier(16);
+  const random = randoms(1);
+  const [re, im] = [0, 1].map(() => Float64Array.from({ length: 16 }, random));
+  const [x, y] = [re.slice(), im.slice()];
+  forward(x, y);
+  let [u, v] = [0, 0];
+  for (let n = 0; n < 16; n += 1) {
+    const angle = (-2 * Math.PI * 3 * n) / 16;
+    u += re[n] * Math.cos(angle) - im[n] * Math.sin(angle);
+    v += re[n] * Math.sin(angle) + im[n] * Math.cos(angle);
+  }
+  near(x[3], u, 1e-12, "transform");
+  near(y[3], v, 1e-12, "transform");
+  inverse(x, y);
+  re.forEach((value, k) => near(x[k], value, 1e-14, "there and back"));
+
+  const similarity = { mirror: true, re: 0.6, im: -1.1, x: 3, y: -2 };
+  const there = placed(similarity, even);
+  placed(inverted(similarity), there).forEach((value, k) => near(value, even[k], 1e-13, "inverse of a similarity"));
+  placed(composed(inverted(similarity), similarity), even).forEach((value, k) => near(value, even[k], 1e-13, "composition"));
+  const turned = { mirror: false, re: 0.3, im: 2, x: 1, y: 1 };
+  const fit = fitted(even, placed(turned, even));
+  for (const part of ["re", "im", "x", "y"]) near(fit[part], turned[part], 1e-12, `fit, ${part}`);
+}
+
+/* What is pasted. */
+
+{
+  const read = (text) => shapeIn(text);
+  assert.deepEqual([...read("x,y\n0,0\n1,0\n1,2").points], [0, 0, 1, 0, 1, 2]);
+  assert.deepEqual([...read("# mm\n0 0\n1\t0\n2  3\n").points].slice(-2), [2, 3]);
+  assert.deepEqual([...read("1,5;2,5\n3;4,25").points], [1.5, 2.5, 3, 4.25]);
+  assert.deepEqual([...read('{"a": {"points": [{"x": 1, "y": 2}, {"x": 3, "y": 4}]}}').points], [1, 2, 3, 4]);
+  assert.deepEqual([...read("[[0,0],[1,1],[2,0]]").points], [0, 0, 1, 1, 2, 0]);
+  const own = read("cell,trace,circuit,branch,sample,input_deg,x,y\n1,1,1,1,0,0,5,6\n1,1,1,1,1,5,7,8\n2,1,1,1,0,0,9,9");
+  assert.deepEqual([...own.points], [5, 6, 7, 8]);
+  assert.match(own.said, /first of 2 curves/);
+  // y points down in SVG, up here.
+  const square = read("M0 0l10 0v10h-10z");
+  assert.deepEqual([...square.points].map((value) => value + 0), [0, 0, 10, 0, 10, -10, 0, -10].map((value) => value + 0));
+  assert.equal(square.closed, true);
+  const arc = read("M-1,0A1 1 0 0 1 1 0").points;
+  for (let k = 0; k < arc.length; k += 2) near(Math.hypot(arc[k], arc[k + 1]), 1, 1e-12, "arc of a circle");
+  assert.ok(arc.some((value, k) => k % 2 && value > 0.99), "swept the way that SVG sweeps");
+  assert.deepEqual([...read("M10 10a5 5 0 1110 0").points.slice(-2)], [20, -10], "flags of arcs need no blanks");
+  const smooth = read("M0,0C0 10 10 10 10 0S20-10 20 0").points;
+  assert.deepEqual([smooth.at(-2), smooth.at(-1) + 0], [20, 0]);
+  near(Math.max(...smooth.filter((_, k) => k % 2)), 7.5, 1e-9, "the reflected control point");
+  assert.match(read("<svg><path class='a' d='M0 0Q5 5 10 0T20 0'/><polygon points='0,0 30,0 30,30'/></svg>").said, /longest of 2/);
+  for (const wrong of ["", "hello", "[1, 2]", "{", "<svg></svg>", "M0 0", "1 2"]) assert.throws(() => read(wrong), Error, wrong);
+}
+
+/* In the address. */
+
+{
+  const points = Float64Array.from({ length: 600 }, (_, k) => (k % 2 ? 3 * Math.sin((k - 1) / 95.5) : 5 * Math.cos(k / 95.5)));
+  const word = encodedShape(points, true);
+  assert.equal(word.length, 1 + 48 * 4);
+  assert.match(word, /^[\w-]+$/);
+  const { points: again, closed } = decodedShape(word);
+  assert.equal(closed, true);
+  for (let k = 0; k < again.length; k += 2) near(((again[k] - 50) / 50) ** 2 + ((again[k + 1] - 30) / 30) ** 2, 1, 0.01, "on the ellipse");
+  for (const wrong of ["", "x", "cAA", "oAAAA", "c!AAAAAAA"]) assert.equal(decodedShape(wrong), null);
+}
+
+/* The curves of atlases, found again. */
+
+/** A curve as another hand might give it; `noise` displaces each point by up to so much of the extent. */
+function disturbed(points, closed, random, { count, noise }) {
+  const start = closed ? random() : 0;
+  const even = portion(points, closed, start, closed ? start + 1 - 1 / count : 1, count).points;
+  const far = noise * extentOf(even);
+  const moved = even.slice();
+  for (let k = 0; k < moved.length; k += 2) {
+    const [angle, by] = [2 * Math.PI * random(), far * Math.sqrt(random())];
+    moved[k] += by * Math.cos(angle);
+    moved[k + 1] += by * Math.sin(angle);
+  }
+  const [angle, scale] = [2 * Math.PI * random(), Math.exp(4 * random() - 2)];
+  const similarity = { mirror: random() < 0.5, re: scale * Math.cos(angle), im: scale * Math.sin(angle), x: 10 * random(), y: -5 * random() };
+  const placedThere = placed(similarity, moved);
+  return random() < 0.5 ? reversedOutline(placedThere, closed) : placedThere;
+}
+
+// Deviations that differ by less, of the extent, are as near: chords of the samples depart as much from the curve.
+const AS_NEAR = 3e-4;
+
+/** Searches for curves of an atlas, disturbed; { first, five } are how many came first, and among the first five. */
+function trial(indexes, families, { label, tries, part, ...disturbance }) {
+  const random = randoms(20);
+  const curves = families.flatMap((family) => Array.from({ length: family.curves.count }, (_, curve) => ({ family, curve })));
+  const [ranks, times] = [[], []];
+  let [longest, alone] = [0, 0];
+  for (let n = 0; n < tries; n += 1) {
+    const { family, curve } = curves[Math.floor(random() * curves.length)];
+    const closed = family.curves.closed[curve] === 1;
+    const own = curvePoints(family, curve);
+    const from = closed ? random() : random() * (1 - part);
+    const points = part < 1 ? portion(own, closed, from, from + part, 300).points : own;
+    const shape = askedShape(disturbed(points, closed && part === 1, random, disturbance), closed && part === 1);
+    const { value, longest: step, whole } = finished(searching(indexes, shape, { part: part < 1, least: 0.15 }));
+    const name = `${family.id}:${curveKey(family, curve)}`;
+    // The same curve is drawn by cognates, and by families that overlap: what is as near shares its place.
+    const at = value.findIndex((one) => one.name === name);
+    ranks.push(at < 0 ? Infinity : value.filter(({ rms }) => rms < value[at].rms - AS_NEAR).length + 1);
+    if (at === 0) alone += 1;
+    times.push(whole);
+    longest = Math.max(longest, step);
+  }
+  times.sort((a, b) => a - b);
+  const [first, five] = [1, 5].map((most) => ranks.filter((rank) => rank <= most).length);
+  console.log(`${label}: ${alone} first, ${first} with what is as near, ${five} among five, of ${tries}; ${Math.round(times[tries >> 1])} ms, at most ${Math.round(times.at(-1))}, the longest step ${Math.round(longest)}`);
+  return { first: first / tries, five: five / tries };
+}
+
+for (const folder of process.argv.slice(2)) {
+  const { families } = atlasOf(folder);
+  const made = families.map((family) => finished(indexing(family)));
+  const indexes = made.map(({ value }) => value);
+  const windows = indexes.map((index) => finished(indexingWindows(index, 0.15)));
+  const sum = (runs) => Math.round(runs.reduce((whole, run) => whole + run.whole, 0));
+  console.log(`${folder}: index ${sum(made)} ms, windows ${sum(windows)} ms`);
+  const tries = 100;
+  const whole = trial(indexes, families, { label: "whole", tries, part: 1, count: 150, noise: 0 });
+  assert.ok(whole.first >= 0.97 && whole.five === 1, "whole curves come first");
+  const noised = trial(indexes, families, { label: "whole, 1 % of noise", tries, part: 1, count: 200, noise: 0.01 });
+  // Neighbours in a dense atlas differ by less than such noise hides.
+  assert.ok(noised.first >= 0.85 && noised.five >= 0.95, "noised curves come first");
+  const third = trial(indexes, families, { label: "a third", tries, part: 1 / 3, count: 80, noise: 0 });
+  // Thirds without a feature, arcs nearly of circles, are drawn by very many curves.
+  assert.ok(third.five >= 0.85, "thirds of curves come among the first five");
+  unmirrored(indexes, families[0]);
+}
+
+/** With mirror images left out, none is found; the deviation of what is found is as its overlay has it. */
+function unmirrored(indexes, family) {
+  const points = curvePoints(family, 0);
+  const closed = family.curves.closed[0] === 1;
+  const shape = askedShape(points, closed);
+  const { value } = finished(searching(indexes, shape, { mirror: false }));
+  assert.ok(value.every(({ similarity }) => !similarity.mirror));
+  assert.ok(value[0].rms < 1e-3);
+  value.slice(1).forEach(({ rms }, k) => assert.ok(rms >= value[k].rms, "ranked by deviation"));
+  const byGreatest = finished(searching(indexes, shape, { by: "greatest" })).value;
+  byGreatest.slice(1).forEach(({ greatest }, k) => assert.ok(greatest >= byGreatest[k].greatest));
+}
+console.log("shape: as it should be");
