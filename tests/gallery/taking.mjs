@@ -143,17 +143,19 @@ const tests = [
       }, { colorScheme, viewport: { width: 360, height: 800 } });
     }
   }],
-  ["6.6", "several pinned curves come as an archive", ({ browser }) =>
-    onPlate(browser, "/evans/curve/1.1.1", async (page, view) => {
-      await page.click("button.pin");
-      await view.go("/evans/curve/2.1.1");
-      await page.click("button.pin");
-      await view.go("/compare");
-      if ((await page.locator(".take-button").count()) === 0) return;
+  ["6.6", "several curves come as an archive, and all that a filter leaves as one fragment", async ({ browser }) => {
+    await onPlate(browser, "/compare?c=evans:1.1.1,evans:2.1.1", async (page) => {
       const zip = await saved(page, "DXF CAD, AutoCAD R12");
       assert.equal(zip.name, "curves.zip");
       assert.deepEqual(filesOfZip(new Uint8Array(zip.bytes)).map(({ name }) => name), ["evans-1-1-1.dxf", "evans-2-1-1.dxf"]);
-    })],
+    });
+    await onPlate(browser, "/find?family=evans", async (page) => {
+      await page.waitForTimeout(500);
+      const { text } = await saved(page, "Manifest fragment .toml");
+      assert.equal(text.match(/\[\[family\]\]/g).length, 1);
+      assert.equal(text.match(/^ {4}\{ p = /gm).length, pointsOf(atlas, "evans").rows.size);
+    });
+  }],
 ];
 
 await runTests(tests);
