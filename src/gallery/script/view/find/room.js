@@ -146,6 +146,14 @@ class Finding {
     this.direction.disabled = !column;
     this.shows.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
     this.count();
+    // While an end is dragged, curves are laid out once a frame.
+    this.laying ??= requestAnimationFrame(() => this.lay());
+  }
+
+  lay() {
+    this.laying = null;
+    const { sort, show } = this.question;
+    const column = this.columns.find(({ name }) => name === sort.name);
     const view = show === "table" ? this.list : this.tiles;
     if (view.element.parentElement !== this.results) fill(this.results, view.element);
     if (show === "table") this.list.put(this.table, this.rows, this.columnsShown(column), sort);
@@ -199,6 +207,7 @@ class Finding {
 
   leave() {
     this.stop?.();
+    cancelAnimationFrame(this.laying);
     this.tiles.end();
     window.clearTimeout(this.writing);
     window.clearTimeout(this.saying);
