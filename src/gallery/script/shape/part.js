@@ -97,32 +97,45 @@ function scanCurve(index, curve, s, given, best) {
   const base = curve * each;
   const beyond = base + each;
   const last = base + (index.closed[curve] ? each : Math.floor((1 - SPANS[s]) * each) + 1);
-  const end = given.steps[CHORDS - 1];
-  let at = SLOTS * curve;
+  const [before, after, end] = [given.steps[3], given.steps[4], given.steps[CHORDS - 1]];
+  const { chords } = given;
+  const [early, inner, late] = [chords[4] - chords[0], chords[4] - chords[3], chords[7] - chords[4]];
+  const first = SLOTS * curve;
+  let at = first;
   const half = base + (each >> 1);
   const { difference } = best;
-  const tried = (way, w) => {
-    const sum = differenceOf(windows, base, w, given, way, difference[at + way]);
-    if (sum >= difference[at + way]) return;
-    difference[at + way] = sum;
-    best.span[at + way] = s;
-    best.window[at + way] = w;
-  };
   for (let from = base; from < last; from += 1) {
-    if (from === half) at += 4;
+    at = from < half ? first : first + 4;
     const to = from + end < beyond ? from + end : from + end - each;
     const angle = windows[to] - windows[from];
     const same = away[(angle - turn) & 255];
     const other = away[(angle + turn) & 255];
+    if (same >= OTHER_CHORD && other >= OTHER_CHORD) continue;
+    // The two chords in the middle: their differences and those of the ends bound the sum of all from below.
+    const third = windows[from + before < beyond ? from + before : from + before - each];
+    const fourth = windows[from + after < beyond ? from + after : from + after - each];
+    const [p, q, r] = [third - windows[from], fourth - third, windows[to] - fourth];
     if (same < OTHER_CHORD) {
-      if (same < difference[at]) tried(0, from - base);
-      if (mirror && same < difference[at + 3]) tried(3, from - base);
+      const middle = away[(q - inner) & 255];
+      if (middle + away[(r - late) & 255] + away[(p + q - early) & 255] < difference[at]) keepNearer(windows, base, from - base, given, 0, best, at, s);
+      if (mirror && middle + away[(p - late) & 255] + away[(q + r - early) & 255] < difference[at + 3]) keepNearer(windows, base, from - base, given, 3, best, at, s);
     }
     if (other < OTHER_CHORD) {
-      if (other < difference[at + 1]) tried(1, from - base);
-      if (mirror && other < difference[at + 2]) tried(2, from - base);
+      const middle = away[(q + inner) & 255];
+      if (middle + away[(p + late) & 255] + away[(q + r + early) & 255] < difference[at + 1]) keepNearer(windows, base, from - base, given, 1, best, at, s);
+      if (mirror && middle + away[(r + late) & 255] + away[(p + q + early) & 255] < difference[at + 2]) keepNearer(windows, base, from - base, given, 2, best, at, s);
     }
   }
+}
+
+/** Keeps a window, in a way, if its chords are nearer to the shape's than those of the best so far. */
+function keepNearer(windows, base, w, given, way, best, at, s) {
+  const most = best.difference[at + way];
+  const sum = differenceOf(windows, base, w, given, way, most);
+  if (sum >= most) return;
+  best.difference[at + way] = sum;
+  best.span[at + way] = s;
+  best.window[at + way] = w;
 }
 
 /** The sum of the differences in direction of a window's chords, turned so that the fourth agrees; or more than `most`. */
