@@ -71,8 +71,10 @@ const tests = [
     await eventually(async () => (await page.locator(".ways .count").innerText()).includes("1"), "it is pinned");
     await page.getByRole("button", { name: "Table" }).click();
     await page.getByRole("columnheader", { name: "class" }).getByRole("button").click();
-    assert.equal(await page.getByRole("columnheader", { name: "class" }).getAttribute("aria-sort"), "ascending");
+    const sort = () => page.getByRole("columnheader", { name: "class" }).getAttribute("aria-sort");
+    await eventually(async () => (await sort()) === "ascending", "the table is sorted");
     await eventually(async () => (await gallery.fragment()).includes("show=table"), "the table has an address");
+    assert.match(await page.evaluate(() => document.activeElement.textContent), /^class/, "the heading keeps the focus");
     await page.getByRole("button", { name: "Sheet" }).click();
     await page.locator(".results a").first().focus();
     await page.keyboard.press("Enter");

@@ -29,6 +29,17 @@ export const compareRoom = {
   },
 };
 
+/** What gives the focus back to the control of the same name when what is in an element has been replaced. */
+function keptFocus(element) {
+  const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
+  const held = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
+  return () => {
+    if (held === null || element.contains(document.activeElement)) return;
+    const again = [...element.querySelectorAll("button, select, a")].find((control) => nameOf(control) === held && !control.disabled);
+    (again ?? element.querySelector("select, button"))?.focus();
+  };
+}
+
 class Comparison {
   constructor(app) {
     this.app = app;
@@ -72,6 +83,12 @@ class Comparison {
   }
 
   show(all, missing) {
+    const focused = keptFocus(this.element);
+    this.lay(all, missing);
+    focused();
+  }
+
+  lay(all, missing) {
     const curves = all.slice(0, MOST_COMPARED);
     const { asked, app } = this;
     const beyond = all.length - curves.length;

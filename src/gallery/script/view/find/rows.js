@@ -27,7 +27,10 @@ export class ResultRows {
       { class: kind === "words" ? "text" : null, scope: "col", "aria-sort": sort.name === name ? (sort.down ? "descending" : "ascending") : null },
       h("button", { type: "button", onclick: () => this.sorted(name) }, columnInWords(name), sort.name === name ? (sort.down ? " ↓" : " ↑") : ""),
     );
+    // A heading that has been pressed keeps the focus, though it is made anew.
+    const held = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
     fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
+    if (held >= 0) this.head.querySelectorAll("button")[held]?.focus();
     this.fill();
   }
 
