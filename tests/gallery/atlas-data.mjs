@@ -9,17 +9,26 @@ import { FamilyReader } from "../../src/gallery/script/data/family.js";
 export function atlasOf(folder) {
   const page = readFileSync(join(folder, "index.html"), "utf8");
   const told = JSON.parse(page.match(/<script type="application\/json" id="atlas">([\s\S]*?)<\/script>/)[1]);
-  return { told, families: told.families.filter(({ script }) => script).map(({ script }) => familyOf(join(folder, script))) };
+  return {
+    told,
+    families: told.families
+      .filter(({ script }) => script)
+      .map(({ script }) => familyOf(join(folder, script))),
+  };
 }
 
 function familyOf(file) {
   let reader = null;
   let family = null;
   const couplerAtlas = {
-    begin: (head) => { reader = new FamilyReader(head); },
+    begin: (head) => {
+      reader = new FamilyReader(head);
+    },
     cells: (chunk) => reader.cells(chunk),
     page: (page) => reader.page(page),
-    end: () => { family = reader.finished(); },
+    end: () => {
+      family = reader.finished();
+    },
   };
   new Function("couplerAtlas", readFileSync(file, "utf8"))(couplerAtlas);
   return family;

@@ -18,7 +18,11 @@ import { atlasOf } from "./atlas-data.mjs";
   const linear = histogramOf(Float64Array.of(0, 1, 2, 3, NaN, 4));
   assert.equal(linear.isLog, false);
   assert.deepEqual([linear.low, linear.high], [0, 4]);
-  assert.equal(linear.counts.reduce((sum, count) => sum + count, 0), 5, "what is missing is in no bin");
+  assert.equal(
+    linear.counts.reduce((sum, count) => sum + count, 0),
+    5,
+    "what is missing is in no bin",
+  );
   assert.equal(linear.bins[5], BINS - 1);
   const spread = histogramOf(Float64Array.from({ length: 100 }, (_, k) => 10 ** (k / 20)));
   assert.equal(spread.isLog, true);
@@ -34,7 +38,8 @@ import { atlasOf } from "./atlas-data.mjs";
 /* A question and its address. */
 
 {
-  const fragment = "#/find?family=evans,watt&class=crank-rocker,double-rocker&mu_worst_deg=30..&length=..2.5e-3&p.a=-1.5..2&sort=-length&show=table";
+  const fragment =
+    "#/find?family=evans,watt&class=crank-rocker,double-rocker&mu_worst_deg=30..&length=..2.5e-3&p.a=-1.5..2&sort=-length&show=table";
   const question = questionOf(parsedAddress(fragment).query);
   assert.deepEqual(question.families, ["evans", "watt"]);
   assert.deepEqual(question.filters.get("mu_worst_deg"), { low: 30, high: undefined });
@@ -52,7 +57,10 @@ import { atlasOf } from "./atlas-data.mjs";
 for (const folder of process.argv.slice(2)) {
   const { told, families } = atlasOf(folder);
   const table = new CurveTable(families);
-  assert.equal(table.count, told.families.reduce((sum, { curves }) => sum + curves, 0));
+  assert.equal(
+    table.count,
+    told.families.reduce((sum, { curves }) => sum + curves, 0),
+  );
   const columns = columnsOf(table, told.measures);
   const numbers = columns.filter(({ kind }) => kind === "numbers");
   const filters = new Filters(table);
@@ -64,10 +72,15 @@ for (const folder of process.argv.slice(2)) {
   assert.deepEqual([...filters.left()], wanted, "missing measures are left out");
   assert.ok(wanted.length > 0 && wanted.length < table.count);
   filters.set("class", new Set(["crank-rocker"]));
-  assert.deepEqual([...filters.left()], wanted.filter((row) => at(row, "class") === "crank-rocker"));
+  assert.deepEqual(
+    [...filters.left()],
+    wanted.filter((row) => at(row, "class") === "crank-rocker"),
+  );
   const { values } = table.words("class");
   const counts = filters.wordCounts("class");
-  values.forEach((word, k) => assert.equal(counts[k], wanted.filter((row) => at(row, "class") === word).length, word));
+  values.forEach((word, k) =>
+    assert.equal(counts[k], wanted.filter((row) => at(row, "class") === word).length, word),
+  );
   filters.set("mu_worst_deg", null);
   filters.set("class", null);
   assert.equal(filters.left().length, table.count);
@@ -96,6 +109,8 @@ for (const folder of process.argv.slice(2)) {
     times.push(performance.now() - began);
   }
   times.sort((a, b) => a - b);
-  console.log(`${folder}: ${table.count} curves, ${columns.length} columns; a filter in ${times[20].toFixed(1)} ms, at most ${times[39].toFixed(1)}`);
+  console.log(
+    `${folder}: ${table.count} curves, ${columns.length} columns; a filter in ${times[20].toFixed(1)} ms, at most ${times[39].toFixed(1)}`,
+  );
 }
 console.log("find: as it should be");

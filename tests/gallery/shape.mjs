@@ -21,7 +21,9 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
 /* The parts, against closed forms. */
 
 {
-  const circle = Float64Array.from({ length: 800 }, (_, k) => (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / 400));
+  const circle = Float64Array.from({ length: 800 }, (_, k) =>
+    (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / 400),
+  );
   near(extentOf(circle), 2, 1e-4, "extent of a circle");
   const even = resampled(Float64Array.of(0, 0, 3, 0, 3, 1), false, 5);
   assert.deepEqual([...even], [0, 0, 1, 0, 2, 0, 3, 0, 3, 1]);
@@ -45,8 +47,12 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
 
   const similarity = { mirror: true, re: 0.6, im: -1.1, x: 3, y: -2 };
   const there = placed(similarity, even);
-  placed(inverted(similarity), there).forEach((value, k) => near(value, even[k], 1e-13, "inverse of a similarity"));
-  placed(composed(inverted(similarity), similarity), even).forEach((value, k) => near(value, even[k], 1e-13, "composition"));
+  placed(inverted(similarity), there).forEach((value, k) =>
+    near(value, even[k], 1e-13, "inverse of a similarity"),
+  );
+  placed(composed(inverted(similarity), similarity), even).forEach((value, k) =>
+    near(value, even[k], 1e-13, "composition"),
+  );
   const turned = { mirror: false, re: 0.3, im: 2, x: 1, y: 1 };
   const fit = fitted(even, placed(turned, even));
   for (const part of ["re", "im", "x", "y"]) near(fit[part], turned[part], 1e-12, `fit, ${part}`);
@@ -61,34 +67,53 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   assert.deepEqual([...read("1,5;2,5\n3;4,25").points], [1.5, 2.5, 3, 4.25]);
   assert.deepEqual([...read('{"a": {"points": [{"x": 1, "y": 2}, {"x": 3, "y": 4}]}}').points], [1, 2, 3, 4]);
   assert.deepEqual([...read("[[0,0],[1,1],[2,0]]").points], [0, 0, 1, 1, 2, 0]);
-  const own = read("cell,trace,circuit,branch,sample,input_deg,x,y\n1,1,1,1,0,0,5,6\n1,1,1,1,1,5,7,8\n2,1,1,1,0,0,9,9");
+  const own = read(
+    "cell,trace,circuit,branch,sample,input_deg,x,y\n1,1,1,1,0,0,5,6\n1,1,1,1,1,5,7,8\n2,1,1,1,0,0,9,9",
+  );
   assert.deepEqual([...own.points], [5, 6, 7, 8]);
   assert.match(own.said, /first of 2 curves/);
   // y points down in SVG, up here.
   const square = read("M0 0l10 0v10h-10z");
-  assert.deepEqual([...square.points].map((value) => value + 0), [0, 0, 10, 0, 10, -10, 0, -10].map((value) => value + 0));
+  assert.deepEqual(
+    [...square.points].map((value) => value + 0),
+    [0, 0, 10, 0, 10, -10, 0, -10].map((value) => value + 0),
+  );
   assert.equal(square.closed, true);
   const arc = read("M-1,0A1 1 0 0 1 1 0").points;
   for (let k = 0; k < arc.length; k += 2) near(Math.hypot(arc[k], arc[k + 1]), 1, 1e-12, "arc of a circle");
-  assert.ok(arc.some((value, k) => k % 2 && value > 0.99), "swept the way that SVG sweeps");
-  assert.deepEqual([...read("M10 10a5 5 0 1110 0").points.slice(-2)], [20, -10], "flags of arcs need no blanks");
+  assert.ok(
+    arc.some((value, k) => k % 2 && value > 0.99),
+    "swept the way that SVG sweeps",
+  );
+  assert.deepEqual(
+    [...read("M10 10a5 5 0 1110 0").points.slice(-2)],
+    [20, -10],
+    "flags of arcs need no blanks",
+  );
   const smooth = read("M0,0C0 10 10 10 10 0S20-10 20 0").points;
   assert.deepEqual([smooth.at(-2), smooth.at(-1) + 0], [20, 0]);
   near(Math.max(...smooth.filter((_, k) => k % 2)), 7.5, 1e-9, "the reflected control point");
-  assert.match(read("<svg><path class='a' d='M0 0Q5 5 10 0T20 0'/><polygon points='0,0 30,0 30,30'/></svg>").said, /longest of 2/);
-  for (const wrong of ["", "hello", "[1, 2]", "{", "<svg></svg>", "M0 0", "1 2"]) assert.throws(() => read(wrong), Error, wrong);
+  assert.match(
+    read("<svg><path class='a' d='M0 0Q5 5 10 0T20 0'/><polygon points='0,0 30,0 30,30'/></svg>").said,
+    /longest of 2/,
+  );
+  for (const wrong of ["", "hello", "[1, 2]", "{", "<svg></svg>", "M0 0", "1 2"])
+    assert.throws(() => read(wrong), Error, wrong);
 }
 
 /* In the address. */
 
 {
-  const points = Float64Array.from({ length: 600 }, (_, k) => (k % 2 ? 3 * Math.sin((k - 1) / 95.5) : 5 * Math.cos(k / 95.5)));
+  const points = Float64Array.from({ length: 600 }, (_, k) =>
+    k % 2 ? 3 * Math.sin((k - 1) / 95.5) : 5 * Math.cos(k / 95.5),
+  );
   const word = encodedShape(points, true);
   assert.equal(word.length, 1 + 48 * 4);
   assert.match(word, /^[\w-]+$/);
   const { points: again, closed } = decodedShape(word);
   assert.equal(closed, true);
-  for (let k = 0; k < again.length; k += 2) near(((again[k] - 50) / 50) ** 2 + ((again[k + 1] - 30) / 30) ** 2, 1, 0.01, "on the ellipse");
+  for (let k = 0; k < again.length; k += 2)
+    near(((again[k] - 50) / 50) ** 2 + ((again[k + 1] - 30) / 30) ** 2, 1, 0.01, "on the ellipse");
   for (const wrong of ["", "x", "cAA", "oAAAA", "c!AAAAAAA"]) assert.equal(decodedShape(wrong), null);
 }
 
@@ -106,7 +131,13 @@ function disturbed(points, closed, random, { count, noise }) {
     moved[k + 1] += by * Math.sin(angle);
   }
   const [angle, scale] = [2 * Math.PI * random(), Math.exp(4 * random() - 2)];
-  const similarity = { mirror: random() < 0.5, re: scale * Math.cos(angle), im: scale * Math.sin(angle), x: 10 * random(), y: -5 * random() };
+  const similarity = {
+    mirror: random() < 0.5,
+    re: scale * Math.cos(angle),
+    im: scale * Math.sin(angle),
+    x: 10 * random(),
+    y: -5 * random(),
+  };
   const placedThere = placed(similarity, moved);
   return random() < 0.5 ? reversedOutline(placedThere, closed) : placedThere;
 }
@@ -117,7 +148,9 @@ const AS_NEAR = 3e-4;
 /** Searches for curves of an atlas, disturbed; { first, five } are how many came first, and among the first five. */
 function trial(indexes, families, { label, tries, part, ...disturbance }) {
   const random = randoms(20);
-  const curves = families.flatMap((family) => Array.from({ length: family.curves.count }, (_, curve) => ({ family, curve })));
+  const curves = families.flatMap((family) =>
+    Array.from({ length: family.curves.count }, (_, curve) => ({ family, curve })),
+  );
   const [ranks, times] = [[], []];
   let [longest, alone] = [0, 0];
   for (let n = 0; n < tries; n += 1) {
@@ -126,8 +159,15 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
     const own = curvePoints(family, curve);
     const from = closed ? random() : random() * (1 - part);
     const points = part < 1 ? portion(own, closed, from, from + part, 300).points : own;
-    const shape = askedShape(disturbed(points, closed && part === 1, random, disturbance), closed && part === 1);
-    const { value, longest: step, whole } = finished(searching(indexes, shape, { part: part < 1, least: 0.15 }));
+    const shape = askedShape(
+      disturbed(points, closed && part === 1, random, disturbance),
+      closed && part === 1,
+    );
+    const {
+      value,
+      longest: step,
+      whole,
+    } = finished(searching(indexes, shape, { part: part < 1, least: 0.15 }));
     const name = `${family.id}:${curveKey(family, curve)}`;
     // The same curve is drawn by cognates, and by families that overlap: what is as near shares its place.
     const at = value.findIndex((one) => one.name === name);
@@ -138,7 +178,9 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
   }
   times.sort((a, b) => a - b);
   const [first, five] = [1, 5].map((most) => ranks.filter((rank) => rank <= most).length);
-  console.log(`${label}: ${alone} first, ${first} with what is as near, ${five} among five, of ${tries}; ${Math.round(times[tries >> 1])} ms, at most ${Math.round(times.at(-1))}, the longest step ${Math.round(longest)}`);
+  console.log(
+    `${label}: ${alone} first, ${first} with what is as near, ${five} among five, of ${tries}; ${Math.round(times[tries >> 1])} ms, at most ${Math.round(times.at(-1))}, the longest step ${Math.round(longest)}`,
+  );
   return { first: first / tries, five: five / tries };
 }
 
@@ -152,7 +194,13 @@ for (const folder of process.argv.slice(2)) {
   const tries = 100;
   const whole = trial(indexes, families, { label: "whole", tries, part: 1, count: 150, noise: 0 });
   assert.ok(whole.first >= 0.97 && whole.five === 1, "whole curves come first");
-  const noised = trial(indexes, families, { label: "whole, 1 % of noise", tries, part: 1, count: 200, noise: 0.01 });
+  const noised = trial(indexes, families, {
+    label: "whole, 1 % of noise",
+    tries,
+    part: 1,
+    count: 200,
+    noise: 0.01,
+  });
   // Neighbours in a dense atlas differ by less than such noise hides.
   assert.ok(noised.first >= 0.85 && noised.five >= 0.95, "noised curves come first");
   const third = trial(indexes, families, { label: "a third", tries, part: 1 / 3, count: 80, noise: 0 });

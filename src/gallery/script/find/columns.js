@@ -4,7 +4,14 @@ import { NO_WORD } from "../data/family.js";
 import { DERIVED } from "./table.js";
 
 const FIRST_WORDS = ["class", "symmetric", "turn"];
-const FIRST_NUMBERS = ["mu_worst_deg", "straight_length", "straight_tolerance", "straight_share", "length", "time_ratio"];
+const FIRST_NUMBERS = [
+  "mu_worst_deg",
+  "straight_length",
+  "straight_tolerance",
+  "straight_share",
+  "length",
+  "time_ratio",
+];
 const LATER_WORDS = ["type", "shortest", "symmetry"];
 
 /**
@@ -24,11 +31,15 @@ export function columnsOf(table, measures, kept = new Set()) {
     ...FIRST_NUMBERS.slice(0, 1).map(column("first", "numbers")),
     ...FIRST_WORDS.map(column("first", "words")),
     ...FIRST_NUMBERS.slice(1).map(column("first", "numbers")),
-    ...[...LATER_WORDS, ...words.filter((name) => ![...FIRST_WORDS, ...LATER_WORDS].includes(name))].map(column("more", "words")),
+    ...[...LATER_WORDS, ...words.filter((name) => ![...FIRST_WORDS, ...LATER_WORDS].includes(name))].map(
+      column("more", "words"),
+    ),
     ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
     ...parameters.map(column("parameters", "numbers")),
   ];
-  return listed.filter(({ name, kind }) => kept.has(name) || (kind === "words" ? hasTwoWords : hasTwoNumbers)(table, name));
+  return listed.filter(
+    ({ name, kind }) => kept.has(name) || (kind === "words" ? hasTwoWords : hasTwoNumbers)(table, name),
+  );
 }
 
 function hasTwoWords(table, name) {

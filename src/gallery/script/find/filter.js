@@ -28,14 +28,17 @@ export class Filters {
     if (filter instanceof Set) {
       const { values, codes } = this.table.words(name);
       const passes = new Uint8Array(256);
-      values.forEach((word, code) => { passes[code] = filter.has(word) ? 1 : 0; });
+      values.forEach((word, code) => {
+        passes[code] = filter.has(word) ? 1 : 0;
+      });
       for (let row = 0; row < out.length; row += 1) out[row] = 1 - passes[codes[row]];
       return out;
     }
     const [low, high] = [filter.low ?? -Infinity, filter.high ?? Infinity];
     const values = this.table.numbers(name);
     // A comparison with a missing number is false.
-    for (let row = 0; row < out.length; row += 1) out[row] = values[row] >= low && values[row] <= high ? 0 : 1;
+    for (let row = 0; row < out.length; row += 1)
+      out[row] = values[row] >= low && values[row] <= high ? 0 : 1;
     return out;
   }
 

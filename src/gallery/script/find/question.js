@@ -35,7 +35,10 @@ export function queryOf({ families, filters, sort, show }) {
   const query = new Map();
   if (families) query.set("family", families.join(","));
   for (const [name, filter] of filters) {
-    query.set(name, filter instanceof Set ? [...filter].join(",") : `${filter.low ?? ""}..${filter.high ?? ""}`);
+    query.set(
+      name,
+      filter instanceof Set ? [...filter].join(",") : `${filter.low ?? ""}..${filter.high ?? ""}`,
+    );
   }
   if (sort.name) query.set("sort", `${sort.down ? "-" : ""}${sort.name}`);
   if (show === "table") query.set("show", "table");

@@ -6,7 +6,8 @@ import { NO_WORD, curveKey } from "../data/family.js";
 export const DERIVED = {
   mu_worst_deg: {
     unit: "deg",
-    definition: "how far the transmission angle stays from 0 and 180 all round: the lesser of its least and 180 less its greatest",
+    definition:
+      "how far the transmission angle stays from 0 and 180 all round: the lesser of its least and 180 less its greatest",
     of: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
   },
   straight_tolerance: {
@@ -17,7 +18,9 @@ export const DERIVED = {
   straight_share: {
     unit: "",
     definition: "length of the straightest portion, by the greater side of the curve's box",
-    of: (at) => at("straight_length") / Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
+    of: (at) =>
+      at("straight_length") /
+      Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
   },
 };
 
@@ -34,7 +37,8 @@ export class CurveTable {
     this.known = new Map();
     let row = 0;
     families.forEach(({ curves }, k) => {
-      for (let curve = 0; curve < curves.count; curve += 1, row += 1) [this.family[row], this.curve[row]] = [k, curve];
+      for (let curve = 0; curve < curves.count; curve += 1, row += 1)
+        [this.family[row], this.curve[row]] = [k, curve];
     });
   }
 
@@ -61,7 +65,8 @@ export class CurveTable {
     let row = 0;
     for (const family of this.families) {
       const value = own(family);
-      for (let curve = 0; curve < family.curves.count; curve += 1, row += 1) if (value) out[row] = value(curve);
+      for (let curve = 0; curve < family.curves.count; curve += 1, row += 1)
+        if (value) out[row] = value(curve);
     }
     return out;
   }
@@ -78,7 +83,8 @@ export class CurveTable {
     if (name === "symmetric") {
       const { codes: own } = this.words("symmetry");
       const measures = this.families.map(({ curves }) => "symmetry" in curves.words);
-      for (let row = 0; row < this.count; row += 1) if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
+      for (let row = 0; row < this.count; row += 1)
+        if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
       return { values: SYMMETRIC, codes };
     }
     if (name === "turn") {
@@ -90,7 +96,9 @@ export class CurveTable {
     let row = 0;
     for (const { curves } of this.families) {
       const own = curves.words[name];
-      const renamed = own?.values.map((word) => (values.includes(word) ? values.indexOf(word) : values.push(word) - 1));
+      const renamed = own?.values.map((word) =>
+        values.includes(word) ? values.indexOf(word) : values.push(word) - 1,
+      );
       for (let curve = 0; curve < curves.count; curve += 1, row += 1) {
         if (own && own.codes[curve] !== NO_WORD) codes[row] = renamed[own.codes[curve]];
       }

@@ -23,7 +23,8 @@ export function askedShape(points, closed) {
 
 /** The even points of a shape; `open`: also of a closed one from its first point round to it again. */
 export function evenShape(shape, count, open = false) {
-  if (!(shape.closed && open)) return { points: resampled(shape.outline, shape.closed, count), closed: shape.closed };
+  if (!(shape.closed && open))
+    return { points: resampled(shape.outline, shape.closed, count), closed: shape.closed };
   const round = Float64Array.from([...shape.outline, shape.outline[0], shape.outline[1]]);
   return { points: resampled(round, false, count), closed: false };
 }

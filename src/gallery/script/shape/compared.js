@@ -24,9 +24,22 @@ export function wholeFit(index, curve, asked, seed, care) {
   const even = resampled(outlineOf(index, curve, care), closed, count);
   const seen = passed(even, seed, closed);
   const span = closed ? count : count - 1;
-  const fit = closestFit(closed ? asked.closed : asked.open, seen, { start: seed.start * count, span, whole: true, rounds, reach });
+  const fit = closestFit(closed ? asked.closed : asked.open, seen, {
+    start: seed.start * count,
+    span,
+    whole: true,
+    rounds,
+    reach,
+  });
   const { rms, greatest, similarity } = fit;
-  return { rms, greatest, similarity: composed(similarity, seen.frame), from: 0, to: 1, start: closed ? fit.start / count : 0 };
+  return {
+    rms,
+    greatest,
+    similarity: composed(similarity, seen.frame),
+    from: 0,
+    to: 1,
+    start: closed ? fit.start / count : 0,
+  };
 }
 
 /** Fits a portion of a curve to a shape, likewise; the seed has a `span`, and `start` is in the curve's own direction. */

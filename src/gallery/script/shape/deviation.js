@@ -12,7 +12,10 @@ export function deviationBetween(first, second) {
   const one = distancesTo(second, resampled(first.points, first.closed, COMPARED_POINTS));
   const other = distancesTo(first, resampled(second.points, second.closed, COMPARED_POINTS));
   const extent = extentOf(first.points) || 1;
-  return { rms: Math.sqrt((one.mean + other.mean) / 2) / extent, greatest: Math.sqrt(Math.max(one.most, other.most)) / extent };
+  return {
+    rms: Math.sqrt((one.mean + other.mean) / 2) / extent,
+    greatest: Math.sqrt(Math.max(one.most, other.most)) / extent,
+  };
 }
 
 function distancesTo({ points, closed }, places) {

@@ -38,10 +38,11 @@ export function decodedShape(word) {
  */
 export function simplified(points, closed, most) {
   const kept = Array.from({ length: points.length / 2 }, (_, k) => k);
-  const area = (a, b, c) => Math.abs(
-    (points[2 * b] - points[2 * a]) * (points[2 * c + 1] - points[2 * a + 1])
-    - (points[2 * c] - points[2 * a]) * (points[2 * b + 1] - points[2 * a + 1]),
-  );
+  const area = (a, b, c) =>
+    Math.abs(
+      (points[2 * b] - points[2 * a]) * (points[2 * c + 1] - points[2 * a + 1]) -
+        (points[2 * c] - points[2 * a]) * (points[2 * b + 1] - points[2 * a + 1]),
+    );
   // A path of very many points is thinned evenly first: the choice below takes the square of their number.
   while (kept.length > 2000) for (let k = kept.length - 2; k > 0; k -= 2) kept.splice(k, 1);
   const at = (k) => kept[(k + kept.length) % kept.length];

@@ -22,7 +22,11 @@ export function closestFit(asked, curve, { start, span, whole, rounds, reach }) 
     match.pair(placed(similarity, curve.points));
     const next = fittedToLines(match.from.subarray(0, match.used), match.to, match.along, SLIP);
     if (!next) break;
-    const moved = Math.abs(next.re - similarity.re) + Math.abs(next.im - similarity.im) + Math.abs(next.x - similarity.x) + Math.abs(next.y - similarity.y);
+    const moved =
+      Math.abs(next.re - similarity.re) +
+      Math.abs(next.im - similarity.im) +
+      Math.abs(next.x - similarity.x) +
+      Math.abs(next.y - similarity.y);
     similarity = next;
     if (moved < 1e-5) break;
   }
@@ -37,9 +41,16 @@ class Matching {
     this.count = asked.points.length / 2;
     this.steps = asked.closed ? this.count : this.count - 1;
     this.places = curve.points.length / 2;
-    this.place = Float64Array.from({ length: this.count }, (_, n) => given.start + (given.span * n) / this.steps);
+    this.place = Float64Array.from(
+      { length: this.count },
+      (_, n) => given.start + (given.span * n) / this.steps,
+    );
     const room = 2 * (this.count + Math.ceil(2 * this.places) + 2);
-    [this.from, this.to, this.along] = [new Float64Array(room), new Float64Array(room), new Float64Array(room)];
+    [this.from, this.to, this.along] = [
+      new Float64Array(room),
+      new Float64Array(room),
+      new Float64Array(room),
+    ];
     this.foot = { place: 0, square: 0, x: 0, y: 0, ex: 0, ey: 0 };
     this.used = 0;
   }
@@ -68,7 +79,15 @@ class Matching {
     this.used = this.forth = this.back = this.forthGreatest = this.backGreatest = 0;
     const near = Math.max(2, Math.ceil(this.reach * span));
     for (let n = 0; n < this.count; n += 1) {
-      nearest(moved, curve.closed, start + (span * n) / steps, near, asked.points[2 * n], asked.points[2 * n + 1], foot);
+      nearest(
+        moved,
+        curve.closed,
+        start + (span * n) / steps,
+        near,
+        asked.points[2 * n],
+        asked.points[2 * n + 1],
+        foot,
+      );
       this.place[n] = foot.place;
       this.pointAt(foot.place, this.from, this.used);
       this.keep(asked.points[2 * n], asked.points[2 * n + 1]);

@@ -6,10 +6,12 @@ export function cleaned(points, closed) {
   for (let k = 0; k + 1 < points.length; k += 2) {
     const [x, y] = [points[k], points[k + 1]];
     const n = kept.length;
-    if (Number.isFinite(x) && Number.isFinite(y) && !(n && kept[n - 2] === x && kept[n - 1] === y)) kept.push(x, y);
+    if (Number.isFinite(x) && Number.isFinite(y) && !(n && kept[n - 2] === x && kept[n - 1] === y))
+      kept.push(x, y);
   }
   if (closed) {
-    while (kept.length > 2 && kept[0] === kept[kept.length - 2] && kept[1] === kept[kept.length - 1]) kept.length -= 2;
+    while (kept.length > 2 && kept[0] === kept[kept.length - 2] && kept[1] === kept[kept.length - 1])
+      kept.length -= 2;
   }
   return Float64Array.from(kept);
 }

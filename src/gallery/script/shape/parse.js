@@ -8,9 +8,12 @@ import { subpathsOf } from "./path.js";
 export function shapeIn(text) {
   const plain = text.trim();
   if (!plain) throw new Error("There is nothing to read.");
-  const found = /<(svg|path|poly)/i.test(plain) ? svgShape(plain)
-    : /^m[\s,.\d+-]/i.test(plain) ? pathShape(plain, 1)
-      : /^[[{]/.test(plain) ? jsonShape(plain)
+  const found = /<(svg|path|poly)/i.test(plain)
+    ? svgShape(plain)
+    : /^m[\s,.\d+-]/i.test(plain)
+      ? pathShape(plain, 1)
+      : /^[[{]/.test(plain)
+        ? jsonShape(plain)
         : tableShape(plain);
   if (!hasLength(found.points)) throw new Error("Fewer than two different points could be read.");
   return found;
@@ -18,9 +21,12 @@ export function shapeIn(text) {
 
 /** The longest of the paths of an SVG; its coordinates point down. */
 function svgShape(text) {
-  const data = [...text.matchAll(/<path\b[^>]*?\sd\s*=\s*("([^"]*)"|'([^']*)')/gi)].map((match) => match[2] ?? match[3]);
+  const data = [...text.matchAll(/<path\b[^>]*?\sd\s*=\s*("([^"]*)"|'([^']*)')/gi)].map(
+    (match) => match[2] ?? match[3],
+  );
   const polylines = [...text.matchAll(/<poly(line|gon)\b[^>]*?\spoints\s*=\s*("([^"]*)"|'([^']*)')/gi)];
-  for (const match of polylines) data.push(`M${match[3] ?? match[4]}${match[1].toLowerCase() === "gon" ? "Z" : ""}`);
+  for (const match of polylines)
+    data.push(`M${match[3] ?? match[4]}${match[1].toLowerCase() === "gon" ? "Z" : ""}`);
   if (!data.length) throw new Error("The SVG has no path, polyline or polygon.");
   return pathShape(data.join(" "), data.length);
 }
@@ -46,7 +52,10 @@ function jsonShape(text) {
     throw new Error("The JSON cannot be read.");
   }
   const points = pointsWithin(value);
-  if (!points) throw new Error("The JSON has no list of points: [[x, y], …], [{ \"x\": …, \"y\": … }, …] or [x, y, x, y, …].");
+  if (!points)
+    throw new Error(
+      'The JSON has no list of points: [[x, y], …], [{ "x": …, "y": … }, …] or [x, y, x, y, …].',
+    );
   const closed = typeof value.closed === "boolean" ? value.closed : looksClosed(points);
   return { points, closed, said: `${points.length / 2} points of JSON` };
 }
@@ -56,12 +65,16 @@ function pointsWithin(value) {
   if (Array.isArray(value)) {
     const isPair = (one) => Array.isArray(one) && one.length >= 2 && one.slice(0, 2).every(Number.isFinite);
     const isPoint = (one) => Number.isFinite(one?.x) && Number.isFinite(one?.y);
-    if (value.length > 1 && value.every(isPair)) return Float64Array.from(value.flatMap((one) => one.slice(0, 2)));
-    if (value.length > 1 && value.every(isPoint)) return Float64Array.from(value.flatMap(({ x, y }) => [x, y]));
-    if (value.length > 3 && value.every(Number.isFinite)) return Float64Array.from(value.slice(0, 2 * Math.floor(value.length / 2)));
+    if (value.length > 1 && value.every(isPair))
+      return Float64Array.from(value.flatMap((one) => one.slice(0, 2)));
+    if (value.length > 1 && value.every(isPoint))
+      return Float64Array.from(value.flatMap(({ x, y }) => [x, y]));
+    if (value.length > 3 && value.every(Number.isFinite))
+      return Float64Array.from(value.slice(0, 2 * Math.floor(value.length / 2)));
   }
   if (value === null || typeof value !== "object") return null;
-  if (Array.isArray(value.x) && Array.isArray(value.y)) return Float64Array.from(value.x.flatMap((x, k) => [x, value.y[k] ?? NaN]));
+  if (Array.isArray(value.x) && Array.isArray(value.y))
+    return Float64Array.from(value.x.flatMap((x, k) => [x, value.y[k] ?? NaN]));
   for (const one of Object.values(value)) {
     const points = pointsWithin(one);
     if (points) return points;
@@ -71,23 +84,37 @@ function pointsWithin(value) {
 
 /** Numbers in lines: two columns, or those headed x and y; of several curves the first. */
 function tableShape(text) {
-  const lines = text.split(/\r?\n/).map((line) => line.replace(/#.*$/, "").trim()).filter(Boolean);
+  const lines = text
+    .split(/\r?\n/)
+    .map((line) => line.replace(/#.*$/, "").trim())
+    .filter(Boolean);
   const cut = cutterOf(lines);
   let rows = lines.map(cut);
   const isHead = (row) => row.some((word) => word !== "" && Number.isNaN(Number(word)));
   const head = isHead(rows[0]) ? rows[0].map((word) => word.replace(/^"|"$/g, "").toLowerCase()) : null;
-  rows = rows.filter((row) => !isHead(row)).map((row) => row.map((word) => (word === "" ? NaN : Number(word))));
+  rows = rows
+    .filter((row) => !isHead(row))
+    .map((row) => row.map((word) => (word === "" ? NaN : Number(word))));
   if (!head && rows.length <= 2 && rows.flat().length > 4) return listed(rows.flat());
-  const [x, y] = head && head.includes("x") && head.includes("y") ? [head.indexOf("x"), head.indexOf("y")] : [0, 1];
+  const [x, y] =
+    head && head.includes("x") && head.includes("y") ? [head.indexOf("x"), head.indexOf("y")] : [0, 1];
   const { kept, curves } = firstCurve(rows, head);
   const points = Float64Array.from(kept.flatMap((row) => [row[x], row[y]]).map((value) => value ?? NaN));
-  const finite = points.filter((_, k) => Number.isFinite(points[k - (k % 2)]) && Number.isFinite(points[k - (k % 2) + 1]));
+  const finite = points.filter(
+    (_, k) => Number.isFinite(points[k - (k % 2)]) && Number.isFinite(points[k - (k % 2) + 1]),
+  );
   const first = curves > 1 ? `, the first of ${curves} curves` : "";
-  return { points: finite, closed: finite.length >= 4 && looksClosed(finite), said: `${finite.length / 2} points${first}` };
+  return {
+    points: finite,
+    closed: finite.length >= 4 && looksClosed(finite),
+    said: `${finite.length / 2} points${first}`,
+  };
 }
 
 function listed(numbers) {
-  const points = Float64Array.from(numbers.slice(0, 2 * Math.floor(numbers.length / 2)).filter(Number.isFinite));
+  const points = Float64Array.from(
+    numbers.slice(0, 2 * Math.floor(numbers.length / 2)).filter(Number.isFinite),
+  );
   return { points, closed: looksClosed(points), said: `${points.length / 2} points` };
 }
 
@@ -95,7 +122,8 @@ function listed(numbers) {
 function cutterOf(lines) {
   const most = lines.slice(0, 20).join("\n");
   if (most.includes(";")) return (line) => line.split(";").map((word) => word.trim().replace(",", "."));
-  if (lines.slice(0, 20).every((line) => line.includes("\t"))) return (line) => line.split("\t").map((word) => word.trim());
+  if (lines.slice(0, 20).every((line) => line.includes("\t")))
+    return (line) => line.split("\t").map((word) => word.trim());
   // "1,2 3,4" are two points in a line; "1, 2" is one.
   if (most.includes(",")) return (line) => line.split(/\s*,\s*|\s+/).map((word) => word.trim());
   return (line) => line.split(/\s+/);

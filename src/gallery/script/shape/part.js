@@ -18,11 +18,15 @@ export function* likelyParts(index, shape, { mirror, least, most }) {
   const own = windowOf(shape);
   if (!own) return [];
   const best = bestWindows(index.count);
-  for (let s = 0; s < SPANS.length && (s === 0 || SPANS[s - 1] > least); s += 1) yield* scan(index, s, own, mirror, best);
+  for (let s = 0; s < SPANS.length && (s === 0 || SPANS[s - 1] > least); s += 1)
+    yield* scan(index, s, own, mirror, best);
   const closer = new Shortlist(CLOSER);
   const settler = new Settler(index);
   const settle = (curve, seeds, rounds) => {
-    const moved = seeds.map((seed) => ({ ...seed, ...settler.settled(curve, own.ways[seed.way], seed, 0.9 * least, rounds) }));
+    const moved = seeds.map((seed) => ({
+      ...seed,
+      ...settler.settled(curve, own.ways[seed.way], seed, 0.9 * least, rounds),
+    }));
     return moved.sort((a, b) => b.value - a.value);
   };
   for (let curve = 0; curve < index.count; curve += 1) {
@@ -48,20 +52,29 @@ function windowOf(shape) {
   const im = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n + 1]);
   if (!normalised(re, im)) return null;
   const ends = evenShape(shape, CHORDS + 1, true).points;
-  const chords = Uint8Array.from({ length: CHORDS }, (_, k) => (
-    directionOf(ends[2 * k + 2] - ends[2 * k], ends[2 * k + 3] - ends[2 * k + 1])
-  ));
+  const chords = Uint8Array.from({ length: CHORDS }, (_, k) =>
+    directionOf(ends[2 * k + 2] - ends[2 * k], ends[2 * k + 3] - ends[2 * k + 1]),
+  );
   const back = (values) => values.slice().reverse();
   const mirrored = im.map((value) => -value);
   // 0 as it is, 1 the other way, 2 and 3 their mirror images.
-  const ways = [{ re, im }, { re: back(re), im: back(im) }, { re, im: mirrored }, { re: back(re), im: back(mirrored) }];
+  const ways = [
+    { re, im },
+    { re: back(re), im: back(im) },
+    { re, im: mirrored },
+    { re: back(re), im: back(mirrored) },
+  ];
   return { chords, ways };
 }
 
 /** For each half of each curve and each way the window whose chords differ least in direction from the shape's, once turned. */
 function bestWindows(count) {
   const slots = SLOTS * count;
-  return { difference: new Uint8Array(slots).fill(NOT_LIKE), span: new Uint8Array(slots), window: new Uint16Array(slots) };
+  return {
+    difference: new Uint8Array(slots).fill(NOT_LIKE),
+    span: new Uint8Array(slots),
+    window: new Uint16Array(slots),
+  };
 }
 
 // The sum of differences of seven chords, in 256ths of a turn, at which a window is not like a shape at all.
@@ -117,13 +130,17 @@ function scanCurve(index, curve, s, given, best) {
     const [p, q, r] = [third - windows[from], fourth - third, windows[to] - fourth];
     if (same < OTHER_CHORD) {
       const middle = away[(q - inner) & 255];
-      if (middle + away[(r - late) & 255] + away[(p + q - early) & 255] < difference[at]) keepNearer(windows, base, from - base, given, 0, best, at, s);
-      if (mirror && middle + away[(p - late) & 255] + away[(q + r - early) & 255] < difference[at + 3]) keepNearer(windows, base, from - base, given, 3, best, at, s);
+      if (middle + away[(r - late) & 255] + away[(p + q - early) & 255] < difference[at])
+        keepNearer(windows, base, from - base, given, 0, best, at, s);
+      if (mirror && middle + away[(p - late) & 255] + away[(q + r - early) & 255] < difference[at + 3])
+        keepNearer(windows, base, from - base, given, 3, best, at, s);
     }
     if (other < OTHER_CHORD) {
       const middle = away[(q + inner) & 255];
-      if (middle + away[(p + late) & 255] + away[(q + r + early) & 255] < difference[at + 1]) keepNearer(windows, base, from - base, given, 1, best, at, s);
-      if (mirror && middle + away[(r + late) & 255] + away[(p + q + early) & 255] < difference[at + 2]) keepNearer(windows, base, from - base, given, 2, best, at, s);
+      if (middle + away[(p + late) & 255] + away[(q + r + early) & 255] < difference[at + 1])
+        keepNearer(windows, base, from - base, given, 1, best, at, s);
+      if (mirror && middle + away[(r + late) & 255] + away[(p + q + early) & 255] < difference[at + 2])
+        keepNearer(windows, base, from - base, given, 2, best, at, s);
     }
   }
 }
@@ -165,7 +182,13 @@ function seedsOf(index, curve, own, best) {
     const way = at % 4;
     if (best.difference[at] >= NOT_LIKE) continue;
     const span = SPANS[best.span[at]];
-    const seed = { way, mirror: way >= 2, reversed: way % 2 === 1, span, start: best.window[at] / windowsOf(span) };
+    const seed = {
+      way,
+      mirror: way >= 2,
+      reversed: way % 2 === 1,
+      span,
+      start: best.window[at] / windowsOf(span),
+    };
     windowAt(index, curve, seed.start, span, re, im);
     seeds.push({ ...seed, value: correlation(own.ways[way], re, im) });
   }

@@ -36,7 +36,9 @@ class Pen {
   }
 
   finished() {
-    return this.paths.filter(({ points }) => points.length >= 4).map(({ points, closed }) => ({ points: Float64Array.from(points), closed }));
+    return this.paths
+      .filter(({ points }) => points.length >= 4)
+      .map(({ points, closed }) => ({ points: Float64Array.from(points), closed }));
   }
 
   /** Draws a command with its numbers, as often as they suffice; false where they do not. */
@@ -109,7 +111,17 @@ class Pen {
   /** An arc of an ellipse by its ends, as the appendix of SVG 1.1, F.6, has it. */
   arc([rx, ry, turn, large, sweep, endX, endY], [ax, ay]) {
     const [x, y] = [endX + ax, endY + ay];
-    const { a, b, cx, cy, from, across, cos, sin } = arcCentre(this.x, this.y, x, y, rx, ry, turn, large, sweep);
+    const { a, b, cx, cy, from, across, cos, sin } = arcCentre(
+      this.x,
+      this.y,
+      x,
+      y,
+      rx,
+      ry,
+      turn,
+      large,
+      sweep,
+    );
     this.control = null;
     if (!(a > 0 && b > 0)) {
       this.to(x, y);
@@ -149,5 +161,14 @@ function arcCentre(x0, y0, x1, y1, rx, ry, turn, large, sweep) {
   let across = Math.atan2((-v - q) / b, (-u - p) / a) - from;
   if (sweep && across < 0) across += 2 * Math.PI;
   if (!sweep && across > 0) across -= 2 * Math.PI;
-  return { a, b, cx: cos * p - sin * q + (x0 + x1) / 2, cy: sin * p + cos * q + (y0 + y1) / 2, from, across, cos, sin };
+  return {
+    a,
+    b,
+    cx: cos * p - sin * q + (x0 + x1) / 2,
+    cy: sin * p + cos * q + (y0 + y1) / 2,
+    from,
+    across,
+    cos,
+    sin,
+  };
 }

@@ -60,7 +60,10 @@ function* roughlyCompared(likely, outlines) {
 /** A shape in even points, as it is compared with closed curves and with open ones. */
 function outlinesOf(shape, part, count) {
   if (part) return { open: evenShape(shape, count, true) };
-  return { open: evenShape(shape, count), closed: evenShape(shape.closed ? shape : thereAndBack(shape), count) };
+  return {
+    open: evenShape(shape, count),
+    closed: evenShape(shape.closed ? shape : thereAndBack(shape), count),
+  };
 }
 
 /** The best fit of each curve, of the `most` curves with the best. */

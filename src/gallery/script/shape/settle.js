@@ -6,7 +6,10 @@ import { WINDOW, windowAt } from "./indexing.js";
 export class Settler {
   constructor(index) {
     this.index = index;
-    [this.w, this.u, this.v, this.left] = [0, 1, 2, 3].map(() => ({ re: new Float64Array(WINDOW), im: new Float64Array(WINDOW) }));
+    [this.w, this.u, this.v, this.left] = [0, 1, 2, 3].map(() => ({
+      re: new Float64Array(WINDOW),
+      im: new Float64Array(WINDOW),
+    }));
     [this.x, this.y] = [0, 0];
     [this.first, this.last] = [0, 0];
   }

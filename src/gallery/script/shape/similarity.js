@@ -94,9 +94,11 @@ export function fittedToLines(from, to, along, slip) {
 function solvedFour(rows) {
   for (let i = 0; i < 4; i += 1) {
     let pivot = i;
-    for (let k = i + 1; k < 4; k += 1) if (Math.abs(rows[5 * k + i]) > Math.abs(rows[5 * pivot + i])) pivot = k;
+    for (let k = i + 1; k < 4; k += 1)
+      if (Math.abs(rows[5 * k + i]) > Math.abs(rows[5 * pivot + i])) pivot = k;
     if (!(Math.abs(rows[5 * pivot + i]) > 1e-12)) return null;
-    for (let c = 0; c < 5; c += 1) [rows[5 * i + c], rows[5 * pivot + c]] = [rows[5 * pivot + c], rows[5 * i + c]];
+    for (let c = 0; c < 5; c += 1)
+      [rows[5 * i + c], rows[5 * pivot + c]] = [rows[5 * pivot + c], rows[5 * i + c]];
     for (let k = 0; k < 4; k += 1) {
       if (k === i) continue;
       const factor = rows[5 * k + i] / rows[5 * i + i];

@@ -44,7 +44,11 @@ function* likelyClosed(index, shape, ways, list) {
   }
   const most = straight.map((value, curve) => Math.max(value, turned[curve]));
   order.sort((a, b) => most[b] - most[a]);
-  const work = { re: new Float64Array(SPECTRUM), im: new Float64Array(SPECTRUM), square: new Float64Array(SPECTRUM) };
+  const work = {
+    re: new Float64Array(SPECTRUM),
+    im: new Float64Array(SPECTRUM),
+    square: new Float64Array(SPECTRUM),
+  };
   for (let k = 0; k < order.length; k += 1) {
     const curve = order[k];
     // No curve further on in this order can be more like the shape than its bound.

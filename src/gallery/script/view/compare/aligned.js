@@ -19,7 +19,8 @@ export function laidOver(first, one, align) {
   if (align === "similar" || align === "mirrored") {
     const shape = askedShape(base, baseClosed);
     const found = shape && searched(shape, one, align === "mirrored");
-    if (found) return { points: placed(found.similarity, own), closed, rms: found.rms, greatest: found.greatest };
+    if (found)
+      return { points: placed(found.similarity, own), closed, rms: found.rms, greatest: found.greatest };
   }
   const points = placed(boxed(base, own, align), own);
   return { points, closed, ...deviationBetween({ points: base, closed: baseClosed }, { points, closed }) };

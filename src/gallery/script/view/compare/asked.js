@@ -24,5 +24,9 @@ export function comparisonOf(query) {
 
 /** The query of it. */
 export function comparisonQuery({ view, align }, names) {
-  return { c: names.join(","), view: view === "over" ? "over" : null, align: align === "similar" ? null : align };
+  return {
+    c: names.join(","),
+    view: view === "over" ? "over" : null,
+    align: align === "similar" ? null : align,
+  };
 }

@@ -6,14 +6,19 @@ import { measureInWords, measureText } from "../page-words.js";
 
 /** A table of what is known of curves, [{ family, curve, name }]: a column for each, differing rows first. */
 export function factsTable(curves, measures, labels) {
-  const rows = [...parameterRows(curves), ...measureRows(curves, measures)].filter(({ texts }) => texts.some((text) => text !== "–"));
-  for (const row of rows) row.differs = row.texts.some((text) => text !== row.texts[0]);
-  const line = ({ label, texts, differs }) => h(
-    "tr",
-    { class: differs ? "differs" : "same" },
-    h("th", { scope: "row" }, label),
-    texts.map((text, k) => h("td", { class: differs && text !== texts[0] ? "other" : null, "data-column": k + 1 }, text)),
+  const rows = [...parameterRows(curves), ...measureRows(curves, measures)].filter(({ texts }) =>
+    texts.some((text) => text !== "–"),
   );
+  for (const row of rows) row.differs = row.texts.some((text) => text !== row.texts[0]);
+  const line = ({ label, texts, differs }) =>
+    h(
+      "tr",
+      { class: differs ? "differs" : "same" },
+      h("th", { scope: "row" }, label),
+      texts.map((text, k) =>
+        h("td", { class: differs && text !== texts[0] ? "other" : null, "data-column": k + 1 }, text),
+      ),
+    );
   const same = rows.filter(({ differs }) => !differs);
   return h(
     "div",
@@ -22,9 +27,29 @@ export function factsTable(curves, measures, labels) {
       "table",
       { class: "figures compared-facts" },
       h("caption", { class: "note" }, "What is not as in the first is in bold."),
-      h("thead", {}, h("tr", {}, h("td", {}), labels.map((label) => h("th", { scope: "col" }, label)))),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          h("td", {}),
+          labels.map((label) => h("th", { scope: "col" }, label)),
+        ),
+      ),
       h("tbody", {}, rows.filter(({ differs }) => differs).map(line)),
-      same.length ? h("tbody", { class: "alike" }, h("tr", {}, h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "The same of all")), same.map(line)) : null,
+      same.length
+        ? h(
+            "tbody",
+            { class: "alike" },
+            h(
+              "tr",
+              {},
+              h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "The same of all"),
+            ),
+            same.map(line),
+          )
+        : null,
     ),
   );
 }
@@ -42,6 +67,8 @@ function parameterRows(curves) {
 function measureRows(curves, measures) {
   return measures.map((measure) => ({
     label: measureInWords(measure.name),
-    texts: curves.map(({ family, curve }) => (measured(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure))),
+    texts: curves.map(({ family, curve }) =>
+      measured(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
+    ),
   }));
 }

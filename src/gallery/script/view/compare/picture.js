@@ -27,14 +27,20 @@ export function overPicture(outlines, label) {
     const at = 2 * Math.floor(((k + 0.5) / outlines.length) * (points.length / 2));
     return s(
       "text",
-      { class: `letter ink-${(k % 5) + 1}`, x: (view.x + view.scale * points[at]).toFixed(1), y: (view.y - view.scale * points[at + 1] - 5).toFixed(1) },
+      {
+        class: `letter ink-${(k % 5) + 1}`,
+        x: (view.x + view.scale * points[at]).toFixed(1),
+        y: (view.y - view.scale * points[at + 1] - 5).toFixed(1),
+      },
       letterOf(k),
     );
   };
   return s(
     "svg",
     { class: "thumbnail over", viewBox: `0 0 ${OVER_WIDE} ${high}`, role: "img", "aria-label": label },
-    outlines.map(({ points, closed }, k) => s("path", { class: strokeOf(k), d: pathThrough(points, closed, view) })),
+    outlines.map(({ points, closed }, k) =>
+      s("path", { class: strokeOf(k), d: pathThrough(points, closed, view) }),
+    ),
     outlines.map(mark),
   );
 }
@@ -43,7 +49,10 @@ export function overPicture(outlines, label) {
 function heightFor(outlines) {
   const side = (part) => {
     const values = outlines.flatMap((points) => Array.from(points).filter((_, k) => k % 2 === part));
-    return values.reduce((most, value) => Math.max(most, value), -Infinity) - values.reduce((least, value) => Math.min(least, value), Infinity);
+    return (
+      values.reduce((most, value) => Math.max(most, value), -Infinity) -
+      values.reduce((least, value) => Math.min(least, value), Infinity)
+    );
   };
   const wanted = (OVER_WIDE * side(1)) / (side(0) || 1) + 40;
   return Math.round(Math.min(Math.max(wanted, OVER_LOW), OVER_HIGH));
@@ -51,5 +60,9 @@ function heightFor(outlines) {
 
 /** A short line as the k-th curve's is. */
 export function strokeSample(k) {
-  return s("svg", { class: "thumbnail sample", width: 44, height: 12, "aria-hidden": "true" }, s("path", { class: strokeOf(k), d: "M2 6H42" }));
+  return s(
+    "svg",
+    { class: "thumbnail sample", width: 44, height: 12, "aria-hidden": "true" },
+    s("path", { class: strokeOf(k), d: "M2 6H42" }),
+  );
 }

@@ -23,7 +23,10 @@ export const compareRoom = {
     return {
       title: "Compare",
       element: room.element,
-      update: (place) => { room.ask(comparisonOf(place.query)); return true; },
+      update: (place) => {
+        room.ask(comparisonOf(place.query));
+        return true;
+      },
       leave: () => room.leave(),
     };
   },
@@ -35,7 +38,9 @@ function keptFocus(element) {
   const held = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
   return () => {
     if (held === null || element.contains(document.activeElement)) return;
-    const again = [...element.querySelectorAll("button, select, a")].find((control) => nameOf(control) === held && !control.disabled);
+    const again = [...element.querySelectorAll("button, select, a")].find(
+      (control) => nameOf(control) === held && !control.disabled,
+    );
     (again ?? element.querySelector("select, button"))?.focus();
   };
 }
@@ -94,7 +99,9 @@ class Comparison {
     const beyond = all.length - curves.length;
     fill(
       this.count,
-      all.length ? `${all.length} pinned` : "Nothing is pinned yet. Pin curves in Find (p), By shape, on a page or on a plate.",
+      all.length
+        ? `${all.length} pinned`
+        : "Nothing is pinned yet. Pin curves in Find (p), By shape, on a page or on a plate.",
       beyond ? `; the first ${MOST_COMPARED} are compared` : "",
       missing.length ? `; not in this atlas: ${missing.join(", ")}` : "",
     );
@@ -104,23 +111,52 @@ class Comparison {
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
     fill(
       this.body,
-      asked.view === "over" && curves.length > 1 ? overPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`) : null,
-      h("ol", { class: asked.view === "over" ? "pinned-list" : "pinned-tiles" }, curves.map((one, k) => this.entry(one, k, curves, laid[k]))),
+      asked.view === "over" && curves.length > 1
+        ? overPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`)
+        : null,
+      h(
+        "ol",
+        { class: asked.view === "over" ? "pinned-list" : "pinned-tiles" },
+        curves.map((one, k) => this.entry(one, k, curves, laid[k])),
+      ),
       curves.length ? factsTable(curves, app.atlas.measures, labels) : null,
     );
   }
 
   controls() {
     const { asked, app } = this;
-    const view = (name, label) => h("button", { type: "button", "aria-pressed": String(asked.view === name), onclick: () => { asked.view = name; this.change(); } }, label);
+    const view = (name, label) =>
+      h(
+        "button",
+        {
+          type: "button",
+          "aria-pressed": String(asked.view === name),
+          onclick: () => {
+            asked.view = name;
+            this.change();
+          },
+        },
+        label,
+      );
     const align = h(
       "select",
-      { id: "compare-align", onchange: (event) => { asked.align = event.target.value; this.change(); } },
+      {
+        id: "compare-align",
+        onchange: (event) => {
+          asked.align = event.target.value;
+          this.change();
+        },
+      },
       Object.entries(ALIGNMENTS).map(([value, label]) => h("option", { value }, label)),
     );
     align.value = asked.align;
     return [
-      h("div", { class: "segments", role: "group", "aria-label": "Show" }, view("side", "Side by side"), view("over", "Over one another")),
+      h(
+        "div",
+        { class: "segments", role: "group", "aria-label": "Show" },
+        view("side", "Side by side"),
+        view("over", "Over one another"),
+      ),
       h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Aligned"), align),
       h("button", { type: "button", class: "quiet end", onclick: () => app.pins.put([]) }, "Unpin all"),
     ];
@@ -128,16 +164,25 @@ class Comparison {
 
   entry({ name, family, curve, key }, k, curves, laid) {
     const { asked, app } = this;
-    const move = (by, label, sign) => h(
-      "button",
-      { type: "button", class: "quiet", disabled: k + by < 0 || k + by >= curves.length, "aria-label": `Move ${letterOf(k)} ${label}`, onclick: () => this.moved(k, by) },
-      sign,
-    );
+    const move = (by, label, sign) =>
+      h(
+        "button",
+        {
+          type: "button",
+          class: "quiet",
+          disabled: k + by < 0 || k + by >= curves.length,
+          "aria-label": `Move ${letterOf(k)} ${label}`,
+          onclick: () => this.moved(k, by),
+        },
+        sign,
+      );
     const percent = (value) => `${(100 * value).toFixed(2)} %`;
     return h(
       "li",
       {},
-      asked.view === "over" ? strokeSample(k) : h("div", { class: "leaf" }, thumbnail(family, [curve], { width: 300, height: 220 })),
+      asked.view === "over"
+        ? strokeSample(k)
+        : h("div", { class: "leaf" }, thumbnail(family, [curve], { width: 300, height: 220 })),
       h(
         "div",
         { class: "named" },
@@ -145,14 +190,29 @@ class Comparison {
         " ",
         h("a", { href: address([family.id, "curve", key]) }, `${family.title}, ${key}`),
         h("p", { class: "caption" }, captionInType(family.cells.caption[family.curves.cell[curve]])),
-        laid && k > 0 ? h("p", { class: "deviation" }, `${percent(laid.rms)} rms from A, ${percent(laid.greatest)} at most`) : null,
+        laid && k > 0
+          ? h(
+              "p",
+              { class: "deviation" },
+              `${percent(laid.rms)} rms from A, ${percent(laid.greatest)} at most`,
+            )
+          : null,
       ),
       h(
         "div",
         { class: "acts" },
         move(-1, "forward", "←"),
         move(1, "back", "→"),
-        h("button", { type: "button", class: "quiet", onclick: () => app.pins.toggle(name), "aria-label": `Unpin ${letterOf(k)}` }, "Unpin"),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "quiet",
+            onclick: () => app.pins.toggle(name),
+            "aria-label": `Unpin ${letterOf(k)}`,
+          },
+          "Unpin",
+        ),
       ),
     );
   }

@@ -11,12 +11,22 @@ export function familyChoice(atlas, asked, loaded, changed) {
   const bytes = withCurves.reduce((sum, family) => sum + (family.bytes ?? 0), 0);
   const tick = (id) => {
     if (!chosen.delete(id)) chosen.add(id);
-    changed(chosen.size === withCurves.length ? null : withCurves.map((family) => family.id).filter((one) => chosen.has(one)));
+    changed(
+      chosen.size === withCurves.length
+        ? null
+        : withCurves.map((family) => family.id).filter((one) => chosen.has(one)),
+    );
   };
   const box = (family) => {
     const input = h("input", { type: "checkbox", onchange: () => tick(family.id) });
     input.checked = chosen.has(family.id);
-    return h("label", { class: "check" }, input, h("span", {}, family.title), h("span", { class: "count" }, family.curves));
+    return h(
+      "label",
+      { class: "check" },
+      input,
+      h("span", {}, family.title),
+      h("span", { class: "count" }, family.curves),
+    );
   };
   return h(
     "details",
@@ -25,7 +35,11 @@ export function familyChoice(atlas, asked, loaded, changed) {
     h(
       "div",
       { class: "toolbar" },
-      h("button", { type: "button", class: "quiet", onclick: () => changed(withCurves.map(({ id }) => id)) }, `All (${bytesInWords(bytes)})`),
+      h(
+        "button",
+        { type: "button", class: "quiet", onclick: () => changed(withCurves.map(({ id }) => id)) },
+        `All (${bytesInWords(bytes)})`,
+      ),
       h("button", { type: "button", class: "quiet", onclick: () => changed([]) }, "None"),
     ),
     h("fieldset", { class: "words" }, h("legend", { class: "unseen" }, "Families"), withCurves.map(box)),

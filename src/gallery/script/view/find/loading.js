@@ -31,13 +31,17 @@ export function loadingFamilies(atlas, listed, come, trouble) {
       if (!isLast && performance.now() - told < 400) continue;
       come([...there], k + 1, listed.length);
       // A pause for what has been pressed meanwhile.
-      await new Promise((resume) => { setTimeout(resume, 0); });
+      await new Promise((resume) => {
+        setTimeout(resume, 0);
+      });
       told = performance.now();
     }
     if (!listed.length) come([], 0, 0);
   };
   load();
-  return () => { stopped = true; };
+  return () => {
+    stopped = true;
+  };
 }
 
 /** Bytes in words: "6.4 MB". */

@@ -17,8 +17,10 @@ export class FilterPanel {
   put(columns, table, question) {
     this.filters.clear();
     const groups = { first: [], more: [], parameters: [] };
-    for (const column of columns) groups[column.group].push(this.made(column, table, question.filters.get(column.name)));
-    const isAsked = (group) => columns.some((column) => column.group === group && question.filters.has(column.name));
+    for (const column of columns)
+      groups[column.group].push(this.made(column, table, question.filters.get(column.name)));
+    const isAsked = (group) =>
+      columns.some((column) => column.group === group && question.filters.has(column.name));
     fill(
       this.element,
       groups.first,

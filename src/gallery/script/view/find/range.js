@@ -15,21 +15,54 @@ export class RangeFilter {
     this.front = s("path", { class: "front" });
     const picture = s(
       "svg",
-      { class: "bars", viewBox: `0 0 ${BINS} 1`, preserveAspectRatio: "none", "aria-hidden": "true", focusable: "false" },
+      {
+        class: "bars",
+        viewBox: `0 0 ${BINS} 1`,
+        preserveAspectRatio: "none",
+        "aria-hidden": "true",
+        focusable: "false",
+      },
       this.behind,
       this.front,
     );
     this.ends = ["low", "high"].map((end) => this.madeEnd(end, words));
     this.inputs = ["low", "high"].map((end) => this.madeInput(end, words));
-    this.track = h("div", { class: "track", onpointerdown: (event) => this.pressed(event) }, picture, this.ends);
-    this.clear = h("button", { type: "button", class: "quiet clear", hidden: true, "aria-label": `All of ${words}`, onclick: () => this.put({}) }, "×");
+    this.track = h(
+      "div",
+      { class: "track", onpointerdown: (event) => this.pressed(event) },
+      picture,
+      this.ends,
+    );
+    this.clear = h(
+      "button",
+      {
+        type: "button",
+        class: "quiet clear",
+        hidden: true,
+        "aria-label": `All of ${words}`,
+        onclick: () => this.put({}),
+      },
+      "×",
+    );
     this.element = h(
       "fieldset",
       { class: "range" },
-      h("legend", { title: `${column.name}: ${column.definition}` }, words, column.unit ? " °" : "", this.scale.isLog ? h("span", { class: "note" }, " log") : null),
+      h(
+        "legend",
+        { title: `${column.name}: ${column.definition}` },
+        words,
+        column.unit ? " °" : "",
+        this.scale.isLog ? h("span", { class: "note" }, " log") : null,
+      ),
       this.clear,
       this.track,
-      h("div", { class: "between" }, this.inputs[0], h("span", { "aria-hidden": "true" }, "–"), this.inputs[1]),
+      h(
+        "div",
+        { class: "between" },
+        this.inputs[0],
+        h("span", { "aria-hidden": "true" }, "–"),
+        this.inputs[1],
+      ),
     );
     this.laid();
   }
@@ -72,14 +105,18 @@ export class RangeFilter {
 
   laid() {
     const { scale, filter, ends, inputs } = this;
-    const places = [filter.low === undefined ? 0 : scale.placeOf(filter.low), filter.high === undefined ? 1 : scale.placeOf(filter.high)];
+    const places = [
+      filter.low === undefined ? 0 : scale.placeOf(filter.low),
+      filter.high === undefined ? 1 : scale.placeOf(filter.high),
+    ];
     ["low", "high"].forEach((end, k) => {
       const value = filter[end] ?? scale[end];
       ends[k].style.left = `${100 * places[k]}%`;
       ends[k].setAttribute("aria-valuemin", roundFigure(scale.low));
       ends[k].setAttribute("aria-valuemax", roundFigure(scale.high));
       ends[k].setAttribute("aria-valuenow", roundFigure(value));
-      if (document.activeElement !== inputs[k]) inputs[k].value = filter[end] === undefined ? "" : String(filter[end]);
+      if (document.activeElement !== inputs[k])
+        inputs[k].value = filter[end] === undefined ? "" : String(filter[end]);
     });
     this.track.style.setProperty("--from", places[0]);
     this.track.style.setProperty("--to", places[1]);
@@ -94,8 +131,14 @@ export class RangeFilter {
 
   endAt(place, end) {
     const other = end === "low" ? this.filter.high : this.filter.low;
-    let value = place <= 0 && end === "low" ? undefined : place >= 1 && end === "high" ? undefined : Number(roundFigure(this.scale.valueAt(place)));
-    if (value !== undefined && other !== undefined) value = end === "low" ? Math.min(value, other) : Math.max(value, other);
+    let value =
+      place <= 0 && end === "low"
+        ? undefined
+        : place >= 1 && end === "high"
+          ? undefined
+          : Number(roundFigure(this.scale.valueAt(place)));
+    if (value !== undefined && other !== undefined)
+      value = end === "low" ? Math.min(value, other) : Math.max(value, other);
     this.put({ ...this.filter, [end]: value });
   }
 
@@ -112,11 +155,14 @@ export class RangeFilter {
     const move = (moved) => this.endAt(placeOf(moved), end);
     move(event);
     this.track.onpointermove = move;
-    this.track.onlostpointercapture = () => { this.track.onpointermove = null; };
+    this.track.onlostpointercapture = () => {
+      this.track.onpointermove = null;
+    };
   }
 
   typed(event, end) {
-    const now = this.filter[end] === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(this.filter[end]);
+    const now =
+      this.filter[end] === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(this.filter[end]);
     const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -8, PageUp: 8 };
     const to = event.key === "Home" ? 0 : event.key === "End" ? 1 : now + steps[event.key] / 100;
     if (Number.isNaN(to)) return;

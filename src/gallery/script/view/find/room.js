@@ -39,30 +39,55 @@ class Finding {
     Object.assign(this, { app, question });
     this.panel = new FilterPanel((name, filter) => this.filtered(name, filter));
     this.tiles = new ResultTiles(app);
-    this.list = new ResultRows((name) => this.sortBy(name, this.question.sort.name === name ? !this.question.sort.down : false));
+    this.list = new ResultRows((name) =>
+      this.sortBy(name, this.question.sort.name === name ? !this.question.sort.down : false),
+    );
     this.counted = h("p", { class: "counted" }, "Loading");
     this.told = h("p", { class: "note", hidden: true });
     this.results = h("div", { class: "found" });
-    this.sorter = h("select", { id: "find-sort", onchange: (event) => this.sortBy(event.target.value, this.question.sort.down) });
-    this.direction = h("button", { type: "button", onclick: () => this.sortBy(this.question.sort.name, !this.question.sort.down) });
+    this.sorter = h("select", {
+      id: "find-sort",
+      onchange: (event) => this.sortBy(event.target.value, this.question.sort.down),
+    });
+    this.direction = h("button", {
+      type: "button",
+      onclick: () => this.sortBy(this.question.sort.name, !this.question.sort.down),
+    });
     this.families = h("div", { class: "families-asked" });
     this.element = this.laidOut();
     this.begin();
   }
 
   laidOut() {
-    const show = (name, label) => h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
+    const show = (name, label) =>
+      h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
     this.shows = [show("sheet", "Sheet"), show("table", "Table")];
-    const clear = h("button", { type: "button", class: "quiet", onclick: () => this.put({ ...this.question, filters: new Map() }) }, "Clear all filters");
+    const clear = h(
+      "button",
+      { type: "button", class: "quiet", onclick: () => this.put({ ...this.question, filters: new Map() }) },
+      "Clear all filters",
+    );
     const wide = window.matchMedia("(min-width: 60rem)").matches;
     return h(
       "div",
       { class: "room wide find-room" },
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, "Find"), this.counted, this.told), takeAwayMenu(this.app, () => this.names())),
+      h(
+        "div",
+        { class: "head" },
+        h("div", {}, h("h1", {}, "Find"), this.counted, this.told),
+        takeAwayMenu(this.app, () => this.names()),
+      ),
       h(
         "div",
         { class: "find-split" },
-        h("details", { class: "find-panel", open: wide }, h("summary", {}, "Filters"), this.families, this.panel.element, clear),
+        h(
+          "details",
+          { class: "find-panel", open: wide },
+          h("summary", {}, "Filters"),
+          this.families,
+          this.panel.element,
+          clear,
+        ),
         h(
           "div",
           {},
@@ -84,14 +109,28 @@ class Finding {
     const { app, question } = this;
     this.stop?.();
     const listed = familiesAsked(app.atlas, question.families);
-    fill(this.families, familyChoice(app.atlas, question.families, listed, (families) => this.put({ ...this.question, families })));
-    this.stop = loadingFamilies(app.atlas, listed, (families, done, all) => this.come(families, done, all), (sentence) => this.tell(sentence));
+    fill(
+      this.families,
+      familyChoice(app.atlas, question.families, listed, (families) =>
+        this.put({ ...this.question, families }),
+      ),
+    );
+    this.stop = loadingFamilies(
+      app.atlas,
+      listed,
+      (families, done, all) => this.come(families, done, all),
+      (sentence) => this.tell(sentence),
+    );
   }
 
   come(families, done, all) {
     this.table = new CurveTable(families);
     this.orders = new Orders(this.table);
-    this.columns = columnsOf(this.table, this.app.atlas.measures, new Set([...this.question.filters.keys(), this.question.sort.name]));
+    this.columns = columnsOf(
+      this.table,
+      this.app.atlas.measures,
+      new Set([...this.question.filters.keys(), this.question.sort.name]),
+    );
     this.loading = done < all ? ` · ${done} of ${all} families loaded` : "";
     this.ask();
   }
@@ -101,7 +140,11 @@ class Finding {
     this.filters = new Filters(this.table);
     for (const [name, filter] of this.question.filters) this.filters.set(name, filter);
     this.panel.put(this.columns, this.table, this.question);
-    fill(this.sorter, h("option", { value: "" }, "the atlas's order"), this.columns.map(({ name }) => h("option", { value: name }, columnInWords(name))));
+    fill(
+      this.sorter,
+      h("option", { value: "" }, "the atlas's order"),
+      this.columns.map(({ name }) => h("option", { value: name }, columnInWords(name))),
+    );
     this.show();
   }
 
@@ -173,7 +216,10 @@ class Finding {
 
   count() {
     const [left, all] = [this.rows.length, this.table.count];
-    const sentence = all === 0 ? "No curves are loaded: choose families" : `${left.toLocaleString("en")} of ${all.toLocaleString("en")} curves`;
+    const sentence =
+      all === 0
+        ? "No curves are loaded: choose families"
+        : `${left.toLocaleString("en")} of ${all.toLocaleString("en")} curves`;
     fill(this.counted, h("b", {}, sentence), this.loading);
     window.clearTimeout(this.saying);
     this.saying = window.setTimeout(() => this.app.say(sentence), 2 * LATER);
@@ -190,7 +236,10 @@ class Finding {
 
   addressed() {
     window.clearTimeout(this.writing);
-    this.writing = window.setTimeout(() => this.app.replace(address(["find"], queryOf(this.question))), LATER);
+    this.writing = window.setTimeout(
+      () => this.app.replace(address(["find"], queryOf(this.question))),
+      LATER,
+    );
   }
 
   /** A further address of this room. */

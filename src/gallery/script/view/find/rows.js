@@ -15,18 +15,44 @@ export class ResultRows {
     this.rows = [];
     this.head = h("thead", {});
     this.body = h("tbody", {});
-    this.figures = h("table", { class: "figures results-table" }, h("caption", { class: "unseen" }, "Curves"), this.head, this.body);
-    this.element = h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of curves", onscroll: () => this.fill() }, this.figures);
+    this.figures = h(
+      "table",
+      { class: "figures results-table" },
+      h("caption", { class: "unseen" }, "Curves"),
+      this.head,
+      this.body,
+    );
+    this.element = h(
+      "div",
+      {
+        class: "scroll",
+        tabindex: "0",
+        role: "region",
+        "aria-label": "Table of curves",
+        onscroll: () => this.fill(),
+      },
+      this.figures,
+    );
   }
 
   put(table, rows, columns, sort) {
     Object.assign(this, { table, rows, columns });
     this.figures.setAttribute("aria-rowcount", rows.length + 1);
-    const heading = ({ name, kind }) => h(
-      "th",
-      { class: kind === "words" ? "text" : null, scope: "col", "aria-sort": sort.name === name ? (sort.down ? "descending" : "ascending") : null },
-      h("button", { type: "button", onclick: () => this.sorted(name) }, columnInWords(name), sort.name === name ? (sort.down ? " ↓" : " ↑") : ""),
-    );
+    const heading = ({ name, kind }) =>
+      h(
+        "th",
+        {
+          class: kind === "words" ? "text" : null,
+          scope: "col",
+          "aria-sort": sort.name === name ? (sort.down ? "descending" : "ascending") : null,
+        },
+        h(
+          "button",
+          { type: "button", onclick: () => this.sorted(name) },
+          columnInWords(name),
+          sort.name === name ? (sort.down ? " ↓" : " ↑") : "",
+        ),
+      );
     // A heading that has been pressed keeps the focus, though it is made anew.
     const held = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
     fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
@@ -37,7 +63,10 @@ export class ResultRows {
   fill() {
     if (!this.table || !this.element.isConnected) return;
     const first = Math.max(Math.floor(this.element.scrollTop / ROW_HEIGHT) - ROWS_AHEAD, 0);
-    const last = Math.min(first + Math.ceil(this.element.clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD, this.rows.length);
+    const last = Math.min(
+      first + Math.ceil(this.element.clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD,
+      this.rows.length,
+    );
     const space = (rows) => {
       const cell = h("td", { colspan: this.columns.length + 1, class: "space" });
       cell.style.height = `${rows * ROW_HEIGHT}px`;
@@ -61,7 +90,11 @@ export class ResultRows {
     return h(
       "tr",
       { "aria-rowindex": k + 2 },
-      h("th", { scope: "row", class: "text" }, h("a", { href: address([family.id, "curve", key]) }, `${family.id}:${key}`)),
+      h(
+        "th",
+        { scope: "row", class: "text" },
+        h("a", { href: address([family.id, "curve", key]) }, `${family.id}:${key}`),
+      ),
       this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
     );
   }

@@ -40,7 +40,12 @@ export class ResultTiles extends TileWindow {
         "a",
         { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
         h("span", { class: "leaf" }),
-        h("span", { class: "label" }, value ? [h("b", {}, value), " "] : null, captionInType(caption || name)),
+        h(
+          "span",
+          { class: "label" },
+          value ? [h("b", {}, value), " "] : null,
+          captionInType(caption || name),
+        ),
       ),
       pinOnTile(app, name),
     );
@@ -63,11 +68,22 @@ export class ResultTiles extends TileWindow {
 
 /** A button that pins a curve and takes it down again. */
 export function pinOnTile(app, name) {
-  const button = h("button", { type: "button", class: "pin quiet", tabindex: "-1", title: "Pin (p)", onclick: () => {
-    app.pins.toggle(name);
-    button.setAttribute("aria-pressed", String(app.pins.has(name)));
-    app.say(app.pins.has(name) ? `${name} pinned` : `${name} no longer pinned`);
-  } }, h("span", { "aria-hidden": "true" }, "⚲"), h("span", { class: "unseen" }, `Pin ${name}`));
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "pin quiet",
+      tabindex: "-1",
+      title: "Pin (p)",
+      onclick: () => {
+        app.pins.toggle(name);
+        button.setAttribute("aria-pressed", String(app.pins.has(name)));
+        app.say(app.pins.has(name) ? `${name} pinned` : `${name} no longer pinned`);
+      },
+    },
+    h("span", { "aria-hidden": "true" }, "⚲"),
+    h("span", { class: "unseen" }, `Pin ${name}`),
+  );
   button.setAttribute("aria-pressed", String(app.pins.has(name)));
   return button;
 }

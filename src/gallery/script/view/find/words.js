@@ -9,14 +9,20 @@ export class WordFilter {
     Object.assign(this, { column, changed });
     this.chosen = new Set(filter ?? []);
     this.values = table.words(column.name).values;
-    this.boxes = this.values.map((word) => h("input", { type: "checkbox", onchange: () => this.ticked(word) }));
+    this.boxes = this.values.map((word) =>
+      h("input", { type: "checkbox", onchange: () => this.ticked(word) }),
+    );
     this.counts = this.values.map(() => h("span", { class: "count" }));
-    this.boxes.forEach((box, k) => { box.checked = this.chosen.has(this.values[k]); });
+    this.boxes.forEach((box, k) => {
+      box.checked = this.chosen.has(this.values[k]);
+    });
     this.element = h(
       "fieldset",
       { class: "words" },
       h("legend", { title: `${column.name}: ${column.definition}` }, columnInWords(column.name)),
-      this.values.map((word, k) => h("label", { class: "check" }, this.boxes[k], h("span", {}, word), this.counts[k])),
+      this.values.map((word, k) =>
+        h("label", { class: "check" }, this.boxes[k], h("span", {}, word), this.counts[k]),
+      ),
     );
   }
 
@@ -27,6 +33,8 @@ export class WordFilter {
 
   /** Shows how many rows each word would leave. */
   show(counts) {
-    counts.forEach((count, k) => { this.counts[k].textContent = count; });
+    counts.forEach((count, k) => {
+      this.counts[k].textContent = count;
+    });
   }
 }

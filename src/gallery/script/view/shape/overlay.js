@@ -17,7 +17,14 @@ export function overlayPicture({ family, curve, similarity, from, to }, shape, {
   const part = isPart ? portion(points, closed, from, to, 96).points : points;
   return s(
     "svg",
-    { class: "thumbnail laid-over", width, height, viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" },
+    {
+      class: "thumbnail laid-over",
+      width,
+      height,
+      viewBox: `0 0 ${width} ${height}`,
+      "aria-hidden": "true",
+      focusable: "false",
+    },
     s("path", { class: isPart ? "rest" : "curve", d: pathThrough(points, closed, seen) }),
     isPart ? s("path", { class: "curve", d: pathThrough(part, false, seen) }) : null,
     s("path", { class: "asked", d: pathThrough(laid, shape.closed, seen) }),

@@ -35,7 +35,11 @@ export class DrawingPad {
       this.dots,
       this.cross,
     );
-    this.help = h("p", { class: "note", id: "pad-help" }, "Draw in one stroke. With keys: arrows move the pen (Shift: further), Enter sets a point, Backspace takes one back, C closes, Escape begins anew.");
+    this.help = h(
+      "p",
+      { class: "note", id: "pad-help" },
+      "Draw in one stroke. With keys: arrows move the pen (Shift: further), Enter sets a point, Backspace takes one back, C closes, Escape begins anew.",
+    );
   }
 
   /** Shows a shape, fitted into the pad. */
@@ -43,7 +47,10 @@ export class DrawingPad {
     const [xs, ys] = [0, 1].map((part) => Array.from(points).filter((_, k) => k % 2 === part));
     const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     const scale = Math.min((WIDE - 40) / (x1 - x0 || 1), (HIGH - 40) / (y1 - y0 || 1));
-    const place = (k) => [WIDE / 2 + scale * (points[k] - (x0 + x1) / 2), HIGH / 2 - scale * (points[k + 1] - (y0 + y1) / 2)];
+    const place = (k) => [
+      WIDE / 2 + scale * (points[k] - (x0 + x1) / 2),
+      HIGH / 2 - scale * (points[k + 1] - (y0 + y1) / 2),
+    ];
     this.points = xs.map((_, k) => place(2 * k));
     this.closed = closed;
     this.isByKeys = false;
@@ -65,7 +72,10 @@ export class DrawingPad {
   placeOf({ clientX, clientY }) {
     const box = this.element.getBoundingClientRect();
     const scale = Math.min(box.width / WIDE, box.height / HIGH);
-    return [(clientX - box.left - (box.width - scale * WIDE) / 2) / scale, (clientY - box.top - (box.height - scale * HIGH) / 2) / scale];
+    return [
+      (clientX - box.left - (box.width - scale * WIDE) / 2) / scale,
+      (clientY - box.top - (box.height - scale * HIGH) / 2) / scale,
+    ];
   }
 
   pressed(event) {
@@ -100,12 +110,23 @@ export class DrawingPad {
 
   typed(event) {
     const step = event.shiftKey ? 5 * STEP : STEP;
-    const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
-    const acts = { Enter: () => this.set(), " ": () => this.set(), Backspace: () => this.takeBack(), Escape: () => this.clear(), c: () => this.finish(true) };
+    const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[
+      event.key
+    ];
+    const acts = {
+      Enter: () => this.set(),
+      " ": () => this.set(),
+      Backspace: () => this.takeBack(),
+      Escape: () => this.clear(),
+      c: () => this.finish(true),
+    };
     if (event.ctrlKey || event.metaKey || event.altKey || (!move && !acts[event.key])) return;
     event.preventDefault();
     if (!move) return void acts[event.key]();
-    this.pen = [Math.min(Math.max(this.pen[0] + move[0], 0), WIDE), Math.min(Math.max(this.pen[1] + move[1], 0), HIGH)];
+    this.pen = [
+      Math.min(Math.max(this.pen[0] + move[0], 0), WIDE),
+      Math.min(Math.max(this.pen[1] + move[1], 0), HIGH),
+    ];
     this.say(`${Math.round(this.pen[0])}, ${Math.round(HIGH - this.pen[1])}`);
     this.laid();
   }

@@ -40,7 +40,10 @@ class ShapeRoom {
     this.app = app;
     this.turn = 0;
     this.indexes = [];
-    this.pad = new DrawingPad((points, closed) => this.drawn(points, closed), (text) => app.say(text));
+    this.pad = new DrawingPad(
+      (points, closed) => this.drawn(points, closed),
+      (text) => app.say(text),
+    );
     this.status = h("p", { class: "counted" }, "Draw a curve, paste one, or begin with one of the atlas");
     this.results = h("ol", { class: "likenesses" });
     this.families = h("div", {});
@@ -62,7 +65,12 @@ class ShapeRoom {
   }
 
   laidOut() {
-    const paste = h("textarea", { id: "shape-text", rows: 4, spellcheck: "false", placeholder: "x,y lines, JSON, points.csv, or an SVG path: M0 0 C…" });
+    const paste = h("textarea", {
+      id: "shape-text",
+      rows: 4,
+      spellcheck: "false",
+      placeholder: "x,y lines, JSON, points.csv, or an SVG path: M0 0 C…",
+    });
     const wrong = h("p", { class: "trouble", role: "alert" });
     const use = () => {
       try {
@@ -87,9 +95,30 @@ class ShapeRoom {
           { class: "panel" },
           this.pad.element,
           this.pad.help,
-          h("div", { class: "toolbar" }, h("button", { type: "button", onclick: () => { this.pad.clear(); this.pad.element.focus(); } }, "Clear the pad")),
+          h(
+            "div",
+            { class: "toolbar" },
+            h(
+              "button",
+              {
+                type: "button",
+                onclick: () => {
+                  this.pad.clear();
+                  this.pad.element.focus();
+                },
+              },
+              "Clear the pad",
+            ),
+          ),
           this.options(),
-          h("div", { class: "field" }, h("label", { for: "shape-text" }, "Or paste points or a path"), paste, wrong, h("div", {}, h("button", { type: "button", onclick: use }, "Use what is pasted"))),
+          h(
+            "div",
+            { class: "field" },
+            h("label", { for: "shape-text" }, "Or paste points or a path"),
+            paste,
+            wrong,
+            h("div", {}, h("button", { type: "button", onclick: use }, "Use what is pasted")),
+          ),
           this.families,
         ),
         this.results,
@@ -99,19 +128,63 @@ class ShapeRoom {
 
   options() {
     const { asked } = this;
-    const changed = () => { this.addressed(); this.search(); };
+    const changed = () => {
+      this.addressed();
+      this.search();
+    };
     const option = (type, name, label, isOn, act) => {
-      const input = h("input", { type, name, onchange: (event) => { act(event.target.checked); changed(); } });
+      const input = h("input", {
+        type,
+        name,
+        onchange: (event) => {
+          act(event.target.checked);
+          changed();
+        },
+      });
       input.checked = isOn;
       return [h("label", { class: "check" }, input, label), input];
     };
-    const [whole, wholeBox] = option("radio", "shape-part", "a whole curve", asked.part !== true, () => { asked.part = false; });
-    const [part, partBox] = option("radio", "shape-part", "a part of a curve, no less than", asked.part === true, () => { asked.part = true; });
-    this.marks = () => { [wholeBox.checked, partBox.checked] = [!asked.part, asked.part === true]; };
-    const least = h("select", { "aria-label": "Least part of a curve", onchange: (event) => { asked.least = Number(event.target.value); changed(); } },
-      [...new Set([...LEASTS, asked.least])].sort((a, b) => a - b).map((value) => h("option", { value }, `${Math.round(100 * value)} %`)));
+    const [whole, wholeBox] = option("radio", "shape-part", "a whole curve", asked.part !== true, () => {
+      asked.part = false;
+    });
+    const [part, partBox] = option(
+      "radio",
+      "shape-part",
+      "a part of a curve, no less than",
+      asked.part === true,
+      () => {
+        asked.part = true;
+      },
+    );
+    this.marks = () => {
+      [wholeBox.checked, partBox.checked] = [!asked.part, asked.part === true];
+    };
+    const least = h(
+      "select",
+      {
+        "aria-label": "Least part of a curve",
+        onchange: (event) => {
+          asked.least = Number(event.target.value);
+          changed();
+        },
+      },
+      [...new Set([...LEASTS, asked.least])]
+        .sort((a, b) => a - b)
+        .map((value) => h("option", { value }, `${Math.round(100 * value)} %`)),
+    );
     least.value = String(asked.least);
-    const by = h("select", { id: "shape-by", onchange: (event) => { asked.by = event.target.value; changed(); } }, h("option", { value: "rms" }, "rms deviation"), h("option", { value: "greatest" }, "greatest deviation"));
+    const by = h(
+      "select",
+      {
+        id: "shape-by",
+        onchange: (event) => {
+          asked.by = event.target.value;
+          changed();
+        },
+      },
+      h("option", { value: "rms" }, "rms deviation"),
+      h("option", { value: "greatest" }, "greatest deviation"),
+    );
     by.value = asked.by;
     return h(
       "fieldset",
@@ -119,7 +192,9 @@ class ShapeRoom {
       h("legend", {}, "What is drawn is"),
       whole,
       h("div", { class: "toolbar" }, part, least),
-      option("checkbox", "mirror", "mirror images too", asked.mirror, (isOn) => { asked.mirror = isOn; })[0],
+      option("checkbox", "mirror", "mirror images too", asked.mirror, (isOn) => {
+        asked.mirror = isOn;
+      })[0],
       h("span", { class: "field row" }, h("label", { for: "shape-by" }, "Ranked by"), by),
     );
   }
@@ -129,11 +204,14 @@ class ShapeRoom {
     const { app, asked } = this;
     this.stop?.();
     const listed = familiesAsked(app.atlas, asked.families);
-    fill(this.families, familyChoice(app.atlas, asked.families, listed, (families) => {
-      asked.families = families;
-      this.addressed();
-      this.begin();
-    }));
+    fill(
+      this.families,
+      familyChoice(app.atlas, asked.families, listed, (families) => {
+        asked.families = families;
+        this.addressed();
+        this.begin();
+      }),
+    );
     this.stop = loadingFamilies(
       app.atlas,
       listed,
@@ -191,22 +269,31 @@ class ShapeRoom {
       indexes.push(index);
     }
     const began = performance.now();
-    const found = await inSlices(searching(indexes, this.shape, { part: part === true, least, mirror, by }), stopped);
+    const found = await inSlices(
+      searching(indexes, this.shape, { part: part === true, least, mirror, by }),
+      stopped,
+    );
     if (!found) return;
     this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
     this.show(found.slice(0, SHOWN));
     // What a search for parts needs is made while nothing is asked.
-    if (!part && this.isWhole) for (const family of this.loaded) if (!(await indexFor(family, least, stopped))) return;
+    if (!part && this.isWhole)
+      for (const family of this.loaded) if (!(await indexFor(family, least, stopped))) return;
   }
 
   show(found) {
     const { by } = this.asked;
     const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
-    const sentence = found.length ? `The nearest of ${count.toLocaleString("en")} curves, by their ${by === "rms" ? "rms" : "greatest"} deviation in % of the shape’s extent` : "Nothing is like this";
+    const sentence = found.length
+      ? `The nearest of ${count.toLocaleString("en")} curves, by their ${by === "rms" ? "rms" : "greatest"} deviation in % of the shape’s extent`
+      : "Nothing is like this";
     fill(this.status, sentence);
     this.app.say(sentence);
     this.results.removeAttribute("aria-busy");
-    fill(this.results, found.map((one) => this.likeness(one)));
+    fill(
+      this.results,
+      found.map((one) => this.likeness(one)),
+    );
   }
 
   likeness(one) {
@@ -216,10 +303,20 @@ class ShapeRoom {
     const [first, second] = this.asked.by === "rms" ? [rms, greatest] : [greatest, rms];
     const words = this.asked.by === "rms" ? ["rms", "greatest"] : ["greatest", "rms"];
     const share = this.asked.part ? `, ${Math.round(100 * (one.to - one.from))} % of the curve` : "";
-    const pin = h("button", { type: "button", class: "quiet", onclick: () => {
-      this.app.pins.toggle(name);
-      pin.setAttribute("aria-pressed", String(this.app.pins.has(name)));
-    }, "aria-pressed": String(this.app.pins.has(name)) }, "Pin", h("span", { class: "unseen" }, ` ${name}`));
+    const pin = h(
+      "button",
+      {
+        type: "button",
+        class: "quiet",
+        onclick: () => {
+          this.app.pins.toggle(name);
+          pin.setAttribute("aria-pressed", String(this.app.pins.has(name)));
+        },
+        "aria-pressed": String(this.app.pins.has(name)),
+      },
+      "Pin",
+      h("span", { class: "unseen" }, ` ${name}`),
+    );
     return h(
       "li",
       {},
@@ -227,7 +324,12 @@ class ShapeRoom {
         "a",
         { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
         overlayPicture(one, this.shape, { width: 220, height: 170 }),
-        h("span", { class: "label" }, h("b", {}, `${percent(first)} ${words[0]}`), ` ${percent(second)} ${words[1]}${share}`),
+        h(
+          "span",
+          { class: "label" },
+          h("b", {}, `${percent(first)} ${words[0]}`),
+          ` ${percent(second)} ${words[1]}${share}`,
+        ),
         h("span", { class: "label" }, captionInType(caption || name)),
       ),
       h("span", { class: "acts" }, h("a", { href: address(["shape"], { like: name }) }, "Like this"), pin),
@@ -236,15 +338,17 @@ class ShapeRoom {
 
   addressed() {
     const { d, like, part, least, mirror, by, families } = this.asked;
-    this.app.replace(address(["shape"], {
-      d,
-      like,
-      part: part === null ? null : part ? "yes" : "no",
-      least: part && least !== 0.15 ? least : null,
-      mirror: mirror ? null : "no",
-      by: by === "rms" ? null : by,
-      family: families?.join(","),
-    }));
+    this.app.replace(
+      address(["shape"], {
+        d,
+        like,
+        part: part === null ? null : part ? "yes" : "no",
+        least: part && least !== 0.15 ? least : null,
+        mirror: mirror ? null : "no",
+        by: by === "rms" ? null : by,
+        family: families?.join(","),
+      }),
+    );
   }
 
   /** Another shape has another address, and is shown anew. */

@@ -9,10 +9,11 @@ const SLICE = 12;
  */
 export async function inSlices(generator, stopped = () => false) {
   const channel = new MessageChannel();
-  const turn = () => new Promise((resume) => {
-    channel.port1.onmessage = resume;
-    channel.port2.postMessage(null);
-  });
+  const turn = () =>
+    new Promise((resume) => {
+      channel.port1.onmessage = resume;
+      channel.port2.postMessage(null);
+    });
   try {
     for (;;) {
       const until = performance.now() + SLICE;
