@@ -5,6 +5,7 @@ import { curveKey, measured } from "../data/family.js";
 import { h } from "./dom.js";
 import { cellsOnPage } from "./page-cells.js";
 import { captionInType, figure, measureInWords, measureText } from "./page-words.js";
+import { pinButton } from "./pin-button.js";
 import { thumbnail } from "./thumbnail.js";
 
 /** The curves of a page as links, and what could not be assembled. */
@@ -137,23 +138,6 @@ export function curvePanel(app, family, curve, { onall }) {
     parameterFacts(family, at),
     measureFacts(app.atlas, family, curve),
   );
-}
-
-function pinButton(app, name) {
-  const button = h("button", {
-    type: "button",
-    onclick: () => {
-      app.pins.toggle(name);
-      shown();
-      app.say(app.pins.has(name) ? "Pinned" : "No longer pinned");
-    },
-  });
-  const shown = () => {
-    button.textContent = app.pins.has(name) ? "Pinned" : "Pin";
-    button.setAttribute("aria-pressed", String(app.pins.has(name)));
-  };
-  shown();
-  return button;
 }
 
 function parameterFacts(family, cell) {

@@ -10,6 +10,7 @@ import { pageBar } from "./page-bar.js";
 import { actOfKey, keysInWords } from "./page-keys.js";
 import { curvePanel, curvesPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture } from "./page-picture.js";
+import { watchPins } from "./pin-button.js";
 import { Zoom } from "./zoom.js";
 
 /** The room of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
@@ -56,6 +57,7 @@ class PageDesk {
     });
     this.forward = new CurveForward(this);
     this.element = this.room();
+    this.unwatch = watchPins(app, this.element);
   }
 
   room() {
@@ -248,6 +250,7 @@ class PageDesk {
 
   leave() {
     this.hasLeft = true;
+    this.unwatch();
     window.clearTimeout(this.remembering);
     this.zoom.end();
   }

@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { h } from "../dom.js";
 import { captionInType } from "../page-words.js";
+import { pinButton, watchPins } from "../pin-button.js";
 import { TileWindow } from "../sheet-window.js";
 import { thumbnail } from "../thumbnail.js";
 
@@ -14,6 +15,12 @@ export class ResultTiles extends TileWindow {
     Object.assign(this, { app, rows: [], table: null, valueOf: () => null });
     this.element.classList.add("results");
     this.element.addEventListener("keydown", (event) => this.pinned(event));
+    this.unwatch = watchPins(app, this.element);
+  }
+
+  end() {
+    super.end();
+    this.unwatch();
   }
 
   /** Shows rows in place of those that were there. */
@@ -47,7 +54,13 @@ export class ResultTiles extends TileWindow {
           captionInType(caption || name),
         ),
       ),
-      pinOnTile(app, name),
+      pinButton(
+        app,
+        name,
+        { class: "pin quiet", tabindex: "-1", title: "Pin (p)" },
+        h("span", { "aria-hidden": "true" }, "⚲"),
+        h("span", { class: "unseen" }, `Pin ${name}`),
+      ),
     );
   }
 
@@ -64,26 +77,4 @@ export class ResultTiles extends TileWindow {
     if (event.key !== "p" || !name || event.ctrlKey || event.metaKey || event.altKey) return;
     event.target.parentElement.querySelector(".pin").click();
   }
-}
-
-/** A button that pins a curve and takes it down again. */
-export function pinOnTile(app, name) {
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "pin quiet",
-      tabindex: "-1",
-      title: "Pin (p)",
-      onclick: () => {
-        app.pins.toggle(name);
-        button.setAttribute("aria-pressed", String(app.pins.has(name)));
-        app.say(app.pins.has(name) ? `${name} pinned` : `${name} no longer pinned`);
-      },
-    },
-    h("span", { "aria-hidden": "true" }, "⚲"),
-    h("span", { class: "unseen" }, `Pin ${name}`),
-  );
-  button.setAttribute("aria-pressed", String(app.pins.has(name)));
-  return button;
 }

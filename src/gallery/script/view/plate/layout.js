@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { fill, h } from "../dom.js";
 import { originOfCurve, wordsOfCell } from "./facts.js";
+import { pinButton, watchPins } from "../pin-button.js";
 import { takeAwayMenu } from "../take/menu.js";
 import { neighbourAddress } from "./keys.js";
 import { plainNumber } from "./sliders.js";
@@ -14,18 +15,7 @@ export function plateLayout(plate) {
   const { caption, note } = wordsOfCell(family, family.curves.cell[curve]);
   const key = curveKey(family, curve);
   const changed = h("span", { class: "tag changed-tag", hidden: true }, "parameters changed");
-  const pin = h("button", {
-    type: "button",
-    class: "pin",
-    onclick: () => app.pins.toggle(`${family.id}:${key}`),
-  });
-  const pinned = () => {
-    const isPinned = app.pins.has(`${family.id}:${key}`);
-    pin.setAttribute("aria-pressed", String(isPinned));
-    fill(pin, isPinned ? "Pinned" : "Pin");
-  };
-  pinned();
-  const unwatch = app.pins.watch(pinned);
+  const pin = pinButton(app, `${family.id}:${key}`, { class: "pin" });
   const take = takeAwayMenu(app, () => [plate.name]);
   const heading = h(
     "div",
@@ -89,7 +79,7 @@ export function plateLayout(plate) {
     const changes = [...plate.changes].map(([name, value]) => `${name} = ${plainNumber(value)}`);
     fill(changed, changes.length ? `with ${changes.join(", ")}` : "another circuit");
   };
-  return { element, refresh, leave: unwatch };
+  return { element, refresh, leave: watchPins(app, element) };
 }
 
 function neighbourLink(family, curve, way) {

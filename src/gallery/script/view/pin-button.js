@@ -1,0 +1,29 @@
+// Buttons that pin curves.
+
+import { h } from "./dom.js";
+
+/**
+ * A button that pins the curve of a name, "family:cell.trace.circuit", and takes it down again. What it says
+ * are the children, or else whether the curve is pinned.
+ */
+export function pinButton(app, name, attributes = {}, ...children) {
+  const act = () => {
+    app.pins.toggle(name);
+    markPin(app, button);
+    app.say(app.pins.has(name) ? `${name} pinned` : `${name} no longer pinned`);
+  };
+  const button = h("button", { type: "button", "data-pin": name, onclick: act, ...attributes }, ...children);
+  markPin(app, button);
+  return button;
+}
+
+/** Keeps the buttons in an element as the pins are, until the function that it returns is called. */
+export function watchPins(app, element) {
+  return app.pins.watch(() => element.querySelectorAll("[data-pin]").forEach((button) => markPin(app, button)));
+}
+
+function markPin(app, button) {
+  const isPinned = app.pins.has(button.dataset.pin);
+  button.setAttribute("aria-pressed", String(isPinned));
+  if (!button.firstElementChild) button.textContent = isPinned ? "Pinned" : "Pin";
+}
