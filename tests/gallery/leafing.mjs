@@ -251,3 +251,36 @@ check(
     }
   },
 );
+
+check(
+  "1.14",
+  "a family that is called as a room is can be leafed through, and the room is still there",
+  null,
+  async ({ browser }) => {
+    const odd = oddAtlas(atlas);
+    try {
+      const g = await opened(browser, odd.folder, "/");
+      const { page } = g;
+      const heading = () => page.locator("h1").innerText();
+      await page.locator('.families a[href="#/find"]').click();
+      await page.waitForSelector(".sheet-room");
+      await page.getByRole("link", { name: "Curves", exact: true }).click();
+      await page.waitForSelector('.sheet-room [aria-current="true"]:text("Curves")');
+      await page.getByRole("link", { name: "Pages", exact: true }).click();
+      await page.waitForSelector('.sheet-room [aria-current="true"]:text("Pages")');
+      await g.go("/find/1");
+      await page.waitForSelector(".page-room");
+      assert.match(await heading(), /Roberts/);
+      await g.go("/find/curve/1.1.1");
+      await page.waitForSelector(".plate");
+      await page.locator(".ways").getByRole("link", { name: "Find", exact: true }).click();
+      await page.waitForSelector(".find-room");
+      await page.waitForTimeout(400);
+      await page.reload();
+      await page.waitForSelector(".find-room");
+      await g.close();
+    } finally {
+      odd.remove();
+    }
+  },
+);

@@ -1,7 +1,7 @@
 // An atlas of odd families, made from a rendered one: what the gallery must bear although a good manifest
 // seldom asks for it.
 
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -17,7 +17,8 @@ const WHITE_DOT =
 
 /**
  * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages,
- * and its third linkage not assembled; "watt" with a PNG. Returns { folder, remove() }.
+ * and its third linkage not assembled; "watt" with a PNG; and one more, called "find" as a room is, with what
+ * "roberts" has. Returns { folder, remove() }.
  */
 export function oddAtlas(from) {
   const folder = mkdtempSync(join(tmpdir(), "coupler-atlas-odd-"));
@@ -31,6 +32,9 @@ export function oddAtlas(from) {
   );
   rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
   writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
+  mkdirSync(join(folder, "find"));
+  const roberts = readFileSync(join(folder, "roberts/gallery.js"), "utf8");
+  writeFileSync(join(folder, "find/gallery.js"), roberts.replace('"id":"roberts"', '"id":"find"'));
   return { folder, remove: () => rmSync(folder, { recursive: true }) };
 }
 
@@ -45,6 +49,8 @@ function withOddFamilies(atlas) {
     if (family.id === "evans") return { ...family, title: MARKED_TITLE, page_format: null, not_assembled: 1 };
     return family.id === "watt" ? { ...family, page_format: "png" } : family;
   });
+  const roberts = families.find(({ id }) => id === "roberts");
+  families.push({ ...roberts, id: "find", title: "Find me", page_format: null, script: "find/gallery.js" });
   return { ...atlas, families, book: ["atlas.pdf"] };
 }
 

@@ -10,11 +10,12 @@ import { footer } from "./shell-footer.js";
 const OPENING_PATIENCE = 250;
 
 /**
- * Opens the gallery in an element. `rooms` are [{ name, label, under, opens(place), view(app, place) }]: the
- * first whose `opens` is true of an address shows it; one without a label stands `under` another. A view is,
- * perhaps in a while, { element, title, update(place), shown(), leave() }: `update`, where there is one, is
- * told of further addresses of the same room, and says whether it shows them; `shown` is called when the
- * element is in the page; `leave` ends what it began.
+ * Opens the gallery in an element. `rooms` are [{ name, label, way(app), under, opens(place, app),
+ * view(app, place) }]: the first whose `opens` is true of an address shows it; `way` is the address of one
+ * with a label, and one without stands `under` another. A view is, perhaps in a while, { element, title,
+ * update(place), shown(), leave() }: `update`, where there is one, is told of further addresses of the same
+ * room, and says whether it shows them; `shown` is called when the element is in the page; `leave` ends what
+ * it began.
  */
 export function openShell(app, rooms, root) {
   const main = h("main", { id: "room", tabindex: "-1" });
@@ -58,7 +59,7 @@ function waysToRooms(app, rooms) {
       .filter(({ label }) => label)
       .map(({ name, label, way }) => [
         name,
-        h("a", { href: way ? way(app) : address([name]) }, label, name === "compare" ? count : null),
+        h("a", { href: way(app) }, label, name === "compare" ? count : null),
       ]),
   );
   const counted = (names) =>
@@ -68,15 +69,14 @@ function waysToRooms(app, rooms) {
   counted(app.pins.names);
   const mark = (room) => {
     for (const [name, link] of links) {
-      const { way } = rooms.find((candidate) => candidate.name === name);
-      if (way) link.setAttribute("href", way(app));
+      link.setAttribute("href", rooms.find((candidate) => candidate.name === name).way(app));
       if (name === (room?.under ?? room?.name)) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
   };
   app.pins.watch(() => {
     const compare = rooms.find(({ name }) => name === "compare");
-    if (compare?.way) links.get("compare")?.setAttribute("href", compare.way(app));
+    links.get("compare").setAttribute("href", compare.way(app));
   });
   return { element: h("nav", { class: "ways", "aria-label": "Gallery" }, [...links.values()]), mark };
 }

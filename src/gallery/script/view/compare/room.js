@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveAt } from "../../data/family.js";
 import { fill, h } from "../dom.js";
 import { captionInType } from "../page-words.js";
+import { isInRoom, roomAddress } from "../room-address.js";
 import { takeAwayMenu } from "../take/menu.js";
 import { thumbnail } from "../thumbnail.js";
 import { laidOver } from "./aligned.js";
@@ -15,8 +16,8 @@ import { letterOf, overPicture, strokeSample } from "./picture.js";
 export const compareRoom = {
   name: "compare",
   label: "Compare",
-  way: (app) => address(["compare"], app.pins.names.length ? { c: app.pins.names.join(",") } : {}),
-  opens: ({ path }) => path[0] === "compare",
+  way: (app) => roomAddress("compare", { c: app.pins.names.join(",") }, app),
+  opens: (place, app) => isInRoom("compare", place, app),
   view: async (app, { query }) => {
     const room = new Comparison(app);
     await room.ask(comparisonOf(query));
@@ -72,7 +73,7 @@ class Comparison {
   async change() {
     const { app, asked } = this;
     const names = [...app.pins.names];
-    app.replace(address(["compare"], comparisonQuery(asked, names)));
+    app.replace(roomAddress("compare", comparisonQuery(asked, names), app));
     const missing = [];
     const curves = [];
     for (const name of names) {

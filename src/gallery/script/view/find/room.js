@@ -1,12 +1,12 @@
 // The room where curves are found by what was measured of them.
 
-import { address } from "../../data/address.js";
 import { columnsOf } from "../../find/columns.js";
 import { Filters } from "../../find/filter.js";
 import { Orders, passing } from "../../find/order.js";
 import { queryOf, questionOf } from "../../find/question.js";
 import { CurveTable } from "../../find/table.js";
 import { fill, h } from "../dom.js";
+import { isInRoom, roomAddress } from "../room-address.js";
 import { takeAwayMenu } from "../take/menu.js";
 import { columnInWords, columnValueText } from "./column-words.js";
 import { familyChoice } from "./families.js";
@@ -21,7 +21,8 @@ const LATER = 250;
 export const findRoom = {
   name: "find",
   label: "Find",
-  opens: ({ path }) => path[0] === "find",
+  way: (app) => roomAddress("find", {}, app),
+  opens: (place, app) => isInRoom("find", place, app),
   view: (app, { query }) => {
     const finding = new Finding(app, questionOf(query));
     return {
@@ -237,7 +238,7 @@ class Finding {
   addressed() {
     window.clearTimeout(this.writing);
     this.writing = window.setTimeout(
-      () => this.app.replace(address(["find"], queryOf(this.question))),
+      () => this.app.replace(roomAddress("find", queryOf(this.question), this.app)),
       LATER,
     );
   }
