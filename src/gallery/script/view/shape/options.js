@@ -1,0 +1,63 @@
+// How a shape is compared: whole curves or parts of them, with their mirror images, ranked by what.
+
+import { h } from "../dom.js";
+
+const LEASTS = [0.05, 0.1, 0.15, 0.25, 0.5];
+
+/** The controls of a question (question.js), which they write in before `changed()`: { element, mark() }. */
+export function shapeOptions(asked, changed) {
+  const put = (name, value) => {
+    asked[name] = value;
+    changed();
+  };
+  const [whole, part] = [false, true].map((isPart) =>
+    h("input", { type: "radio", name: "shape-part", onchange: () => put("part", isPart) }),
+  );
+  const mark = () => {
+    [whole.checked, part.checked] = [!asked.part, asked.part === true];
+  };
+  mark();
+  const mirror = h("input", {
+    type: "checkbox",
+    name: "mirror",
+    onchange: () => put("mirror", mirror.checked),
+  });
+  mirror.checked = asked.mirror;
+  const element = h(
+    "fieldset",
+    { class: "shape-options" },
+    h("legend", {}, "What is drawn is"),
+    h("label", { class: "check" }, whole, "a whole curve"),
+    h(
+      "div",
+      { class: "toolbar" },
+      h("label", { class: "check" }, part, "a part of a curve, no less than"),
+      leastChoice(asked.least, (least) => put("least", least)),
+    ),
+    h("label", { class: "check" }, mirror, "mirror images too"),
+    rankChoice(asked.by, (by) => put("by", by)),
+  );
+  return { element, mark };
+}
+
+function leastChoice(least, choose) {
+  const values = [...new Set([...LEASTS, least])].sort((a, b) => a - b);
+  const choice = h(
+    "select",
+    { "aria-label": "Least part of a curve", onchange: () => choose(Number(choice.value)) },
+    values.map((value) => h("option", { value }, `${Math.round(100 * value)} %`)),
+  );
+  choice.value = String(least);
+  return choice;
+}
+
+function rankChoice(by, choose) {
+  const choice = h(
+    "select",
+    { id: "shape-by", onchange: () => choose(choice.value) },
+    h("option", { value: "rms" }, "rms deviation"),
+    h("option", { value: "greatest" }, "greatest deviation"),
+  );
+  choice.value = by;
+  return h("span", { class: "field row" }, h("label", { for: "shape-by" }, "Ranked by"), choice);
+}
