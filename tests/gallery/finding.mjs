@@ -26,6 +26,11 @@ const ranked = (page, within = 30000) =>
     within,
   );
 
+const leastPlaces = (page) =>
+  page
+    .locator(".over path")
+    .evaluateAll((paths) => Math.min(...paths.map((path) => path.getAttribute("d").split("L").length)));
+
 const tests = [
   [
     "4.1",
@@ -259,6 +264,15 @@ const tests = [
         .locator(".over path")
         .evaluateAll((paths) => new Set(paths.map((path) => getComputedStyle(path).strokeDasharray)).size);
       assert.equal(dashes, 3, "each has a dash of its own");
+      await eventually(async () => (await leastPlaces(page)) > 150, "curves are solved finely");
+      const strayed = await page.locator(".over").evaluate((picture) => {
+        const frame = picture.getBoundingClientRect();
+        return [...picture.querySelectorAll(".letter")].filter((letter) => {
+          const { left, right, top, bottom } = letter.getBoundingClientRect();
+          return left < frame.left || right > frame.right || top < frame.top || bottom > frame.bottom;
+        }).length;
+      });
+      assert.equal(strayed, 0, "letters stay in the frame");
       const deviation = async () => parseFloat(await page.locator(".deviation").first().innerText());
       const fitted = await deviation();
       await page.getByLabel("Aligned").selectOption("none");

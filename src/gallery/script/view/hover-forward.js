@@ -2,7 +2,7 @@
 // at.
 
 import { h, fill } from "./dom.js";
-import { solvedCurve } from "./hover-reading.js";
+import { solvedOrNull } from "./hover-reading.js";
 import { figure } from "./page-words.js";
 
 // The chord error of the curve that is brought forward, in pixels.
@@ -213,15 +213,6 @@ function besidePoint(at, size, room, isBefore) {
   const [before, after] = [at - 16 - size, at + 16];
   if (isBefore) return before < 0 ? after : before;
   return after + size > room ? before : after;
-}
-
-function solvedOrNull(family, curve, tolerance) {
-  try {
-    return solvedCurve(family, curve, tolerance);
-  } catch {
-    // A linkage that the page cannot solve is shown from the data, without what is read at the pointer.
-    return null;
-  }
 }
 
 /** What is read at a place of a curve: [[name, figure with unit], …]. */

@@ -41,6 +41,15 @@ export function solvedCurve(family, curve, tolerance) {
   };
 }
 
+/** `solvedCurve`, or null where the page cannot solve the linkage: then there is the data alone. */
+export function solvedOrNull(family, curve, tolerance) {
+  try {
+    return solvedCurve(family, curve, tolerance);
+  } catch {
+    return null;
+  }
+}
+
 function readingAt({ linkage, joint, fourBar }, motion, pass, input) {
   // At some limits there are no rates, but there is a pose.
   const pose = poseAt(linkage, motion, input);

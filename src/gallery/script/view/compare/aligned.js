@@ -8,8 +8,8 @@ import { searching } from "../../shape/search.js";
 import { identity, placed } from "../../shape/similarity.js";
 
 /**
- * Lays a curve, { family, curve }, over the first by an alignment's name: { points, closed, rms, greatest }, deviations by the
- * extent of the first. The best similarity is that of the search by shape.
+ * Lays a curve, { family, curve }, over the first by an alignment's name: { points, closed, similarity, rms,
+ * greatest }, deviations by the extent of the first. The best similarity is that of the search by shape.
  */
 export function laidOver(first, one, align) {
   const closed = one.family.curves.closed[one.curve] === 1;
@@ -19,11 +19,15 @@ export function laidOver(first, one, align) {
   if (align === "similar" || align === "mirrored") {
     const shape = askedShape(base, baseClosed);
     const found = shape && searched(shape, one, align === "mirrored");
-    if (found)
-      return { points: placed(found.similarity, own), closed, rms: found.rms, greatest: found.greatest };
+    if (found) {
+      const { similarity, rms, greatest } = found;
+      return { points: placed(similarity, own), closed, similarity, rms, greatest };
+    }
   }
-  const points = placed(boxed(base, own, align), own);
-  return { points, closed, ...deviationBetween({ points: base, closed: baseClosed }, { points, closed }) };
+  const similarity = boxed(base, own, align);
+  const points = placed(similarity, own);
+  const deviation = deviationBetween({ points: base, closed: baseClosed }, { points, closed });
+  return { points, closed, similarity, ...deviation };
 }
 
 /** The one curve, compared with a shape as the search by shape compares them. */

@@ -6,6 +6,11 @@ import { framing, pathThrough } from "../shape/overlay.js";
 const OVER_WIDE = 720;
 const OVER_LOW = 240;
 const OVER_HIGH = 540;
+// So far from the edges curves keep, and letters from their curves, in the picture's pixels: a letter has room
+// on either side of a curve, and stays in the frame.
+const OVER_INSET = 34;
+const LETTER_AWAY = 16;
+const FINE_DECIMALS = 3;
 
 /** The letter of the k-th curve, from 0. */
 export function letterOf(k) {
@@ -17,32 +22,55 @@ export function strokeOf(k) {
   return `compared ink-${(k % 5) + 1} dash-${k % 6}`;
 }
 
-/** A picture of outlines, [{ points, closed }], over one another, each with its letter. */
+/**
+ * A picture of outlines, [{ points, closed }], over one another, each with its letter: { element, scale,
+ * redraw(k, points) }. `scale` is of its pixels to the unit of the points; `redraw` puts finer points in place
+ * of those of an outline.
+ */
 export function overPicture(outlines, label) {
   const all = outlines.map(({ points }) => points);
   const high = heightFor(all);
-  const view = framing(all, OVER_WIDE, high);
-  const mark = ({ points }, k) => {
-    // Letters stand at different places of curves that lie over one another.
-    const at = 2 * Math.floor(((k + 0.5) / outlines.length) * (points.length / 2));
-    return s(
-      "text",
-      {
-        class: `letter ink-${(k % 5) + 1}`,
-        x: (view.x + view.scale * points[at]).toFixed(1),
-        y: (view.y - view.scale * points[at + 1] - 5).toFixed(1),
-      },
-      letterOf(k),
-    );
-  };
-  return s(
+  const view = framing(all, OVER_WIDE, high, OVER_INSET);
+  const paths = outlines.map(({ points, closed }, k) =>
+    s("path", { class: strokeOf(k), d: pathThrough(points, closed, view) }),
+  );
+  const element = s(
     "svg",
     { class: "thumbnail over", viewBox: `0 0 ${OVER_WIDE} ${high}`, role: "img", "aria-label": label },
-    outlines.map(({ points, closed }, k) =>
-      s("path", { class: strokeOf(k), d: pathThrough(points, closed, view) }),
-    ),
-    outlines.map(mark),
+    paths,
+    outlines.map((outline, k) => letterMark(outline, k, outlines.length, view)),
   );
+  const redraw = (k, points) =>
+    paths[k].setAttribute("d", pathThrough(points, outlines[k].closed, view, FINE_DECIMALS));
+  return { element, scale: view.scale, redraw };
+}
+
+/** The letter of the k-th of so many outlines, beside its line, on the side away from the outline's middle. */
+function letterMark({ points, closed }, k, count, view) {
+  const places = points.length / 2;
+  // Letters stand at different places of curves that lie over one another, and not at the ends of open ones.
+  const part = (k + 0.5) / count;
+  const at = Math.floor((closed ? part : 0.1 + 0.8 * part) * places);
+  const seen = (index) => {
+    const place = 2 * Math.min(Math.max(index, 0), places - 1);
+    return [view.x + view.scale * points[place], view.y - view.scale * points[place + 1]];
+  };
+  const [[x, y], [x0, y0], [x1, y1]] = [seen(at), seen(at - 1), seen(at + 1)];
+  const length = Math.hypot(x1 - x0, y1 - y0);
+  const [across, down] = length > 0 ? [(y1 - y0) / length, (x0 - x1) / length] : [0, -1];
+  const [middleX, middleY] = meanPlace(points, view);
+  const away = (x - middleX) * across + (y - middleY) * down < 0 ? -LETTER_AWAY : LETTER_AWAY;
+  const place = { x: (x + away * across).toFixed(1), y: (y + away * down).toFixed(1) };
+  return s("text", { class: `letter ink-${(k % 5) + 1}`, ...place, dy: "0.35em" }, letterOf(k));
+}
+
+function meanPlace(points, { scale, x, y }) {
+  const mean = (part) => {
+    let sum = 0;
+    for (let k = part; k < points.length; k += 2) sum += points[k];
+    return sum / (points.length / 2);
+  };
+  return [x + scale * mean(0), y - scale * mean(1)];
 }
 
 /** As high as the outlines need at full width, within bounds. */
@@ -54,7 +82,7 @@ function heightFor(outlines) {
       values.reduce((least, value) => Math.min(least, value), Infinity)
     );
   };
-  const wanted = (OVER_WIDE * side(1)) / (side(0) || 1) + 40;
+  const wanted = ((OVER_WIDE - 2 * OVER_INSET) * side(1)) / (side(0) || 1) + 2 * OVER_INSET;
   return Math.round(Math.min(Math.max(wanted, OVER_LOW), OVER_HIGH));
 }
 

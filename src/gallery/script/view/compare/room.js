@@ -10,6 +10,7 @@ import { thumbnail } from "../thumbnail.js";
 import { laidOver } from "./aligned.js";
 import { ALIGNMENTS, comparisonOf, comparisonQuery, MOST_COMPARED } from "./asked.js";
 import { factsTable } from "./facts.js";
+import { drawnFinely } from "./finely.js";
 import { letterOf, overPicture, strokeSample } from "./picture.js";
 
 /** `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`: opening such an address pins its curves. */
@@ -110,11 +111,15 @@ class Comparison {
     fill(this.tools, all.length ? this.controls() : null);
     const laid = curves.map((one) => (curves.length > 1 ? laidOver(curves[0], one, asked.align) : null));
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
-    fill(
-      this.body,
+    this.stop?.();
+    const picture =
       asked.view === "over" && curves.length > 1
         ? overPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`)
-        : null,
+        : null;
+    this.stop = picture && drawnFinely(picture, curves, laid);
+    fill(
+      this.body,
+      picture?.element,
       h(
         "ol",
         { class: asked.view === "over" ? "pinned-list" : "pinned-tiles" },
@@ -227,5 +232,6 @@ class Comparison {
 
   leave() {
     this.unwatch();
+    this.stop?.();
   }
 }

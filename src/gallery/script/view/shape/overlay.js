@@ -31,8 +31,8 @@ export function overlayPicture({ family, curve, similarity, from, to }, shape, {
   );
 }
 
-/** The view that has some outlines in a frame: { scale, x, y } with X = x + scale·px, Y = y − scale·py. */
-export function framing(outlines, width, height) {
+/** The view that has some outlines in a frame, `inset` pixels from its edges: { scale, x, y } with X = x + scale·px, Y = y − scale·py. */
+export function framing(outlines, width, height, inset = INSET) {
   let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const points of outlines) {
     for (let k = 0; k < points.length; k += 2) {
@@ -40,15 +40,16 @@ export function framing(outlines, width, height) {
       [y0, y1] = [Math.min(y0, points[k + 1]), Math.max(y1, points[k + 1])];
     }
   }
-  const scale = Math.min((width - 2 * INSET) / (x1 - x0 || 1e-9), (height - 2 * INSET) / (y1 - y0 || 1e-9));
+  const scale = Math.min((width - 2 * inset) / (x1 - x0 || 1e-9), (height - 2 * inset) / (y1 - y0 || 1e-9));
   return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
 }
 
-/** The path data of an outline in a view. */
-export function pathThrough(points, closed, { scale, x, y }) {
+/** The path data of an outline in a view, to so many decimals of a pixel. */
+export function pathThrough(points, closed, { scale, x, y }, decimals = 1) {
   let path = "";
   for (let k = 0; k < points.length; k += 2) {
-    path += `${k ? "L" : "M"}${(x + scale * points[k]).toFixed(1)} ${(y - scale * points[k + 1]).toFixed(1)}`;
+    const [across, down] = [x + scale * points[k], y - scale * points[k + 1]];
+    path += `${k ? "L" : "M"}${across.toFixed(decimals)} ${down.toFixed(decimals)}`;
   }
   return closed ? `${path}Z` : path;
 }
