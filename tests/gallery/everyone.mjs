@@ -249,3 +249,25 @@ check(
     assert.equal(await page.getByRole("button", { name: "As printed" }).count(), 0, "of no use in the light");
   },
 );
+
+check("7.11", "pages of dark paper are left alone in the dark", null, async ({ browser }) => {
+  const odd = oddAtlas(atlas);
+  try {
+    const g = await opened(browser, odd.folder, "/watt/1", { colorScheme: "dark" });
+    const { page } = g;
+    const of = (property) =>
+      page.locator(".page-sheet img").evaluate((image, name) => getComputedStyle(image)[name], property);
+    await page.waitForSelector(".page-sheet img");
+    assert.equal(await of("filter"), "none");
+    assert.equal(await page.getByRole("button", { name: "As printed" }).count(), 0, "of no use here");
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
+    assert.equal(await of("colorScheme"), "dark", "what comes forward is light on it");
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
+    await g.go("/evans-chart/1");
+    await page.waitForSelector(".page-sheet img");
+    assert.match(await of("filter"), /invert/);
+    await g.close();
+  } finally {
+    odd.remove();
+  }
+});

@@ -11,13 +11,15 @@ export const MARKED_TITLE = '<b>Evans</b> & <img src=x onerror="throw 1">';
 /** Why the third linkage of the family "evans" could not be assembled. */
 export const ODD_REASON = "the links p and a do not reach <one> another";
 
+const DARK_PAPER = "#14171c";
+
 // A white dot: the least PNG there is.
 const WHITE_DOT =
   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=";
 
 /**
  * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages,
- * and its third linkage not assembled; "watt" with a PNG; and one more, called "find" as a room is, with what
+ * and its third linkage not assembled; "watt" with a PNG on dark paper; and one more, called "find" as a room is, with what
  * "roberts" has. Returns { folder, remove() }.
  */
 export function oddAtlas(from) {
@@ -32,6 +34,7 @@ export function oddAtlas(from) {
   );
   rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
   writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
+  rewrite(join(folder, "watt/gallery.js"), (script) => script.replace(/"paper":\{/, `"paper":{"color":"${DARK_PAPER}",`));
   mkdirSync(join(folder, "find"));
   const roberts = readFileSync(join(folder, "roberts/gallery.js"), "utf8");
   writeFileSync(join(folder, "find/gallery.js"), roberts.replace('"id":"roberts"', '"id":"find"'));

@@ -8,8 +8,8 @@ export const NO_WORD = 255;
 /**
  * Collects the statements of a family's script; `finished()` is the family:
  *
- * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper, dash_deg, straight, template, names,
- * free, derived), and
+ * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper { width, height, color "#rrggbb", which
+ * older data lack }, dash_deg, straight, template, names, free, derived), and
  * cells { count, number, values (count × names), status (0 ok, 1 partial, 2 none), reason, caption, note },
  * curves { count, cell, trace, circuit, page (from 1; 0: on none), closed, measures, words, box (x0 y0 x1 y1), start, points },
  * pages [{ views: [{ cell, scale, origin, curves: [curve] }] }], cells and curves by their places from 0.

@@ -4,6 +4,7 @@ import { pageFile } from "../data/atlas.js";
 import { curveKey } from "../data/family.js";
 import { address } from "../data/address.js";
 import { fill, h, s } from "./dom.js";
+import { paperTone } from "./paper-ink.js";
 import { drawnPage } from "./thumbnail-page.js";
 
 /**
@@ -14,7 +15,8 @@ export async function pagePicture(app, family, page, label) {
   const { views } = family.pages[page - 1] ?? { views: [] };
   const file = pageFile(app.atlas, family.id, page);
   if (file) {
-    const image = h("img", { class: "picture printed", alt: label, src: file, draggable: "false" });
+    const tone = { "data-paper": paperTone(family) };
+    const image = h("img", { class: "picture printed", alt: label, src: file, draggable: "false", ...tone });
     try {
       await image.decode();
       return image;

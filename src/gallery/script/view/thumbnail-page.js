@@ -2,6 +2,7 @@
 
 import { pageFile } from "../data/atlas.js";
 import { h, s } from "./dom.js";
+import { paperTone } from "./paper-ink.js";
 import { curvePath } from "./thumbnail.js";
 
 // Places on paper closer than this, in millimetres, are one in a thumbnail.
@@ -15,10 +16,15 @@ export function pageThumbnail(atlas, family, page) {
   const { views } = family.pages[page - 1] ?? { views: [] };
   if (views.length) return drawnPage(family, views, "page-thumbnail thumbnail", PAPER_GRAIN);
   const file = pageFile(atlas, family.id, page);
-  return (
-    file &&
-    h("img", { class: "page-thumbnail printed", src: file, alt: "", loading: "lazy", decoding: "async" })
-  );
+  if (!file) return null;
+  return h("img", {
+    class: "page-thumbnail printed",
+    src: file,
+    alt: "",
+    loading: "lazy",
+    decoding: "async",
+    "data-paper": paperTone(family),
+  });
 }
 
 /**
