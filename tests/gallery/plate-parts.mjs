@@ -10,6 +10,7 @@ import { stretchOfCircuit } from "../../src/gallery/script/draw/band.js";
 import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clipping.js";
 import { dashData, dashesOfPeriod } from "../../src/gallery/script/draw/dashes.js";
 import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/paper-view.js";
+import { changedValues } from "../../src/gallery/script/kinematics/changes.js";
 import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
 import {
   courseOf,
@@ -19,11 +20,7 @@ import {
   placeAtPart,
   turningParts,
 } from "../../src/gallery/script/view/plate/course.js";
-import {
-  changeableParameters,
-  changedValues,
-  roundedToGrain,
-} from "../../src/gallery/script/view/plate/parameters.js";
+import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
 import { Poser } from "../../src/gallery/script/view/plate/poser.js";
 import { studyOf } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./taken.mjs";

@@ -1,11 +1,11 @@
 // A curve that is taken away: found by its name, and solved anew as the atlas sampled it.
 
 import { LinkageError } from "../kinematics/assembly.js";
+import { changedValues, templateWithChanges } from "../kinematics/changes.js";
 import { motionOf } from "../kinematics/motion.js";
 import { linkageOf } from "../kinematics/template.js";
 import { measuresOf } from "../measure/measures.js";
 import { measured } from "../data/family.js";
-import { changedValues, templateWithChanges } from "../view/plate/parameters.js";
 import { shortestDigits } from "./digits.js";
 
 /**

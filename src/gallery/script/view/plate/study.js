@@ -1,5 +1,6 @@
 // A linkage as a plate studies it: assembled, all its circuits, the one that is shown.
 
+import { changedValues, templateWithChanges } from "../../kinematics/changes.js";
 import { routesOf } from "../../kinematics/circuit.js";
 import { LinkageError } from "../../kinematics/assembly.js";
 import { fourBarOf, isOnCoupler } from "../../kinematics/four-bar.js";
@@ -9,14 +10,13 @@ import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
 import { sideOf } from "../../kinematics/signs.js";
 import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
-import { changedValues, templateWithChanges } from "./parameters.js";
 import { courseOf } from "./course.js";
 
 // So many samples over a circuit show what its other points and its sliders do.
 const STUDY_SAMPLES = 240;
 
 /**
- * The study of a curve of a family with changes (parameters.js): { values, reason } where it cannot be
+ * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } where it cannot be
  * assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
  * others, course, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
