@@ -1,4 +1,5 @@
-// Addresses: everything that can be looked at has one, in the fragment of the page's own, so that a link can be sent.
+// Addresses: everything that can be looked at has one, in the fragment of the page's own, so that a link
+// can be sent.
 //
 //   #/                                     all families
 //   #/evans                                the pages of a family

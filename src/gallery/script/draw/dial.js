@@ -3,7 +3,7 @@
 import { pixel } from "./path-data.js";
 
 /** The place of an angle in degrees at a radius about the dial's centre, [X, Y], y down. */
-export function dialPlace([cx, cy], radius, deg) {
+function dialPlace([cx, cy], radius, deg) {
   const angle = (deg * Math.PI) / 180;
   return [cx + radius * Math.cos(angle), cy - radius * Math.sin(angle)];
 }

@@ -47,7 +47,7 @@ export function mechanismOf(linkage, circuit, traced) {
 }
 
 /** The joints of the link at rest that something moves about. */
-export function groundPivots(linkage) {
+function groundPivots(linkage) {
   const ground = groundOf(linkage);
   const isPivot = (joint) => linkage.links.some((link) => link !== ground && placeOnLink(link, joint));
   return ground.map(({ joint }) => joint).filter(isPivot);

@@ -2,7 +2,7 @@
 
 export const BINS = 48;
 /** The bin of a missing number. */
-export const NO_BIN = 255;
+const NO_BIN = 255;
 
 /**
  * A scale for a column and the bin of each of its rows: { low, high, isLog, bins u8[count], counts u32[BINS], placeOf(value),

@@ -58,7 +58,7 @@ function fourBarPins({ joints, links, seenFrom }) {
  * Grashof's class of lengths { frame, crank, coupler, rocker }. Lengths whose sums agree to within a few
  * units in the last place make a change point: they are meant to be equal.
  */
-export function grashofClass({ frame, crank, coupler, rocker }) {
+function grashofClass({ frame, crank, coupler, rocker }) {
   const [shortest, la, lb, longest] = [frame, crank, coupler, rocker].sort((a, b) => a - b);
   const excess = longest - lb - (la - shortest);
   if (Math.abs(excess) <= lengthTolerance(longest + shortest + la + lb)) return "change-point";
@@ -68,7 +68,7 @@ export function grashofClass({ frame, crank, coupler, rocker }) {
 }
 
 /** McCarthy's type, by the signs that say whether the limits of input and output exist (table 2.2). */
-export function mccarthyType({ frame: g, crank: a, coupler: h, rocker: b }) {
+function mccarthyType({ frame: g, crank: a, coupler: h, rocker: b }) {
   const tolerance = lengthTolerance(g + a + h + b);
   const signs = [g - a + (h - b), g - a - (h - b), h - a - (g - b)];
   if (signs.some((sign) => Math.abs(sign) <= tolerance)) return "change-point";

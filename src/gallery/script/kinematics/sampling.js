@@ -12,7 +12,7 @@ import { modesOf, sideOf } from "./signs.js";
 import { mileageOf, smoothInput } from "./spacing.js";
 
 /** The most samples a circuit may have. */
-export const MAX_SAMPLES = 100000;
+const MAX_SAMPLES = 100000;
 
 /** A sampler for { step } or { samples, spacing }, to be used for many circuits. */
 export function samplerOf(sampling) {

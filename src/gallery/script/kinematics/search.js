@@ -254,7 +254,7 @@ function partedSpans(spans, end, { period }) {
 }
 
 /** Where `f` is least between two places, by golden section. */
-export function goldenLeast(from, to, f) {
+function goldenLeast(from, to, f) {
   const RATIO = (Math.sqrt(5) - 1) / 2;
   let [a, b] = [from, to];
   let [x, y] = [b - RATIO * (b - a), a + RATIO * (b - a)];

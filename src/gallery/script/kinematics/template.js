@@ -5,7 +5,7 @@ import { evaluateExpression } from "./expression.js";
 import { inputOfJoints } from "./linkage.js";
 
 /** What is wrong with the value of a parameter of a template, in a sentence; null where nothing is. */
-export function parameterObjection({ name, min, max }, value) {
+function parameterObjection({ name, min, max }, value) {
   if (!Number.isFinite(value)) return `\`${name}\` is ${value}, which is not a finite number`;
   if (min === 0 && value <= 0) return `\`${name}\` is ${value}, and must be more than 0`;
   if (min !== null && min !== undefined && value < min) {

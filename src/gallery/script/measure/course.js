@@ -80,7 +80,7 @@ function goneRoundTwice(course) {
 }
 
 /** The signed curvature at a point, by its neighbours. */
-export function bendOfCourse({ x, y, count }, at) {
+function bendOfCourse({ x, y, count }, at) {
   const k = Math.min(Math.max(at, 1), Math.max(count, 3) - 2);
   return bendThrough(x, y, Math.min(k - 1, count - 1), Math.min(k, count - 1), Math.min(k + 1, count - 1));
 }

@@ -44,7 +44,7 @@ export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
  * What measures are taken of: a joint on a circuit of a linkage's motion, with its trail, made once for all
  * of them.
  */
-export function subjectOf(linkage, motion, circuit, joint) {
+function subjectOf(linkage, motion, circuit, joint) {
   const trail = trailOf(circuit, joint, linkage.input);
   return {
     linkage,

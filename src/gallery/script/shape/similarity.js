@@ -38,11 +38,6 @@ export function composed(second, first) {
   };
 }
 
-/** The turn of a similarity in degrees, −180 to 180, and its scale. */
-export function turnAndScale({ re, im }) {
-  return { turn_deg: (Math.atan2(im, re) * 180) / Math.PI, scale: Math.sqrt(re * re + im * im) };
-}
-
 /**
  * The similarity without mirror image that carries points nearest to others, one by one, in the sense of least squares of
  * their distances: { mirror: false, re, im, x, y }. Points that are all one are only shifted.

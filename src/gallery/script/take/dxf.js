@@ -12,7 +12,7 @@ import { takenPose } from "./taken.js";
 const DXF_LAYERS = [["0", 7], ["CURVE", 1], ["LINKAGE", 7], ["JOINTS", 5], ["PIVOTS", 7]];
 
 /** How far a chord of a polyline is from the curve at most, in parts of the curve's extent. */
-export const DXF_CHORD = 1e-4;
+const DXF_CHORD = 1e-4;
 
 /** A taken curve as a DXF document; `program` is the program's name and version. */
 export function dxfOfCurve(taken, program, chord = DXF_CHORD) {
@@ -44,7 +44,7 @@ export function dxfOfCurve(taken, program, chord = DXF_CHORD) {
 }
 
 /** The samples of a taken curve, [{ x, y }, …], those that have a place. */
-export function samplesOfCurve({ course: { x, y, count }, joint }) {
+function samplesOfCurve({ course: { x, y, count }, joint }) {
   const all = Array.from({ length: count }, (_, k) => ({ x: x[joint][k], y: y[joint][k] }));
   return all.filter((p) => Number.isFinite(p.x) && Number.isFinite(p.y));
 }

@@ -63,7 +63,7 @@ function refinedNodesOfPass(nodes, middles, tolerance) {
  * A polyline [{ x, y }, …] with as few of its points as a sweep from its beginning finds, first and last among them: none
  * of the others is further than `tolerance` from it (Zhao and Saalfeld, Auto-Carto 13, 1997).
  */
-export function thinnedPath(points, tolerance) {
+function thinnedPath(points, tolerance) {
   if (points.length < 2) return [...points];
   const out = [points[0]];
   let sleeve = { anchor: points[0], sides: null, reach: 0 };

@@ -119,7 +119,7 @@ function attributesOf(attributes) {
 }
 
 /** A text in XML; what XML cannot have in any way is left out. */
-export function escapedXml(text) {
+function escapedXml(text) {
   const entities = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
   return text.replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "").replace(/[&<>"]/g, (c) => entities[c]);
 }

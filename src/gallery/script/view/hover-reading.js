@@ -17,7 +17,7 @@ const FOOT_STEPS = 4;
  * plane: { pass, input, place: [x, y], speed, mu }, the input in degrees or a length, the speed |dP/dinput|
  * per radian or unit of length, mu in degrees or null. Null where the linkage has no such circuit.
  */
-export function solvedCurve(family, curve, tolerance) {
+function solvedCurve(family, curve, tolerance) {
   const { cell, trace, circuit } = family.curves;
   const whole = linkageOf(family.template, cellValues(family, cell[curve]));
   const traced = whole.traced[trace[curve] - 1];

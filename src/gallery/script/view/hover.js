@@ -52,7 +52,7 @@ function squareToPolyline({ points, closed }, x, y) {
 }
 
 /** The square of the distance of a place from a segment. */
-export function squareToSegment(x, y, x0, y0, x1, y1) {
+function squareToSegment(x, y, x0, y0, x1, y1) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   const length = dx * dx + dy * dy;
   const part = length > 0 ? Math.min(Math.max(((x - x0) * dx + (y - y0) * dy) / length, 0), 1) : 0;

@@ -90,7 +90,7 @@ export function countsOf(family) {
 }
 
 /** How many linkages of a family could not be assembled, in words. */
-export function notAssembledInWords({ not_assembled: none, kept }) {
+function notAssembledInWords({ not_assembled: none, kept }) {
   return `${none.toLocaleString("en")} of ${counted(kept, "linkage", "linkages")} could not be assembled`;
 }
 

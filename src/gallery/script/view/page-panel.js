@@ -88,7 +88,7 @@ function pointInWords(family, curve) {
 }
 
 /** Linkages that could not be assembled, each with the reason. */
-export function notAssembled(family, cells) {
+function notAssembled(family, cells) {
   const { number, caption, reason } = family.cells;
   return h(
     "section",
@@ -159,7 +159,7 @@ function parameterFacts(family, cell) {
  * The measures of a curve in words, each explained by its definition: at the pointer, and all below them on
  * demand.
  */
-export function measureFacts(atlas, family, curve) {
+function measureFacts(atlas, family, curve) {
   const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
   const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
   return [

@@ -65,7 +65,7 @@ export function measureText(family, curve, { name, unit }) {
 }
 
 /** Whether the input of a family's linkage is a length, not an angle. */
-export function isDrivenByLength({ template }) {
+function isDrivenByLength({ template }) {
   return template.joints.some((joint) => joint.piston !== undefined);
 }
 

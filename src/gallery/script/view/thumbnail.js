@@ -40,7 +40,7 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
 }
 
 /** The least and greatest x and y of some curves, [x0, y0, x1, y1], in the unit of lengths. */
-export function boxOfCurves(family, curves) {
+function boxOfCurves(family, curves) {
   const whole = [Infinity, Infinity, -Infinity, -Infinity];
   for (const curve of curves) {
     const box = family.curves.box.subarray(4 * curve, 4 * curve + 4);

@@ -18,7 +18,7 @@ export function letterOf(k) {
 }
 
 /** The class of the k-th curve's line: an ink and a dash of its own. */
-export function strokeOf(k) {
+function strokeOf(k) {
   return `compared ink-${(k % 5) + 1} dash-${k % 6}`;
 }
 

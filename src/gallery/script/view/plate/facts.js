@@ -123,7 +123,7 @@ function rowOfMeasure(name, measure, recorded, isLength) {
 }
 
 /** A measure in words: with its unit, in four or five digits; empty where it does not apply. */
-export function toldMeasure({ word, unit }, value, isLength = false) {
+function toldMeasure({ word, unit }, value, isLength = false) {
   if (value === undefined || value === null || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
   if (value === Infinity) return "∞";

@@ -12,7 +12,7 @@ import { minusSigned } from "./study.js";
 const MANY_POINTS = 12;
 
 /** The input a dash and its gap span: the family's, or, of a length, a round part of the longest pass. */
-export function dashPeriod(family, { linkage, circuit }) {
+function dashPeriod(family, { linkage, circuit }) {
   if (!linkage.input.isLength) return family.dash_deg;
   return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
 }

@@ -3,7 +3,7 @@
 // the screen at any zoom.
 
 import { fittedView, viewBetween, zoomedView } from "../../draw/paper-view.js";
-import { fill, h, s } from "../dom.js";
+import { fill, h } from "../dom.js";
 import { MovingSheet } from "./moving-sheet.js";
 import { StillSheet } from "./still-sheet.js";
 
@@ -170,19 +170,4 @@ export class Stage {
     this.moving.place(this.view);
     this.onview();
   }
-}
-
-/**
- * The elements of a list, one for each of `count`, made by `make` as they come to be needed and hidden as
- * they are not.
- */
-export function keptElements(parent, list, count, make) {
-  while (list.length < count) list.push(parent.appendChild(make()));
-  list.forEach((element, k) => element.toggleAttribute("hidden", k >= count));
-  return list;
-}
-
-/** An SVG path of a class. */
-export function pathOfClass(name, attributes = {}) {
-  return s("path", { class: name, ...attributes });
 }
