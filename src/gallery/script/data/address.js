@@ -4,7 +4,7 @@
 //   #/                                     all families
 //   #/evans                                the pages of a family
 //   #/evans/3?curve=12.1.1                 a page, and a curve that is brought forward on it
-//   #/evans/curve/12.1.1?p=2.5             the plate of a curve, by cell, trace and circuit; with other parameters
+//   #/evans/curve/12.1.1?p=2.5             the plate of a curve (cell.trace.circuit); with other parameters
 //   #/find?family=evans&mu_min_deg=30..    what the filters leave
 //   #/shape?d=…                            what is like a shape
 //   #/compare?c=evans:12.1.1,watt:3.1.1    curves side by side
@@ -20,10 +20,13 @@ export function parsedAddress(fragment) {
     }
   };
   const words = path.split("/").filter(Boolean).map(word);
-  const pairs = (query ?? "").split("&").filter(Boolean).map((pair) => {
-    const at = pair.indexOf("=");
-    return at < 0 ? [word(pair), ""] : [word(pair.slice(0, at)), word(pair.slice(at + 1))];
-  });
+  const pairs = (query ?? "")
+    .split("&")
+    .filter(Boolean)
+    .map((pair) => {
+      const at = pair.indexOf("=");
+      return at < 0 ? [word(pair), ""] : [word(pair.slice(0, at)), word(pair.slice(at + 1))];
+    });
   return { path: words, query: new Map(pairs) };
 }
 

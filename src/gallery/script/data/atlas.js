@@ -1,11 +1,13 @@
-// The atlas: what the page says of all families, and the families themselves, each loaded when it is first asked for.
+// The atlas: what the page says of all families, and the families themselves, each loaded when it is first
+// asked for.
 
 import { FamilyReader } from "./family.js";
 
 /**
  * The atlas of `document`: { title, program, measures, families: [{ id, title, … }], book, family(id) }.
  *
- * A page that is opened from disk can fetch nothing, but it can load scripts: those of families call `couplerAtlas`.
+ * A page that is opened from disk can fetch nothing, but it can load scripts: those of families call
+ * `couplerAtlas`.
  */
 export function openAtlas(document, window) {
   const told = JSON.parse(document.getElementById("atlas").textContent);
@@ -13,25 +15,30 @@ export function openAtlas(document, window) {
   let reader = null;
   let taken = null;
   window.couplerAtlas = {
-    begin: (head) => { reader = new FamilyReader(head); },
+    begin: (head) => {
+      reader = new FamilyReader(head);
+    },
     cells: (chunk) => reader.cells(chunk),
     page: (page) => reader.page(page),
-    end: () => { taken = reader.finished(); },
+    end: () => {
+      taken = reader.finished();
+    },
   };
-  const load = (shown) => new Promise((resolve, reject) => {
-    const script = document.createElement("script");
-    script.src = shown.script;
-    const failed = () => reject(new Error(`${shown.script} cannot be read: render the atlas again`));
-    // Scripts run one at a time, and each is followed by its event.
-    script.onload = () => {
-      script.remove();
-      if (taken?.id === shown.id) resolve(taken);
-      else failed();
-      reader = taken = null;
-    };
-    script.onerror = failed;
-    document.head.append(script);
-  });
+  const load = (shown) =>
+    new Promise((resolve, reject) => {
+      const script = document.createElement("script");
+      script.src = shown.script;
+      const failed = () => reject(new Error(`${shown.script} cannot be read: render the atlas again`));
+      // Scripts run one at a time, and each is followed by its event.
+      script.onload = () => {
+        script.remove();
+        if (taken?.id === shown.id) resolve(taken);
+        else failed();
+        reader = taken = null;
+      };
+      script.onerror = failed;
+      document.head.append(script);
+    });
   const family = (id) => {
     const shown = told.families.find((candidate) => candidate.id === id);
     if (!shown?.script) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));

@@ -8,10 +8,11 @@ export const NO_WORD = 255;
 /**
  * Collects the statements of a family's script; `finished()` is the family:
  *
- * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper { width, height, color "#rrggbb", which
- * older data lack }, dash_deg, straight, template, names, free, derived), and
+ * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper { width, height, color
+ *   "#rrggbb", which older data lack }, dash_deg, straight, template, names, free, derived), and
  * cells { count, number, values (count × names), status (0 ok, 1 partial, 2 none), reason, caption, note },
- * curves { count, cell, trace, circuit, page (from 1; 0: on none), closed, measures, words, box (x0 y0 x1 y1), start, points },
+ * curves { count, cell, trace, circuit, page (from 1; 0: on none), closed, measures, words,
+ *   box (x0 y0 x1 y1), start, points },
  * pages [{ views: [{ cell, scale, origin, curves: [curve] }] }], cells and curves by their places from 0.
  */
 export class FamilyReader {
@@ -35,24 +36,38 @@ export class FamilyReader {
     const family = { ...this.head, cells, curves, pages: [] };
     family.places = placesOfCurves(family);
     family.pages = Array.from(this.pages, (views) => pageOf(family, views ?? []));
-    family.pages.forEach(({ views }, k) => views.forEach((view) => view.curves.forEach((curve) => {
-      curves.page[curve] = k + 1;
-    })));
+    family.pages.forEach(({ views }, k) =>
+      views.forEach((view) =>
+        view.curves.forEach((curve) => {
+          curves.page[curve] = k + 1;
+        }),
+      ),
+    );
     return family;
   }
 }
 
 function joinedCells(chunks) {
-  const all = (name) => (chunks.length ? concatenated(chunks.map((chunk) => unpacked(chunk[name]))) : new Uint8Array());
+  const all = (name) =>
+    chunks.length ? concatenated(chunks.map((chunk) => unpacked(chunk[name]))) : new Uint8Array();
   const words = (name) => chunks.flatMap((chunk) => chunk[name]);
   const number = all("number");
   const [values, status] = [all("values"), all("status")];
-  return { count: number.length, number, values, status, reason: words("reason"), caption: words("caption"), note: words("note") };
+  return {
+    count: number.length,
+    number,
+    values,
+    status,
+    reason: words("reason"),
+    caption: words("caption"),
+    note: words("note"),
+  };
 }
 
 function joinedCurves(chunks) {
   const parts = chunks.map((chunk) => chunk.curves);
-  const all = (name, kind) => (parts.length ? concatenated(parts.map((part) => unpacked(part[name]))) : new kind());
+  const all = (name, kind) =>
+    parts.length ? concatenated(parts.map((part) => unpacked(part[name]))) : new kind();
   const cell = all("cell", Uint32Array);
   const counts = all("count", Uint16Array);
   let [at, before] = [0, 0];
@@ -64,7 +79,9 @@ function joinedCurves(chunks) {
     before += unpacked(chunk.number).length;
   }
   const start = new Uint32Array(cell.length + 1);
-  counts.forEach((count, k) => { start[k + 1] = start[k] + count; });
+  counts.forEach((count, k) => {
+    start[k + 1] = start[k] + count;
+  });
   return {
     count: cell.length,
     cell,
@@ -82,21 +99,27 @@ function joinedCurves(chunks) {
 
 function joinedMeasures(parts) {
   const names = Object.keys(parts[0]?.measures ?? {});
-  return Object.fromEntries(names.map((name) => [name, concatenated(parts.map((part) => unpacked(part.measures[name])))]));
+  return Object.fromEntries(
+    names.map((name) => [name, concatenated(parts.map((part) => unpacked(part.measures[name])))]),
+  );
 }
 
 /** Words of chunks under one numbering. */
 function joinedWords(parts) {
   const names = Object.keys(parts[0]?.words ?? {});
-  return Object.fromEntries(names.map((name) => {
-    const values = [];
-    const codes = parts.map((part) => {
-      const { values: own, codes: packed } = part.words[name];
-      const renamed = own.map((word) => (values.includes(word) ? values.indexOf(word) : values.push(word) - 1));
-      return unpacked(packed).map((code) => renamed[code] ?? NO_WORD);
-    });
-    return [name, { values, codes: concatenated(codes) }];
-  }));
+  return Object.fromEntries(
+    names.map((name) => {
+      const values = [];
+      const codes = parts.map((part) => {
+        const { values: own, codes: packed } = part.words[name];
+        const renamed = own.map((word) =>
+          values.includes(word) ? values.indexOf(word) : values.push(word) - 1,
+        );
+        return unpacked(packed).map((code) => renamed[code] ?? NO_WORD);
+      });
+      return [name, { values, codes: concatenated(codes) }];
+    }),
+  );
 }
 
 /** Where each curve is, by its key. */

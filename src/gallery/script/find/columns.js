@@ -15,8 +15,8 @@ const FIRST_NUMBERS = [
 const LATER_WORDS = ["type", "shortest", "symmetry"];
 
 /**
- * The columns of a table with two different values: [{ name, group: "first" | "more" | "parameters", kind: "words" | "numbers",
- * unit, definition }]. Columns in `kept` (their names) are there whatever their values.
+ * The columns of a table with two different values: [{ name, group: "first" | "more" | "parameters", kind:
+ * "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are there whatever their values.
  */
 export function columnsOf(table, measures, kept = new Set()) {
   const told = new Map(measures.map((measure) => [measure.name, measure]));

@@ -1,8 +1,8 @@
 // Which rows of a table pass its filters.
 
 /**
- * Filters of a table by the names of columns: { low, high } of numbers, either of them missing, both within; or a Set of
- * words. A row that misses what a filter asks for does not pass it.
+ * Filters of a table by the names of columns: { low, high } of numbers, either of them missing, both within;
+ * or a Set of words. A row that misses what a filter asks for does not pass it.
  */
 export class Filters {
   constructor(table) {

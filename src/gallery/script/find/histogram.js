@@ -5,9 +5,10 @@ export const BINS = 48;
 const NO_BIN = 255;
 
 /**
- * A scale for a column and the bin of each of its rows: { low, high, isLog, bins u8[count], counts u32[BINS], placeOf(value),
- * valueAt(place) } with places 0 to 1 between `low` and `high`. Logarithmic where all numbers are positive and their middle
- * nine tenths span more than a factor of thirty. What is infinite stands in the last bin.
+ * A scale for a column and the bin of each of its rows: { low, high, isLog, bins u8[count], counts u32[BINS],
+ * placeOf(value), valueAt(place) } with places 0 to 1 between `low` and `high`. Logarithmic where all numbers
+ * are positive and their middle nine tenths span more than a factor of thirty. What is infinite stands in the
+ * last bin.
  */
 export function histogramOf(values) {
   const sorted = values.filter((value) => Number.isFinite(value)).sort();

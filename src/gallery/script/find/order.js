@@ -10,8 +10,9 @@ export class Orders {
   }
 
   /**
-   * All rows by a column of numbers or of words (`kind`), the least first, or the greatest if `down`; rows without a value
-   * come last both ways, and rows of one value in the table's order. Without a name, the table's order.
+   * All rows by a column of numbers or of words (`kind`), the least first, or the greatest if `down`; rows
+   * without a value come last both ways, and rows of one value in the table's order. Without a name, the
+   * table's order.
    */
   by(name, kind, down) {
     const key = `${down ? "-" : ""}${kind} ${name}`;

@@ -1,10 +1,11 @@
-// What is asked of the atlas, and its address: `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
+// What is asked of the atlas, and its address:
+// `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
 
 const OTHER_KEYS = new Set(["family", "sort", "show"]);
 
 /**
- * The question of an address's query: { families: [id] or null for all, filters: Map of column -> { low, high } or Set of
- * words, sort: { name, down } , show: "sheet" | "table" }.
+ * The question of an address's query: { families: [id] or null for all, filters: Map of column to a Set of
+ * words or { low, high }, sort: { name, down } , show: "sheet" | "table" }.
  */
 export function questionOf(query) {
   const families = query.get("family");

@@ -7,7 +7,8 @@ export const DERIVED = {
   mu_worst_deg: {
     unit: "deg",
     definition:
-      "how far the transmission angle stays from 0 and 180 all round: the lesser of its least and 180 less its greatest",
+      "how far the transmission angle stays from 0 and 180 all round: the lesser of its least " +
+      "and 180 less its greatest",
     of: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
   },
   straight_tolerance: {
@@ -27,7 +28,10 @@ export const DERIVED = {
 const SYMMETRIC = ["not symmetric", "symmetric"];
 const TURNS = ["between limits", "full turn"];
 
-/** The rows of families: `family[row]`, `curve[row]` say whose; columns are made when they are first asked for. */
+/**
+ * The rows of families: `family[row]`, `curve[row]` say whose; columns are made when they are first asked
+ * for.
+ */
 export class CurveTable {
   constructor(families) {
     this.families = families;

@@ -17,9 +17,9 @@ import { outputSwing, timeRatio, transmissionRange } from "./transmission.js";
  * The measures of a joint's curve on a circuit, { name: number | string }; those that do not apply are
  * absent.
  *
- * @param asked { straight: { tolerance | input | length }, portions }: what is asked of the straight portion (a
- *   tolerance of 0.001 where nothing is); without `portions` (false) the straight and the circular portion are
- *   left out, which take the most of the time
+ * @param asked { straight: { tolerance | input | length }, portions }: what is asked of the straight portion
+ *   (a tolerance of 0.001 where nothing is); without `portions` (false) the straight and the circular portion
+ *   are left out, which take the most of the time
  */
 export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
   const subject = subjectOf(linkage, motion, circuit, joint);

@@ -6,8 +6,9 @@ import { cleaned, extentOf, lengthsAlong, resampled, thinned } from "./outline.j
 const TREMBLING = 0.012;
 
 /**
- * A shape from its points: { closed, points, extent, frame, outline }: `outline` lies about its middle with an extent of 1,
- * `frame` is the similarity from the points as given to it. Null where there are not two different points.
+ * A shape from its points: { closed, points, extent, frame, outline }: `outline` lies about its middle with
+ * an extent of 1, `frame` is the similarity from the points as given to it. Null where there are not two
+ * different points.
  */
 export function askedShape(points, closed) {
   const given = cleaned(points, closed);

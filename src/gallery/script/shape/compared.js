@@ -6,7 +6,8 @@ import { KEPT } from "./indexing.js";
 import { cleaned, mirroredOutline, portion, resampled, reversedOutline } from "./outline.js";
 import { composed } from "./similarity.js";
 
-// How exactly a curve is compared: its points, those of a portion, the rounds of fitting, and their reach along the curve.
+// How exactly a curve is compared: its points, those of a portion, the rounds of fitting, and their reach
+// along the curve.
 const CARE = {
   rough: { points: 64, piece: 48, rounds: 2, reach: 0.08 },
   exact: { points: 192, piece: 128, rounds: 5, reach: 0.05 },
@@ -15,8 +16,8 @@ const CARE = {
 const MARGIN = 0.15;
 
 /**
- * Fits a whole curve to a shape, beginning with a seed { mirror, reversed, start }:
- * { rms, greatest, similarity: from the curve's own plane to the shape's outline, from, to, start: in the way it is passed }.
+ * Fits a whole curve to a shape, beginning with a seed { mirror, reversed, start }: { rms, greatest,
+ * similarity: from the curve's own plane to the shape's outline, from, to, start: in the way it is passed }.
  */
 export function wholeFit(index, curve, asked, seed, care) {
   const closed = index.closed[curve] === 1;
@@ -42,7 +43,10 @@ export function wholeFit(index, curve, asked, seed, care) {
   };
 }
 
-/** Fits a portion of a curve to a shape, likewise; the seed has a `span`, and `start` is in the curve's own direction. */
+/**
+ * Fits a portion of a curve to a shape, likewise; the seed has a `span`, and `start` is in the curve's own
+ * direction.
+ */
 export function partFit(index, curve, asked, seed, care) {
   const closed = index.closed[curve] === 1;
   const { piece: count, rounds, reach } = CARE[care];
@@ -62,13 +66,19 @@ export function partFit(index, curve, asked, seed, care) {
   return { rms, greatest, similarity: composed(similarity, seen.frame), from: near - turns, to: far - turns };
 }
 
-/** The points of a curve: those that the index keeps, in units of its own, for a rough look, and its own for an exact one. */
+/**
+ * The points of a curve: those that the index keeps, in units of its own, for a rough look, and its own for
+ * an exact one.
+ */
 function outlineOf(index, curve, care) {
   if (care === "rough") return index.kept.subarray(2 * KEPT * curve, 2 * KEPT * (curve + 1));
   return cleaned(curvePoints(index.family, curve), index.closed[curve] === 1);
 }
 
-/** A curve as it is passed, about its middle and with a size of 1: { points, closed, frame: from its own plane }. */
+/**
+ * A curve as it is passed, about its middle and with a size of 1: { points, closed, frame }, the frame from
+ * its own plane.
+ */
 function passed(points, { mirror, reversed }, closed) {
   const [x0, y0, x1, y1] = boxOf(points);
   const scale = 1 / (Math.hypot(x1 - x0, y1 - y0) || 1);

@@ -5,8 +5,8 @@ import { extentOf, resampled } from "./outline.js";
 const COMPARED_POINTS = 160;
 
 /**
- * The root of mean squares and the greatest of the distances from even points of each of two outlines, { points, closed }, to
- * the other, by the extent of the first: { rms, greatest }.
+ * The root of mean squares and the greatest of the distances from even points of each of two outlines, {
+ * points, closed }, to the other, by the extent of the first: { rms, greatest }.
  */
 export function deviationBetween(first, second) {
   const one = distancesTo(second, resampled(first.points, first.closed, COMPARED_POINTS));

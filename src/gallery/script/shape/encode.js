@@ -6,7 +6,10 @@ const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-
 // Twelve bits of a coordinate: one in 4,096 of the greater side of the shape's box.
 const GRAIN = 4095;
 
-/** A shape of at most `most` points in letters of base64url: "c" for a closed one or "o", then four letters a point. */
+/**
+ * A shape of at most `most` points in letters of base64url: "c" for a closed one or "o", then four letters a
+ * point.
+ */
 export function encodedShape(points, closed, most = 48) {
   const few = simplified(points, closed, most);
   const xs = few.filter((_, k) => k % 2 === 0);
@@ -33,8 +36,9 @@ export function decodedShape(word) {
 }
 
 /**
- * The points of an outline without those that matter least: again and again the one goes that spans the smallest triangle
- * with its neighbours (Visvalingam and Whyatt 1993), until there are `most`. The ends of an open outline stay.
+ * The points of an outline without those that matter least: again and again the one goes that spans the
+ * smallest triangle with its neighbours (Visvalingam and Whyatt 1993), until there are `most`. The ends of an
+ * open outline stay.
  */
 export function simplified(points, closed, most) {
   const kept = Array.from({ length: points.length / 2 }, (_, k) => k);

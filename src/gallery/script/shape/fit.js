@@ -8,12 +8,13 @@ const SLIP = 0.02;
 /**
  * Fits an outline to another of the same direction and about the same extent, 1.
  *
- * `asked` and `curve` are { points, closed }, evenly spaced; `start` and `span` say between which places of `curve`, counted
- * in its points, the whole of `asked` lies about. `whole`: all of `curve` is compared, not only what lies between the ends
- * of `asked`. `rounds` of pairing and fitting; `reach`: how far along the other outline, by its length, the nearest place is
- * sought from the one expected: far enough for a hand's uneven pace, and not so far that one arm of a figure is taken for
- * another. Gives { rms, greatest: of the distances both ways, as `asked` measures, similarity: of `curve` to `asked`,
- * from, to: the places of the ends of `asked` on `curve`, start: where it begins by all of its points }.
+ * `asked` and `curve` are { points, closed }, evenly spaced; `start` and `span` say between which places of
+ * `curve`, counted in its points, the whole of `asked` lies about. `whole`: all of `curve` is compared, not
+ * only what lies between the ends of `asked`. `rounds` of pairing and fitting; `reach`: how far along the
+ * other outline, by its length, the nearest place is sought from the one expected: far enough for a hand's
+ * uneven pace, and not so far that one arm of a figure is taken for another. Gives { rms, greatest: of the
+ * distances both ways, as `asked` measures, similarity: of `curve` to `asked`, from, to: the places of the
+ * ends of `asked` on `curve`, start: where it begins by all of its points }.
  */
 export function closestFit(asked, curve, { start, span, whole, rounds, reach }) {
   const match = new Matching(asked, curve, { start, span, whole, reach });
@@ -73,7 +74,10 @@ class Matching {
     out[at + 1] = points[a + 1] + t * (points[b + 1] - points[a + 1]);
   }
 
-  /** Pairs the points of both outlines with the other's nearest places, `moved` being the curve as it lies on `asked`. */
+  /**
+   * Pairs the points of both outlines with the other's nearest places, `moved` being the curve as it lies on
+   * `asked`.
+   */
   pair(moved) {
     const { asked, curve, foot, start, span, steps } = this;
     this.used = this.forth = this.back = this.forthGreatest = this.backGreatest = 0;
@@ -139,8 +143,8 @@ class Matching {
 }
 
 /**
- * The nearest place to (x, y) on the segments of an outline within `reach` of a place: in `foot`, { place, square: of the
- * distance, x, y, ex, ey: the direction of the segment }.
+ * The nearest place to (x, y) on the segments of an outline within `reach` of a place: in `foot`, { place,
+ * square: of the distance, x, y, ex, ey: the direction of the segment }.
  */
 function nearest(points, closed, about, reach, x, y, foot) {
   const count = points.length / 2;

@@ -7,7 +7,9 @@ import { fourier, normalised } from "./spectrum.js";
 /** Points of a curve as its spectrum has them, and as the index keeps the curve itself. */
 export const SPECTRUM = 64;
 export const KEPT = 128;
-/** Chords of a window, whose directions describe it, and points at which a window is looked at more closely. */
+/**
+ * Chords of a window, whose directions describe it, and points at which a window is looked at more closely.
+ */
 export const CHORDS = 8;
 export const WINDOW = 16;
 /** The extents of windows, by the length of the curve: from all of it down to less than a twentieth. */
@@ -24,9 +26,9 @@ export function windowsOf(span) {
 /**
  * Makes the index of a family step by step; the generator's value is
  *
- * { family, count, closed u8[], kept f32[2·KEPT·count]: each curve even, centred and 1 in its root of mean squares,
- * re, im f32[SPECTRUM·count]: of closed curves the spectrum, of open ones the points themselves, of unit energy,
- * size f32[SPECTRUM·count]: of the spectrum's numbers, windows null }.
+ * { family, count, closed u8[], kept f32[2·KEPT·count]: each curve even, centred and 1 in its root of mean
+ * squares, re, im f32[SPECTRUM·count]: of closed curves the spectrum, of open ones the points themselves, of
+ * unit energy, size f32[SPECTRUM·count]: of the spectrum's numbers, windows null }.
  */
 export function* indexing(family) {
   const { count } = family.curves;
@@ -87,9 +89,9 @@ function keepEven(index, curve, even) {
 }
 
 /**
- * Adds to an index, step by step, what a search for parts of curves needs of windows no shorter than `least` of a curve:
- * windows[k] u8[count × windowsOf(SPANS[k])], the direction of the first chord of each window in 256ths of a turn. The other
- * chords are the first ones of later windows.
+ * Adds to an index, step by step, what a search for parts of curves needs of windows no shorter than `least`
+ * of a curve: windows[k] u8[count × windowsOf(SPANS[k])], the direction of the first chord of each window in
+ * 256ths of a turn. The other chords are the first ones of later windows.
  */
 export function* indexingWindows(index, least) {
   index.windows ??= [];
@@ -114,7 +116,10 @@ export function directionOf(x, y) {
   return Math.round((Math.atan2(y, x) * 128) / Math.PI) & 255;
 }
 
-/** The points of a window of a curve, `start` and `span` by its length, into re and im; of a closed one on round its end. */
+/**
+ * The points of a window of a curve, `start` and `span` by its length, into re and im; of a closed one on
+ * round its end.
+ */
 export function windowAt(index, curve, start, span, re, im) {
   const base = 2 * KEPT * curve;
   const { kept } = index;

@@ -1,6 +1,9 @@
 // Outlines: polylines, open or closed, as flat arrays [x0, y0, x1, y1, …] without a repeated first point.
 
-/** The points of an outline that are finite and not where their forerunner is; of a closed one, not where its first is. */
+/**
+ * The points of an outline that are finite and not where their forerunner is; of a closed one, not where its
+ * first is.
+ */
 export function cleaned(points, closed) {
   const kept = [];
   for (let k = 0; k + 1 < points.length; k += 2) {
@@ -29,8 +32,8 @@ export function lengthsAlong(points, closed) {
 }
 
 /**
- * `count` points spaced evenly along an outline: of an open one with both ends, of a closed one from its first point round.
- * An outline without length gives the same point throughout.
+ * `count` points spaced evenly along an outline: of an open one with both ends, of a closed one from its
+ * first point round. An outline without length gives the same point throughout.
  */
 export function resampled(points, closed, count) {
   const along = lengthsAlong(points, closed);
@@ -83,8 +86,8 @@ export function mirroredOutline(points) {
 }
 
 /**
- * An outline with its points at least `spacing` apart, each the mean of those that it stands for: the trembling of a hand, and
- * the noise of a measurement, would otherwise add to the length along it.
+ * An outline with its points at least `spacing` apart, each the mean of those that it stands for: the
+ * trembling of a hand, and the noise of a measurement, would otherwise add to the length along it.
  */
 export function thinned(points, closed, spacing) {
   const out = [];
@@ -110,7 +113,10 @@ export function thinned(points, closed, spacing) {
   return Float64Array.from(out);
 }
 
-/** Whether an outline comes back so near to its beginning that it is meant to close: within 12 % of its extent. */
+/**
+ * Whether an outline comes back so near to its beginning that it is meant to close: within 12 % of its
+ * extent.
+ */
 export function looksClosed(points) {
   const end = points.length - 2;
   const gap = Math.hypot(points[end] - points[0], points[end + 1] - points[1]);
@@ -118,8 +124,8 @@ export function looksClosed(points) {
 }
 
 /**
- * The portion of an outline between two fractions of its length as `count` even points; a closed one goes on round its first
- * point, an open one stops at its ends: { points, from, to } with the fractions that it has.
+ * The portion of an outline between two fractions of its length as `count` even points; a closed one goes on
+ * round its first point, an open one stops at its ends: { points, from, to } with the fractions that it has.
  */
 export function portion(points, closed, from, to, count) {
   const along = lengthsAlong(points, closed);

@@ -4,7 +4,10 @@ import { hasLength } from "./encode.js";
 import { lengthsAlong, looksClosed } from "./outline.js";
 import { subpathsOf } from "./path.js";
 
-/** The shape in a text: { points: flat array, y up, closed, said: what was read }. Throws an Error with a sentence. */
+/**
+ * The shape in a text: { points: flat array, y up, closed, said: what was read }. Throws an Error with a
+ * sentence.
+ */
 export function shapeIn(text) {
   const plain = text.trim();
   if (!plain) throw new Error("There is nothing to read.");

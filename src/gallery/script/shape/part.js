@@ -10,9 +10,10 @@ import { normalised } from "./spectrum.js";
 const CLOSER = 600;
 
 /**
- * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than `least` of the
- * curve's length: [{ index, curve, value, seeds: [{ mirror, reversed, start, span }] }], as `likelyWhole`, with `start` and
- * `span` by the curve's length in its own direction. The index must have its windows.
+ * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than
+ * `least` of the curve's length: [{ index, curve, value, seeds: [{ mirror, reversed, start, span }] }], as
+ * `likelyWhole`, with `start` and `span` by the curve's length in its own direction. The index must have its
+ * windows.
  */
 export function* likelyParts(index, shape, { mirror, least, most }) {
   const own = windowOf(shape);
@@ -45,7 +46,10 @@ export function* likelyParts(index, shape, { mirror, least, most }) {
   return list.best();
 }
 
-/** The window that a shape is, with unit energy, in four ways, and the directions of its chords; null if it is a point. */
+/**
+ * The window that a shape is, with unit energy, in four ways, and the directions of its chords; null if it is
+ * a point.
+ */
 function windowOf(shape) {
   const { points } = evenShape(shape, WINDOW, true);
   const re = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n]);
@@ -67,7 +71,10 @@ function windowOf(shape) {
   return { chords, ways };
 }
 
-/** For each half of each curve and each way the window whose chords differ least in direction from the shape's, once turned. */
+/**
+ * For each half of each curve and each way the window whose chords differ least in direction from the
+ * shape's, once turned.
+ */
 function bestWindows(count) {
   const slots = SLOTS * count;
   return {
@@ -101,8 +108,8 @@ function* scan(index, s, { chords }, mirror, best) {
 }
 
 /**
- * The first and the last chord alone tell most windows away: their angle is that of the shape as it is, and of its mirror
- * image passed the other way; or it is the opposite, for the two other ways.
+ * The first and the last chord alone tell most windows away: their angle is that of the shape as it is, and
+ * of its mirror image passed the other way; or it is the opposite, for the two other ways.
  */
 function scanCurve(index, curve, s, given, best) {
   const { each, away, turn, mirror } = given;
@@ -155,7 +162,10 @@ function keepNearer(windows, base, w, given, way, best, at, s) {
   best.window[at + way] = w;
 }
 
-/** The sum of the differences in direction of a window's chords, turned so that the fourth agrees; or more than `most`. */
+/**
+ * The sum of the differences in direction of a window's chords, turned so that the fourth agrees; or more
+ * than `most`.
+ */
 function differenceOf(windows, base, w, { each, away, steps, chords }, way, most) {
   const reversed = way % 2 === 1;
   const sign = way < 2 ? 1 : -1;
@@ -174,7 +184,10 @@ function differenceOf(windows, base, w, { each, away, steps, chords }, way, most
   return sum;
 }
 
-/** The best windows of a curve, one for each half and way that has one, with their correlations, the likeliest first. */
+/**
+ * The best windows of a curve, one for each half and way that has one, with their correlations, the likeliest
+ * first.
+ */
 function seedsOf(index, curve, own, best) {
   const [re, im] = [new Float64Array(WINDOW), new Float64Array(WINDOW)];
   const seeds = [];

@@ -3,8 +3,8 @@
 const CHORDS_OF_A_BEND = 24;
 
 /**
- * The subpaths of path data (M L H V C S Q T A Z, absolute and relative), [{ points: flat array, closed }], y down as in SVG;
- * curves in 24 chords. What follows an error is left out, as SVG has it.
+ * The subpaths of path data (M L H V C S Q T A Z, absolute and relative), [{ points: flat array, closed }], y
+ * down as in SVG; curves in 24 chords. What follows an error is left out, as SVG has it.
  */
 export function subpathsOf(data) {
   const pen = new Pen();

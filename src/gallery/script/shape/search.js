@@ -7,19 +7,22 @@ import { likelyParts } from "./part.js";
 import { composed, inverted } from "./similarity.js";
 import { likelyWhole } from "./whole.js";
 
-// Curves that are compared roughly, those of them that are compared exactly, and the points of the shape for each.
+// Curves that are compared roughly, those of them that are compared exactly, and the points of the shape for
+// each.
 const ROUGH = 320;
 const EXACT = 64;
 const ROUGH_POINTS = 32;
 const EXACT_POINTS = 96;
 
 /**
- * Searches indexes, step by step, for the curves most like a shape. `part`: a portion of a curve, no shorter than `least` of
- * it, may be like the shape; `mirror`: mirror images count as alike; `by`: "rms" or "greatest", the deviation that ranks.
+ * Searches indexes, step by step, for the curves most like a shape. `part`: a portion of a curve, no shorter
+ * than `least` of it, may be like the shape; `mirror`: mirror images count as alike; `by`: "rms" or
+ * "greatest", the deviation that ranks.
  *
- * The generator's value is [{ name, family, curve, rms, greatest, similarity, from, to }], the nearest first: deviations by
- * the extent of the shape, the similarity from the curve to the shape as it was given, and between which fractions of the
- * curve's length it was compared (`to` beyond 1 goes on round the first point; 0 and 1 for a whole curve).
+ * The generator's value is [{ name, family, curve, rms, greatest, similarity, from, to }], the nearest first:
+ * deviations by the extent of the shape, the similarity from the curve to the shape as it was given, and
+ * between which fractions of the curve's length it was compared (`to` beyond 1 goes on round the first point;
+ * 0 and 1 for a whole curve).
  */
 export function* searching(indexes, shape, { part = false, mirror = true, least = 0.15, by = "rms" } = {}) {
   const likely = [];
@@ -44,7 +47,10 @@ export function* searching(indexes, shape, { part = false, mirror = true, least 
   return results.sort((a, b) => a[by] - b[by]);
 }
 
-/** The likeliest curves by rough comparisons, each with its best seed, begun where the comparison found it to begin. */
+/**
+ * The likeliest curves by rough comparisons, each with its best seed, begun where the comparison found it to
+ * begin.
+ */
 function* roughlyCompared(likely, outlines) {
   const fits = [];
   for (const { index, curve, seeds } of likely) {

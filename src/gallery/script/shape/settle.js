@@ -15,8 +15,9 @@ export class Settler {
   }
 
   /**
-   * Moves the ends of a window, { start, span } by the curve's length, by `rounds` of Gauss and Newton to where it is most
-   * like a shape of unit energy { re, im }: { start, span, value }, the square of their correlation, 1 for a similar portion.
+   * Moves the ends of a window, { start, span } by the curve's length, by `rounds` of Gauss and Newton to
+   * where it is most like a shape of unit energy { re, im }: { start, span, value }, the square of their
+   * correlation, 1 for a similar portion.
    */
   settled(curve, own, { start, span }, least, rounds) {
     let [from, to] = [start, start + Math.min(span, 1)];
@@ -42,7 +43,9 @@ export class Settler {
     return correlation(own, re, im);
   }
 
-  /** Ends that the curve has: of an open one none beyond its own, and an extent from the least to the whole. */
+  /**
+   * Ends that the curve has: of an open one none beyond its own, and an extent from the least to the whole.
+   */
   allowed(curve, from, to, least) {
     const [a, b] = this.index.closed[curve] ? [from, to] : [Math.max(from, 0), Math.min(to, 1)];
     const span = Math.min(Math.max(b - a, least), 1);

@@ -1,6 +1,9 @@
 // Similarities of the plane: a turn and a scale, a shift, and a mirror image before them if there is one.
 
-/** The similarity that changes nothing. { mirror, re, im, x, y }: z -> (re + i·im) z̃ + (x + iy), z̃ the conjugate if mirrored. */
+/**
+ * The similarity that changes nothing. { mirror, re, im, x, y }: z -> (re + i·im) z̃ + (x + iy), z̃ the
+ * conjugate if mirrored.
+ */
 export function identity() {
   return { mirror: false, re: 1, im: 0, x: 0, y: 0 };
 }
@@ -39,8 +42,9 @@ export function composed(second, first) {
 }
 
 /**
- * The similarity without mirror image that carries points nearest to others, one by one, in the sense of least squares of
- * their distances: { mirror: false, re, im, x, y }. Points that are all one are only shifted.
+ * The similarity without mirror image that carries points nearest to others, one by one, in the sense of
+ * least squares of their distances: { mirror: false, re, im, x, y }. Points that are all one are only
+ * shifted.
  */
 export function fitted(from, to) {
   const count = from.length / 2;
@@ -63,9 +67,9 @@ export function fitted(from, to) {
 }
 
 /**
- * The similarity without mirror image that brings points nearest to lines through others, by least squares of the distances
- * `from`-`to` across the line of direction `along` (unit vectors), those along it weighed with `slip`: what slides along a
- * curve is no deviation from it. Null where the points do not say.
+ * The similarity without mirror image that brings points nearest to lines through others, by least squares of
+ * the distances `from`-`to` across the line of direction `along` (unit vectors), those along it weighed with
+ * `slip`: what slides along a curve is no deviation from it. Null where the points do not say.
  */
 export function fittedToLines(from, to, along, slip) {
   const rows = new Float64Array(20);
@@ -85,7 +89,9 @@ export function fittedToLines(from, to, along, slip) {
   return solution && { mirror: false, re: solution[0], im: solution[1], x: solution[2], y: solution[3] };
 }
 
-/** Solves four equations, each of four coefficients and a right side, in place; null where they are singular. */
+/**
+ * Solves four equations, each of four coefficients and a right side, in place; null where they are singular.
+ */
 function solvedFour(rows) {
   for (let i = 0; i < 4; i += 1) {
     let pivot = i;

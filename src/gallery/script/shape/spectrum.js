@@ -1,7 +1,8 @@
 // The discrete Fourier transform of complex sequences whose length is a power of two.
 
 /**
- * Transforms of one length: `forward(re, im)` and `inverse(re, im)`, both in place; the inverse divides by the length.
+ * Transforms of one length: `forward(re, im)` and `inverse(re, im)`, both in place; the inverse divides by
+ * the length.
  */
 export function fourier(length) {
   const bits = Math.log2(length);
@@ -49,7 +50,10 @@ function butterflies(re, im, half, cos, sin) {
   }
 }
 
-/** Centres complex samples on their mean and scales them to unit energy, in place; false if they are all one point. */
+/**
+ * Centres complex samples on their mean and scales them to unit energy, in place; false if they are all one
+ * point.
+ */
 export function normalised(re, im) {
   const count = re.length;
   let [x, y] = [0, 0];

@@ -14,11 +14,12 @@ const WAYS = [
 ];
 
 /**
- * Finds, step by step, the `most` curves of an index that are most like a shape: the generator's value is
- * [{ index, curve, value, seeds: [{ mirror, reversed, start }] }], `value` up to 1 for a similar curve, `start` the fraction
- * of the curve's length, in the way it is passed, at which the shape begins.
+ * Finds, step by step, the `most` curves of an index that are most like a shape: the generator's value is [{
+ * index, curve, value, seeds: [{ mirror, reversed, start }] }], `value` up to 1 for a similar curve, `start`
+ * the fraction of the curve's length, in the way it is passed, at which the shape begins.
  *
- * All turns, scales and beginnings are tried at once: they are the cyclic correlation with the curve, and its size.
+ * All turns, scales and beginnings are tried at once: they are the cyclic correlation with the curve, and its
+ * size.
  */
 export function* likelyWhole(index, shape, { mirror, most }) {
   const ways = mirror ? WAYS : WAYS.slice(0, 2);
@@ -78,7 +79,8 @@ function bounds(index, curve, size, straight, turned) {
 /** The two best beginnings of a curve passed in one way. */
 function peaks(index, curve, own, way, transform, { re, im, square }) {
   const base = SPECTRUM * curve;
-  // The other direction of a curve turns its spectrum round; so does its mirror image, which conjugates it as well.
+  // The other direction of a curve turns its spectrum round; so does its mirror image, which conjugates it as
+  // well.
   const turned = way.mirror !== way.reversed;
   const sign = way.mirror ? 1 : -1;
   for (let k = 0; k < SPECTRUM; k += 1) {

@@ -10,18 +10,23 @@ const LARGEST_CIRCLE = 1e4;
 const FEWEST_ON_CIRCLE = 12;
 
 /**
- * The circle on which all points of a path and some further ones are, all { x, y }: { x, y, radius, arc: [from, to] in
- * degrees counter-clockwise, or null where it is whole }; null where there is none. The path may go over it to and fro.
+ * The circle on which all points of a path and some further ones are, all { x, y }: { x, y, radius, arc:
+ * [from, to] in degrees counter-clockwise, or null where it is whole }; null where there is none. The path
+ * may go over it to and fro.
  */
 export function circleOfPath(path, further) {
   if (path.length + further.length < FEWEST_ON_CIRCLE) return null;
   const circle = circleThrough(path);
   if (!circle) return null;
   const { x, y, radius } = circle;
-  const isOn = (p) => Math.abs(Math.sqrt((p.x - x) * (p.x - x) + (p.y - y) * (p.y - y)) - radius) <= OFF_CIRCLE * radius;
+  const isOn = (p) =>
+    Math.abs(Math.sqrt((p.x - x) * (p.x - x) + (p.y - y) * (p.y - y)) - radius) <= OFF_CIRCLE * radius;
   if (radius > LARGEST_CIRCLE * extentOfPath(path) || !path.every(isOn) || !further.every(isOn)) return null;
   let angle = 0;
-  let [least, most] = [{ angle, at: path[0] }, { angle, at: path[0] }];
+  let [least, most] = [
+    { angle, at: path[0] },
+    { angle, at: path[0] },
+  ];
   for (let k = 1; k < path.length; k++) {
     const [ax, ay, bx, by] = [path[k - 1].x - x, path[k - 1].y - y, path[k].x - x, path[k].y - y];
     angle += Math.atan2(ax * by - ay * bx, ax * bx + ay * by);

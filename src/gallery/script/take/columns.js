@@ -4,7 +4,10 @@ import { fourBarOf, transmissionAt } from "../kinematics/four-bar.js";
 import { poleAt } from "../kinematics/instant.js";
 import { ratesAt } from "../kinematics/poses.js";
 
-/** What each column is at a sample { place, vx, vy, ax, ay, pole(), mu() }, rates to a radian of input or a unit of length. */
+/**
+ * What each column is at a sample { place, vx, vy, ax, ay, pole(), mu() }, rates to a radian of input or a
+ * unit of length.
+ */
 const COLUMN_VALUES = new Map([
   ["vx", ({ vx }) => vx],
   ["vy", ({ vy }) => vy],

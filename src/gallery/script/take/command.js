@@ -1,15 +1,19 @@
 // The command lines that make again what is taken away.
 
-/** The command that takes away so many curves, which the words name (shortenedNames); the manifest is in the folder. */
+/**
+ * The command that takes away so many curves, which the words name (shortenedNames); the manifest is in the
+ * folder.
+ */
 export function commandOfCurves(words, count) {
   const formats = ["svg", "moving-svg", "png", "dxf", "csv", "json", "toml"];
   const chosen = count > 20 ? ["svg", "dxf", "csv", "json", "toml"] : formats;
-  return `coupler-atlas export atlas.toml ${words.map(quotedForShell).join(" ")} --format ${chosen.join(",")} -o curves\n`;
+  const named = words.map(quotedForShell).join(" ");
+  return `coupler-atlas export atlas.toml ${named} --format ${chosen.join(",")} -o curves\n`;
 }
 
 /**
- * Names of curves in as few words as name the same: all curves of a family by its id, all of a cell by its number. `families`
- * has the families by their ids.
+ * Names of curves in as few words as name the same: all curves of a family by its id, all of a cell by its
+ * number. `families` has the families by their ids.
  */
 export function shortenedNames(names, families) {
   const words = [];
@@ -32,7 +36,9 @@ export function shortenedNames(names, families) {
       named.set(cell, [...(named.get(cell) ?? []), key]);
     }
     const isWhole = (cell, own) => own.length > 1 && own.length === ofCell.get(cell);
-    return [...named].flatMap(([cell, own]) => (isWhole(cell, own) ? [`${id}:${cell}`] : own.map((key) => `${id}:${key}`)));
+    return [...named].flatMap(([cell, own]) =>
+      isWhole(cell, own) ? [`${id}:${cell}`] : own.map((key) => `${id}:${key}`),
+    );
   });
   return [...shortened, ...words];
 }

@@ -1,8 +1,8 @@
 // Numbers as the program writes them, to the last digit.
 
 /**
- * A number in the fewest digits that read back to it: written out from 1e-5 up to 1e16, beyond with an exponent; zero
- * without a sign, `inf`, and nothing where it is not a number.
+ * A number in the fewest digits that read back to it: written out from 1e-5 up to 1e16, beyond with an
+ * exponent; zero without a sign, `inf`, and nothing where it is not a number.
  */
 export function shortestDigits(value) {
   if (value === 0) return "0";
@@ -13,7 +13,10 @@ export function shortestDigits(value) {
   return value.toExponential().replace("e+", "e");
 }
 
-/** The same with a point or an exponent always: some readers of DXF take a number without either for a whole one. */
+/**
+ * The same with a point or an exponent always: some readers of DXF take a number without either for a whole
+ * one.
+ */
 export function realDigits(value) {
   if (value === 0) return "0.0";
   const size = Math.abs(value);

@@ -13,7 +13,8 @@ const TAKEN_JSON_FORMAT = 1;
 export function jsonOfCurve(taken, measures) {
   const { name, family, cell, trace, circuit, values, linkage, motion, joint, status, reason } = taken;
   const width = family.template.parameters.length;
-  const named = (from, to) => Object.fromEntries(family.names.slice(from, to).map((word, k) => [word, values[from + k]]));
+  const named = (from, to) =>
+    Object.fromEntries(family.names.slice(from, to).map((word, k) => [word, values[from + k]]));
   const { step, samples, spacing } = family.sampling;
   return laidOutJson({
     format: TAKEN_JSON_FORMAT,
@@ -26,7 +27,8 @@ export function jsonOfCurve(taken, measures) {
     joint: linkage.joints[joint].name,
     parameters: named(0, width),
     helpers: named(width, family.names.length),
-    sampling: step !== undefined ? { step } : spacing && spacing !== "even" ? { samples, spacing } : { samples },
+    sampling:
+      step !== undefined ? { step } : spacing && spacing !== "even" ? { samples, spacing } : { samples },
     status,
     reason,
     circuits: motion.circuits.map((course) => circuitInJson(linkage, course)),
@@ -39,7 +41,8 @@ export function jsonOfCurve(taken, measures) {
 // Of every pass its ends, with the joints whose dyads lie flat there, and the sides of all two-valued joints.
 function circuitInJson(linkage, course) {
   const end = ({ at, flat }) => {
-    const isFlat = ({ step }) => step.index !== undefined && step.index !== null && ((flat >> step.index) & 1) === 1;
+    const isFlat = ({ step }) =>
+      step.index !== undefined && step.index !== null && ((flat >> step.index) & 1) === 1;
     return { input: at, flat: linkage.joints.filter(isFlat).map((joint) => joint.name) };
   };
   const passes = course.passes.map((pass, k) => ({

@@ -1,4 +1,5 @@
-// JSON that people can read, as the program lays it out: a line for each member, lists of plain values on one line.
+// JSON that people can read, as the program lays it out: a line for each member, lists of plain values on one
+// line.
 
 import { shortestDigits } from "./digits.js";
 

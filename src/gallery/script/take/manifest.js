@@ -1,24 +1,46 @@
-// A piece of a manifest that has the cells of curves once more: a family for each linkage and the way it is sampled.
+// A piece of a manifest that has the cells of curves once more: a family for each linkage and the way it is
+// sampled.
 
 import { shortestDigits } from "./digits.js";
 
 /** The linkages that the program knows by itself. */
 export const CATALOGUE = [
-  "chebyshev", "cognates", "evans", "four-bar", "geared-five-bar", "hart-inversor", "hoeken", "hrones-nelson",
-  "inverted-slider-crank", "jansen", "klann", "linear-actuator", "pantograph", "peaucellier-lipkin", "roberts", "scotch-yoke",
-  "slider-crank", "stephenson-six-bar", "watt", "watt-six-bar",
+  "chebyshev",
+  "cognates",
+  "evans",
+  "four-bar",
+  "geared-five-bar",
+  "hart-inversor",
+  "hoeken",
+  "hrones-nelson",
+  "inverted-slider-crank",
+  "jansen",
+  "klann",
+  "linear-actuator",
+  "pantograph",
+  "peaucellier-lipkin",
+  "roberts",
+  "scotch-yoke",
+  "slider-crank",
+  "stephenson-six-bar",
+  "watt",
+  "watt-six-bar",
 ];
 
 /**
- * The families of some curves { family, values, name, changes }, in their order, as TOML; to be put into a manifest that has an
- * [atlas], and the linkages of the atlas's own that they name. A cell that several curves are taken of stands once.
+ * The families of some curves { family, values, name, changes }, in their order, as TOML; to be put into a
+ * manifest that has an [atlas], and the linkages of the atlas's own that they name. A cell that several
+ * curves are taken of stands once.
  */
 export function manifestOfCurves(curves) {
   const families = [];
   for (const curve of curves) {
     const settings = settingsInManifest(curve.family);
     const title = curve.family.title;
-    const same = families.find((other) => other.settings === settings && other.title === title && other.linkage === curve.family.linkage);
+    const same = families.find(
+      (other) =>
+        other.settings === settings && other.title === title && other.linkage === curve.family.linkage,
+    );
     if (same) same.curves.push(curve);
     else families.push({ settings, title, linkage: curve.family.linkage, curves: [curve] });
   }
@@ -39,7 +61,10 @@ function familyInManifest({ settings, title, linkage, curves }, number) {
   const own = CATALOGUE.includes(linkage)
     ? ""
     : `\n# The [[linkage]] \`${linkage}\` is the atlas's own: copy it from its manifest.`;
-  const moved = curves.flatMap(movedPoint).map((line) => `\n${line}`).join("");
+  const moved = curves
+    .flatMap(movedPoint)
+    .map((line) => `\n${line}`)
+    .join("");
   const lines = [
     `${own}${moved}\n[[family]]`,
     `id = "${stem}-taken${number > 1 ? `-${number}` : ""}"`,
@@ -75,7 +100,8 @@ function settingsInManifest({ linkage, template, sampling, straight, columns }) 
     `circuits = "${template.circuits}"`,
     `continuation = "${template.continuation}"`,
   ];
-  if (template.coincident !== "together" || !CATALOGUE.includes(linkage)) lines.push(`coincident = "${template.coincident}"`);
+  if (template.coincident !== "together" || !CATALOGUE.includes(linkage))
+    lines.push(`coincident = "${template.coincident}"`);
   const { mirror, cos, sin } = template.placement;
   if (mirror || cos !== 1 || sin !== 0) lines.push(`place = ${placeInManifest(mirror, cos, sin)}`);
   if (straight && straight.tolerance !== 0.001) {

@@ -5,11 +5,12 @@ import { passLength } from "../kinematics/pass.js";
 import { svgOfPoses } from "./svg.js";
 
 /**
- * A taken curve as SVG with its linkage moving over the circuit, again and again, without any script: slower towards its
- * limits, as a crank is that is turned by hand; there and back where the circuit does not close.
+ * A taken curve as SVG with its linkage moving over the circuit, again and again, without any script: slower
+ * towards its limits, as a crank is that is turned by hand; there and back where the circuit does not close.
  */
 export function movingSvgOfCurve(taken) {
-  // Between two poses places go straight: over 3 degrees no pin is off its circle by more than a thousandth of its radius.
+  // Between two poses places go straight: over 3 degrees no pin is off its circle by more than a thousandth
+  // of its radius.
   const [STEP_DEG, SECONDS_TO_A_TURN] = [3, 4];
   const { linkage, course } = taken;
   const turned = course.passes.reduce((sum, pass) => sum + passLength(pass) / 360, 0);

@@ -6,8 +6,9 @@ import { posesAt } from "../kinematics/poses.js";
 import { distanceToChord } from "../kinematics/path.js";
 
 /**
- * The path over a circuit, [{ x, y }, …] from its beginning to its end. No chord is further than `tolerance` from the curve:
- * half of that is for the refinement, as judged at the middle of a chord's input, half for the points left out again.
+ * The path over a circuit, [{ x, y }, …] from its beginning to its end. No chord is further than `tolerance`
+ * from the curve: half of that is for the refinement, as judged at the middle of a chord's input, half for
+ * the points left out again.
  */
 export function outlineOfCurve({ linkage, course, joint }, tolerance) {
   const alone = linkageWithOnePoint(linkage, joint);
@@ -21,8 +22,8 @@ export function outlineOfCurve({ linkage, course, joint }, tolerance) {
 
 // Points of a pass, as many as it takes; each round halves the inputs of the chords that are off the curve.
 function refinedPass(linkage, pass, joint, tolerance) {
-  // No chord spans more of a crank's turn than 3 degrees, nor more of a pass than a part in 64: a longer one may cross its
-  // curve at its middle.
+  // No chord spans more of a crank's turn than 3 degrees, nor more of a pass than a part in 64: a longer one
+  // may cross its curve at its middle.
   const [LONGEST, FEWEST, ROUNDS, MOST] = [3, 64, 30, 100000];
   const length = passLength(pass);
   const longest = linkage.input.isLength ? length / FEWEST : Math.min(LONGEST, length / FEWEST);
@@ -32,7 +33,8 @@ function refinedPass(linkage, pass, joint, tolerance) {
   let nodes = placedOnPass(linkage, pass, joint, [...inputs, to]);
   for (let round = 0; round < ROUNDS; round++) {
     const open = [];
-    for (let k = 1; k < nodes.length; k++) if (nodes[k - 1].open) open.push((nodes[k - 1].at + nodes[k].at) / 2);
+    for (let k = 1; k < nodes.length; k++)
+      if (nodes[k - 1].open) open.push((nodes[k - 1].at + nodes[k].at) / 2);
     if (open.length === 0 || nodes.length > MOST) break;
     nodes = refinedNodesOfPass(nodes, placedOnPass(linkage, pass, joint, open), tolerance);
   }
@@ -60,8 +62,9 @@ function refinedNodesOfPass(nodes, middles, tolerance) {
 }
 
 /**
- * A polyline [{ x, y }, …] with as few of its points as a sweep from its beginning finds, first and last among them: none
- * of the others is further than `tolerance` from it (Zhao and Saalfeld, Auto-Carto 13, 1997).
+ * A polyline [{ x, y }, …] with as few of its points as a sweep from its beginning finds, first and last
+ * among them: none of the others is further than `tolerance` from it (Zhao and Saalfeld, Auto-Carto 13,
+ * 1997).
  */
 function thinnedPath(points, tolerance) {
   if (points.length < 2) return [...points];

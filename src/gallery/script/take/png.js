@@ -15,7 +15,9 @@ export async function pngOfCurve(taken) {
   canvas.width = Math.round((PLATE_SIZE.width / 25.4) * PLATE_DPI);
   canvas.height = Math.round((PLATE_SIZE.height / 25.4) * PLATE_DPI);
   canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
-  const blob = await new Promise((done) => { canvas.toBlob(done, "image/png"); });
+  const blob = await new Promise((done) => {
+    canvas.toBlob(done, "image/png");
+  });
   if (!blob) throw new Error("the browser cannot make an image of this size");
   return new Uint8Array(await blob.arrayBuffer());
 }

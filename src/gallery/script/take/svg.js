@@ -21,22 +21,28 @@ export function svgOfCurve(taken) {
 }
 
 /**
- * A plate of a taken curve with its linkage in one pose, or moving through several over so many seconds, again and again;
- * a pose is the place { x, y } of each joint.
+ * A plate of a taken curve with its linkage in one pose, or moving through several over so many seconds,
+ * again and again; a pose is the place { x, y } of each joint.
  */
 export function svgOfPoses(taken, poses, seconds) {
   const mechanism = mechanismOf(taken.linkage, taken.course);
   const view = viewOfPlate(sweptBox(mechanism, taken.course, [taken.joint]));
-  const placed = poses.map((pose) => pose.flatMap(({ x, y }) => [view.x + view.scale * x, view.y - view.scale * y]));
+  const placed = poses.map((pose) =>
+    pose.flatMap(({ x, y }) => [view.x + view.scale * x, view.y - view.scale * y]),
+  );
   const shapes = plateShapes(mechanism, taken.joint).map(({ look, data }) => {
     const frames = placed.map((at) => data(at, view.scale));
     return pathElement({ d: frames[0], ...look }, frames.length > 1 ? animatedData(frames, seconds) : "");
   });
   const { width, height, units } = PLATE_SIZE;
   const head = {
-    xmlns: "http://www.w3.org/2000/svg", width: `${width}mm`, height: `${height}mm`,
-    viewBox: `0 0 ${units * width} ${units * height}`, "font-family": "'DejaVu Sans',Verdana,sans-serif",
-    "stroke-linejoin": "round", fill: "none",
+    xmlns: "http://www.w3.org/2000/svg",
+    width: `${width}mm`,
+    height: `${height}mm`,
+    viewBox: `0 0 ${units * width} ${units * height}`,
+    "font-family": "'DejaVu Sans',Verdana,sans-serif",
+    "stroke-linejoin": "round",
+    fill: "none",
   };
   const body = [
     `<title>${escapedXml(`${taken.family.title}, ${taken.name}`)}</title>\n`,
@@ -52,7 +58,11 @@ export function svgOfPoses(taken, poses, seconds) {
 function viewOfPlate(box) {
   const { width, height, units } = PLATE_SIZE;
   const [top, foot, side] = [84, 84, 48];
-  const view = fittedView(box, { width: units * width - 2 * side, height: units * height - top - foot, margin: 8 });
+  const view = fittedView(box, {
+    width: units * width - 2 * side,
+    height: units * height - top - foot,
+    margin: 8,
+  });
   return { ...view, x: view.x + side, y: view.y + top };
 }
 
@@ -63,15 +73,23 @@ function stillParts(taken, { frame, guides, wheels }, view) {
   const at = (id) => place(course.x[id][0], course.y[id][0]);
   const hair = { stroke: "#8f8b80", "stroke-width": 0.6 };
   const fine = finePath(linkage, course, joint, 0.05 / view.scale);
-  const points = Float64Array.from(fine.points, (v, k) => (k % 2 === 0 ? view.x + view.scale * v : view.y - view.scale * v));
+  const points = Float64Array.from(fine.points, (v, k) =>
+    k % 2 === 0 ? view.x + view.scale * v : view.y - view.scale * v,
+  );
   const dashes = dashesOfPeriod(dashPeriodOfTaken(family, linkage, course));
   const through = (places, closed) => polylineData(places.flat(), { closed });
   const parts = [
     [through(frame.map(at), frame.length > 2), hair],
     [wheels.map(({ joint: hub, radius }) => circleData(...at(hub), view.scale * radius)).join(""), hair],
-    [guides.map(([x0, y0, x1, y1]) => through([place(x0, y0), place(x1, y1)], false)).join(""), { ...hair, stroke: "#191816" }],
+    [
+      guides.map(([x0, y0, x1, y1]) => through([place(x0, y0), place(x1, y1)], false)).join(""),
+      { ...hair, stroke: "#191816" },
+    ],
     [polylineData(points), { stroke: "#cba79f", "stroke-width": 0.9 }],
-    [dashData({ ...fine, points }, dashes), { stroke: "#7d2115", "stroke-width": 2, "stroke-linecap": "butt" }],
+    [
+      dashData({ ...fine, points }, dashes),
+      { stroke: "#7d2115", "stroke-width": 2, "stroke-linecap": "butt" },
+    ],
   ];
   const drawn = parts.filter(([d]) => d !== "").map(([d, look]) => pathElement({ d, ...look }, ""));
   return `<g class="curve">\n${drawn.join("")}</g>\n`;
@@ -87,12 +105,15 @@ function lettering(taken, view) {
   const { family, place, changes, values, name } = taken;
   const { width, height, units } = PLATE_SIZE;
   const [right, foot] = [units * width - 32, units * height - 32];
-  const own = family.names.map((word, k) => `${word} = ${shortestDigits(Number(values[k].toPrecision(6)))}`).join(", ");
+  const own = family.names
+    .map((word, k) => `${word} = ${shortestDigits(Number(values[k].toPrecision(6)))}`)
+    .join(", ");
   const caption = changes.size > 0 || !family.cells.caption[place] ? own : family.cells.caption[place];
   const length = roundBelow(100 / view.scale);
   const bar = `M32 ${foot - 3}v6M32 ${foot}h${Number((view.scale * length).toPrecision(6))}m0 -3v6`;
   const text = (x, y, size, fill, words, anchor = "start") =>
-    `<text${attributesOf({ x, y, "font-size": size, fill, "text-anchor": anchor })}>${escapedXml(words)}</text>\n`;
+    `<text${attributesOf({ x, y, "font-size": size, fill, "text-anchor": anchor })}>` +
+    `${escapedXml(words)}</text>\n`;
   return [
     text(32, 46, 20, "#191816", family.title),
     text(32, 66, 10, "#504d46", name),
@@ -107,7 +128,8 @@ function lettering(taken, view) {
 function animatedData(frames, seconds) {
   if (frames.every((frame) => frame === frames[0])) return "";
   const values = frames.join(";");
-  return `<animate${attributesOf({ attributeName: "d", values, dur: `${seconds}s`, repeatCount: "indefinite" })}/>`;
+  const timing = { dur: `${seconds}s`, repeatCount: "indefinite" };
+  return `<animate${attributesOf({ attributeName: "d", values, ...timing })}/>`;
 }
 
 function pathElement(attributes, inside) {
@@ -115,11 +137,15 @@ function pathElement(attributes, inside) {
 }
 
 function attributesOf(attributes) {
-  return Object.entries(attributes).map(([name, value]) => ` ${name}="${escapedXml(String(value))}"`).join("");
+  return Object.entries(attributes)
+    .map(([name, value]) => ` ${name}="${escapedXml(String(value))}"`)
+    .join("");
 }
 
 /** A text in XML; what XML cannot have in any way is left out. */
 function escapedXml(text) {
   const entities = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
-  return text.replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "").replace(/[&<>"]/g, (c) => entities[c]);
+  return text
+    .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "")
+    .replace(/[&<>"]/g, (c) => entities[c]);
 }

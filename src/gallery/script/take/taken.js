@@ -9,24 +9,34 @@ import { measured } from "../data/family.js";
 import { shortestDigits } from "./digits.js";
 
 /**
- * What a name says, "evans:12.1.1?p=2.5&k=2": { family, key, cell, trace, circuit, changes: Map of names to numbers }; null
- * where it is none.
+ * What a name says, "evans:12.1.1?p=2.5&k=2": { family, key, cell, trace, circuit, changes: Map of names to
+ * numbers }; null where it is none.
  */
 export function parsedName(name) {
   const found = /^([^:?]+):((\d+)\.(\d+)\.(\d+))(?:\?(.*))?$/.exec(name);
   if (!found) return null;
   const [, family, key, cell, trace, circuit, query] = found;
-  const pairs = (query ?? "").split("&").filter(Boolean).map((pair) => {
-    const [word, value] = pair.split("=", 2);
-    return [decodeURIComponent(word), Number(value)];
-  });
-  return { family, key, cell: Number(cell), trace: Number(trace), circuit: Number(circuit), changes: new Map(pairs) };
+  const pairs = (query ?? "")
+    .split("&")
+    .filter(Boolean)
+    .map((pair) => {
+      const [word, value] = pair.split("=", 2);
+      return [decodeURIComponent(word), Number(value)];
+    });
+  return {
+    family,
+    key,
+    cell: Number(cell),
+    trace: Number(trace),
+    circuit: Number(circuit),
+    changes: new Map(pairs),
+  };
 }
 
 /**
- * The curve of a name of `family`, solved: { name, family, cell (its number), place (its cell's, from 0), curve (its place,
- * from 0), trace, circuit (its number), changes, values, template, linkage, motion, course (the sampled circuit), joint,
- * status, reason }.
+ * The curve of a name of `family`, solved: { name, family, cell (its number), place (its cell's, from 0),
+ * curve (its place, from 0), trace, circuit (its number), changes, values, template, linkage, motion, course
+ * (the sampled circuit), joint, status, reason }.
  *
  * @throws {Error} a sentence on why there is no such curve
  */
@@ -44,12 +54,29 @@ export function takenCurve(family, name) {
   const reason = motion.shortfall ?? null;
   const status = reason === null ? "ok" : "partial";
   return {
-    name: fullName(family.id, key, changes), family, cell, place, curve, trace, circuit, changes, values,
-    template: changed.template, linkage, motion, course, joint, status, reason,
+    name: fullName(family.id, key, changes),
+    family,
+    cell,
+    place,
+    curve,
+    trace,
+    circuit,
+    changes,
+    values,
+    template: changed.template,
+    linkage,
+    motion,
+    course,
+    joint,
+    status,
+    reason,
   };
 }
 
-/** What a manifest has to say of the curve of a name of `family`: { family, name, values, changes }; nothing is solved. */
+/**
+ * What a manifest has to say of the curve of a name of `family`: { family, name, values, changes }; nothing
+ * is solved.
+ */
 export function namedCase(family, name) {
   const { key, changes } = parsedName(name) ?? {};
   const curve = family.places.get(key);
@@ -81,8 +108,8 @@ export function fileStem({ family, cell, trace, circuit, changes }) {
 }
 
 /**
- * What is measured of a taken curve, [[name, number | string | null], …] under `names` and in their order: as the atlas
- * has it, or, of one with changed parameters, taken anew.
+ * What is measured of a taken curve, [[name, number | string | null], …] under `names` and in their order: as
+ * the atlas has it, or, of one with changed parameters, taken anew.
  */
 export function takenMeasures(taken, names) {
   const { family, curve, changes, linkage, motion, course, joint } = taken;
@@ -92,8 +119,8 @@ export function takenMeasures(taken, names) {
 }
 
 /**
- * The pose a linkage is shown in for CAD: { x, y } of a joint at the sample a third of the way through its circuit, where
- * no dyad of a linkage that goes there and back is near its limit.
+ * The pose a linkage is shown in for CAD: { x, y } of a joint at the sample a third of the way through its
+ * circuit, where no dyad of a linkage that goes there and back is near its limit.
  */
 export function takenPose({ course: { x, y, count } }) {
   const sample = Math.floor(count / 3);

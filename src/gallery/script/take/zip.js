@@ -2,25 +2,52 @@
 
 /** An archive of files [{ name, bytes }] with plain names, as bytes. The same files make the same archive. */
 export function zipOfFiles(files) {
-  const entries = files.map(({ name, bytes }) => ({ name: new TextEncoder().encode(name), bytes, crc: crc32OfBytes(bytes) }));
+  const entries = files.map(({ name, bytes }) => ({
+    name: new TextEncoder().encode(name),
+    bytes,
+    crc: crc32OfBytes(bytes),
+  }));
   const parts = [];
   const directory = [];
   let offset = 0;
   for (const entry of entries) {
-    directory.push(zipRecord(0x02014b50, [[2, 20], ...zipFacts(entry), [2, 0], [2, 0], [2, 0], [4, 0], [4, offset]]), entry.name);
+    directory.push(
+      zipRecord(0x02014b50, [[2, 20], ...zipFacts(entry), [2, 0], [2, 0], [2, 0], [4, 0], [4, offset]]),
+      entry.name,
+    );
     const head = zipRecord(0x04034b50, zipFacts(entry));
     parts.push(head, entry.name, entry.bytes);
     offset += head.length + entry.name.length + entry.bytes.length;
   }
   const size = directory.reduce((sum, { length }) => sum + length, 0);
   const count = entries.length;
-  const end = zipRecord(0x06054b50, [[2, 0], [2, 0], [2, count], [2, count], [4, size], [4, offset], [2, 0]]);
+  const end = zipRecord(0x06054b50, [
+    [2, 0],
+    [2, 0],
+    [2, count],
+    [2, count],
+    [4, size],
+    [4, offset],
+    [2, 0],
+  ]);
   return joinedBytes([...parts, ...directory, end]);
 }
 
-// What an archive says of a file twice: the version it takes, names in UTF-8, stored as it is, the first of January 1980.
+// What an archive says of a file twice: the version it takes, names in UTF-8, stored as it is, the first of
+// January 1980.
 function zipFacts({ name, bytes, crc }) {
-  return [[2, 20], [2, 0x0800], [2, 0], [2, 0], [2, 0x21], [4, crc], [4, bytes.length], [4, bytes.length], [2, name.length], [2, 0]];
+  return [
+    [2, 20],
+    [2, 0x0800],
+    [2, 0],
+    [2, 0],
+    [2, 0x21],
+    [4, crc],
+    [4, bytes.length],
+    [4, bytes.length],
+    [2, name.length],
+    [2, 0],
+  ];
 }
 
 // A signature and fields [bytes, value], the least byte first.

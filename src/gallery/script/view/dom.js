@@ -5,8 +5,8 @@ const SVG = "http://www.w3.org/2000/svg";
 /**
  * An HTML element: `h("button", { class: "quiet", type: "button", onclick: f, "aria-label": "Next" }, "→")`.
  *
- * Attributes that are null, undefined or false are left out, true ones are empty; functions are listeners, by the name of
- * their event after "on". Children may be nodes, texts, numbers, arrays, or nothing.
+ * Attributes that are null, undefined or false are left out, true ones are empty; functions are listeners, by
+ * the name of their event after "on". Children may be nodes, texts, numbers, arrays, or nothing.
  */
 export function h(name, attributes = {}, ...children) {
   return furnished(document.createElement(name), attributes, children);
@@ -24,14 +24,18 @@ function furnished(element, attributes, children) {
       element.setAttribute(name, value === true ? "" : String(value));
     }
   }
-  const some = children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false);
+  const some = children
+    .flat(Infinity)
+    .filter((child) => child !== null && child !== undefined && child !== false);
   element.append(...some.map((child) => (child instanceof Node ? child : String(child))));
   return element;
 }
 
 /** Replaces what is in an element. */
 export function fill(element, ...children) {
-  const some = children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false);
+  const some = children
+    .flat(Infinity)
+    .filter((child) => child !== null && child !== undefined && child !== false);
   element.replaceChildren(...some.map((child) => (child instanceof Node ? child : String(child))));
   return element;
 }

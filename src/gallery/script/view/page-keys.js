@@ -70,7 +70,8 @@ export function keysInWords() {
     h(
       "span",
       { class: "by-keys" },
-      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; n and p: the next page and the one before. ",
+      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; ",
+      "n and p: the next page and the one before. ",
       "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
     ),
     h(

@@ -1,6 +1,7 @@
 // Pages of dark paper, which the dark has no need to turn.
 
-// Paper of less relative luminance than this has light ink on it: black and white are as far from it, by WCAG.
+// Paper of less relative luminance than this has light ink on it: black and white are as far from it, by
+// WCAG.
 const DARK_LUMINANCE = 0.18;
 
 /** "dark" where a family's pages are of dark paper, or else null: what data-paper says of their pictures. */

@@ -19,7 +19,9 @@ export function pinButton(app, name, attributes = {}, ...children) {
 
 /** Keeps the buttons in an element as the pins are, until the function that it returns is called. */
 export function watchPins(app, element) {
-  return app.pins.watch(() => element.querySelectorAll("[data-pin]").forEach((button) => markPin(app, button)));
+  return app.pins.watch(() =>
+    element.querySelectorAll("[data-pin]").forEach((button) => markPin(app, button)),
+  );
 }
 
 function markPin(app, button) {

@@ -23,7 +23,5 @@ function isFamily({ families }, word) {
 }
 
 function isOfSheet(query) {
-  return (
-    query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves"
-  );
+  return query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
 }

@@ -6,8 +6,8 @@ import { framing, pathThrough } from "../shape/overlay.js";
 const OVER_WIDE = 720;
 const OVER_LOW = 240;
 const OVER_HIGH = 540;
-// So far from the edges curves keep, and letters from their curves, in the picture's pixels: a letter has room
-// on either side of a curve, and stays in the frame.
+// So far from the edges curves keep, and letters from their curves, in the picture's pixels: a letter has
+// room on either side of a curve, and stays in the frame.
 const OVER_INSET = 34;
 const LETTER_AWAY = 16;
 const FINE_DECIMALS = 3;
@@ -24,8 +24,8 @@ function strokeOf(k) {
 
 /**
  * A picture of outlines, [{ points, closed }], over one another, each with its letter: { element, scale,
- * redraw(k, points) }. `scale` is of its pixels to the unit of the points; `redraw` puts finer points in place
- * of those of an outline.
+ * redraw(k, points) }. `scale` is of its pixels to the unit of the points; `redraw` puts finer points in
+ * place of those of an outline.
  */
 export function overPicture(outlines, label) {
   const all = outlines.map(({ points }) => points);
@@ -45,7 +45,9 @@ export function overPicture(outlines, label) {
   return { element, scale: view.scale, redraw };
 }
 
-/** The letter of the k-th of so many outlines, beside its line, on the side away from the outline's middle. */
+/**
+ * The letter of the k-th of so many outlines, beside its line, on the side away from the outline's middle.
+ */
 function letterMark({ points, closed }, k, count, view) {
   const places = points.length / 2;
   // Letters stand at different places of curves that lie over one another, and not at the ends of open ones.

@@ -3,7 +3,10 @@
 import { h } from "../dom.js";
 import { bytesInWords } from "./loading.js";
 
-/** Boxes for the families of an atlas; `changed(ids)` is called with those ticked, null for all. Nothing for an only family. */
+/**
+ * Boxes for the families of an atlas; `changed(ids)` is called with those ticked, null for all. Nothing for
+ * an only family.
+ */
 export function familyChoice(atlas, asked, loaded, changed) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (withCurves.length < 2) return null;

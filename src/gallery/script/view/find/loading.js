@@ -3,7 +3,9 @@
 // An atlas up to this size, in bytes, is loaded whole without being asked.
 const LOADED_UNASKED = 48e6;
 
-/** The families that a question is about: those it names, or all if they are not too much together, or none. */
+/**
+ * The families that a question is about: those it names, or all if they are not too much together, or none.
+ */
 export function familiesAsked(atlas, ids) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (ids) return withCurves.filter(({ id }) => ids.includes(id));
@@ -12,8 +14,9 @@ export function familiesAsked(atlas, ids) {
 }
 
 /**
- * Loads families one after another; `come(families, done, all)` is told of those that are there, now and then and at the end.
- * Gives a function that stops it. A family that cannot be read is told to `trouble` and left out.
+ * Loads families one after another; `come(families, done, all)` is told of those that are there, now and then
+ * and at the end. Gives a function that stops it. A family that cannot be read is told to `trouble` and left
+ * out.
  */
 export function loadingFamilies(atlas, listed, come, trouble) {
   let stopped = false;

@@ -8,7 +8,9 @@ import { pinButton, watchPins } from "../pin-button.js";
 import { TileWindow } from "../sheet-window.js";
 import { thumbnail } from "../thumbnail.js";
 
-/** Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null. */
+/**
+ * Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null.
+ */
 export class ResultTiles extends TileWindow {
   constructor(app) {
     super({ count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" });

@@ -80,7 +80,8 @@ export class DialView {
     );
     this.drawing.setAttribute(
       "aria-label",
-      `Dial of the transmission angle: from ${this.least.textContent} to ${this.most.textContent} over the circuit`,
+      `Dial of the transmission angle: from ${this.least.textContent} to ${this.most.textContent} ` +
+        "over the circuit",
     );
   }
 

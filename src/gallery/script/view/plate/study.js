@@ -16,8 +16,8 @@ import { courseOf } from "./course.js";
 const STUDY_SAMPLES = 240;
 
 /**
- * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } where it cannot be
- * assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
+ * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } where it cannot
+ * be assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
  * others, course, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
  * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names,

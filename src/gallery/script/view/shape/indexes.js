@@ -5,7 +5,10 @@ import { inSlices } from "./slices.js";
 
 const INDEXES = new WeakMap();
 
-/** The index of a family; with windows no shorter than `least` of a curve, unless that is null. Null if stopped. */
+/**
+ * The index of a family; with windows no shorter than `least` of a curve, unless that is null. Null if
+ * stopped.
+ */
 export async function indexFor(family, least, stopped) {
   if (!INDEXES.has(family)) {
     const index = await inSlices(indexing(family), stopped);

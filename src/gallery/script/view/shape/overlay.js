@@ -31,7 +31,10 @@ export function overlayPicture({ family, curve, similarity, from, to }, shape, {
   );
 }
 
-/** The view that has some outlines in a frame, `inset` pixels from its edges: { scale, x, y } with X = x + scale·px, Y = y − scale·py. */
+/**
+ * The view that has some outlines in a frame, `inset` pixels from its edges: { scale, x, y } with X = x +
+ * scale·px, Y = y − scale·py.
+ */
 export function framing(outlines, width, height, inset = INSET) {
   let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const points of outlines) {

@@ -3,7 +3,9 @@
 import { shapeIn } from "../../shape/parse.js";
 import { fill, h } from "../dom.js";
 
-/** The field; `use({ points, closed, said })` is called with what was read, and what cannot be read is told. */
+/**
+ * The field; `use({ points, closed, said })` is called with what was read, and what cannot be read is told.
+ */
 export function pasteField(use) {
   const text = h("textarea", {
     id: "shape-text",

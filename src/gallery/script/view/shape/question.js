@@ -1,11 +1,12 @@
-// What is asked of the room of shapes, and its address: `?d=…` or `?like=evans:12.1.1`, and how it is compared.
+// What is asked of the room of shapes, and its address: `?d=…` or `?like=evans:12.1.1`, and how it is
+// compared.
 
 const USUAL_LEAST = 0.15;
 
 /**
- * The question of a query: { d: a drawn shape or undefined, like: a curve's name or undefined, part: whether it
- * is a part of a curve, null as long as nobody has said, least: the least part of a curve, mirror, by: "rms" |
- * "greatest", families: [id] or null for all }.
+ * The question of a query: { d: a drawn shape or undefined, like: a curve's name or undefined, part: whether
+ * it is a part of a curve, null as long as nobody has said, least: the least part of a curve, mirror, by:
+ * "rms" | "greatest", families: [id] or null for all }.
  */
 export function shapeQuestionOf(query) {
   const least = Number(query.get("least"));

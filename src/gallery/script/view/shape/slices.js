@@ -4,8 +4,8 @@
 const SLICE = 12;
 
 /**
- * Runs a generator to its end in slices and gives its value; null as soon as `stopped()` is true. Between slices whatever has
- * been pressed goes first.
+ * Runs a generator to its end in slices and gives its value; null as soon as `stopped()` is true. Between
+ * slices whatever has been pressed goes first.
  */
 export async function inSlices(generator, stopped = () => false) {
   const channel = new MessageChannel();

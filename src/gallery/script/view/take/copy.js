@@ -2,7 +2,10 @@
 
 import { h } from "../dom.js";
 
-/** Copies a text, or shows it selected to be copied by hand; whether it was copied, in a while. `what` says what it is. */
+/**
+ * Copies a text, or shows it selected to be copied by hand; whether it was copied, in a while. `what` says
+ * what it is.
+ */
 export async function copyText(what, text) {
   try {
     await navigator.clipboard.writeText(text);
@@ -15,7 +18,12 @@ export async function copyText(what, text) {
 
 // A dialog with the text selected, until it is closed.
 function shownToCopy(what, text) {
-  const area = h("textarea", { readonly: true, rows: Math.min(text.split("\n").length + 1, 20), cols: 72, "aria-label": what });
+  const area = h("textarea", {
+    readonly: true,
+    rows: Math.min(text.split("\n").length + 1, 20),
+    cols: 72,
+    "aria-label": what,
+  });
   area.value = text;
   const close = h("button", { type: "button" }, "Close");
   const dialog = h(

@@ -12,14 +12,55 @@ import { svgOfCurve } from "../../take/svg.js";
 import { fileStem, namedCase, parsedName, takenCurve } from "../../take/taken.js";
 import { zipOfFiles } from "../../take/zip.js";
 
-/** What curves can be saved as: { label, note, ending, type, hasColumns, made(app, taken) -> text or bytes, perhaps in a while }. */
+/**
+ * What curves can be saved as: { label, note, ending, type, hasColumns, made(app, taken) -> text or bytes,
+ * perhaps in a while }.
+ */
 export const TAKEN_FORMATS = [
-  { label: "SVG", note: "still", ending: ".svg", type: "image/svg+xml", made: (app, taken) => svgOfCurve(taken) },
-  { label: "SVG, moving by itself", note: ".svg", ending: "-moving.svg", type: "image/svg+xml", made: (app, taken) => movingSvgOfCurve(taken) },
-  { label: "PNG", note: "300 to the inch", ending: ".png", type: "image/png", made: (app, taken) => pngOfCurve(taken) },
-  { label: "DXF", note: "CAD, AutoCAD R12", ending: ".dxf", type: "image/vnd.dxf", made: (app, taken) => dxfOfCurve(taken, app.atlas.program) },
-  { label: "CSV", note: "points", ending: ".csv", type: "text/csv", hasColumns: true, made: (app, taken) => csvOfCurve(taken) },
-  { label: "JSON", note: "all that is known", ending: ".json", type: "application/json", hasColumns: true, made: (app, taken) => jsonOfCurve(taken, measureNames(app)) },
+  {
+    label: "SVG",
+    note: "still",
+    ending: ".svg",
+    type: "image/svg+xml",
+    made: (app, taken) => svgOfCurve(taken),
+  },
+  {
+    label: "SVG, moving by itself",
+    note: ".svg",
+    ending: "-moving.svg",
+    type: "image/svg+xml",
+    made: (app, taken) => movingSvgOfCurve(taken),
+  },
+  {
+    label: "PNG",
+    note: "300 to the inch",
+    ending: ".png",
+    type: "image/png",
+    made: (app, taken) => pngOfCurve(taken),
+  },
+  {
+    label: "DXF",
+    note: "CAD, AutoCAD R12",
+    ending: ".dxf",
+    type: "image/vnd.dxf",
+    made: (app, taken) => dxfOfCurve(taken, app.atlas.program),
+  },
+  {
+    label: "CSV",
+    note: "points",
+    ending: ".csv",
+    type: "text/csv",
+    hasColumns: true,
+    made: (app, taken) => csvOfCurve(taken),
+  },
+  {
+    label: "JSON",
+    note: "all that is known",
+    ending: ".json",
+    type: "application/json",
+    hasColumns: true,
+    made: (app, taken) => jsonOfCurve(taken, measureNames(app)),
+  },
 ];
 
 // The page is left to itself so often, in milliseconds, while many curves are made.
@@ -32,8 +73,8 @@ function measureNames({ atlas }) {
 }
 
 /**
- * Curves of some names as one file { name, type, bytes, lacks }, several in an archive; `lacks` are the columns of points that
- * the page does not reckon, and `told` is told how many are done.
+ * Curves of some names as one file { name, type, bytes, lacks }, several in an archive; `lacks` are the
+ * columns of points that the page does not reckon, and `told` is told how many are done.
  */
 export async function filesFor(app, names, format, told = () => {}) {
   if (names.length === 0) throw new Error("There is no curve to take away");
@@ -51,17 +92,22 @@ export async function filesFor(app, names, format, told = () => {}) {
     files.push({ name: `${fileStem(taken)}${format.ending}`, type: format.type, bytes });
     if (performance.now() - rested > TAKEN_PATIENCE) {
       told(files.length);
-      await new Promise((done) => { setTimeout(done); });
+      await new Promise((done) => {
+        setTimeout(done);
+      });
       rested = performance.now();
     }
   }
-  const file = files.length === 1 ? files[0] : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
+  const file =
+    files.length === 1 ? files[0] : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
   return { ...file, lacks: [...lacks] };
 }
 
 function familyOfName(app, name) {
   const parsed = parsedName(name);
-  return parsed ? app.atlas.family(parsed.family) : Promise.reject(new Error(`“${name}” is no name of a curve`));
+  return parsed
+    ? app.atlas.family(parsed.family)
+    : Promise.reject(new Error(`“${name}” is no name of a curve`));
 }
 
 /** The piece of a manifest that has curves of some names once more. */

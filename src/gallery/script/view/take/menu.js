@@ -6,8 +6,9 @@ import { commandFor, filesFor, manifestFor, TAKEN_FORMATS } from "./making.js";
 import { saveFile } from "./save.js";
 
 /**
- * A button with a menu of everything that can be taken away of some curves: `names` are "family:cell.trace.circuit", with
- * changed parameters behind "?", in an array or from a function that is asked when something is taken.
+ * A button with a menu of everything that can be taken away of some curves: `names` are
+ * "family:cell.trace.circuit", with changed parameters behind "?", in an array or from a function that is
+ * asked when something is taken.
  */
 export function takeAwayMenu(app, names) {
   const asked = () => (typeof names === "function" ? names() : names);
@@ -18,10 +19,22 @@ export function takeAwayMenu(app, names) {
     return work(asked()).then(tell, (error) => tell(error.message));
   };
   const entries = [
-    ...TAKEN_FORMATS.map((format) => [format.label, format.note, task((list) => savedCurves(app, list, format, tell))]),
+    ...TAKEN_FORMATS.map((format) => [
+      format.label,
+      format.note,
+      task((list) => savedCurves(app, list, format, tell)),
+    ]),
     ["Manifest fragment", ".toml", task((list) => savedManifest(app, list))],
-    ["Copy the manifest fragment", "", task(async (list) => copied("the manifest fragment", await manifestFor(app, list)))],
-    ["Copy the command line", "", task(async (list) => copied("the command line", await commandFor(app, list)))],
+    [
+      "Copy the manifest fragment",
+      "",
+      task(async (list) => copied("the manifest fragment", await manifestFor(app, list))),
+    ],
+    [
+      "Copy the command line",
+      "",
+      task(async (list) => copied("the command line", await commandFor(app, list))),
+    ],
   ];
   return h("div", { class: "take-away" }, menuButton("Take away", entries), told);
 }
@@ -29,7 +42,8 @@ export function takeAwayMenu(app, names) {
 async function savedCurves(app, names, format, tell) {
   const file = await filesFor(app, names, format, (done) => tell(`${done} of ${names.length}`));
   saveFile(file);
-  const without = file.lacks.length > 0 ? `, without ${file.lacks.join(", ")}: the command line has these` : "";
+  const without =
+    file.lacks.length > 0 ? `, without ${file.lacks.join(", ")}: the command line has these` : "";
   return `Saved as ${file.name}${without}`;
 }
 
@@ -44,20 +58,36 @@ async function copied(what, text) {
 }
 
 /**
- * A button that opens a menu of entries [[label, note, action], …]: arrows, Home and End go from one to the next, a letter
- * to the next that begins with it, Escape closes it, and so does whatever happens elsewhere.
+ * A button that opens a menu of entries [[label, note, action], …]: arrows, Home and End go from one to the
+ * next, a letter to the next that begins with it, Escape closes it, and so does whatever happens elsewhere.
  */
 function menuButton(label, entries) {
-  const button = h("button", { type: "button", class: "take-button", "aria-haspopup": "menu", "aria-expanded": "false" }, label);
-  const items = entries.map(([word, note, action]) => h(
+  const button = h(
     "button",
-    { type: "button", role: "menuitem", tabindex: "-1", onclick: () => { close(true); action(); } },
-    h("span", {}, word),
-    note ? h("span", { class: "note" }, note) : null,
-  ));
+    { type: "button", class: "take-button", "aria-haspopup": "menu", "aria-expanded": "false" },
+    label,
+  );
+  const items = entries.map(([word, note, action]) =>
+    h(
+      "button",
+      {
+        type: "button",
+        role: "menuitem",
+        tabindex: "-1",
+        onclick: () => {
+          close(true);
+          action();
+        },
+      },
+      h("span", {}, word),
+      note ? h("span", { class: "note" }, note) : null,
+    ),
+  );
   const menu = h("div", { class: "take-menu", role: "menu", "aria-label": label, hidden: true }, items);
   const element = h("div", { class: "take-unfolds" }, button, menu);
-  const away = (event) => { if (!element.contains(event.target)) close(false); };
+  const away = (event) => {
+    if (!element.contains(event.target)) close(false);
+  };
   const open = (item) => {
     menu.hidden = false;
     button.setAttribute("aria-expanded", "true");
@@ -88,7 +118,10 @@ function menuButton(label, entries) {
 function menuKey(event, items, close) {
   const at = items.indexOf(document.activeElement);
   const count = items.length;
-  const letter = event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey ? event.key.toLowerCase() : null;
+  const letter =
+    event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey
+      ? event.key.toLowerCase()
+      : null;
   const begins = (item) => item.textContent.toLowerCase().startsWith(letter);
   const next = {
     ArrowDown: (at + 1) % count,
