@@ -34,7 +34,9 @@ export function oddAtlas(from) {
   );
   rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
   writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
-  rewrite(join(folder, "watt/gallery.js"), (script) => script.replace(/"paper":\{/, `"paper":{"color":"${DARK_PAPER}",`));
+  rewrite(join(folder, "watt/gallery.js"), (script) =>
+    script.replace(/"paper":\{/, `"paper":{"color":"${DARK_PAPER}",`),
+  );
   mkdirSync(join(folder, "find"));
   const roberts = readFileSync(join(folder, "roberts/gallery.js"), "utf8");
   writeFileSync(join(folder, "find/gallery.js"), roberts.replace('"id":"roberts"', '"id":"find"'));

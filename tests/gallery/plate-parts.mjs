@@ -21,6 +21,7 @@ import {
   turningParts,
 } from "../../src/gallery/script/view/plate/course.js";
 import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
+import { changedName } from "../../src/gallery/script/view/plate/plate-query.js";
 import { Poser } from "../../src/gallery/script/view/plate/poser.js";
 import { studyOf } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./taken.mjs";
@@ -203,6 +204,24 @@ const tests = [
         changeableParameters(family, 3, 1, new Map()).map((parameter) => [parameter.name, parameter.kind]),
       );
       for (const [slot] of slots) assert.equal(kinds.get(family.names[slot]), "follows");
+    },
+  ],
+  [
+    "what is taken away is of the circuit that is shown, where the atlas has it",
+    () => {
+      const one = familyOf(folder, "evans");
+      const all = { ...one, template: { ...one.template, circuits: "all" } };
+      all.places = new Map([
+        ["1.1.1", 0],
+        ["1.1.2", 1],
+      ]);
+      const changes = new Map([["p", 2.5]]);
+      const named = (family, shown) => changedName({ family, curve: 0, changes, study: { home: 0, shown } });
+      assert.equal(named(all, 0), "evans:1.1.1?p=2.5");
+      assert.equal(named(all, 1), "evans:1.1.2?p=2.5");
+      assert.equal(named(all, 2), "evans:1.1.1?p=2.5", "a curve that is not there");
+      assert.equal(named(one, 1), "evans:1.1.1?p=2.5", "the atlas takes one circuit alone");
+      assert.equal(changedName({ family: all, curve: 0, changes: new Map(), study: null }), "evans:1.1.1");
     },
   ],
   [

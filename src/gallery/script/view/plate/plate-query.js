@@ -1,7 +1,7 @@
 // What the query of a plate's address says: changed parameters, the circuit, and what is switched on.
 
 import { address } from "../../data/address.js";
-import { curveKey } from "../../data/family.js";
+import { curveAt, curveKey } from "../../data/family.js";
 import { OVERLAYS } from "./overlays.js";
 import { changesOfQuery } from "./parameters.js";
 
@@ -28,8 +28,17 @@ export function plateAddress({ family, curve, changes, asked, on, study }) {
   return address([family.id, "curve", curveKey(family, curve)], query);
 }
 
-/** The name of a curve beyond its family, with what is changed of it. */
-export function changedName({ family, curve, changes }) {
+/** The name of a curve beyond its family, on the circuit that is shown, with what is changed of it. */
+export function changedName({ family, curve, changes, study }) {
   const words = [...changes].map(([name, value]) => `${encodeURIComponent(name)}=${value}`);
-  return `${family.id}:${curveKey(family, curve)}${words.length ? `?${words.join("&")}` : ""}`;
+  return `${family.id}:${keyOfCircuit(family, curve, study)}${words.length ? `?${words.join("&")}` : ""}`;
+}
+
+/** The key of the curve on the circuit that a study shows; its own where the atlas has no curve of that. */
+function keyOfCircuit(family, curve, study) {
+  const own = curveKey(family, curve);
+  // Only where the atlas takes all circuits are they numbered as a plate counts them.
+  if (!study || family.template.circuits !== "all") return own;
+  const key = own.replace(/\d+$/, study.shown + 1);
+  return curveAt(family, key) === undefined ? own : key;
 }
