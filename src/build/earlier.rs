@@ -11,13 +11,13 @@ use crate::gallery;
 use crate::page::book::Volume;
 use crate::press::page_name;
 use crate::record::{FamilyRecord, FileRecord, ReadError, Run};
-use crate::render::Format;
+use crate::render::PageFormat;
 
 /// The tables of a family, which every one has, and its data for the gallery.
 const TABLES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT];
 
 /// The number of a page, from its name.
-pub(super) fn page_number(family: &str, name: &str, format: Format) -> Option<usize> {
+pub(super) fn page_number(family: &str, name: &str, format: PageFormat) -> Option<usize> {
     let number = name.strip_prefix(family)?.strip_prefix('-')?.strip_suffix(format.name())?.strip_suffix('.')?;
     let is_number = number.len() >= 3 && number.bytes().all(|b| b.is_ascii_digit());
     if is_number { number.parse().ok() } else { None }
@@ -75,8 +75,7 @@ fn trusted(mut run: Run) -> Run {
 
 /// Whether this program gives such a name to a file of a family.
 fn is_file_of(family: &str, name: &str) -> bool {
-    let formats = Format::ALL.into_iter().filter(|format| format.has_a_file_for_each_page());
-    TABLES.contains(&name) || formats.into_iter().any(|format| page_number(family, name, format).is_some())
+    TABLES.contains(&name) || PageFormat::ALL.into_iter().any(|format| page_number(family, name, format).is_some())
 }
 
 /// Whether this program gives such a name to a volume.
@@ -91,7 +90,7 @@ fn is_volume(name: &str) -> bool {
 pub(super) fn unchanged(
     earlier: &FamilyRecord,
     inputs: &str,
-    formats: &[Format],
+    formats: &[PageFormat],
     folder: &Path,
 ) -> Option<FamilyRecord> {
     if earlier.inputs_sha256.as_deref() != Some(inputs) {

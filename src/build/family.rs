@@ -13,7 +13,7 @@ use crate::gallery::{self, Statements};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::press::{Off, Press};
 use crate::record::{Cells, FamilyRecord, FileRecord, Points, shortfalls};
-use crate::render::Format;
+use crate::render::{Format, PageFormat};
 
 /// Builds a family into its folder, unless all of it is there as it would be.
 pub(super) fn build(
@@ -25,8 +25,8 @@ pub(super) fn build(
 ) -> Result<(), Error> {
     let family = &planned.family;
     let folder = output.join(&family.id);
-    let mut formats = options.formats.as_ref().unwrap_or(&planned.formats).clone();
-    formats.retain(|format| format.has_a_file_for_each_page());
+    let formats = options.formats.as_ref().unwrap_or(&planned.formats);
+    let formats: Vec<PageFormat> = formats.iter().copied().filter_map(Format::of_pages).collect();
     let inputs = Inputs::new(planned);
     let inputs_sha256 = inputs.of_family();
     let earlier = journal.of(&family.id).cloned();
@@ -101,11 +101,11 @@ fn remove_others(earlier: Option<FamilyRecord>, record: &FamilyRecord, folder: &
 fn others_left(
     earlier: Option<&FamilyRecord>,
     record: &FamilyRecord,
-    formats: &[Format],
+    formats: &[PageFormat],
     options: &Options,
 ) -> Vec<FileRecord> {
     let known = earlier.filter(|_| options.formats.is_some()).map(|earlier| earlier.files.as_slice());
-    let others: Vec<Format> = Format::ALL.into_iter().filter(|format| !formats.contains(format)).collect();
+    let others: Vec<PageFormat> = PageFormat::ALL.into_iter().filter(|format| !formats.contains(format)).collect();
     let is_of_page = |file: &&FileRecord| {
         others.iter().any(|&format| {
             earlier::page_number(&record.id, &file.name, format).is_some_and(|page| (1..=record.pages).contains(&page))

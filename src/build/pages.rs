@@ -8,7 +8,7 @@ use super::{Error, stop_if};
 use crate::gallery::Statements;
 use crate::press::{Composer, Hand, Leaf, Matter, page_name};
 use crate::record::{Cells, FileRecord, Points};
-use crate::render::{self, Format};
+use crate::render::{self, PageFormat};
 use crate::sweep::{Solved, Status};
 
 /// A page in each format.
@@ -36,7 +36,7 @@ pub(super) struct Rows {
 #[derive(Clone, Copy)]
 pub(super) struct Printer<'a> {
     pub composer: Composer<'a>,
-    pub formats: &'a [Format],
+    pub formats: &'a [PageFormat],
     pub inputs: Inputs<'a>,
     pub tables: (Points<'a>, Cells<'a>),
     pub statements: Statements<'a>,
@@ -78,8 +78,8 @@ impl Hand for Printer<'_> {
             Matter::Cells { cells, shown } => self.inputs.of_page((leaf.page, of), cells, shown),
             Matter::Charts => self.inputs.of_charts(leaf.page),
         };
-        let named = |&format: &Format| (format, page_name(&planned.family.id, leaf.page, format));
-        let names: Vec<(Format, String)> = self.formats.iter().map(named).collect();
+        let named = |&format: &PageFormat| (format, page_name(&planned.family.id, leaf.page, format));
+        let names: Vec<(PageFormat, String)> = self.formats.iter().map(named).collect();
         let kept: Vec<Option<FileRecord>> = names.iter().map(|(_, name)| self.claims.kept(name, inputs)).collect();
         if names.is_empty() {
             return Ok(Printed { files: Vec::new(), is_drawn: false, shown: String::new() });
@@ -92,16 +92,14 @@ impl Hand for Printer<'_> {
         }
         // An image is recorded by its SVG, too.
         let svg = render::svg(&scene, plan.text);
-        let draw = |((format, name), kept): ((Format, String), Option<FileRecord>)| match (kept, format) {
+        let draw = |((format, name), kept): ((PageFormat, String), Option<FileRecord>)| match (kept, format) {
             (Some(kept), _) => Ok(kept),
-            (None, Format::Svg) => self.claims.write(FileRecord::of_bytes(name, &svg).made_from(inputs), &svg),
-            (None, Format::Png) => {
+            (None, PageFormat::Svg) => self.claims.write(FileRecord::of_bytes(name, &svg).made_from(inputs), &svg),
+            (None, PageFormat::Png) => {
                 let record = FileRecord::of_drawing(&name, &svg, plan.dpi).made_from(inputs);
                 let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name, error })?;
                 self.claims.write(record, &png)
             }
-            // A book has its pages from elsewhere.
-            (None, Format::Pdf) => Ok(FileRecord::of_name(name)),
         };
         let files = names.into_iter().zip(kept).map(draw).collect::<Result<_, Error>>()?;
         Ok(Printed { files, is_drawn: true, shown })
@@ -111,6 +109,6 @@ impl Hand for Printer<'_> {
     fn bytes(&self) -> usize {
         let plan = self.composer.plan;
         let pixels = plan.page.paper.width * plan.page.paper.height * (plan.dpi / 25.4) * (plan.dpi / 25.4);
-        if self.formats.contains(&Format::Png) { 4 * pixels as usize } else { 0 }
+        if self.formats.contains(&PageFormat::Png) { 4 * pixels as usize } else { 0 }
     }
 }

@@ -9,7 +9,7 @@ use super::tables::altered;
 use super::track::Track;
 use crate::press::{Leaf, Matter, Press, page_name};
 use crate::record::{FamilyRecord, FileRecord, Flaw, RunningDigest, open_plain};
-use crate::render::{self, Format};
+use crate::render::{self, PageFormat};
 use crate::sweep::Solved;
 
 /// The recorded pages of a family.
@@ -52,7 +52,7 @@ impl<'a> Pages<'a> {
         let mut page = Page { cells, ..Page::default() };
         let plan = self.press.composer.plan;
         let name = |format| page_name(&self.place.family, leaf.page, format);
-        let [svg_name, png_name] = [Format::Svg, Format::Png].map(name);
+        let [svg_name, png_name] = PageFormat::ALL.map(name);
         let (svg_record, png_record) = (self.files.get(svg_name.as_str()), self.files.get(png_name.as_str()));
         if svg_record.is_none() && png_record.is_none() {
             return page;

@@ -12,12 +12,12 @@ use std::sync::atomic::AtomicBool;
 use crate::chart::{Chart, Gathering, Taken};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::page::Layout;
-use crate::render::Format;
+use crate::render::PageFormat;
 use crate::scene::Scene;
 use crate::sweep::{self, Arrangement, Groups, Solved};
 
 /// The name of the file of a page.
-pub fn page_name(family: &str, page: usize, format: Format) -> String {
+pub fn page_name(family: &str, page: usize, format: PageFormat) -> String {
     format!("{family}-{page:03}.{}", format.name())
 }
 

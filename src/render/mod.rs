@@ -26,9 +26,13 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 3] = [Format::Svg, Format::Png, Format::Pdf];
 
-    /// Whether each page is a file of its own.
-    pub fn has_a_file_for_each_page(self) -> bool {
-        self != Format::Pdf
+    /// The format of the files of single pages; none where all pages are in one book.
+    pub fn of_pages(self) -> Option<PageFormat> {
+        match self {
+            Format::Svg => Some(PageFormat::Svg),
+            Format::Png => Some(PageFormat::Png),
+            Format::Pdf => None,
+        }
     }
 
     /// Its name, which is also the extension of its files.
@@ -37,6 +41,28 @@ impl Format {
             Format::Svg => "svg",
             Format::Png => "png",
             Format::Pdf => "pdf",
+        }
+    }
+}
+
+/// A format in which each page is a file of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PageFormat {
+    /// Scalable Vector Graphics.
+    Svg,
+    /// Portable Network Graphics.
+    Png,
+}
+
+impl PageFormat {
+    /// Every such format.
+    pub const ALL: [PageFormat; 2] = [PageFormat::Svg, PageFormat::Png];
+
+    /// Its name, which is also the extension of its files.
+    pub fn name(self) -> &'static str {
+        match self {
+            PageFormat::Svg => Format::Svg.name(),
+            PageFormat::Png => Format::Png.name(),
         }
     }
 }
