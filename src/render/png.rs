@@ -2,7 +2,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Transform};
 
-use crate::scene::{Circle, Color, Item, Path, Scene, Segment, Stroke, Text};
+use crate::scene::{Circle, Color, Path, Scene, Segment, Shape, Stroke, Text};
 
 /// Why a scene makes no image.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -39,9 +39,10 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let mut raster = Raster { pixmap: Pixmap::new(width, rows).ok_or(too_large)?, scale, top: 0 };
     let mut rgb = Vec::with_capacity(bytes);
     let Color(r, g, b) = scene.paper;
+    let shapes = scene.shapes();
     while raster.top < height {
         raster.pixmap.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
-        scene.items.iter().for_each(|item| raster.item(item));
+        shapes.iter().for_each(|shape| raster.shape(*shape));
         let rows = rows.min(height - raster.top) as usize;
         // The paper covers the page, so that every pixel is opaque and premultiplied colours are plain ones.
         let strip = &raster.pixmap.data()[..4 * width as usize * rows];
@@ -65,13 +66,11 @@ struct Raster {
 }
 
 impl Raster {
-    fn item(&mut self, item: &Item) {
-        match item {
-            Item::Group(group) => group.items.iter().for_each(|item| self.item(item)),
-            Item::Path(path) => self.path(path),
-            Item::Circle(circle) => self.circle(circle),
-            Item::Text(text) => self.text(text),
-            Item::Moving(moving) => moving.frames.iter().take(1).flatten().for_each(|item| self.item(item)),
+    fn shape(&mut self, shape: Shape) {
+        match shape {
+            Shape::Path(path) => self.path(path),
+            Shape::Circle(circle) => self.circle(circle),
+            Shape::Text(text) => self.text(text),
         }
     }
 

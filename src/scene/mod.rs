@@ -50,6 +50,17 @@ pub enum Item {
     Moving(Moving),
 }
 
+/// An item without parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape<'a> {
+    /// Lines.
+    Path(&'a Path),
+    /// A circle.
+    Circle(&'a Circle),
+    /// A line of text.
+    Text(&'a Text),
+}
+
 /// Items that belong together, and what they are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
@@ -154,6 +165,27 @@ pub enum Anchor {
     Middle,
     /// Its end.
     End,
+}
+
+impl Scene {
+    /// What is drawn where nothing can move, from back to front.
+    pub fn shapes(&self) -> Vec<Shape<'_>> {
+        let mut shapes = Vec::new();
+        gather(&self.items, &mut shapes);
+        shapes
+    }
+}
+
+fn gather<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
+    for item in items {
+        match item {
+            Item::Group(group) => gather(&group.items, shapes),
+            Item::Path(path) => shapes.push(Shape::Path(path)),
+            Item::Circle(circle) => shapes.push(Shape::Circle(circle)),
+            Item::Text(text) => shapes.push(Shape::Text(text)),
+            Item::Moving(moving) => moving.frames.iter().take(1).for_each(|first| gather(first, shapes)),
+        }
+    }
 }
 
 impl Text {

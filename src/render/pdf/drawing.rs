@@ -5,7 +5,7 @@ use krilla::surface::Surface;
 
 use super::fonts::{Fonts, glyphs};
 use crate::geometry::Point;
-use crate::scene::{Circle, Color, Item, Line, Path, Run, Scene, Stroke, Text};
+use crate::scene::{Circle, Color, Line, Path, Run, Scene, Shape, Stroke, Text};
 
 /// Millimetres to the points of PDF.
 pub(super) fn points(mm: f64) -> f32 {
@@ -58,16 +58,12 @@ impl<'d> Pen<'d> {
         let corners = [(0.0, 0.0), (scene.width, 0.0), (scene.width, scene.height), (0.0, scene.height)];
         let points = corners.map(|(x, y)| Point::new(x, y)).to_vec();
         self.path(&Path { lines: vec![Line { points, closed: true }], stroke: None, fill: Some(scene.paper) });
-        scene.items.iter().for_each(|item| self.item(item));
-    }
-
-    fn item(&mut self, item: &Item) {
-        match item {
-            Item::Group(group) => group.items.iter().for_each(|item| self.item(item)),
-            Item::Path(path) => self.path(path),
-            Item::Circle(circle) => self.circle(circle),
-            Item::Text(text) => self.text(text),
-            Item::Moving(moving) => moving.frames.iter().take(1).flatten().for_each(|item| self.item(item)),
+        for shape in scene.shapes() {
+            match shape {
+                Shape::Path(path) => self.path(path),
+                Shape::Circle(circle) => self.circle(circle),
+                Shape::Text(text) => self.text(text),
+            }
         }
     }
 
