@@ -43,7 +43,8 @@ pub struct Circuit {
     pub input: Vec<f64>,
     /// Where each joint is at each sample, in the frame the linkage is seen from.
     pub places: Columns,
-    signs: Vec<Signs>,
+    /// The pass each sample is on; at the end of one, the pass it ends.
+    pass: Vec<usize>,
 }
 
 impl Circuit {
@@ -59,7 +60,7 @@ impl Circuit {
 
     /// The sides of the dyads at a sample; at the end of a pass, those of the pass it ends.
     pub fn signs(&self, sample: usize) -> Signs {
-        self.signs[sample]
+        self.passes[self.pass[sample]].signs
     }
 
     /// Whether the input turns round at the end of a pass, for a dyad lies flat there.
@@ -71,17 +72,10 @@ impl Circuit {
 
     /// Places and rates of all joints at a sample.
     pub fn jets(&self, linkage: &Linkage, sample: usize) -> Jets {
-        let (at, signs) = (self.input[sample], self.signs[sample]);
+        let pass = &self.passes[self.pass[sample]];
         // A closed circuit begins where its last pass ends, perhaps a few turns on.
-        if let (0, true, Some(last)) = (sample, self.closed, self.passes.last().filter(|last| !last.to.flat.is_none()))
-        {
-            return Jets::on(linkage, last, last.to.stop.at);
-        }
-        let here = |pass: &&Pass| pass.signs == signs && [pass.to, pass.from].iter().any(|end| end.stop.at == at);
-        match self.passes.iter().find(here) {
-            Some(pass) => Jets::on(linkage, pass, at),
-            None => Jets::of(linkage, Stop::of(linkage.input(), at), signs, Flat::NONE),
-        }
+        let begins_at_an_end = sample == 0 && self.closed && !pass.to.flat.is_none();
+        Jets::on(linkage, pass, if begins_at_an_end { pass.to.stop.at } else { self.input[sample] })
     }
 
     /// A joint's places, sample by sample.
@@ -133,14 +127,14 @@ impl Sampler {
             let modes = Modes::new(pass.signs, Flat::NONE);
             place(linkage, all, inputs.of(run.clone()), &modes, &mut places, run.clone());
         }
-        for &(sample, pass, is_first) in &plan.ends {
-            let pass = &route.passes[pass];
+        for &(sample, on, is_first) in &plan.ends {
+            let pass = &route.passes[on];
             place_end(linkage, pass, is_first, &mut places, sample);
-            plan.signs[sample] = pass.signs;
+            plan.pass[sample] = on;
         }
         see(linkage, &mut places);
         let input = plan.stops.iter().map(|stop| stop.at).collect();
-        Circuit { closed: route.closed, passes: route.passes, input, places, signs: plan.signs }
+        Circuit { closed: route.closed, passes: route.passes, input, places, pass: plan.pass }
     }
 
     /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which
@@ -155,14 +149,14 @@ impl Sampler {
         {
             // A full turn on one branch: the table as it is, and again for every further turn.
             plan.stops = self.turns(input);
-            plan.signs = vec![pass.signs; plan.stops.len()];
+            plan.pass = vec![0; plan.stops.len()];
             plan.runs.push(0..plan.stops.len());
             return plan;
         }
         let last = route.passes.len() - 1;
         plan.ends.push(if route.closed { (0, last, false) } else { (0, 0, true) });
         plan.stops.push(route.passes[0].from.stop);
-        plan.signs.push(route.passes[0].signs);
+        plan.pass.push(0);
         let mileages = self.mileages(route, linkage);
         let intervals = self.intervals(route, &mileages);
         for (k, pass) in route.passes.iter().enumerate() {
@@ -173,7 +167,7 @@ impl Sampler {
                 plan.stops.push(pass.to.stop);
             }
             plan.runs.push(begin..plan.stops.len());
-            plan.signs.resize(plan.stops.len(), pass.signs);
+            plan.pass.resize(plan.stops.len(), k);
         }
         plan
     }
@@ -264,7 +258,8 @@ impl Sampler {
 #[derive(Default)]
 struct Plan {
     stops: Vec<Stop>,
-    signs: Vec<Signs>,
+    /// The pass of each sample.
+    pass: Vec<usize>,
     /// The samples of each pass.
     runs: Vec<Range<usize>>,
     /// The samples at the ends of passes: sample, pass, and whether it is where the pass begins.
