@@ -11,7 +11,7 @@ use crate::measure;
 use crate::problem::nearest_or_all;
 use crate::template::{self, Linkage, Template, dependency_order};
 
-pub use crate::measure::{COLUMNS, Column, Straight, column};
+pub use crate::measure::{ALL as MEASURES, COLUMNS, Column, Straight, column};
 pub use crate::motion::{MAX_SAMPLES, Sampling};
 
 /// A linkage over a grid or a list of cases.
@@ -35,6 +35,8 @@ pub struct Family {
     pub columns: Vec<Column>,
     /// What is asked of the straight portion of each curve.
     pub straight: Straight,
+    /// Which measures are taken of each curve, by their places in [`measure::ALL`].
+    pub measures: Vec<bool>,
     /// Which curves are kept, over [`Family::scope`].
     pub filter: Option<Bound>,
     /// What the cells on pages are sorted by, least first, over [`Family::scope`]; by their numbers where there is none.
@@ -127,6 +129,7 @@ impl Family {
             sampling,
             columns,
             straight,
+            measures: vec![true; measure::ALL.len()],
             filter: None,
             sort: None,
             captions,
@@ -227,12 +230,26 @@ impl Family {
 
     /// Whether `where` or `sort` ask for a measure, told by its place in [`measure::ALL`].
     pub fn asks_for(&self, measure: usize) -> bool {
+        self.filter.iter().chain(&self.sort).any(|bound| self.needs(bound, measure))
+    }
+
+    /// Whether it takes a measure, told by its place in [`measure::ALL`], to evaluate an expression over [`Family::scope`].
+    pub fn needs(&self, expression: &Bound, measure: usize) -> bool {
         let is_number = |k: &usize| !measure::ALL[*k].is_word;
         let numbers: Vec<usize> = (0..measure::ALL.len()).filter(is_number).collect();
-        let slots = self.filter.iter().chain(&self.sort).flat_map(|bound| bound.slots());
-        let mut asked = slots.filter_map(|slot| slot.checked_sub(self.names.len()));
+        let mut asked = expression.slots().iter().filter_map(|slot| slot.checked_sub(self.names.len()));
         // Truths are told by a word.
         asked.any(|slot| numbers.get(slot).map_or(measure::ALL[measure].is_word, |k| *k == measure))
+    }
+
+    /// Whether the lines under a cell tell a measure.
+    pub fn describes(&self, measure: usize) -> bool {
+        self.captions.iter().flatten().any(|caption| caption.uses(measure::ALL[measure].name))
+    }
+
+    /// The measures that are taken.
+    pub fn taken(&self) -> impl Iterator<Item = (usize, &'static measure::Measure)> {
+        measure::ALL.iter().enumerate().filter(|(k, _)| self.measures[*k])
     }
 
     /// The measures that are words: a caption tells them, and nothing can be reckoned with them.

@@ -9,7 +9,7 @@ use super::template::{expression, template};
 use crate::family::{Sampling, Straight};
 use crate::geometry::{Bounds, Point};
 use crate::manifest::{Plan, PlannedFamily};
-use crate::measure::{self, Measure};
+use crate::measure;
 use crate::page::Layout;
 use crate::scene::{Group, Item, Scene};
 use crate::sweep::{Curve, Solved, Status};
@@ -96,9 +96,39 @@ impl<'a> Statements<'a> {
                 "reason": kept.iter().map(reason).collect::<Vec<_>>(),
                 "caption": lines.iter().map(|[caption, _]| caption.as_str()).collect::<Vec<_>>(),
                 "note": lines.iter().map(|[_, note]| note.as_str()).collect::<Vec<_>>(),
-                "curves": curves_of(&curves),
+                "curves": self.curves(&curves),
             }),
         )
+    }
+
+    /// Curves, each with the place of its cell among those handed over.
+    fn curves(self, curves: &[(usize, &Solved, &Curve)]) -> Value {
+        let of = |curve: &Curve, k: usize| match curve.measures.get(k) {
+            Some(measure::Value::Number(value)) => *value,
+            _ => f64::NAN,
+        };
+        let taken = || self.planned.family.taken();
+        let numbers = taken().filter(|(_, measure)| !measure.is_word);
+        let measures: Map<String, Value> =
+            numbers.map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| of(curve, k))))).collect();
+        let words = taken().filter(|(_, measure)| measure.is_word);
+        let words: Map<String, Value> = words.map(|(k, m)| (m.name.to_owned(), words_of(curves, k))).collect();
+        let points: Vec<Vec<Point>> = curves.iter().map(|(_, solved, curve)| points(solved, curve)).collect();
+        let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::of(points.iter().copied())).collect();
+        let corners = |b: &Bounds| [b.min.x, b.min.y, b.max.x, b.max.y];
+        let places =
+            points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantized(*p, bounds)));
+        json!({
+            "cell": u32s(curves.iter().map(|(cell, ..)| *cell)),
+            "trace": u16s(curves.iter().map(|(.., curve)| small(curve.trace))),
+            "circuit": u16s(curves.iter().map(|(.., curve)| small(curve.circuit))),
+            "closed": u8s(curves.iter().map(|(_, solved, curve)| u8::from(solved.circuit(curve).closed))),
+            "measures": measures,
+            "words": words,
+            "box": f64s(boxes.iter().flat_map(corners)),
+            "count": u16s(points.iter().map(|points| small(points.len()))),
+            "points": u16s(places),
+        })
     }
 
     /// What is where on a page: the transforms from the plane to millimetres of the paper, with the curves they are of.
@@ -146,36 +176,8 @@ fn straight(straight: Straight) -> Value {
     }
 }
 
-/// Curves, each with the place of its cell among those handed over.
-fn curves_of(curves: &[(usize, &Solved, &Curve)]) -> Value {
-    let of = |curve: &Curve, k: usize| match curve.measures.get(k) {
-        Some(measure::Value::Number(value)) => *value,
-        _ => f64::NAN,
-    };
-    let numbers = measure::ALL.iter().enumerate().filter(|(_, measure)| !measure.is_word);
-    let measures: Map<String, Value> =
-        numbers.map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| of(curve, k))))).collect();
-    let words = measure::ALL.iter().enumerate().filter(|(_, measure)| measure.is_word);
-    let words: Map<String, Value> = words.map(|(k, m)| (m.name.to_owned(), words_of(curves, k, m))).collect();
-    let points: Vec<Vec<Point>> = curves.iter().map(|(_, solved, curve)| points(solved, curve)).collect();
-    let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::of(points.iter().copied())).collect();
-    let corners = |b: &Bounds| [b.min.x, b.min.y, b.max.x, b.max.y];
-    let places =
-        points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantized(*p, bounds)));
-    json!({
-        "cell": u32s(curves.iter().map(|(cell, ..)| *cell)),
-        "trace": u16s(curves.iter().map(|(.., curve)| small(curve.trace))),
-        "circuit": u16s(curves.iter().map(|(.., curve)| small(curve.circuit))),
-        "closed": u8s(curves.iter().map(|(_, solved, curve)| u8::from(solved.circuit(curve).closed))),
-        "measures": measures,
-        "words": words,
-        "box": f64s(boxes.iter().flat_map(corners)),
-        "count": u16s(points.iter().map(|points| small(points.len()))),
-        "points": u16s(places),
-    })
-}
-
-fn words_of(curves: &[(usize, &Solved, &Curve)], k: usize, _measure: &Measure) -> Value {
+/// The words of curves under a measure, by its place: each once, and the number of each curve's.
+fn words_of(curves: &[(usize, &Solved, &Curve)], k: usize) -> Value {
     let mut values: BTreeMap<&str, u8> = BTreeMap::new();
     let word = |curve: &Curve| match curve.measures.get(k) {
         Some(measure::Value::Word(word)) => Some(*word),

@@ -6,7 +6,7 @@ use super::names::{given, names, read_expressions};
 use super::table::{FAMILY, LEAST_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing};
 use super::{Inputs, PlannedFamily, Templates, chart, settings, tolerance};
 use crate::expression::Dimension;
-use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, Sampling, Straight, column};
+use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, MEASURES, Sampling, Straight};
 use crate::notation::{self, Fields, Reader, Value};
 use crate::page::{Layout, Options};
 use crate::problem::{Problem, Span, nearest_or_all};
@@ -44,6 +44,7 @@ pub(super) fn read<'t>(
         None => Some(Straight::default()),
         Some(value) => straight(value, template.as_deref(), reader),
     };
+    let measures = fields.get("measures").map_or(Some(vec![true; MEASURES.len()]), |value| measures(value, reader));
     let tolerances = tolerance::read(fields.get("check"), &tolerance::OWN_CHECK, reader);
     let names = match &template {
         Some(template) => names(template, &fields, reader),
@@ -64,7 +65,7 @@ pub(super) fn read<'t>(
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
     let layout = layout(&fields, page, charts, reader);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
-    let family = Family {
+    let mut family = Family {
         title: title.unwrap_or_else(|| id.clone()),
         id,
         template,
@@ -74,10 +75,17 @@ pub(super) fn read<'t>(
         sampling,
         columns,
         straight,
+        measures: measures?,
         filter: names.filter,
         sort: names.sort,
         captions: names.captions,
     };
+    // What something asks for is taken, named or not.
+    for k in 0..MEASURES.len() {
+        let of_charts = chart.iter().flatten().flat_map(|chart| std::iter::once(&chart.x).chain(&chart.y));
+        let is_charted = of_charts.into_iter().any(|quantity| family.needs(&quantity.value, k));
+        family.measures[k] |= family.asks_for(k) || family.describes(k) || is_charted;
+    }
     check_cells(&family, &fields, &names.spans, reader);
     let legend = [&family.template.source, &family.template.legend].map(String::as_str);
     let source =
@@ -210,22 +218,33 @@ fn straight<'t>(value: &Value<'t>, template: Option<&Template>, reader: &mut Rea
 
 /// The further columns of `points.csv`.
 fn columns<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Column>> {
-    let known = COLUMNS.map(|column| column.name);
-    let mut out: Vec<Column> = Vec::new();
+    let places = places(value, "column", &COLUMNS.map(|column| column.name), reader)?;
+    Some(places.into_iter().map(|place| COLUMNS[place]).collect())
+}
+
+/// Which measures are named.
+fn measures<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<bool>> {
+    let places = places(value, "measure", &MEASURES.map(|measure| measure.name), reader)?;
+    Some((0..MEASURES.len()).map(|k| places.contains(&k)).collect())
+}
+
+/// The places of names, each given once, among those there are.
+fn places<'t>(value: &Value<'t>, what: &str, known: &[&str], reader: &mut Reader<'t>) -> Option<Vec<usize>> {
+    let mut out: Vec<usize> = Vec::new();
     let mut all_read = true;
     for item in reader.list(value)? {
         let Some(name) = reader.text(item) else {
             all_read = false;
             continue;
         };
-        let problem = match column(&name) {
-            Some(found) if out.iter().all(|other| other.name != found.name) => {
-                out.push(found);
+        let problem = match known.iter().position(|known| *known == name) {
+            Some(place) if !out.contains(&place) => {
+                out.push(place);
                 continue;
             }
-            Some(_) => Problem::error(item.span(), format!("the column `{name}` is named twice")).help("name it once"),
-            None => Problem::error(item.span(), format!("there is no column `{}`", name.escape_debug()))
-                .help(nearest_or_all(&name, &known)),
+            Some(_) => Problem::error(item.span(), format!("the {what} `{name}` is named twice")).help("name it once"),
+            None => Problem::error(item.span(), format!("there is no {what} `{}`", name.escape_debug()))
+                .help(nearest_or_all(&name, known)),
         };
         reader.note(problem);
         all_read = false;

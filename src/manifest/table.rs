@@ -7,7 +7,7 @@ use super::settings::{ATLAS, FORMATS, PAGE};
 use super::tolerance::{CHECK, OWN_CHECK};
 use crate::catalogue;
 use crate::expression::Dimension;
-use crate::family::{COLUMNS, Family, MAX_SAMPLES};
+use crate::family::{COLUMNS, Family, MAX_SAMPLES, MEASURES};
 use crate::notation::{CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, Form, Key, LINKAGES, Table, words};
 use crate::page::Layout;
 
@@ -84,6 +84,11 @@ pub(super) static FAMILY: Table = Table::new(
         .or("[]"),
         Key::new("straight", Form::Table(&STRAIGHT), "Which portion is the straight one, by one of the three.")
             .or("{ \"tolerance\": 0.001 }"),
+        Key::new(
+            "measures",
+            Form::Set(&Form::Word(|| MEASURES.map(|measure| measure.name).to_vec()), [0, usize::MAX]),
+            "The measures that are taken of its curves; all where left out.",
+        ),
         Key::new("check", Form::Table(&OWN_CHECK), "By how much it may differ from a recorded atlas.").or("{}"),
     ],
 )

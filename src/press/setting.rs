@@ -6,9 +6,9 @@ use crate::sweep::Arrangement;
 
 /// Which measures it takes to draw the cells of a family on pages of their own.
 pub fn told_on_pages(family: &Family) -> Vec<bool> {
-    let is_in_a_caption = |name: &str| family.captions.iter().flatten().any(|caption| caption.uses(name));
     let is_told = |(k, measure): (usize, &Measure)| {
-        page::MEASURES.contains(&measure.name) || family.asks_for(k) || is_in_a_caption(measure.name)
+        let is_told = page::MEASURES.contains(&measure.name) || family.asks_for(k) || family.describes(k);
+        is_told && family.measures[k]
     };
     measure::ALL.iter().enumerate().map(is_told).collect()
 }

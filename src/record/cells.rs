@@ -1,7 +1,7 @@
 use super::number::whole;
 use super::shortest;
 use crate::family::Family;
-use crate::measure::{self, Value};
+use crate::measure::Value;
 use crate::sweep::{Curve, Solved, Status};
 
 /// `cells.csv`: a row for each traced curve; a single one, without trace and circuit, for a cell that has no motion.
@@ -19,7 +19,7 @@ impl<'a> Cells<'a> {
     /// The names of the columns.
     pub fn header(self) -> String {
         let parameters = self.family.template.parameters.iter().map(|parameter| parameter.name.as_str());
-        let measures = measure::ALL.iter().map(|measure| measure.name);
+        let measures = self.family.taken().map(|(_, measure)| measure.name);
         let all =
             ["cell", "trace", "circuit"].into_iter().chain(parameters).chain(["status", "reason"]).chain(measures);
         let mut rows = Rows::onto(Vec::new());
@@ -50,7 +50,7 @@ impl<'a> Cells<'a> {
         self.family.parameters(&solved.cell).iter().for_each(|&value| rows.number(value));
         rows.field(solved.status().name().as_bytes());
         rows.field(solved.motion.shortfall.as_deref().unwrap_or_default().as_bytes());
-        for k in 0..measure::ALL.len() {
+        for (k, _) in self.family.taken() {
             match curve.map(|curve| curve.measures[k]) {
                 Some(Value::Number(value)) => rows.number(value),
                 Some(Value::Word(word)) => rows.field(word.as_bytes()),

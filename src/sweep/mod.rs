@@ -110,7 +110,7 @@ impl Solved {
 
 /// Solves and measures the `k`-th cell of a family.
 pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
-    solve_for(family, sampler, k, measure::take)
+    solve_for(family, sampler, k, |subject| measure::take_some(subject, |measure| family.measures[measure]))
 }
 
 /// Solves the `k`-th cell of a family, and takes some measures of it.
@@ -205,8 +205,8 @@ pub struct Groups<'a> {
     pub size: usize,
     /// How many bytes the work on a group holds at a time, beside the group itself.
     pub bytes: usize,
-    /// Which measures are taken, by their places in [`measure::ALL`], those that `where` asks for among them; all, where
-    /// nothing is said.
+    /// Which measures are taken, by their places in [`measure::ALL`], those that `where` asks for among them; the family's,
+    /// where nothing is said.
     pub wanted: Option<&'a [bool]>,
 }
 
@@ -243,7 +243,8 @@ pub fn run<T: Send, E>(
     let at_once = groups.at_once(family, sampler);
     let stopped = &AtomicBool::new(false);
     let work = &work;
-    let is_wanted = move |measure: usize| groups.wanted.is_none_or(|wanted| wanted[measure]);
+    let wanted = groups.wanted.unwrap_or(&family.measures);
+    let is_wanted = move |measure: usize| wanted[measure];
     let solve = move |cell: usize| solve_for(family, sampler, cell, |subject| measure::take_some(subject, is_wanted));
     let solve_group = move |group: usize, cells: &[usize]| {
         let goes_on = |_: &&usize| !stopped.load(Ordering::Relaxed);

@@ -8,12 +8,16 @@ use super::super::theme::Theme;
 use super::{Shown, input_unit};
 use crate::geometry::{Point, Vector};
 use crate::linkage::{Linkage, Step};
+use crate::measure::Value;
 use crate::scene::{Anchor, Circle, Item, Line, Path};
 use crate::sweep::{Curve, Solved};
 
-/// The heads of the columns that follow the number, and where each column ends, in parts of the table's width.
+/// The heads of the columns, and where each ends, in parts of the table's width.
 const COLUMNS: [(&str, f64); 5] =
     [("point", 0.2), ("along", 0.38), ("across", 0.58), ("straight", 0.82), ("over", 1.0)];
+
+/// The first columns, which are there where no straight portion was sought too.
+const OF_POINTS: usize = 3;
 
 /// Draws it at the head of a frame.
 pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown], theme: &Theme) {
@@ -22,7 +26,9 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
     let row = 1.5 * theme.note;
     let at = |column: usize, y: f64| Point::new(frame.corner.x + COLUMNS[column].1 * frame.size.x, y);
     let mut y = frame.corner.y + 1.5 * row;
-    for (column, (head, _)) in COLUMNS.iter().enumerate() {
+    let is_straight = shown.iter().any(|s| s.curve.measure("straight_length") != Value::Missing);
+    let columns = if is_straight { COLUMNS.len() } else { OF_POINTS };
+    for (column, (head, _)) in COLUMNS.iter().enumerate().take(columns) {
         put(area, &theme.words(head, at(column, y), Anchor::End, 0.9 * theme.note, theme.grey));
     }
     let rule =
@@ -43,7 +49,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
             if has_circuits { format!("{}/{}", s.curve.trace, s.curve.circuit) } else { s.curve.trace.to_string() };
         let [along, across] = place(&solved.linkage, s.curve);
         let [straight, over] = straight(solved, s.curve);
-        for (column, text) in [number, along, across, straight, over].iter().enumerate() {
+        for (column, text) in [number, along, across, straight, over].iter().enumerate().take(columns) {
             let color = if column == 0 { s.ink(theme) } else { theme.grey };
             put(area, &theme.words(text, at(column, y), Anchor::End, theme.note, color));
         }

@@ -112,7 +112,7 @@ fn text_never_becomes_markup_or_code() {
         "document.write",
         "eval(",
         "new Function",
-        "fetch(",
+        " fetch(",
         "XMLHttpRequest",
         "WebSocket",
         "</script",

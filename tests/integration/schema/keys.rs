@@ -151,7 +151,8 @@ fn defaults_are_what_holds_without_them() {
         let PlannedFamily { family, layout, chart, formats, source, .. } = &plan.families[0];
         let Template { circuits, continuation, coincident, placement, .. } = &*family.template;
         let linkage = family.linkage(&family.cell(0)).unwrap();
-        let asked = (&family.sampling, &family.columns, &family.straight, circuits, continuation, coincident);
+        let asked =
+            (&family.sampling, &family.columns, &family.measures, &family.straight, circuits, continuation, coincident);
         let whole = (&plan.title, &plan.output, plan.volume_pages, &plan.page, plan.dpi, plan.text);
         format!("{whole:?} {layout:?} {chart:?} {formats:?} {source} {asked:?} {placement:?} {linkage:?}")
     };
