@@ -238,8 +238,8 @@ impl Family {
         let is_number = |k: &usize| !measure::ALL[*k].is_word;
         let numbers: Vec<usize> = (0..measure::ALL.len()).filter(is_number).collect();
         let mut asked = expression.slots().iter().filter_map(|slot| slot.checked_sub(self.names.len()));
-        // Truths are told by a word.
-        asked.any(|slot| numbers.get(slot).map_or(measure::ALL[measure].is_word, |k| *k == measure))
+        // What follows the numbers is true or false.
+        asked.any(|slot| numbers.get(slot).map_or(measure::tells_truths(measure), |k| *k == measure))
     }
 
     /// Whether the lines under a cell tell a measure.

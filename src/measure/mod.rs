@@ -224,6 +224,11 @@ pub const TRUTHS: [(&str, &str); 5] = [
     ("is_change_point", "change-point"),
 ];
 
+/// Whether it is the measure, told by its place in [`ALL`], by which [`TRUTHS`] are told.
+pub fn tells_truths(measure: usize) -> bool {
+    ALL[measure].name == class::CLASS.name
+}
+
 /// Whether one of [`TRUTHS`] holds, 1 or 0; not a number where there is no class.
 pub fn truth(word: &str, values: &[Value]) -> f64 {
     match ALL.iter().zip(values).find(|(measure, _)| measure.name == class::CLASS.name) {

@@ -62,6 +62,8 @@ fn each_mistake_has_its_message() {
         ("[atlas]", "[page]\npaper = \"a5\"\n[atlas]", "`a5` is not one of the words allowed here", "2:9"),
         ("[atlas]", "[page]\ndpi = 1e6\n[atlas]", "1000000 pixels to the inch is out of range", "2:7"),
         ("let =", "columns = [\"vx\", \"vq\"]\nlet =", "there is no column `vq`", "8:18"),
+        ("let =", "measures = [\"class\", \"lenght\"]\nlet =", "there is no measure `lenght`", "8:22"),
+        ("let =", "measures = [\"area\", \"area\"]\nlet =", "the measure `area` is named twice", "8:21"),
         ("[atlas]", "[atlas", "this is not TOML", "1:7"),
     ];
     for (from, to, message, place) in cases {
