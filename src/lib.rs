@@ -58,6 +58,7 @@ pub mod scene;
 pub mod manifest;
 pub mod record;
 
+pub mod export;
 pub mod press;
 
 pub mod gallery;

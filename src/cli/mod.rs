@@ -2,8 +2,10 @@
 
 mod check;
 mod design;
+mod export;
 mod init;
 mod inspect;
+mod linkage;
 mod list;
 mod manual;
 mod plan;
@@ -35,6 +37,7 @@ enum Command {
     Check(check::Arguments),
     Inspect(inspect::Arguments),
     Design(Box<design::Arguments>),
+    Export(export::Arguments),
     List(list::Arguments),
     Init(init::Arguments),
     Completions(manual::Completions),
@@ -67,6 +70,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::Completions(arguments) => manual::completions(&arguments),
@@ -110,8 +114,13 @@ fn failure(error: &anyhow::Error) -> ExitCode {
 
 /// Writes a result to standard output.
 fn print(text: &str) -> anyhow::Result<()> {
+    print_bytes(text.as_bytes())
+}
+
+/// Writes a result that need not be text to standard output.
+fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
+    out.write_all(bytes)?;
     out.flush()?;
     Ok(())
 }

@@ -70,7 +70,7 @@ impl<'a> Mechanism<'a> {
             .pitch_circles()
             .into_iter()
             .flat_map(|(centre, radius)| [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]);
-        let joints = drawn_links(self.linkage).concat().into_iter().chain(ground(self.linkage));
+        let joints = drawn_links(self.linkage).concat().into_iter().chain(pivots(self.linkage));
         let joints = joints.map(|joint| self.pose[joint]);
         let slots = self.slots.iter().flat_map(|slot| slot.ends);
         Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels).chain(slots))
@@ -88,7 +88,7 @@ impl<'a> Mechanism<'a> {
                 items.push(Item::Path(Path { lines: vec![Line { points, closed: true }], stroke: None, fill }));
             }
         }
-        let points: Vec<Point> = ground(self.linkage).iter().map(at).collect();
+        let points: Vec<Point> = pivots(self.linkage).iter().map(at).collect();
         if points.len() > 1 {
             let stroke = Some(theme.stroke(theme.hairline, theme.hair));
             // Three pivots are on a frame that is a plate like any other.
@@ -112,7 +112,7 @@ impl<'a> Mechanism<'a> {
     pub fn items(&self, plot: &Plot, theme: &Theme, ink: impl Fn(JointId) -> Color) -> Vec<Item> {
         let page = |p: Point| plot.page_from_plane.apply(p);
         let at = |joint: JointId| page(self.pose[joint]);
-        let ground = ground(self.linkage);
+        let ground = pivots(self.linkage);
         let mut items = Vec::new();
         let links = numbered_links(self.linkage);
         let heavy = Stroke { round: true, ..theme.stroke(theme.ink, theme.link) };
@@ -248,7 +248,7 @@ fn fixed_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 2]) -
 }
 
 /// The joints of the link at rest that something moves about.
-pub(super) fn ground(linkage: &Linkage) -> Vec<JointId> {
+pub fn pivots(linkage: &Linkage) -> Vec<JointId> {
     let ground = linkage.ground();
     let is_pivot =
         |joint: JointId| linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some());
@@ -256,7 +256,7 @@ pub(super) fn ground(linkage: &Linkage) -> Vec<JointId> {
 }
 
 /// The moving links as they are drawn, each by its joints in order: along a bar, or round a plate.
-pub(super) fn drawn_links(linkage: &Linkage) -> Vec<Vec<JointId>> {
+pub fn drawn_links(linkage: &Linkage) -> Vec<Vec<JointId>> {
     numbered_links(linkage).into_iter().map(|(_, joints)| joints).collect()
 }
 
@@ -289,8 +289,8 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
     order.into_iter().map(|k| joints[k].0).collect()
 }
 
-/// Whether a link is drawn as a plate and not as a bar.
-pub(super) fn is_plate(points: &[Point]) -> bool {
+/// Whether a link is drawn as a plate and not as a bar, by the places of its joints.
+pub fn is_plate(points: &[Point]) -> bool {
     points.len() > 2 && !is_flat(points)
 }
 

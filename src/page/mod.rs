@@ -17,6 +17,7 @@ mod theme;
 
 pub use heading::Heading;
 pub use marks::{MEASURES, facts};
+pub use mechanism::{drawn_links, is_plate, pivots};
 pub use theme::{Manner, Named as NamedTheme, Theme};
 
 use crate::chart::{Chart, Series};

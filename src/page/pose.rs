@@ -1,6 +1,6 @@
 //! The pose a linkage is drawn in: one in which it can be read.
 
-use super::mechanism::{drawn_links, ground, sliding_line};
+use super::mechanism::{drawn_links, pivots, sliding_line};
 use crate::geometry::{Point, cross, distance_to_segment};
 use crate::linkage::{Linkage, Step};
 use crate::motion::Circuit;
@@ -16,7 +16,7 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     let stride = circuit.len().div_ceil(CANDIDATES).max(1);
     // The frame is a link like the others here: a crank that lies on it cannot be seen.
     let mut links = drawn_links(linkage);
-    links.push(ground(linkage));
+    links.push(pivots(linkage));
     for joint in 0..linkage.joints.len() {
         let Some([foot, through]) = sliding_line(linkage, joint) else { continue };
         // The link with a slot goes on to what slides in it; the line of an actuator is a link of its own.

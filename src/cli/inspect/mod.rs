@@ -7,20 +7,16 @@ mod plate;
 mod text;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use clap::Args;
-use coupler_atlas::expression::Expression;
+use coupler_atlas::build;
 use coupler_atlas::family::{Family, Sampling};
 use coupler_atlas::geometry::{Vector, cross};
 use coupler_atlas::linkage::{Flat, Input, JointId, Linkage};
 use coupler_atlas::motion::{Instant, Jets, Pass, Sampler};
-use coupler_atlas::problem::nearest_or_all;
 use coupler_atlas::sweep::{self, Solved};
-use coupler_atlas::template::Template;
-use coupler_atlas::{build, catalogue, manifest};
 
-use super::{Outcome, WrongInput, print};
+use super::{Outcome, WrongInput, linkage, print};
 
 /// Look at one linkage: its class, its circuits and their limits, where its joints are and how fast they move.
 ///
@@ -81,9 +77,9 @@ struct Report<'a> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let template = template(arguments)?;
-    let given = arguments.parameters.iter().map(|text| parameter(text)).collect::<Result<Vec<_>, _>>()?;
-    let at = arguments.at.as_deref().map(|text| number(text, "--at 30")).transpose()?;
+    let template = linkage::template(&arguments.linkage, arguments.manifest.as_deref())?;
+    let given = arguments.parameters.iter().map(|text| linkage::parameter(text)).collect::<Result<Vec<_>, _>>()?;
+    let at = arguments.at.as_deref().map(|text| linkage::number(text, "--at 30")).transpose()?;
     if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
         return Err(WrongInput(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
     }
@@ -107,42 +103,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     print(&told)?;
     Ok(Outcome::Done)
-}
-
-/// The linkage asked for.
-fn template(arguments: &Arguments) -> anyhow::Result<Arc<Template>> {
-    let mut known: Vec<Arc<Template>> = Vec::new();
-    if let Some(path) = &arguments.manifest {
-        let text = build::read_manifest(path)?;
-        let (own, problems) = manifest::linkages(&text);
-        super::plan::report(path, &text, &problems);
-        known.extend(own);
-    }
-    known.extend(catalogue::all().iter().cloned());
-    let found = known.iter().find(|template| template.id == arguments.linkage).cloned();
-    found.ok_or_else(|| {
-        let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
-        let name = &arguments.linkage;
-        WrongInput(format!("there is no linkage `{name}`: {}", nearest_or_all(name, &ids))).into()
-    })
-}
-
-/// `name=value`, the value a number or an expression without names.
-fn parameter(text: &str) -> Result<(String, f64), WrongInput> {
-    const EXAMPLE: &str = "p=2 or \"a=sqrt(2)\"";
-    let none = || WrongInput(format!("`{text}`: there is no `=`; write it like {EXAMPLE}"));
-    let (name, value) = text.split_once('=').ok_or_else(none)?;
-    Ok((name.trim().to_owned(), number(value, EXAMPLE)?))
-}
-
-/// A number, or an expression without names.
-fn number(text: &str, example: &str) -> Result<f64, WrongInput> {
-    let wrong = |why: String| WrongInput(format!("`{text}`: {why}; write it like {example}"));
-    let expression = Expression::parse(text).map_err(|error| wrong(error.message))?;
-    match expression.names().first() {
-        Some(name) => Err(wrong(format!("`{name}` has no value here"))),
-        None => Ok(expression.evaluate(|_| f64::NAN)),
-    }
 }
 
 /// The linkage at one input, on one pass.

@@ -1,7 +1,6 @@
-use coupler_atlas::geometry::Point;
-use coupler_atlas::linkage::Input;
-use coupler_atlas::motion::{self, Motion, Sampler, Sampling};
-use coupler_atlas::page::{self, Heading, Layout, Options, Panel, Paper, Sheet, View};
+use coupler_atlas::export::{Options as Taken, moving_view};
+use coupler_atlas::motion;
+use coupler_atlas::page::{self, Heading, Layout, Options, Panel, Sheet, View};
 use coupler_atlas::render::{self, TextMode};
 use coupler_atlas::sweep::Solved;
 
@@ -32,33 +31,11 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
         of: 1,
     };
     let sheet = Sheet { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] };
-    let options = Options::on(Paper { width: 200.0, height: 150.0 });
+    let options = Options::on(Taken::PAPER);
     render::svg(&page::compose(&sheet, &options), TextMode::Text)
 }
 
-/// The poses of the first circuit, slower towards its limits, as a crank is that is turned by hand; there and back
-/// where it does not close.
+/// The poses of the first circuit.
 fn moving(solved: &Solved) -> View {
-    /// Between two poses places go straight: over 3 degrees no pin is off its circle by more than a thousandth of its
-    /// radius.
-    const STEP_DEG: f64 = 3.0;
-    const SECONDS_TO_A_TURN: f64 = 4.0;
-    let Some(circuit) = solved.motion.circuits.first() else { return View::Clearest };
-    let turns = match solved.linkage.input() {
-        Input::Angle { .. } => circuit.passes.iter().map(|pass| pass.length() / 360.0).sum::<f64>().max(0.25),
-        Input::Length => 1.0,
-    };
-    let frames = (turns * 360.0 / STEP_DEG).ceil() as usize;
-    let motion = Motion::of(&solved.linkage, &Sampler::new(Sampling::Smooth(frames)));
-    let Some(circuit) = motion.circuits.first() else { return View::Clearest };
-    let joints = solved.linkage.joints.len();
-    let pose = |sample: usize| (0..joints).map(|joint| circuit.places.point(joint, sample)).collect::<Vec<Point>>();
-    let is_defined = |pose: &Vec<Point>| pose.iter().all(|p| p.x.is_finite() && p.y.is_finite());
-    let mut poses: Vec<Vec<Point>> = (0..circuit.len()).map(pose).filter(is_defined).collect();
-    if circuit.closed {
-        poses.extend(poses.first().cloned());
-    } else {
-        poses.extend(poses.clone().into_iter().rev().skip(1));
-    }
-    View::Moving { poses, seconds: (turns * SECONDS_TO_A_TURN * 10.0).round() / 10.0 }
+    solved.motion.circuits.first().map_or(View::Clearest, |circuit| moving_view(&solved.linkage, circuit, 1))
 }

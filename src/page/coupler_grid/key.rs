@@ -2,7 +2,7 @@
 
 use super::super::arrangement::Frame;
 use super::super::element::{Area, Drawing, Words, draw as put};
-use super::super::mechanism::{Mechanism, drawn_links, ground, is_plate};
+use super::super::mechanism::{Mechanism, drawn_links, is_plate, pivots};
 use super::super::theme::Theme;
 use super::super::{GridSheet, Label};
 use super::labels::{self, Obstacles, Spot};
@@ -14,7 +14,7 @@ use crate::scene::{Anchor, Item, Line, Path};
 pub(super) fn draw(area: &Area, side: Frame, sheet: &GridSheet, mechanism: &Mechanism, theme: &Theme) -> Frame {
     let linkage = &sheet.panel.solved.linkage;
     let pose = |joint: &JointId| mechanism.pose[*joint];
-    let (links, pivots) = (drawn_links(linkage), ground(linkage));
+    let (links, pivots) = (drawn_links(linkage), pivots(linkage));
     let bounds = Bounds::of(links.iter().flatten().chain(&pivots).map(pose));
     let letter = 1.1 * theme.note;
     let height = 0.19 * side.size.y;

@@ -1,0 +1,46 @@
+//! A linkage named on the command line, with the values of its parameters.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use coupler_atlas::expression::Expression;
+use coupler_atlas::problem::nearest_or_all;
+use coupler_atlas::template::Template;
+use coupler_atlas::{build, catalogue, manifest};
+
+use super::{WrongInput, plan};
+
+/// The linkage of a name: of a manifest's own, if one is given, or of the catalogue.
+pub(super) fn template(name: &str, manifest: Option<&Path>) -> anyhow::Result<Arc<Template>> {
+    let mut known: Vec<Arc<Template>> = Vec::new();
+    if let Some(path) = manifest {
+        let text = build::read_manifest(path)?;
+        let (own, problems) = manifest::linkages(&text);
+        plan::report(path, &text, &problems);
+        known.extend(own);
+    }
+    known.extend(catalogue::all().iter().cloned());
+    let found = known.iter().find(|template| template.id == name).cloned();
+    found.ok_or_else(|| {
+        let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
+        WrongInput(format!("there is no linkage `{name}`: {}", nearest_or_all(name, &ids))).into()
+    })
+}
+
+/// `name=value`, the value a number or an expression without names.
+pub(super) fn parameter(text: &str) -> Result<(String, f64), WrongInput> {
+    const EXAMPLE: &str = "p=2 or \"a=sqrt(2)\"";
+    let none = || WrongInput(format!("`{text}`: there is no `=`; write it like {EXAMPLE}"));
+    let (name, value) = text.split_once('=').ok_or_else(none)?;
+    Ok((name.trim().to_owned(), number(value, EXAMPLE)?))
+}
+
+/// A number, or an expression without names.
+pub(super) fn number(text: &str, example: &str) -> Result<f64, WrongInput> {
+    let wrong = |why: String| WrongInput(format!("`{text}`: {why}; write it like {example}"));
+    let expression = Expression::parse(text).map_err(|error| wrong(error.message))?;
+    match expression.names().first() {
+        Some(name) => Err(wrong(format!("`{name}` has no value here"))),
+        None => Ok(expression.evaluate(|_| f64::NAN)),
+    }
+}

@@ -1,0 +1,148 @@
+//! A piece of a manifest that has the cells of curves once more: a family for each linkage and the way it is sampled.
+
+use std::fmt::Write;
+
+use super::{Case, digits, sampled};
+use crate::catalogue;
+use crate::family::{Family, Straight};
+use crate::geometry::{Vector, trig};
+use crate::template::{Circuits, Coincident, Continuation, Placement, Template};
+
+/// The families of some parameter sets, in their order; to be put into a manifest that has an `[atlas]`, and the linkages of
+/// one's own that they name. A cell that several curves are taken of stands once.
+pub fn fragment(cases: &[Case]) -> String {
+    let mut families: Vec<(String, Vec<&Case>)> = Vec::new();
+    for case in cases {
+        let settings = settings(case.family);
+        match families
+            .iter_mut()
+            .find(|(known, others)| *known == settings && others[0].family.title == case.family.title)
+        {
+            Some((_, others)) => others.push(case),
+            None => families.push((settings, vec![case])),
+        }
+    }
+    let mut out = "# Put this into a manifest with an [atlas].\n".to_owned();
+    for (k, (settings, cases)) in families.iter().enumerate() {
+        let id = &cases[0].family.template.id;
+        let earlier = families[..k].iter().filter(|(_, others)| others[0].family.template.id == *id).count();
+        family(&family_id(id, earlier + 1), settings, cases, &mut out);
+    }
+    out
+}
+
+/// The id of the n-th family of a linkage: its own, but no longer than an id may be.
+fn family_id(linkage: &str, number: usize) -> String {
+    let stem: String = linkage.chars().take(50).collect();
+    let stem = stem.trim_end_matches('-');
+    if number == 1 { format!("{stem}-taken") } else { format!("{stem}-taken-{number}") }
+}
+
+fn family(id: &str, settings: &str, cases: &[&Case], out: &mut String) {
+    let template = &cases[0].family.template;
+    let mut rows: Vec<(String, Vec<&str>)> = Vec::new();
+    for case in cases {
+        let value = |(k, value): (usize, &f64)| format!("{} = {}", template.parameters[k].name, digits(*value));
+        let values: Vec<String> = case.values.iter().enumerate().map(value).collect();
+        let row = if values.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", values.join(", ")) };
+        match rows.iter_mut().find(|(known, _)| *known == row) {
+            Some((_, names)) => names.push(&case.name),
+            None => rows.push((row, vec![&case.name])),
+        }
+    }
+    let columns = rows.len().min(3);
+    let panels = [columns, rows.len().div_ceil(columns.max(1)).min(3)];
+    if !is_built_in(template) {
+        let _ = write!(out, "\n# The [[linkage]] `{}` is the atlas's own: copy it from its manifest.", template.id);
+    }
+    // Writing to a string cannot fail.
+    let _ = write!(
+        out,
+        "\n[[family]]\nid = \"{id}\"\nlinkage = \"{}\"\ntitle = {}\npanels = [{}, {}]\n{settings}cases = [\n",
+        template.id,
+        quoted(&cases[0].family.title),
+        panels[0],
+        panels[1]
+    );
+    for (row, names) in rows {
+        let _ = writeln!(out, "    {row}, # {}", names.join(", "));
+    }
+    out.push_str("]\n");
+}
+
+fn is_built_in(template: &Template) -> bool {
+    catalogue::find(&template.id).is_some()
+}
+
+/// What a family says beside its cells: by it families of one linkage are told apart.
+fn settings(family: &Family) -> String {
+    let template = &family.template;
+    let is_length = template.is_driven_by_length();
+    let input = |value: f64| if is_length { digits(value) } else { format!("\"{} deg\"", digits(value)) };
+    let sampling = match sampled(family.sampling) {
+        ("step", step, _) => format!("step = {}", input(step)),
+        (key, number, None) => format!("{key} = {}", digits(number)),
+        (key, number, Some(spacing)) => format!("{key} = {}, spacing = \"{spacing}\"", digits(number)),
+    };
+    let mut out = format!("sampling = {{ {sampling} }}\n");
+    let circuits = match template.circuits {
+        Circuits::Start => "start",
+        Circuits::All => "all",
+    };
+    let continuation = match template.continuation {
+        Continuation::Smooth => "smooth",
+        Continuation::Branch => "branch",
+    };
+    let _ = write!(out, "circuits = \"{circuits}\"\ncontinuation = \"{continuation}\"\n");
+    let coincident = match template.coincident {
+        Coincident::Together => "together",
+        Coincident::First => "first",
+        Coincident::Last => "last",
+    };
+    // No linkage of the catalogue says otherwise than `together`.
+    if template.coincident != Coincident::Together || !is_built_in(template) {
+        let _ = writeln!(out, "coincident = \"{coincident}\"");
+    }
+    if template.placement != Placement::default() {
+        let _ = writeln!(out, "place = {}", place(&template.placement));
+    }
+    if family.straight != Straight::default() {
+        let straight = match family.straight {
+            Straight::Tolerance(tolerance) => format!("tolerance = {}", digits(tolerance)),
+            Straight::Input(value) => format!("input = {}", input(value)),
+            Straight::Length(length) => format!("length = {}", digits(length)),
+        };
+        let _ = writeln!(out, "straight = {{ {straight} }}");
+    }
+    if !family.columns.is_empty() {
+        let columns: Vec<String> = family.columns.iter().map(|column| format!("\"{}\"", column.name)).collect();
+        let _ = writeln!(out, "columns = [{}]", columns.join(", "));
+    }
+    out
+}
+
+/// Mirrored or not, and turned by so many degrees: to nine places, the digits a manifest will have had.
+fn place(placement: &Placement) -> String {
+    let axis = placement.vector(Vector::new(1.0, 0.0));
+    let deg = trig::degrees(trig::atan2(axis.y, axis.x));
+    let rounded = (deg * 1e9).round() / 1e9 + 0.0;
+    let is_mirrored = placement.handedness() < 0.0;
+    let deg = if Placement::new(is_mirrored, rounded) == *placement { rounded } else { deg };
+    format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", digits(deg))
+}
+
+/// A text in TOML.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
