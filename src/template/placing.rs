@@ -167,7 +167,8 @@ impl Coordinate {
         }
     }
 
-    pub(super) fn values(&self, number: impl Fn(&Bound) -> f64) -> Vec<f64> {
+    /// Its values, each bound expression evaluated by `number`.
+    pub fn values(&self, number: impl Fn(&Bound) -> f64) -> Vec<f64> {
         match self {
             Coordinate::One(value) => vec![number(value)],
             Coordinate::Range { from, to, count } => {

@@ -13,6 +13,7 @@ mod coupler_grid;
 mod dependencies;
 mod design;
 mod drawn;
+mod export;
 mod expressions;
 mod faults;
 mod folder;

@@ -50,7 +50,9 @@ fn the_readmes_further_joints_can_be_read() {
 #[test]
 fn the_readme_names_every_command_and_linkages_are_listed_by_the_program() {
     let readme = include_str!("../../README.md");
-    for command in ["`render ", "`validate ", "`inspect ", "`design ", "`list ", "`init ", "`completions ", "`man`"] {
+    for command in
+        ["`render ", "`validate ", "`inspect ", "`design ", "`export ", "`list ", "`init ", "`completions ", "`man`"]
+    {
         assert!(readme.contains(command), "{command}");
     }
 }

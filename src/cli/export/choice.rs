@@ -1,12 +1,14 @@
 //! From what is named on the command line to cells of families, and which curves of them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use coupler_atlas::family::{Family, Space};
 use coupler_atlas::measure;
 use coupler_atlas::problem::nearest_or_all;
 use coupler_atlas::sweep::{self, Groups, Solved};
 
+use super::moved::moved;
 use super::name::Name;
 
 /// Cells of a family, and which curves of them are taken.
@@ -18,6 +20,8 @@ pub(super) struct Choice {
     pub changed: Vec<(String, f64)>,
     /// The number the one cell is known by, where its parameters are changed.
     number: Option<usize>,
+    /// The number a trace has, and the one it is known by, where its point is moved.
+    retraced: Option<[usize; 2]>,
     /// By the places of cells.
     wanted: BTreeMap<usize, Wanted>,
 }
@@ -36,7 +40,7 @@ impl Choice {
     /// Every curve there is of a family.
     pub fn all(family: Family, source: String) -> Choice {
         let wanted = (0..family.cells()).map(|cell| (cell, Wanted::Any)).collect();
-        Choice { family, source, changed: Vec::new(), number: None, wanted }
+        Choice { family, source, changed: Vec::new(), number: None, retraced: None, wanted }
     }
 
     /// No curve of a family, yet.
@@ -80,7 +84,9 @@ impl Choice {
             .collect();
         let known: Vec<&str> = family.names.iter().map(String::as_str).collect();
         let mut wrong = Vec::new();
-        for (name, value) in &name.changed {
+        // A point has a dot in its name, and no parameter has.
+        let (points, parameters): (Vec<_>, Vec<_>) = name.changed.iter().partition(|(name, _)| name.contains('.'));
+        for (name, value) in parameters {
             match known.iter().position(|known| known == name) {
                 Some(slot) => {
                     case.retain(|(given, _)| *given != slot);
@@ -97,9 +103,12 @@ impl Choice {
         if !wrong.is_empty() {
             return Err(wrong);
         }
-        let wanted = name.curve.map_or(Wanted::Some, |curve| Wanted::These([curve].into()));
-        let wanted = [(0, wanted)].into();
-        Ok(Choice { family, source: source.to_owned(), changed: name.changed.clone(), number: Some(number), wanted })
+        let (family, retraced) =
+            with_moved(family, name, &points).map_err(|why| vec![format!("{}: {why}", name.family)])?;
+        let curve = name.curve.map(|[trace, circuit]| [retraced.map_or(trace, |[own, _]| own), circuit]);
+        let wanted = [(0, curve.map_or(Wanted::Some, |curve| Wanted::These([curve].into())))].into();
+        let (source, changed) = (source.to_owned(), name.changed.clone());
+        Ok(Choice { family, source, changed, number: Some(number), retraced, wanted })
     }
 
     /// Solves the cells, on all threads, and hands what `work` makes of each, with the curves that are wanted left of it, to
@@ -138,6 +147,9 @@ impl Choice {
         if let Some(Wanted::These(curves)) = self.of(&solved) {
             solved.curves.retain(|curve| curves.contains(&[curve.trace, curve.circuit]));
         }
+        if let Some([own, known]) = self.retraced {
+            solved.curves.iter_mut().filter(|curve| curve.trace == own).for_each(|curve| curve.trace = known);
+        }
         solved
     }
 
@@ -168,6 +180,18 @@ impl Choice {
             _ => Vec::new(),
         }
     }
+}
+
+/// A family of one cell whose traced point is where a name has it, and its number among the traces, where that is another,
+/// with the one it is known by.
+fn with_moved(family: Family, name: &Name, points: &[&(String, f64)]) -> Result<(Family, Option<[usize; 2]>), String> {
+    if points.is_empty() {
+        return Ok((family, None));
+    }
+    let [trace, _] = name.curve.ok_or("a point is moved of one curve; name it by cell, trace and circuit")?;
+    let cell = family.cell(0);
+    let (template, own) = moved(&family.template, trace, family.parameters(&cell), points)?;
+    Ok((Family { template: Arc::new(template), ..family }, (own != trace).then_some([own, trace])))
 }
 
 /// The place of a cell of that number.

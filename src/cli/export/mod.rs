@@ -1,6 +1,7 @@
 //! Curves taken away: to a file, to a folder, or to standard output.
 
 mod choice;
+mod moved;
 mod name;
 
 use std::path::{Path, PathBuf};

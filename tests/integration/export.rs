@@ -1,0 +1,539 @@
+//! Curves taken away: every format read back, and held against the tables of the atlas they are taken from.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::folder::files;
+use tempfile::TempDir;
+
+/// Crank pins that draw circles, a rocker pin on an arc, sampling of every kind, a placed family, a length for an input, and
+/// a title with marks in it.
+const MANIFEST: &str = r#"[atlas]
+title = "T"
+output = "out"
+formats = ["svg"]
+[[linkage]]
+id = "mine"
+parameters = { g = { min = 0 } }
+trace = ["A", "B", "M"]
+circuits = "all"
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = ["g", 0] }
+A = { crank = "O", length = 1 }
+B = { dyad = ["A", "C"], lengths = [3, 3.5], side = "left" }
+M = { point = ["A", "B"], along = 1.5, across = 1 }
+[[family]]
+id = "evans"
+linkage = "evans"
+title = "Evans <linkage> & \"co\""
+sampling = { step = "2 deg" }
+cases = [{ p = 2, a = 2.59 }, { p = 3, a = 4.1 }]
+columns = ["vx", "mu_deg"]
+straight = { input = "100 deg" }
+[[family]]
+id = "watt"
+linkage = "watt"
+sampling = { samples = 100 }
+cases = [{ p = 4, r = 2, a = 1 }, { p = 90, r = 2, a = 1 }]
+[[family]]
+id = "mine"
+linkage = "mine"
+sampling = { samples = 60, spacing = "smooth" }
+cases = [{ g = 4 }, { g = 5 }]
+[[family]]
+id = "placed"
+linkage = "hoeken"
+sampling = { step = "5 deg" }
+grid = { p = [2], q = [2.5] }
+let = { r = 1, a = "q" }
+where = "straight_length > 0"
+place = { mirror = true, rotate = "30 deg" }
+[[family]]
+id = "actuator"
+linkage = "linear-actuator"
+sampling = { step = 0.05 }
+cases = [{ g = 2, r = 0.75, e = 0.3 }]
+[[family]]
+id = "grid"
+linkage = "hrones-nelson"
+sampling = { step = "10 deg" }
+cases = [{ A = 3, B = 3.5, C = 3 }]
+"#;
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, Vec<u8>, String) {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let output = program.current_dir(folder).args(arguments).output().unwrap();
+    (output.status.code().unwrap_or(-1), output.stdout, String::from_utf8(output.stderr).unwrap())
+}
+
+fn text(folder: &Path, arguments: &[&str]) -> String {
+    let (code, out, err) = run(folder, arguments);
+    assert_eq!(code, 0, "{arguments:?}: {err}");
+    String::from_utf8(out).unwrap()
+}
+
+/// A folder with the manifest, rendered, and all curves of it taken away in some formats to `taken`.
+fn taken(formats: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
+    text(folder.path(), &["render", "-q"]);
+    text(folder.path(), &["export", "--format", formats, "-o", "taken"]);
+    folder
+}
+
+/// The rows of a family's points.csv by curve: cell, trace, circuit.
+fn points(folder: &Path, family: &str) -> (String, BTreeMap<[usize; 3], Vec<String>>) {
+    let table = fs::read_to_string(folder.join(format!("out/{family}/points.csv"))).unwrap();
+    let (header, rows) = table.split_once('\n').unwrap();
+    let mut curves: BTreeMap<[usize; 3], Vec<String>> = BTreeMap::new();
+    for row in rows.lines() {
+        let numbers: Vec<usize> = row.split(',').take(3).map(|field| field.parse().unwrap()).collect();
+        curves.entry([numbers[0], numbers[1], numbers[2]]).or_default().push(row.to_owned());
+    }
+    (header.to_owned(), curves)
+}
+
+const FAMILIES: [&str; 6] = ["evans", "watt", "mine", "placed", "actuator", "grid"];
+
+fn file(folder: &Path, family: &str, [cell, trace, circuit]: [usize; 3], ending: &str) -> String {
+    fs::read_to_string(folder.join(format!("taken/{family}-{cell}-{trace}-{circuit}{ending}"))).unwrap()
+}
+
+/// The x and y of rows.
+fn places(header: &str, rows: &[String]) -> Vec<[f64; 2]> {
+    let column = |name: &str| header.split(',').position(|field| field == name).unwrap();
+    let [x, y] = ["x", "y"].map(column);
+    let place = |row: &String| {
+        let fields: Vec<&str> = row.split(',').collect();
+        [x, y].map(|k| fields[k].parse().unwrap())
+    };
+    rows.iter().map(place).collect()
+}
+
+#[test]
+fn tables_have_the_rows_of_points_csv() {
+    let folder = taken("csv");
+    let mut expected = Vec::new();
+    for family in FAMILIES {
+        let (header, curves) = points(folder.path(), family);
+        for (&[cell, trace, circuit], rows) in &curves {
+            let table = file(folder.path(), family, [cell, trace, circuit], ".csv");
+            assert_eq!(table, format!("{header}\n{}\n", rows.join("\n")));
+            expected.push(format!("{family}-{cell}-{trace}-{circuit}.csv"));
+        }
+    }
+    assert!(expected.len() > 60, "two cells of six curves, fifty points of a grid and more: {}", expected.len());
+    expected.sort();
+    assert_eq!(files(&folder.path().join("taken")), expected, "every curve and nothing else");
+}
+
+/// An entity of a drawing: its kind, and its groups by code; of a polyline also the places of its vertices.
+struct Entity {
+    kind: String,
+    groups: BTreeMap<i32, String>,
+    vertices: Vec<[f64; 2]>,
+}
+
+impl Entity {
+    fn number(&self, code: i32) -> f64 {
+        self.groups[&code].parse().unwrap()
+    }
+}
+
+/// A drawing in DXF, read strictly.
+struct Drawing {
+    version: String,
+    layers: Vec<String>,
+    extent: [f64; 4],
+    entities: Vec<Entity>,
+}
+
+fn drawing(text: &str) -> Drawing {
+    assert!(text.is_ascii() && text.ends_with('\n'));
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len() % 2, 0, "pairs of lines");
+    let pairs: Vec<(i32, &str)> = lines.chunks(2).map(|pair| (pair[0].trim().parse().unwrap(), pair[1])).collect();
+    let pairs: Vec<(i32, &str)> = pairs.into_iter().filter(|(code, _)| *code != 999).collect();
+    assert_eq!(*pairs.last().unwrap(), (0, "EOF"));
+    let mut sections: Vec<(&str, Vec<(i32, &str)>)> = Vec::new();
+    let mut open = false;
+    for (k, pair) in pairs.iter().enumerate() {
+        match *pair {
+            (0, "SECTION") => {
+                assert!(!open);
+                open = true;
+                sections.push((pairs[k + 1].1, Vec::new()));
+            }
+            (0, "ENDSEC") => open = false,
+            (0, "EOF") => assert!(!open && k + 1 == pairs.len()),
+            pair => {
+                assert!(open, "{pair:?} is in no section");
+                sections.last_mut().unwrap().1.push(pair);
+            }
+        }
+    }
+    let names: Vec<&str> = sections.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["HEADER", "TABLES", "BLOCKS", "ENTITIES"]);
+    let header = &sections[0].1;
+    let variable = |name: &str, code: i32| {
+        let at = header.iter().position(|pair| *pair == (9, name)).unwrap();
+        header[at..].iter().find(|(c, _)| *c == code).unwrap().1
+    };
+    let extent = [("$EXTMIN", 10), ("$EXTMIN", 20), ("$EXTMAX", 10), ("$EXTMAX", 20)];
+    let tables = &sections[1].1;
+    let mut layers = Vec::new();
+    for (k, pair) in tables.iter().enumerate() {
+        if *pair == (0, "LAYER") {
+            layers.push(tables[k + 1].1.to_owned());
+        }
+    }
+    let mut entities: Vec<Entity> = Vec::new();
+    let mut parts: Vec<Entity> = Vec::new();
+    for &(code, value) in &sections[3].1[1..] {
+        if code == 0 {
+            parts.push(Entity { kind: value.to_owned(), groups: BTreeMap::new(), vertices: Vec::new() });
+        } else {
+            assert!(parts.last_mut().unwrap().groups.insert(code, value.to_owned()).is_none(), "{code} twice");
+        }
+    }
+    let mut in_polyline = false;
+    for part in parts {
+        assert!(layers.contains(&part.groups[&8]), "layer {}", part.groups[&8]);
+        match part.kind.as_str() {
+            "VERTEX" => {
+                assert!(in_polyline);
+                let at = [part.number(10), part.number(20)];
+                entities.last_mut().unwrap().vertices.push(at);
+            }
+            "SEQEND" => {
+                assert!(in_polyline);
+                in_polyline = false;
+            }
+            _ => {
+                assert!(!in_polyline);
+                in_polyline = part.kind == "POLYLINE";
+                assert!(!in_polyline || part.groups[&66] == "1");
+                entities.push(part);
+            }
+        }
+    }
+    Drawing {
+        version: variable("$ACADVER", 1).to_owned(),
+        layers,
+        extent: extent.map(|(name, code)| variable(name, code).parse().unwrap()),
+        entities,
+    }
+}
+
+fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    let length2 = dx * dx + dy * dy;
+    let t = if length2 > 0.0 { ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2 } else { 0.0 };
+    let t = t.clamp(0.0, 1.0);
+    ((p[0] - a[0] - t * dx).powi(2) + (p[1] - a[1] - t * dy).powi(2)).sqrt()
+}
+
+fn extent(places: &[[f64; 2]]) -> f64 {
+    let side = |k: usize| {
+        let values = || places.iter().map(|place| place[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    side(0).max(side(1))
+}
+
+/// How far the samples of a curve are from its entity at most, in parts of the curve's extent.
+fn off(curve: &Entity, places: &[[f64; 2]]) -> f64 {
+    let centre = [curve.number(10), curve.number(20)];
+    let from = |p: &[f64; 2]| match curve.kind.as_str() {
+        "POLYLINE" => {
+            let vertices = &curve.vertices;
+            let chords = vertices.windows(2).map(|pair| [pair[0], pair[1]]);
+            let closing = [*vertices.last().unwrap(), vertices[0]];
+            let closing = (curve.groups[&70] == "1").then_some(closing);
+            chords.chain(closing).map(|[a, b]| distance(*p, a, b)).fold(f64::INFINITY, f64::min)
+        }
+        "CIRCLE" | "ARC" => {
+            if curve.kind == "ARC" {
+                let deg = (p[1] - centre[1]).atan2(p[0] - centre[0]).to_degrees();
+                let [begin, end] = [50, 51].map(|code| curve.number(code));
+                let span = (end - begin).rem_euclid(360.0);
+                // To nine places, and rounded at both ends.
+                assert!((deg - begin + 1e-8).rem_euclid(360.0) <= span + 2e-8, "{deg} of {begin} to {end}");
+            }
+            (((p[0] - centre[0]).powi(2) + (p[1] - centre[1]).powi(2)).sqrt() - curve.number(40)).abs()
+        }
+        kind => panic!("a curve as {kind}"),
+    };
+    places.iter().map(from).fold(0.0, f64::max) / extent(places)
+}
+
+#[test]
+fn drawings_for_cad_read_back_within_their_chords() {
+    let folder = taken("dxf");
+    let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+    for family in FAMILIES {
+        let (header, curves) = points(folder.path(), family);
+        for (&numbers, rows) in &curves {
+            let drawing = drawing(&file(folder.path(), family, numbers, ".dxf"));
+            assert_eq!(drawing.version, "AC1009");
+            assert_eq!(drawing.layers, ["0", "CURVE", "LINKAGE", "JOINTS", "PIVOTS"]);
+            let of = |layer: &'static str| drawing.entities.iter().filter(move |entity| entity.groups[&8] == layer);
+            let [curve] = of("CURVE").collect::<Vec<_>>()[..] else { panic!("one curve") };
+            let places = places(&header, rows);
+            // The chords' tolerance; a circle is one to 1e-9 of its radius, and a rocker's radius is a few extents.
+            let most = if curve.kind == "POLYLINE" { 1e-4 } else { 1e-8 };
+            assert!(off(curve, &places) <= most, "{family} {numbers:?}: {}", off(curve, &places));
+            for [x, y] in places {
+                let [x0, y0, x1, y1] = drawing.extent;
+                let slack = 1e-3 * (x1 - x0);
+                assert!(
+                    x > x0 - slack && x < x1 + slack && y > y0 - slack && y < y1 + slack || curve.kind != "POLYLINE"
+                );
+            }
+            *kinds.entry(curve.kind.clone()).or_default() += 1;
+            assert!(of("LINKAGE").all(|entity| entity.kind == "LINE") && of("LINKAGE").count() >= 2, "{family}");
+            assert!(of("PIVOTS").chain(of("JOINTS")).all(|entity| entity.kind == "POINT"));
+            assert!(of("PIVOTS").count() >= 1 && of("JOINTS").count() >= 1);
+        }
+    }
+    assert_eq!(kinds["CIRCLE"], 2 + 1, "the crank pin of both linkages, and the actuator's crank: {kinds:?}");
+    assert!(kinds["ARC"] >= 2 && kinds["POLYLINE"] > 50, "{kinds:?}");
+}
+
+#[test]
+fn lines_are_the_links_in_one_pose_and_finer_chords_are_finer() {
+    let folder = taken("csv");
+    let text = text(folder.path(), &["export", "evans:1.1.1", "--format", "dxf", "--chord", "1e-7"]);
+    let drawing = drawing(&text);
+    let length = |entity: &Entity| {
+        ((entity.number(11) - entity.number(10)).powi(2) + (entity.number(21) - entity.number(20)).powi(2)).sqrt()
+    };
+    let mut lengths: Vec<f64> = drawing.entities.iter().filter(|entity| entity.kind == "LINE").map(length).collect();
+    lengths.sort_by(f64::total_cmp);
+    // The crank, the rocker, and the coupler from its pin to the rocker's and on to the coupler point.
+    for (length, expected) in lengths.iter().zip([1.0, 2.59, 2.59, 2.59]) {
+        assert!((length - expected).abs() < 1e-12, "{lengths:?}");
+    }
+    assert_eq!(lengths.len(), 4);
+    let (header, curves) = points(folder.path(), "evans");
+    let [curve] = drawing.entities.iter().filter(|entity| entity.kind == "POLYLINE").collect::<Vec<_>>()[..] else {
+        panic!("one curve")
+    };
+    assert_eq!(curve.groups[&70], "1", "closed");
+    assert_ne!(curve.vertices.first(), curve.vertices.last(), "the first point stands once");
+    let off = off(curve, &places(&header, &curves[&[1, 1, 1]]));
+    assert!(off <= 1e-7 && off > 1e-9, "{off}");
+}
+
+#[test]
+fn json_has_the_same_numbers_as_the_tables() {
+    let folder = taken("json");
+    let mut seen = 0;
+    for family in FAMILIES {
+        let (header, curves) = points(folder.path(), family);
+        let cells = fs::read_to_string(folder.path().join(format!("out/{family}/cells.csv"))).unwrap();
+        let mut table = csv::Reader::from_reader(cells.as_bytes());
+        let names = table.headers().unwrap().clone();
+        let records: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+        for (&numbers, rows) in &curves {
+            let value: serde_json::Value =
+                serde_json::from_str(&file(folder.path(), family, numbers, ".json")).unwrap();
+            assert_eq!(value["format"], 1);
+            let [cell, trace, circuit] = numbers;
+            assert_eq!(value["curve"], format!("{family}:{cell}.{trace}.{circuit}"));
+            let columns: Vec<&str> =
+                value["columns"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+            assert_eq!(columns, header.split(',').skip(3).collect::<Vec<_>>());
+            let points = value["points"].as_array().unwrap();
+            assert_eq!(points.len(), rows.len());
+            for (row, point) in rows.iter().zip(points) {
+                for (field, number) in row.split(',').skip(3).zip(point.as_array().unwrap()) {
+                    assert_eq!(
+                        field.parse::<f64>().ok().filter(|value| value.is_finite()),
+                        number.as_f64(),
+                        "{family}: {row}"
+                    );
+                }
+            }
+            let record = records.iter().find(|record| {
+                let fields: Vec<&str> = record.iter().take(3).collect();
+                fields == numbers.map(|number| number.to_string()).iter().map(String::as_str).collect::<Vec<_>>()
+            });
+            for (name, field) in names.iter().zip(record.unwrap()).skip(3) {
+                let own = value["parameters"].get(name).or(value["measures"].get(name)).unwrap_or(&value[name]);
+                let same = match (field.parse::<f64>(), own.as_str()) {
+                    (Ok(number), _) if number.is_finite() => own.as_f64() == Some(number),
+                    (_, Some(word)) => word == field,
+                    _ => own.is_null() && matches!(field, "" | "inf" | "-inf"),
+                };
+                assert!(same, "{family} {numbers:?}: {name} is {own}, not {field}");
+                seen += 1;
+            }
+            let circuits = value["circuits"].as_array().unwrap();
+            assert!(circuits.len() >= circuit && circuits[circuit - 1]["closed"].is_boolean());
+        }
+    }
+    assert!(seen > 2000, "{seen}");
+}
+
+#[test]
+fn a_fragment_of_a_manifest_draws_the_same_curves() {
+    let folder = taken("toml,csv");
+    let fragment = fs::read_to_string(folder.path().join("taken/curves.toml")).unwrap();
+    // The atlas's own linkage goes with it.
+    let linkage = &MANIFEST[MANIFEST.find("[[linkage]]").unwrap()..MANIFEST.find("[[family]]").unwrap()];
+    assert!(fragment.contains("# The [[linkage]] `mine` is the atlas's own"), "{fragment}");
+    let again = TempDir::new().unwrap();
+    let manifest = format!("[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"svg\"]\n{linkage}\n{fragment}");
+    fs::write(again.path().join("atlas.toml"), &manifest).unwrap();
+    text(again.path(), &["validate"]);
+    text(again.path(), &["render", "-q"]);
+    for (family, own) in
+        FAMILIES.into_iter().zip(["evans", "watt", "mine", "hoeken", "linear-actuator", "hrones-nelson"])
+    {
+        let (header, curves) = points(folder.path(), family);
+        let (new_header, new) = points(again.path(), &format!("{own}-taken"));
+        assert_eq!(header, new_header, "{manifest}");
+        // The second cell of `watt` is not assembled, and has no curve to be taken.
+        assert_eq!(curves, new, "{family}");
+    }
+    // Families of one linkage are one where nothing tells them apart.
+    let one = text(folder.path(), &["export", "evans:2", "evans:1.1.1", "evans:2.1.1", "--format", "toml"]);
+    assert_eq!(one.matches("[[family]]").count(), 1);
+    assert_eq!(one.matches("    { p = ").count(), 2, "a cell stands once: {one}");
+    assert!(one.contains("title = \"Evans <linkage> & \\\"co\\\"\""), "{one}");
+}
+
+#[test]
+fn plates_are_well_formed_and_move_if_asked() {
+    let folder = taken("svg,moving-svg,png");
+    let mut pictures = 0;
+    for family in FAMILIES {
+        for numbers in points(folder.path(), family).1.into_keys() {
+            let still = file(folder.path(), family, numbers, ".svg");
+            let moving = file(folder.path(), family, numbers, "-moving.svg");
+            for (svg, moves) in [(&still, false), (&moving, true)] {
+                let document = roxmltree::Document::parse(svg).unwrap();
+                assert_eq!(document.root_element().attribute("width"), Some("200mm"));
+                assert_eq!(document.descendants().any(|node| node.has_tag_name("animate")), moves);
+                let curves = document.descendants().filter(|node| node.attribute("class") == Some("curve"));
+                assert_eq!(curves.count(), 1, "the one curve and no other");
+                pictures += 1;
+            }
+            let [cell, trace, circuit] = numbers;
+            let png = fs::read(folder.path().join(format!("taken/{family}-{cell}-{trace}-{circuit}.png"))).unwrap();
+            let image = image::load_from_memory(&png).unwrap();
+            assert_eq!((image.width(), image.height()), (787, 591), "200 by 150 mm at 100 to the inch");
+        }
+    }
+    assert!(pictures > 100);
+}
+
+#[test]
+fn one_linkage_is_taken_like_a_cell_of_a_family() {
+    let folder = taken("csv");
+    let of_family = file(folder.path(), "watt", [1, 1, 1], ".csv");
+    let words = ["export", "--linkage", "watt", "p=4", "r=1+1", "a=1", "--samples", "100", "--format", "csv"];
+    assert_eq!(text(folder.path(), &words), of_family);
+    let own =
+        ["export", "--linkage", "mine", "--manifest", "atlas.toml", "g=4", "2.1", "--format", "csv", "-o", "one.csv"];
+    assert_eq!(text(folder.path(), &own), "");
+    assert!(fs::read_to_string(folder.path().join("one.csv")).unwrap().contains("\n1,2,1,1,0,"));
+    // By steps, as a family of the catalogue is.
+    let step = ["export", "--linkage", "evans", "p=2", "a=2.59", "--step", "2", "--format", "csv"];
+    let stepped = text(folder.path(), &step);
+    assert_eq!(stepped.lines().count(), 181);
+    assert!(stepped.lines().nth(1).unwrap().starts_with("1,1,1,1,0,0,2,5.08"), "{stepped}");
+}
+
+#[test]
+fn parameters_and_coupler_points_can_be_changed() {
+    let folder = taken("csv");
+    let csv = |name: &str| text(folder.path(), &["export", name, "--format", "csv"]);
+    let rows = |text: &str| -> Vec<String> {
+        text.lines().skip(1).map(|row| row.splitn(4, ',').nth(3).unwrap().to_owned()).collect()
+    };
+    assert_eq!(rows(&csv("evans:1.1.1?p=3&a=2+2.1")), rows(&file(folder.path(), "evans", [2, 1, 1], ".csv")));
+    assert!(csv("evans:1.1.1?p=3&a=4.1").contains("\n1,1,1,1,0,"), "the number of the cell it was");
+    // Half of what is derived from what is given: a follows q.
+    let follows = csv("placed:1.1.1?q=3");
+    assert_eq!(rows(&follows), rows(&csv("placed:1.1.1?a=3")));
+    // At the crank pin the coupler point draws the crank's circle, and a point of a grid likewise.
+    for name in ["evans:1.1.1?M.along=0", "grid:1.7.1?M.along=0&M.across=0"] {
+        let drawing = drawing(&text(folder.path(), &["export", name, "--format", "dxf"]));
+        let curve = drawing.entities.iter().find(|entity| entity.groups[&8] == "CURVE").unwrap();
+        assert_eq!((curve.kind.as_str(), curve.number(40)), ("CIRCLE", 1.0), "{name}");
+    }
+    assert!(csv("grid:1.7.1?M.along=0").contains("\n1,7,1,1,0,"));
+    text(folder.path(), &["export", "evans:1?p=2.5", "evans:1", "--format", "dxf", "-o", "both"]);
+    assert_eq!(files(&folder.path().join("both")), ["evans-1-1-1-p-2.5.dxf", "evans-1-1-1.dxf"]);
+}
+
+#[test]
+fn wrong_words_are_all_told_and_nothing_is_written() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
+    fs::write(folder.path().join("a-file"), "mine").unwrap();
+    let before = files(folder.path());
+    let cases: [(&[&str], &[&str]); 17] = [
+        (&["evan:1.1.1"], &["there is no family `evan`: did you mean `evans`?"]),
+        (
+            &["evans:9", "evans:1.x", "wat"],
+            &[
+                "there is no evans:9: its cells are numbered from 1 to 2",
+                "`evans:1.x`: a curve is named FAMILY:CELL.TRACE.CIRCUIT",
+                "there is no family `wat`",
+            ],
+        ),
+        (
+            &["evans:1.1.2", "mine:1.4.1"],
+            &[
+                "there is no evans:1.1.2: the cell's only curve is evans:1.1.1",
+                "there is no mine:1.4.1: its cell has 6 curves, mine:1.1.1 to mine:1.3.2",
+            ],
+        ),
+        (&["watt:2"], &["watt:2: it is not assembled: B cannot be placed"]),
+        (&["watt:2.1.1"], &["there is no watt:2.1.1: it is not assembled"]),
+        (&["evans:1.1.1?q=2"], &["evans: there is no `q`"]),
+        (&["evans:1.1.1?p=-2"], &["evans:1: `p` is -2, and must be more than 0"]),
+        (&["evans?p=2"], &["parameters are changed of one cell"]),
+        (&["evans:1.1.1?M.up=2"], &["there is no `M.up`: it can be `M.along` or `M.across`"]),
+        (&["evans"], &["there are 2 files to write: name a folder for them with -o"]),
+        (&["evans", "-o", "a-file"], &["a-file is a file, and there are 2 to write"]),
+        (&["evans:1", "--format", "dwg"], &["there is no format `dwg`"]),
+        (&["evans:1", "--chord", "0"], &["give a number from 1e-9 to 0.1"]),
+        (&["--only", "evan"], &["there is no family `evan`"]),
+        (&["--linkage", "evan", "p=2"], &["there is no linkage `evan`: did you mean `evans`?"]),
+        (&["--linkage", "evans", "p=2", "z=1", "q"], &["`q`: there is no `=`", "there is no parameter `z`"]),
+        (
+            &["--linkage", "evans", "p=2", "a=2.59", "7.1"],
+            &["there is no evans:1.7.1: the cell's only curve is evans:1.1.1"],
+        ),
+    ];
+    for (words, said) in cases {
+        let (code, out, err) = run(folder.path(), &[&["export"], words].concat());
+        assert_eq!((code, out.len()), (2, 0), "{words:?}: {err}");
+        for part in said {
+            assert!(err.contains(part), "{words:?} says {err}");
+        }
+        assert_eq!(files(folder.path()), before, "{words:?}");
+    }
+}
+
+#[test]
+fn one_result_goes_to_standard_output_or_to_a_file_or_a_folder() {
+    let folder = taken("csv");
+    let table = text(folder.path(), &["export", "atlas.toml", "evans:1", "--format", "csv"]);
+    assert_eq!(table, file(folder.path(), "evans", [1, 1, 1], ".csv"));
+    text(folder.path(), &["export", "evans:1.1.1", "--format", "csv,csv", "-o", "one"]);
+    assert_eq!(fs::read_to_string(folder.path().join("one")).unwrap(), table);
+    let said = text(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
+    assert_eq!(said, "1 file written to new/\n");
+    assert_eq!(files(&folder.path().join("new")), ["evans-1-1-1.csv"]);
+    let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts"]);
+    assert_eq!((code, files(&folder.path().join("watts"))), (0, vec!["watt-1-1-1.csv".to_owned()]));
+    assert!(err.contains("warning: watt:2: not assembled"), "{err}");
+}
