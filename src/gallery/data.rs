@@ -61,6 +61,7 @@ impl<'a> Statements<'a> {
                 "layout": layout,
                 "sampling": sampling(family.sampling),
                 "paper": { "width": paper.width, "height": paper.height },
+                "columns": family.columns.iter().map(|column| column.name).collect::<Vec<_>>(),
                 "dash_deg": self.plan.page.dash_deg,
                 "straight": straight(family.straight),
                 "template": template(&family.template),

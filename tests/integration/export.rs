@@ -299,8 +299,15 @@ fn drawings_for_cad_read_back_within_their_chords() {
             assert!(of("PIVOTS").count() >= 1 && of("JOINTS").count() >= 1);
         }
     }
-    assert_eq!(kinds["CIRCLE"], 2 + 1, "the crank pin of both linkages, and the actuator's crank: {kinds:?}");
-    assert!(kinds["ARC"] >= 2 && kinds["POLYLINE"] > 50, "{kinds:?}");
+    // The crank pin and the rocker pin of two cells on two circuits each, and the crank of the actuator.
+    assert!(kinds["CIRCLE"] >= 4 && kinds["ARC"] >= 4 && kinds["POLYLINE"] > 50, "{kinds:?}");
+    let [pin, rocker] = [1, 2].map(|trace| drawing(&file(folder.path(), "mine", [1, trace, 1], ".dxf")));
+    let curve = |drawing: &Drawing| {
+        let curve = drawing.entities.iter().find(|entity| entity.groups[&8] == "CURVE").unwrap();
+        (curve.kind.clone(), [10, 20, 40].map(|code| curve.number(code)))
+    };
+    assert_eq!(curve(&pin), ("CIRCLE".to_owned(), [0.0, 0.0, 1.0]));
+    assert_eq!(curve(&rocker), ("ARC".to_owned(), [4.0, 0.0, 3.5]), "to the last digit");
 }
 
 #[test]
@@ -533,7 +540,7 @@ fn one_result_goes_to_standard_output_or_to_a_file_or_a_folder() {
     let said = text(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
     assert_eq!(said, "1 file written to new/\n");
     assert_eq!(files(&folder.path().join("new")), ["evans-1-1-1.csv"]);
-    let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts"]);
+    let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts/"]);
     assert_eq!((code, files(&folder.path().join("watts"))), (0, vec!["watt-1-1-1.csv".to_owned()]));
     assert!(err.contains("warning: watt:2: not assembled"), "{err}");
 }
