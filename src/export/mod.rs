@@ -4,12 +4,12 @@
 //! where the bytes go.
 
 mod circle;
-mod csv;
 mod dxf;
 mod fragment;
 mod json;
 mod layout;
 mod plate;
+mod points;
 
 pub use fragment::fragment;
 pub use plate::moving_view;
@@ -129,7 +129,7 @@ impl<'a> Chosen<'a> {
             Format::MovingSvg => plate::svg(self, options, true),
             Format::Png => plate::png(self, options)?,
             Format::Dxf => dxf::document(self, options.chord).into_bytes(),
-            Format::Csv => csv::table(self),
+            Format::Csv => points::table(self),
             Format::Json => json::document(self).into_bytes(),
             Format::Toml => fragment(&[Case::of(self)]).into_bytes(),
         })
