@@ -4,7 +4,8 @@
 //! family says how its circuits are sampled in motion's words, a manifest names the templates that notation reads, and
 //! the colours and typefaces of a scene, and a record has the columns of the measures. What comes off the press in order
 //! is the same for those who write it and those who check it: a room of its own before both. The gallery's page has a solver
-//! of its own, which is given the templates themselves, and shows where a page's scene has which curve.
+//! of its own, which is given the templates themselves, and shows where a page's scene has which curve. What is taken away of a
+//! curve is drawn as a page is and written as a record is, and has JSON of its own.
 
 use std::collections::BTreeMap;
 use std::fs;
