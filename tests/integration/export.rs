@@ -125,7 +125,7 @@ fn tables_have_the_rows_of_points_csv() {
             expected.push(format!("{family}-{cell}-{trace}-{circuit}.csv"));
         }
     }
-    assert!(expected.len() > 60, "two cells of six curves, fifty points of a grid and more: {}", expected.len());
+    assert_eq!(expected.len(), 27, "two cells of six curves, ten points of a grid and five more");
     expected.sort();
     assert_eq!(files(&folder.path().join("taken")), expected, "every curve and nothing else");
 }
@@ -300,7 +300,7 @@ fn drawings_for_cad_read_back_within_their_chords() {
         }
     }
     // The crank pin and the rocker pin of two cells on two circuits each, and the crank of the actuator.
-    assert!(kinds["CIRCLE"] >= 4 && kinds["ARC"] >= 4 && kinds["POLYLINE"] > 50, "{kinds:?}");
+    assert!(kinds["CIRCLE"] >= 4 && kinds["ARC"] >= 4 && kinds["POLYLINE"] >= 15, "{kinds:?}");
     let [pin, rocker] = [1, 2].map(|trace| drawing(&file(folder.path(), "mine", [1, trace, 1], ".dxf")));
     let curve = |drawing: &Drawing| {
         let curve = drawing.entities.iter().find(|entity| entity.groups[&8] == "CURVE").unwrap();
@@ -383,7 +383,7 @@ fn json_has_the_same_numbers_as_the_tables() {
             assert!(circuits.len() >= circuit && circuits[circuit - 1]["closed"].is_boolean());
         }
     }
-    assert!(seen > 2000, "{seen}");
+    assert!(seen > 900, "{seen}");
 }
 
 #[test]
@@ -436,7 +436,7 @@ fn plates_are_well_formed_and_move_if_asked() {
             assert_eq!((image.width(), image.height()), (787, 591), "200 by 150 mm at 100 to the inch");
         }
     }
-    assert!(pictures > 100);
+    assert_eq!(pictures, 2 * 27);
 }
 
 #[test]
@@ -543,4 +543,18 @@ fn one_result_goes_to_standard_output_or_to_a_file_or_a_folder() {
     let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts/"]);
     assert_eq!((code, files(&folder.path().join("watts"))), (0, vec!["watt-1-1-1.csv".to_owned()]));
     assert!(err.contains("warning: watt:2: not assembled"), "{err}");
+}
+
+/// What is no file is not replaced by one: a socket here stands for /dev/null.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_stays_as_it_is() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = TempDir::new().unwrap();
+    let _socket = std::os::unix::net::UnixListener::bind(folder.path().join("socket")).unwrap();
+    let words = ["export", "--linkage", "evans", "p=2", "a=2.59", "--format", "csv", "-o", "socket"];
+    let (code, _, err) = run(folder.path(), &words);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("socket is neither a file nor a folder: name one with -o, or leave -o out"), "{err}");
+    assert!(fs::metadata(folder.path().join("socket")).unwrap().file_type().is_socket());
 }

@@ -280,6 +280,14 @@ impl Destination {
                 || WrongInput(format!("there are {files} files to write: name a folder for them with -o FOLDER"));
             return if files == 1 { Ok(Destination::Output) } else { Err(several().into()) };
         };
+        // A file is written beside its place and renamed: what is no file, a device or a pipe, would be gone.
+        if path.exists() && !path.is_file() && !path.is_dir() {
+            let path = path.display();
+            return Err(WrongInput(format!(
+                "{path} is neither a file nor a folder: name one with -o, or leave -o out"
+            ))
+            .into());
+        }
         let is_folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
         if files == 1 && !is_folder {
             return Ok(Destination::File(path.to_owned()));
