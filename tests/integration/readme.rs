@@ -16,6 +16,25 @@ fn the_readmes_manifest_is_one() {
     assert_eq!(plan.families[0].family.cells(), 18);
 }
 
+/// The manifest of the walk from a motion to a linkage, and what is said to come of it.
+#[test]
+fn the_readmes_feeder_is_found() {
+    let readme = include_str!("../../README.md");
+    let text = readme.split("```toml\n").find(|part| part.contains("id = \"feeder\"")).unwrap();
+    let text = text.split("```").next().unwrap();
+    let family = &manifest::load(text).plan.expect("a valid manifest").families[0].family;
+    let kept = sweep::select(family);
+    assert_eq!((family.cells(), kept.as_slice()), (1125, &[899][..]));
+    let solved = sweep::solve(family, &coupler_atlas::motion::Sampler::new(family.sampling), 899).unwrap();
+    let number = |name: &str| match solved.curves[0].measure(name) {
+        coupler_atlas::measure::Value::Number(number) => number,
+        other => panic!("{name} is {other:?}"),
+    };
+    assert_eq!(format!("{:.3}", number("straight_length")), "2.105");
+    assert_eq!(format!("{:.1}", number("mu_min_deg")), "45.2");
+    assert!(readme.contains("cell 900, with 2.105 cranks of straight line and 45.2° at the worst"));
+}
+
 #[test]
 fn the_readmes_further_joints_can_be_read() {
     let readme = include_str!("../../README.md");
