@@ -136,7 +136,7 @@ fn formats_files_and_prints_stay_in_their_rooms() {
     let only = [
         ("toml::", &["notation", "manifest", "catalogue"][..]),
         ("csv::", &["record", "cli"]),
-        ("serde_json::", &["record", "cli", "export"]),
+        ("serde_json::", &["record", "export", "gallery", "cli"]),
         ("std::fs", &["build", "check", "record"]),
         ("fs::", &["build", "check", "record"]),
         ("println!", &["cli"]),
