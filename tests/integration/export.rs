@@ -5,8 +5,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::folder::files;
+use coupler_atlas::geometry::trig;
 use tempfile::TempDir;
+
+use crate::folder::files;
 
 /// Crank pins that draw circles, a rocker pin on an arc, sampling of every kind, a placed family, a length for an input, and
 /// a title with marks in it.
@@ -233,7 +235,7 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let length2 = dx * dx + dy * dy;
     let t = if length2 > 0.0 { ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2 } else { 0.0 };
     let t = t.clamp(0.0, 1.0);
-    ((p[0] - a[0] - t * dx).powi(2) + (p[1] - a[1] - t * dy).powi(2)).sqrt()
+    trig::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy)
 }
 
 fn extent(places: &[[f64; 2]]) -> f64 {
@@ -257,13 +259,13 @@ fn off(curve: &Entity, places: &[[f64; 2]]) -> f64 {
         }
         "CIRCLE" | "ARC" => {
             if curve.kind == "ARC" {
-                let deg = (p[1] - centre[1]).atan2(p[0] - centre[0]).to_degrees();
+                let deg = trig::degrees(trig::atan2(p[1] - centre[1], p[0] - centre[0]));
                 let [begin, end] = [50, 51].map(|code| curve.number(code));
                 let span = (end - begin).rem_euclid(360.0);
                 // To nine places, and rounded at both ends.
                 assert!((deg - begin + 1e-8).rem_euclid(360.0) <= span + 2e-8, "{deg} of {begin} to {end}");
             }
-            (((p[0] - centre[0]).powi(2) + (p[1] - centre[1]).powi(2)).sqrt() - curve.number(40)).abs()
+            (trig::hypot(p[0] - centre[0], p[1] - centre[1]) - curve.number(40)).abs()
         }
         kind => panic!("a curve as {kind}"),
     };
@@ -315,9 +317,8 @@ fn lines_are_the_links_in_one_pose_and_finer_chords_are_finer() {
     let folder = taken("csv");
     let text = text(folder.path(), &["export", "evans:1.1.1", "--format", "dxf", "--chord", "1e-7"]);
     let drawing = drawing(&text);
-    let length = |entity: &Entity| {
-        ((entity.number(11) - entity.number(10)).powi(2) + (entity.number(21) - entity.number(20)).powi(2)).sqrt()
-    };
+    let length =
+        |entity: &Entity| trig::hypot(entity.number(11) - entity.number(10), entity.number(21) - entity.number(20));
     let mut lengths: Vec<f64> = drawing.entities.iter().filter(|entity| entity.kind == "LINE").map(length).collect();
     lengths.sort_by(f64::total_cmp);
     // The crank, the rocker, and the coupler from its pin to the rocker's and on to the coupler point.
