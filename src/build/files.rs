@@ -145,6 +145,11 @@ impl Growing {
     }
 
     fn open(path: PathBuf) -> Result<Growing, Error> {
+        // A device or a pipe would be replaced by a file.
+        if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
+            let source = io::Error::new(io::ErrorKind::InvalidInput, "it is there, and is no file: name a file");
+            return Err(Error::Write { path, source });
+        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut builder = tempfile::Builder::new();
         builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);

@@ -112,6 +112,9 @@ impl<'a> Journal<'a> {
         let page = gallery::index(&run, &shown);
         let record = FileRecord::of_bytes(gallery::PAGE, page.as_bytes());
         if self.gallery.as_ref() != Some(&record) || !files::is_intact(output, &record) {
+            // Until it is written, nothing is known of it.
+            self.gallery = None;
+            self.save()?;
             write(&output.join(gallery::PAGE), page.as_bytes())?;
         }
         self.gallery = Some(record);

@@ -60,7 +60,7 @@ impl<'a> Statements<'a> {
                 "linkage": family.template.id,
                 "layout": layout,
                 "sampling": sampling(family.sampling),
-                "paper": { "width": paper.width, "height": paper.height },
+                "paper": { "width": paper.width, "height": paper.height, "color": self.plan.page.theme.paper.to_string() },
                 "columns": family.columns.iter().map(|column| column.name).collect::<Vec<_>>(),
                 "dash_deg": self.plan.page.dash_deg,
                 "straight": straight(family.straight),

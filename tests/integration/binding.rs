@@ -87,7 +87,7 @@ fn an_atlas_is_bound_once() {
     let other = Atlas::new(MANIFEST);
     other.render(&["--jobs", "3", "--format", "pdf"]);
     assert!(other.books()["atlas.pdf"].1 == *bytes);
-    assert!(fs::read_dir(other.out().join("evans")).unwrap().count() == 2, "tables, and no pages");
+    assert!(fs::read_dir(other.out().join("evans")).unwrap().count() == 3, "tables and data, and no pages");
 }
 
 #[test]

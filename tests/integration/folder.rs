@@ -79,7 +79,8 @@ pub fn record_is_true(out: &Path) -> usize {
             family["files"].as_array().unwrap().iter().map(move |file| (folder.clone(), file))
         });
         let of_book = record["book"]["files"].as_array().into_iter().flatten().map(|file| (String::new(), file));
-        for (folder, file) in of_families.chain(of_book) {
+        let gallery = Some(&record["gallery"]).filter(|gallery| gallery.is_object());
+        for (folder, file) in of_families.chain(of_book).chain(gallery.map(|file| (String::new(), file))) {
             let name = folder + file["name"].as_str().unwrap();
             let is_claimed = !file["inputs_sha256"].is_null();
             claimed += usize::from(is_claimed);
@@ -96,6 +97,8 @@ pub fn record_is_true(out: &Path) -> usize {
             "png" => b"IEND\xaeB`\x82",
             "pdf" => b"%%EOF",
             "csv" | "json" => b"\n",
+            "html" => b"</html>\n",
+            "js" => b");\n",
             _ => b"",
         };
         assert!(bytes.ends_with(end), "{name} is not whole");

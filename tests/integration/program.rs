@@ -78,10 +78,13 @@ fn render_writes_pages_points_cells_and_a_record() {
             "evans/cells.csv",
             "evans/evans-001.svg",
             "evans/evans-002.svg",
+            "evans/gallery.js",
             "evans/points.csv",
             "far/cells.csv",
             "far/far-001.svg",
+            "far/gallery.js",
             "far/points.csv",
+            "index.html",
             "run.json"
         ]
     );

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use coupler_atlas::catalogue;
@@ -9,7 +10,7 @@ use coupler_atlas::family::{Family, Sampling};
 use coupler_atlas::gallery;
 use coupler_atlas::linkage::{Circuits, Continuation, Linkage};
 use coupler_atlas::manifest;
-use coupler_atlas::measure::{self, Subject, Value as Measured};
+use coupler_atlas::measure::{self, Column, Subject, Value as Measured, column, take_columns};
 use coupler_atlas::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -25,7 +26,7 @@ fn sampling(sampling: Sampling) -> Value {
 
 /// A number, or nothing where it is not one: JSON has no other way.
 fn number(value: f64) -> Value {
-    if value.is_infinite() { json!("inf") } else { json!(value) }
+    if value.is_infinite() { json!(value.to_string()) } else { json!(value) }
 }
 
 fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
@@ -65,6 +66,26 @@ fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
     told
 }
 
+/// Rates, poles and transmission angles of the first traced joint, sample by sample.
+fn rates(linkage: &Linkage, motion: &Motion) -> Vec<Value> {
+    const NAMES: [&str; 11] =
+        ["vx", "vy", "ax", "ay", "speed", "curvature", "pole_x", "pole_y", "moving_pole_x", "moving_pole_y", "mu_deg"];
+    let columns: Vec<Column> = NAMES.into_iter().filter_map(column).collect();
+    assert_eq!(columns.len(), NAMES.len());
+    let of_circuit = |(number_of_circuit, circuit): (usize, &Circuit)| {
+        let taken: Vec<Vec<f64>> = (0..circuit.len())
+            .map(|sample| take_columns(&columns, linkage, (circuit, linkage.traced[0]), sample))
+            .collect();
+        let values: serde_json::Map<String, Value> = NAMES
+            .iter()
+            .enumerate()
+            .map(|(k, name)| ((*name).to_owned(), taken.iter().map(|row| number(row[k])).collect()))
+            .collect();
+        json!({ "trace": 1, "circuit": number_of_circuit, "values": values })
+    };
+    (1..).zip(&motion.circuits).map(of_circuit).collect()
+}
+
 /// A cell of a family as the page's solver is given it, and what the program makes of it.
 fn case(family: &Family, cell: usize, name: &str) -> Value {
     let cell = family.cell(cell);
@@ -85,6 +106,7 @@ fn case(family: &Family, cell: usize, name: &str) -> Value {
             "circuits": motion.circuits.iter().map(|c| circuit(&linkage, c)).collect::<Vec<_>>(),
         },
         "measures": measures(family, &linkage, &motion),
+        "rates": rates(&linkage, &motion),
     })
 }
 
@@ -122,17 +144,40 @@ fn cases() -> Vec<Value> {
     cases
 }
 
+/// Runs a script of `tests/gallery` under node, and tells what it said; nothing where there is no node.
+fn node(script: &str, arguments: &[&Path]) -> Option<String> {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gallery").join(script);
+    let Ok(run) = Command::new("node").arg(&script).args(arguments).output() else {
+        eprintln!("skipped: node is not installed, and {} is not run", script.display());
+        return None;
+    };
+    let told = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(run.status.success(), "{told}{}", String::from_utf8_lossy(&run.stderr));
+    Some(told)
+}
+
 #[test]
 fn the_page_solves_every_catalogue_linkage_as_the_program_does() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("cases.json");
-    let script = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gallery/solver.mjs");
-    fs::write(&path, serde_json::to_vec(&cases()).unwrap()).unwrap();
-    let Ok(run) = Command::new("node").arg(script).arg(&path).output() else {
-        eprintln!("skipped: node is not installed, and the page's solver is not compared");
-        return;
-    };
-    let told = String::from_utf8_lossy(&run.stdout);
-    assert!(run.status.success(), "{told}{}", String::from_utf8_lossy(&run.stderr));
-    eprintln!("{told}");
+    let cases = cases();
+    fs::write(&path, serde_json::to_vec(&cases).unwrap()).unwrap();
+    let Some(told) = node("solver.mjs", &[&path]) else { return };
+    // It compares what it is given.
+    assert!(told.contains(&format!("{} cases", cases.len())), "{told}");
+}
+
+#[test]
+fn the_pages_solver_and_measures_keep_to_closed_forms() {
+    node("kinematics.mjs", &[]);
+    node("measures.mjs", &[]);
+}
+
+/// Plates, filters and what is taken away, of the families of the committed atlas.
+#[test]
+fn the_page_reckons_with_the_committed_atlas() {
+    let atlas = Path::new(env!("CARGO_MANIFEST_DIR")).join("output");
+    for script in ["plate-parts.mjs", "find.mjs", "take.mjs"] {
+        node(script, &[&atlas]);
+    }
 }
