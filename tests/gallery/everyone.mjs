@@ -95,9 +95,14 @@ check("7.3", "light and dark, as the system or as chosen, and remembered", null,
   await eventually(async () => (await theme())[0] === "light", "it follows the system");
   await page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
   assert.deepEqual(await theme(), dark);
-  await page.reload();
-  await page.waitForSelector("main > *");
-  assert.deepEqual(await theme(), dark, "it is remembered");
+  // The browser stores what is to be remembered in its own time.
+  const remembered = async () => {
+    await page.reload();
+    await page.waitForSelector("main > *");
+    return (await theme())[0] === "dark";
+  };
+  await eventually(remembered, "it is remembered");
+  assert.deepEqual(await theme(), dark);
   await page.waitForSelector(".families path");
   const ink = await page
     .locator(".families path")

@@ -35,7 +35,7 @@ export function oddAtlas(from) {
   rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
   writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
   rewrite(join(folder, "watt/gallery.js"), (script) =>
-    script.replace(/"paper":\{/, `"paper":{"color":"${DARK_PAPER}",`),
+    script.replace(/("paper":\{"color":")[^"]*"/, `$1${DARK_PAPER}"`),
   );
   mkdirSync(join(folder, "find"));
   const roberts = readFileSync(join(folder, "roberts/gallery.js"), "utf8");
