@@ -19,11 +19,11 @@ export const PARAMETERS = [
       assert.match(await plate.fragment(), /\?p=2\.5$/);
       // Extreme transmission angles: frame less crank 1.5, frame and crank 3.5.
       const at = (d) => (Math.acos((2 * 2.59 * 2.59 - d * d) / (2 * 2.59 * 2.59)) * 180) / Math.PI;
-      const [, least] = await measureNow(page, "mu min");
-      const [, most] = await measureNow(page, "mu max");
+      const [, least] = await measureNow(page, "least transmission angle");
+      const [, most] = await measureNow(page, "greatest transmission angle");
       near(Number(least), at(1.5), 0.006, "mu min");
-      near(Number(most), at(3.5), 0.006, "mu max");
-      const [recorded, , change] = await measureNow(page, "mu min");
+      near(Number(most), at(3.5), 0.006, "greatest transmission angle");
+      const [recorded, , change] = await measureNow(page, "least transmission angle");
       near(Number(change), at(1.5) - Number(recorded), 0.02, "the change");
       await page.getByRole("button", { name: "As in the atlas" }).click();
       await eventually(

@@ -22,7 +22,7 @@ export const pageRoom = {
     const family = await app.atlas.family(place.path[0]);
     const listed = app.atlas.families.find(({ id }) => id === family.id);
     if (Number(place.path[1]) > listed.pages)
-      throw new Error(`${family.title} has ${listed.pages} pages only.`);
+      throw new Error(`${family.title} has ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`} only.`);
     const desk = new PageDesk(app, family, listed);
     await desk.open(place);
     return desk;

@@ -27,7 +27,6 @@ export function openShell(app, rooms, root) {
   app.go = (fragment) => {
     window.location.hash = fragment;
   };
-  app.replace = (fragment) => window.history.replaceState(window.history.state, "", fragment);
   const skip = (event) => {
     event.preventDefault();
     main.focus();
@@ -47,6 +46,12 @@ export function openShell(app, rooms, root) {
     status,
   );
   const shower = new RoomShower(app, rooms, { main, ways, scroll: scrollMemory() });
+  app.replace = (fragment) => {
+    // A link that was just followed goes before what a view still has to remember: its event is to come.
+    if (window.location.hash !== shower.fragment) return;
+    window.history.replaceState(window.history.state, "", fragment);
+    shower.fragment = window.location.hash;
+  };
   window.addEventListener("hashchange", () => shower.show());
   return shower.show();
 }
@@ -85,12 +90,13 @@ function waysToRooms(app, rooms) {
 class RoomShower {
   constructor(app, rooms, { main, ways, scroll }) {
     Object.assign(this, { app, rooms, main, ways, scroll });
-    [this.shown, this.turn] = [null, 0];
+    [this.shown, this.turn, this.fragment] = [null, 0, null];
   }
 
   /** Shows what the address says, in the view that is there if it can, or else in a new one. */
   async show() {
-    const place = parsedAddress(window.location.hash);
+    this.fragment = window.location.hash;
+    const place = parsedAddress(this.fragment);
     const room = this.rooms.find((candidate) => candidate.opens(place, this.app));
     this.scroll.leave();
     if (this.shown && this.shown.room === room && this.shown.view.update?.(place)) {

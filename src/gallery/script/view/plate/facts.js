@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveKey, measured } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
 import { fill, h } from "../dom.js";
+import { measureInWords } from "../page-words.js";
 import { shortLength } from "./speed-view.js";
 
 /** The heading's words of a cell: what it is called, and what is noted of it. */
@@ -48,16 +49,9 @@ export function originOfCurve(app, family, curve) {
  */
 export class MeasureTable {
   constructor(app, family, curve, isLength) {
-    const names = new Set(app.atlas.measures.map(({ name }) => name));
-    this.rows = app.atlas.measures.map((measure) => {
-      const short = measure.name.replace(/_deg$/, "");
-      // An angle is known by its unit, but where a word has the same name.
-      const title = (short !== measure.name && names.has(short) ? `${short}, direction` : short).replaceAll(
-        "_",
-        " ",
-      );
-      return rowOfMeasure(title, measure, measured(family, curve, measure.name), isLength);
-    });
+    this.rows = app.atlas.measures.map((measure) =>
+      rowOfMeasure(measureInWords(measure.name), measure, measured(family, curve, measure.name), isLength),
+    );
     this.body = h(
       "tbody",
       {},
@@ -133,7 +127,10 @@ function toldMeasure({ word, unit }, value, isLength = false) {
 }
 
 function toldChange({ word, unit }, before, after) {
-  if (before === undefined || after === undefined || before === after) return before === after ? "" : "new";
+  const isThere = (value) => value !== undefined && value !== null && !Number.isNaN(value);
+  if (before === after || (!isThere(before) && !isThere(after))) return "";
+  if (!isThere(before)) return "new";
+  if (!isThere(after)) return "gone";
   if (word || typeof after === "string") return "changed";
   const by = after - before;
   if (!Number.isFinite(by) || Math.abs(by) < 1e-9 * Math.abs(before)) return "";
