@@ -1,14 +1,14 @@
 //! The pages of a family, held against what is drawn now, and against the recorded points.
 
 use std::collections::HashMap;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::finding::{Change, Finding, Place};
 use super::tables::altered;
 use super::track::Track;
 use crate::press::{Leaf, Matter, Press, page_name};
-use crate::record::{FamilyRecord, FileRecord, Flaw, RunningDigest, open_plain};
+use crate::record::{FamilyRecord, FileRecord, Flaw, LineDigests, open_plain};
 use crate::render::{self, PageFormat};
 use crate::sweep::Solved;
 
@@ -90,12 +90,10 @@ impl<'a> Pages<'a> {
                 return None;
             }
         };
-        let mut digests = [RunningDigest::default(), RunningDigest::default()];
-        digests[0].add(&bytes);
-        // As a table is read: with line ends as this program writes them.
-        bytes.split(|&byte| byte == b'\r').for_each(|part| digests[1].add(part));
-        let digests = digests.map(RunningDigest::finish);
-        let change = altered(Some(record), &digests);
+        let mut digests = LineDigests::default();
+        // A digest takes whatever it is given.
+        let _ = digests.write_all(&bytes);
+        let change = altered(Some(record), &digests.finish());
         if change.is_none() && bytes != fresh {
             page.differing.push(record.name.clone());
         }

@@ -12,5 +12,5 @@ mod table;
 pub use cells::{Cells, shortfalls};
 pub use number::shortest;
 pub use points::Points;
-pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, ReadError, Run, RunningDigest};
+pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, LineDigests, ReadError, Run, RunningDigest};
 pub use table::{Flaw, Row, Table, open_plain, rows};

@@ -250,3 +250,26 @@ impl RunningDigest {
         format!("{:x}", self.0.finalize())
     }
 }
+
+/// Two digests of a text: of its bytes as they are, and without carriage returns, as this program would have written it.
+#[derive(Clone, Default)]
+pub struct LineDigests([RunningDigest; 2]);
+
+impl LineDigests {
+    /// Both digests, in hexadecimal digits.
+    pub fn finish(self) -> [String; 2] {
+        self.0.map(RunningDigest::finish)
+    }
+}
+
+impl std::io::Write for LineDigests {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0[0].add(bytes);
+        bytes.split(|&byte| byte == b'\r').for_each(|part| self.0[1].add(part));
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
