@@ -39,6 +39,17 @@ impl Space {
         }
     }
 
+    /// The places that are given a value in any of them, in order.
+    pub fn given(&self) -> Vec<usize> {
+        let mut slots: Vec<usize> = match self {
+            Space::Grid(axes) => axes.iter().map(|axis| axis.slot).collect(),
+            Space::Cases(cases) => cases.iter().flatten().map(|(slot, _)| *slot).collect(),
+        };
+        slots.sort_unstable();
+        slots.dedup();
+        slots
+    }
+
     /// Writes the `k`-th, counted from 0, into its places.
     pub(super) fn fill(&self, k: usize, values: &mut [f64]) {
         match self {

@@ -40,9 +40,6 @@ impl<'a> Statements<'a> {
     /// The first: all that is said of the family as a whole.
     pub fn begin(self) -> String {
         let family = &self.planned.family;
-        let free: Vec<usize> = (0..family.names.len())
-            .filter(|&slot| (0..family.cells().min(1000)).any(|k| family.space.gives(k, slot)))
-            .collect();
         let derived: Vec<Value> = family.derived.iter().map(|(slot, bound)| json!([slot, expression(bound)])).collect();
         let paper = self.plan.page.paper;
         let layout = match self.planned.layout {
@@ -66,7 +63,7 @@ impl<'a> Statements<'a> {
                 "straight": straight(family.straight),
                 "template": template(&family.template),
                 "names": family.names,
-                "free": free,
+                "free": family.space.given(),
                 "derived": derived,
             }),
         )
@@ -160,7 +157,8 @@ fn statement(name: &str, value: &Value) -> String {
     format!("couplerAtlas.{name}({value});\n")
 }
 
-fn sampling(sampling: Sampling) -> Value {
+/// How circuits are sampled, in the words of a manifest.
+pub fn sampling(sampling: Sampling) -> Value {
     match sampling {
         Sampling::Step(step) => json!({ "step": step }),
         Sampling::Samples(samples) => json!({ "samples": samples }),
@@ -169,7 +167,8 @@ fn sampling(sampling: Sampling) -> Value {
     }
 }
 
-fn straight(straight: Straight) -> Value {
+/// What is asked of the straight portion, in the words of a manifest.
+pub fn straight(straight: Straight) -> Value {
     match straight {
         Straight::Tolerance(tolerance) => json!({ "tolerance": tolerance }),
         Straight::Input(input) => json!({ "input": input }),

@@ -10,7 +10,7 @@ mod packed;
 mod parts;
 mod template;
 
-pub use data::{SCRIPT, Statements};
+pub use data::{SCRIPT, Statements, sampling, straight};
 pub use index::{PAGE, Shown, index};
 pub use parts::{Part, SCRIPTS, STYLES, joined};
 pub use template::template;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use coupler_atlas::catalogue;
-use coupler_atlas::family::{Family, Sampling};
+use coupler_atlas::family::Family;
 use coupler_atlas::gallery;
 use coupler_atlas::linkage::{Circuits, Continuation, Linkage};
 use coupler_atlas::manifest;
@@ -14,15 +14,6 @@ use coupler_atlas::measure::{self, Column, Subject, Value as Measured, column, t
 use coupler_atlas::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
 use tempfile::TempDir;
-
-fn sampling(sampling: Sampling) -> Value {
-    match sampling {
-        Sampling::Step(step) => json!({ "step": step }),
-        Sampling::Samples(samples) => json!({ "samples": samples }),
-        Sampling::Smooth(samples) => json!({ "samples": samples, "spacing": "smooth" }),
-        Sampling::Arc(samples) => json!({ "samples": samples, "spacing": "arc" }),
-    }
-}
 
 /// A number, or nothing where it is not one: JSON has no other way.
 fn number(value: f64) -> Value {
@@ -95,12 +86,8 @@ fn case(family: &Family, cell: usize, name: &str) -> Value {
         "name": format!("{name}, cell {}", cell.number),
         "template": gallery::template(&family.template),
         "values": cell.values,
-        "sampling": sampling(family.sampling),
-        "straight": match family.straight {
-            measure::Straight::Tolerance(tolerance) => json!({ "tolerance": tolerance }),
-            measure::Straight::Input(input) => json!({ "input": input }),
-            measure::Straight::Length(length) => json!({ "length": length }),
-        },
+        "sampling": gallery::sampling(family.sampling),
+        "straight": gallery::straight(family.straight),
         "motion": {
             "shortfall": motion.shortfall,
             "circuits": motion.circuits.iter().map(|c| circuit(&linkage, c)).collect::<Vec<_>>(),
