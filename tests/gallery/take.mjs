@@ -7,7 +7,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import * as zlib from "node:zlib";
 
@@ -25,7 +25,9 @@ import { crc32OfBytes, zipOfFiles } from "../../src/gallery/script/take/zip.js";
 import { curveKey } from "../../src/gallery/script/data/family.js";
 import { entitiesOf, familyOf, filesOfZip, pointsOf } from "./taken.mjs";
 
-const [atlas, program] = process.argv.slice(2);
+const [atlas, binary] = process.argv.slice(2);
+// Run from other folders, too.
+const program = binary && resolve(binary);
 const here = dirname(fileURLToPath(import.meta.url));
 const told = JSON.parse(readFileSync(join(atlas, "index.html"), "utf8").match(/id="atlas">([\s\S]*?)<\/script>/)[1]);
 const measures = told.measures.map(({ name }) => name);
