@@ -38,8 +38,9 @@ impl Turns {
         {
             return Some(ring);
         }
-        let four = self.four.insert(guess(points)?);
-        if Annulus::through(four.map(|k| points[k]))?.width > most {
+        let (four, ring) = guess(points)?;
+        let four = self.four.insert(four);
+        if ring.width > most {
             return None;
         }
         if most.is_finite() {
@@ -88,16 +89,16 @@ fn one_way(points: &[Point]) -> Cow<'_, [Point]> {
     row.into()
 }
 
-/// Four points of a row where those of a narrow annulus may be.
-fn guess(points: &[Point]) -> Option<[usize; 4]> {
+/// Four points of a row where those of a narrow annulus may be, and the one through them.
+fn guess(points: &[Point]) -> Option<([usize; 4], Annulus)> {
     let last = points.len().checked_sub(1)?;
     // Where a polynomial of the third degree has its extremes: the first guess is good. Of a row that goes nearly round
     // the ends are nearly one point, and tell the less.
     let [near, far] = [last, last / 2].map(|k| (points[k] - points[0]).norm_squared());
     let four = if near < far / 4.0 { [1, 3, 5, 7].map(|k| k * last / 8) } else { [0, last / 4, last - last / 4, last] };
+    let through = |four: [usize; 4]| Some((four, Annulus::through(four.map(|k| points[k]))?));
     // A row that goes there and back on one arc has pairs of points in one place.
-    let is_one = Annulus::through(four.map(|k| points[k])).is_some();
-    Some(if is_one { four } else { [1, 6, 11, 17].map(|k| k * last / 20) })
+    through(four).or_else(|| through([1, 6, 11, 17].map(|k| k * last / 20)))
 }
 
 /// Exchanges four points of a long row for better ones, of a few of its points only.

@@ -18,8 +18,7 @@ impl Trail {
             return (self.points[i], self.inputs[i] + rounds);
         }
         let next = self.at(i, 1).unwrap_or(i);
-        let step = self.points[next] - self.points[i];
-        let chord = step.norm();
+        let (step, chord) = (self.points[next] - self.points[i], self.chords[i]);
         let input = self.inputs[next] + if next < i { self.turn } else { 0.0 };
         // An arc over the chord, as flat as the curve is at the flatter end; of a turning back the other end tells.
         let bend = match [self.sharp[i], self.sharp[next]] {

@@ -114,9 +114,27 @@ impl Course {
         (self.points[to] - self.points[from]).norm()
     }
 
-    /// The last point no further on than some way, of those after another.
-    pub fn way_on(&self, from: usize, way: f64) -> usize {
-        from + self.way[from + 1..].partition_point(|far| far - self.way[from] <= way)
+    /// The first point after another that is further on along the way than some distance, likely near a `guess`.
+    pub fn way_beyond(&self, from: usize, distance: f64, guess: usize) -> usize {
+        let (far, last) = (self.way[from] + distance, self.way.len());
+        let is_beyond = |to: usize| to >= last || self.way[to] > far;
+        let mut to = guess.clamp(from + 1, last);
+        // In longer and longer steps one way, and then between the last two.
+        let mut step = 1;
+        let (low, high) = if is_beyond(to) {
+            while to > from + step && is_beyond(to - step) {
+                to -= step;
+                step *= 2;
+            }
+            ((from + 1).max(to.saturating_sub(step)), to)
+        } else {
+            while !is_beyond(to + step) {
+                to += step;
+                step *= 2;
+            }
+            (to + 1, (to + step).min(last))
+        };
+        low + self.way[low..high].partition_point(|&way| way <= far)
     }
 
     /// A place, moved round a closed curve, or to the end of an open one, so that it is one of its own.
@@ -131,9 +149,9 @@ impl Course {
 
     /// The point at a place.
     pub fn point(&self, place: f64) -> Point {
-        if place >= 0.0
-            && place.fract() == 0.0
-            && let Some(point) = self.points.get(place as usize)
+        let whole = place as usize;
+        if whole as f64 == place
+            && let Some(point) = self.points.get(whole)
         {
             return *point;
         }
@@ -189,7 +207,7 @@ impl Course {
             if far >= length {
                 break;
             }
-            to = self.way_on(to, length - far).max(to + 1);
+            to = self.way_beyond(to, length - far, to + 1);
         }
         if to > last {
             return None;

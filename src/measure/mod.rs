@@ -16,6 +16,7 @@ mod path;
 mod shape;
 mod speed_ratio;
 mod straight;
+mod straightest;
 mod strip;
 mod swing;
 mod symmetry;

@@ -4,15 +4,16 @@
 //! strip's middle is the minimax line of the portion. Its *length* is that of its projection on that line, and its
 //! *deviation* half the strip's width: no point of it is further from the line.
 //!
-//! Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. What fits a strip
-//! of some width fits with any part of it, so that the longest portion for a given width is found by moving both ends
-//! along the curve once. The width allowed goes with the length found: begun with the curve's whole extent, which nothing
-//! exceeds, lengths and widths fall to the greatest length that allows itself. So the longest is found between samples;
-//! it, and whatever might come to be longer than it, is then drawn out between them, a short one among many more points.
+//! Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. A portion that is
+//! too wide asks for a length that goes with its width, and any that begins there and goes further is as wide at least: so
+//! from each sample the search leaps to where that length may be, and most samples are done with after a triangle or two.
+//! The longest by samples, and whatever might come to be longer than it, is then drawn out between them, a short one among
+//! many more points.
 //! Of an input span or a length the portion with the narrowest strip is wanted: of those that begin at samples, and then
 //! between them. A portion may go over sample 0 of a closed curve, and over limits.
 
 use super::course::{Course, Fit};
+use super::straightest::straightest;
 use super::strip::{Strip, height};
 use super::{Measure, Subject, Value};
 use crate::geometry::Point;
@@ -118,7 +119,7 @@ impl Search<'_> {
         const RIVALS: usize = 2;
         let flattest = || {
             let each = self.course.flattest().into_iter().take(RIVALS + 1).filter_map(|k| self.about(k as f64));
-            each.max_by(|a, b| a.0.total_cmp(&b.0))
+            each.reduce(longer)
         };
         let Some((found, width)) = self.by_points(LOOSER) else {
             return flattest().map(|(_, ends)| ends);
@@ -129,17 +130,15 @@ impl Search<'_> {
             let by_more =
                 || Search { least: FEW, ..*self }.by_points(LOOSER).and_then(|(ends, _)| self.refined(ends, DEPTH));
             let all = [flattest(), self.refined(found, DEPTH), by_more()].into_iter().flatten();
-            return all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends);
+            return all.reduce(longer).map(|(_, ends)| ends);
         }
         let longest = self.refined(found, DEPTH).or_else(|| self.stricter(DEPTH));
         // Where nothing is straight between points, those are all that is known.
         let mut best = longest.unwrap_or_else(|| (self.course.distance(found), found.map(|k| k as f64)));
         for rival in self.rivals(width, best.0, found).into_iter().take(RIVALS) {
-            if let Some(other) = self.refined(rival, DEPTH)
-                && other.0 > best.0
-            {
-                best = other;
-            }
+            let [from, to] = rival.map(|k| k as f64);
+            let other = self.refined(rival, DEPTH).or_else(|| self.finely([from - 1.0, to + 1.0], DEPTH));
+            best = other.into_iter().fold(best, longer);
         }
         Some(best.1)
     }
@@ -177,57 +176,53 @@ impl Search<'_> {
 
     /// The points at the ends of the longest portion, and the width no portion may have more of.
     fn longest_by_points(&self) -> Option<([usize; 2], f64)> {
-        let Course { points, longest_chord, .. } = self.course;
-        let reach = points.iter().fold(0.0, |reach: f64, p| reach.max((p - points[0]).norm()));
-        let mut width = self.tolerance * 2.0 * reach;
-        let mut found = None;
-        loop {
-            let longest = self.longest_within(width, found)?;
-            let own = Strip::of(points[longest[0]..=longest[1]].to_vec());
-            let allowed = self.tolerance * own.length;
-            if allowed >= width || own.width <= allowed {
-                // Between points it may be longer by the way to the next at either end.
-                return Some((longest, width.min(self.tolerance * (own.length + 2.0 * longest_chord))));
-            }
-            width = allowed;
-            found = Some(longest);
-        }
-    }
-
-    /// The points at the ends of the longest portion in a strip of some width; part of it may be upon another portion.
-    fn longest_within(&self, width: f64, upon: Option<[usize; 2]>) -> Option<[usize; 2]> {
-        let starts = self.course.starts;
-        // The sooner something long is found, the less has to be looked at.
-        let first = upon.map_or(0..0, |[from, to]| 0..to - from).step_by(4);
-        let first = first.map(|k| (upon.map_or(0, |upon| upon[0]) + k) % starts);
-        let (mut best, mut found, mut needed) = (0.0, None, 0);
-        for from in first.chain(0..starts) {
-            needed = if from == 0 { 0 } else { needed.max(from) };
+        /// The sooner something long is found, the less has to be looked at: first from points so far apart.
+        const STRIDE: usize = 16;
+        let Course { points, starts, longest_chord, .. } = self.course;
+        let reach = points.iter().take(starts + 1).fold(0.0, |reach: f64, p| reach.max((p - points[0]).norm()));
+        let widest = self.tolerance * 2.0 * reach;
+        let (mut best, mut found, mut on) = (0.0, None, self.least);
+        for from in (0..*starts).step_by(STRIDE).chain(0..*starts) {
             // However straight, a portion is not as long before its way is.
-            while needed + 1 < self.course.way.len() && self.course.way[needed] - self.course.way[from] <= best {
-                needed += 1;
-            }
-            if let Some((to, length)) = self.longest_from([from, needed.max(from + self.least)], width, best) {
+            let to = self.course.way_beyond(from, best, from + on);
+            on = to - from;
+            if let Some((to, length)) = self.longest_from([from, to.max(from + self.least)], |_| 0.0, widest, best) {
                 (best, found) = (length, Some([from, to]));
             }
         }
-        found
+        let found = found?;
+        let own = Strip::of(points[found[0]..=found[1]].to_vec());
+        // Between points it may be longer by the way to the next at either end.
+        Some((found, widest.min(self.tolerance * (own.length + 2.0 * longest_chord))))
     }
 
-    /// The end and the length of the longest portion from a point, in a strip of some width, if it is longer than `best`;
-    /// it ends no sooner than at another point.
-    fn longest_from(&self, [from, mut to]: [usize; 2], width: f64, mut best: f64) -> Option<(usize, f64)> {
+    /// The end and the length of the longest portion from a point, if it is longer than `best`; it ends no sooner than at
+    /// another point, and is not `widest` or wider. It is as wide as it may be if it goes `further` than the point at its
+    /// end by so much.
+    fn longest_from(
+        &self,
+        [from, mut to]: [usize; 2],
+        further: impl Fn(usize) -> f64,
+        widest: f64,
+        mut best: f64,
+    ) -> Option<(usize, f64)> {
         let course = self.course;
         let mut found = None;
         while to <= course.last(from) {
             let far = course.distance([from, to]);
             if far <= best {
-                to = course.way_on(to, best - far).max(to + 1);
-            } else if self.fits([from, to], width) {
-                (best, found) = (far, Some((to, far)));
-                to += 1;
-            } else {
-                break;
+                to = course.way_beyond(to, best - far, to + 1);
+                continue;
+            }
+            let further = further(to);
+            match self.fits([from, to], self.tolerance * (far + further)) {
+                Ok(()) => {
+                    (best, found) = (far, Some((to, far)));
+                    to += 1;
+                }
+                Err(width) if width >= widest => break,
+                // What goes further is as wide at least, and has to be as long as that asks for.
+                Err(width) => to = course.way_beyond(from, width / self.tolerance - further, to + 1).max(to + 1),
             }
         }
         found
@@ -237,17 +232,21 @@ impl Search<'_> {
     fn rivals(&self, width: f64, best: f64, found: [usize; 2]) -> Vec<[usize; 2]> {
         let course = self.course;
         let least = best - 2.0 * course.longest_chord;
+        // Drawn out it reaches no further than the next points, and is as much longer at most.
+        let further = |from: usize, to: usize| {
+            let before = if from > 0 { course.distance([from - 1, from]) } else { course.longest_chord };
+            let after = if to + 1 < course.points.len() { course.distance([to, to + 1]) } else { 0.0 };
+            before + after
+        };
+        let mut on = found[1] - found[0];
         let from = (0..course.starts).filter_map(|from| {
-            let needed = course.way_on(from, least).max(from + self.least);
-            Some((from, self.longest_from([from, needed], width, least)?))
+            let to = course.way_beyond(from, least, from + on);
+            on = to - from;
+            let first = to.max(from + self.least);
+            let (to, length) = self.longest_from([from, first], |to| further(from, to), width, least)?;
+            (length + further(from, to) > best).then_some((length, [from, to]))
         });
-        let mut all: Vec<(f64, [usize; 2])> = from.map(|(from, (to, length))| (length, [from, to])).collect();
-        // Drawn out it reaches no further than the next points.
-        all.retain(|(length, [from, to])| {
-            let before = if *from > 0 { course.distance([from - 1, *from]) } else { course.longest_chord };
-            let after = if to + 1 < course.points.len() { course.distance([*to, to + 1]) } else { 0.0 };
-            length + before + after > best
-        });
+        let mut all: Vec<(f64, [usize; 2])> = from.collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut kept = vec![found];
         let round = course.starts;
@@ -265,29 +264,53 @@ impl Search<'_> {
         kept.split_off(1)
     }
 
-    /// Whether a portion, by the points at its ends, may lie in a strip of some width.
-    fn fits(&self, [from, to]: [usize; 2], width: f64) -> bool {
+    /// Whether a portion, by the points at its ends, may lie in a strip of some width; otherwise how wide it is at least.
+    fn fits(&self, [from, to]: [usize; 2], most: f64) -> Result<(), f64> {
         let points = &self.course.points[from..=to];
         let last = points.len() - 1;
+        let no_wider = |width| if width > most { Err(width) } else { Ok(()) };
         if last < FEW {
-            return self.course.bend_between([from, to]) <= width
-                && (last < 2 || Strip::of(points.to_vec()).width <= width);
+            no_wider(self.course.bend_between([from, to]))?;
+            return if last < 2 { Ok(()) } else { no_wider(Strip::of(points.to_vec()).width) };
         }
         // First by triangles: one in a strip is no higher, over its longest side, than the strip is wide.
         let quarters = [0, last / 4, last / 2, last - last / 4, last].map(|k| points[k]);
-        if [[0, 2, 4], [0, 1, 3], [1, 3, 4]].iter().any(|corners| height(corners.map(|k| quarters[k])) > width) {
-            return false;
+        for corners in [[0, 2, 4], [0, 1, 3], [1, 3, 4]] {
+            no_wider(height(corners.map(|k| quarters[k])))?;
         }
-        Strip::of_row(points, &mut [0, last / 2, last], width).is_some()
+        let mut three = [0, last / 2, last];
+        if Strip::of_row(points, &mut three, most).is_some() {
+            return Ok(());
+        }
+        Err(height(three.map(|k| points[k])).max(most))
     }
 
     /// The length and the ends of a portion drawn out between points.
     fn refined(&self, ends: [usize; 2], depth: usize) -> Option<(f64, [f64; 2])> {
         let whole = ends.map(|k| k as f64);
         if ends[1] - ends[0] >= FEW || depth == 0 {
-            return self.drawn_out(whole);
+            return self.drawn_furthest(whole);
         }
         self.finely([whole[0] - 1.0, whole[1] + 1.0], depth)
+    }
+
+    /// The length and the ends of a portion drawn out, and again from where it has come to while an end of it has gone nearly
+    /// as far as it may.
+    fn drawn_furthest(&self, mut ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
+        const MOVES: usize = 4;
+        const FAR: f64 = 0.95;
+        let mut best = self.drawn_out(ends)?;
+        for _ in 0..MOVES {
+            if (best.1[0] - ends[0]).abs().max((best.1[1] - ends[1]).abs()) < FAR {
+                break;
+            }
+            ends = best.1;
+            match self.drawn_out(ends) {
+                Some(further) if further.0 > best.0 * (1.0 + 1e-6) => best = further,
+                _ => break,
+            }
+        }
+        Some(best)
     }
 
     /// The length and the ends of the longest portion between two places, by many more points.
@@ -333,43 +356,7 @@ impl Search<'_> {
     }
 }
 
-/// The ends of the portion with the narrowest strip, of those that begin anywhere and end where `end` has it.
-fn straightest(course: &Course, end: impl Fn(f64) -> Option<f64>) -> Option<[f64; 2]> {
-    /// The least widths at points that are looked at between points.
-    const RIVALS: usize = 3;
-    let width = |from: f64| end(from).map_or(f64::INFINITY, |to| Strip::of(course.portion([from, to])).width);
-    // A portion of which three points show that it is wider than the narrowest so far need not be measured.
-    let mut narrowest = f64::INFINITY;
-    let mut widths = vec![f64::INFINITY; course.starts];
-    // Widely spaced ones first: the sooner something narrow is found, the more is spared.
-    const STRIDE: usize = 16;
-    for from in (0..STRIDE).flat_map(|k| (k..course.starts).step_by(STRIDE)) {
-        let Some(to) = end(from as f64) else { continue };
-        let last = (to.floor() as usize).min(course.points.len() - 1);
-        let place = |part: usize| course.points[from + (last - from) * part / 4];
-        let bound = [[0, 2, 4], [0, 1, 3], [1, 3, 4]].map(|parts| height(parts.map(place)));
-        widths[from] = bound.into_iter().fold(0.0, f64::max);
-        if widths[from] <= 2.0 * narrowest {
-            widths[from] = width(from as f64);
-            narrowest = narrowest.min(widths[from]);
-        }
-    }
-    let before = |k: usize| widths[(k + course.starts - 1) % course.starts];
-    let is_least = |&k: &usize| widths[k] <= before(k) && widths[k] <= widths[(k + 1) % course.starts];
-    let mut least: Vec<usize> = (0..course.starts).filter(|&k| widths[k].is_finite()).filter(is_least).collect();
-    least.sort_by(|&a, &b| widths[a].total_cmp(&widths[b]));
-    let refined = |&k: &usize| {
-        let [mut a, mut b] = course.clamp([k as f64 - 1.0, k as f64 + 1.0]);
-        let shift = if a > k as f64 { course.starts as f64 } else { 0.0 };
-        b = b.min(a + 2.0);
-        let at = k as f64 + shift;
-        for _ in 0..30 {
-            let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
-            if width(c) < width(d) { b = d } else { a = c }
-        }
-        let (refined, whole) = (width(a), width(at));
-        if refined < whole { (refined, a) } else { (whole, at) }
-    };
-    let (width, from) = least.iter().take(RIVALS).map(refined).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    width.is_finite().then_some([from, end(from)?])
+/// The longer of two portions, by their lengths; the first of equals.
+fn longer(one: (f64, [f64; 2]), other: (f64, [f64; 2])) -> (f64, [f64; 2]) {
+    if other.0 > one.0 { other } else { one }
 }

@@ -24,6 +24,8 @@ pub(super) struct Trail {
     pub turn: f64,
     /// How far the input has gone, there and back, up to each sample and then to the first again.
     pub travel: Vec<f64>,
+    /// How far each sample is from the next, where there is one.
+    pub chords: Vec<f64>,
     /// The signed curvature at each sample, of the circle through it and its neighbours.
     pub bends: Vec<f64>,
     arcs: OnceCell<Vec<Arc>>,
@@ -71,12 +73,14 @@ impl Trail {
             closed: period.is_some(),
             turn,
             travel,
+            chords: Vec::new(),
             bends: Vec::new(),
             arcs: OnceCell::new(),
             sharp: Vec::new(),
             nears: Vec::new(),
         };
         trail.nears = vec![OnceCell::new(); trail.points.len()];
+        trail.chords = (0..trail.points.len()).map(|i| trail.chord(i)).collect();
         trail.bends = (0..trail.points.len()).map(|i| trail.bend(i)).collect();
         trail.sharp = (0..trail.points.len()).map(|i| trail.turns_about(i)).collect();
         trail
@@ -124,6 +128,10 @@ impl Trail {
         changes + usize::from(self.closed && bends.first() != bends.last())
     }
 
+    fn chord(&self, i: usize) -> f64 {
+        self.at(i, 1).map_or(0.0, |next| (self.points[next] - self.points[i]).norm())
+    }
+
     fn bend(&self, i: usize) -> f64 {
         // At an open end the circle is that through the end and the next two.
         let (before, after) = match (self.at(i, -1), self.at(i, 1)) {
@@ -146,7 +154,7 @@ impl Trail {
 
     fn arc(&self, i: usize) -> Arc {
         let next = self.at(i, 1).unwrap_or(i);
-        let chord = (self.points[next] - self.points[i]).norm();
+        let chord = self.chords[i];
         let bend = (self.bends[i] + self.bends[next]) / 2.0;
         // The sine of half the arc's angle. Where the samples are too far apart for their bend, at a cusp, the chord does.
         let sine = bend * chord / 2.0;
@@ -188,7 +196,7 @@ impl Trail {
     /// How far the curve is from the lines between its samples at most, but for cusps.
     pub fn sagitta(&self) -> f64 {
         let height = |i: usize| {
-            let chord = (self.points[self.at(i, 1).unwrap_or(i)] - self.points[i]).norm();
+            let chord = self.chords[i];
             (chord * chord * self.bends[i].abs() / 8.0).min(chord / 2.0)
         };
         (0..self.points.len()).map(height).fold(0.0, f64::max)
@@ -196,9 +204,8 @@ impl Trail {
 
     /// How much of the length each sample stands for: half the way to either neighbour.
     pub fn weights(&self) -> Vec<f64> {
-        let chord = |i: usize| self.at(i, 1).map_or(0.0, |next| (self.points[next] - self.points[i]).norm());
-        let before = |i: usize| self.at(i, -1).map_or(0.0, chord);
-        (0..self.points.len()).map(|i| (before(i) + chord(i)) / 2.0).collect()
+        let before = |i: usize| self.at(i, -1).map_or(0.0, |k| self.chords[k]);
+        (0..self.points.len()).map(|i| (before(i) + self.chords[i]) / 2.0).collect()
     }
 
     /// How far a point is from the lines to the neighbours of a sample.

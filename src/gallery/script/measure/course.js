@@ -96,13 +96,14 @@ export function distanceOnCourse({ x, y }, [from, to]) {
   return Math.sqrt(dx * dx + dy * dy);
 }
 
-/** The last point no further on than some way, of those after another. */
-export function wayOn({ way, count }, from, further) {
-  let [low, high] = [from, count - 1];
+/** The first point after another that is further on along the way than some distance; `count` where none is. */
+export function wayBeyond({ way, count }, from, distance) {
+  const far = way[from] + distance;
+  let [low, high] = [from + 1, count];
   while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (way[middle] - way[from] <= further) low = middle;
-    else high = middle - 1;
+    const middle = (low + high) >> 1;
+    if (way[middle] <= far) low = middle + 1;
+    else high = middle;
   }
   return low;
 }
@@ -182,7 +183,7 @@ export function placeAfterLength(course, from, length, isRough = false) {
   while (to <= last) {
     const far = Math.hypot(x[to] - sx, y[to] - sy);
     if (far >= length) break;
-    to = Math.max(wayOn(course, to, length - far), to + 1);
+    to = wayBeyond(course, to, length - far);
   }
   if (to > last) return null;
   const low = Math.max(to - 1, from);

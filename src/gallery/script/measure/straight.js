@@ -3,11 +3,11 @@
 // A portion lies in a strip, the narrowest band between two parallel lines that holds it. Its length is that
 // of its projection on that band's line, and its deviation half the band's width.
 //
-// Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. What
-// fits a strip of some width fits with any part of it, so that the longest portion for a given width is found
-// by moving both ends along the curve once; the width allowed goes with the length found, begun with the
-// curve's whole extent. It, and whatever might come to be longer, is then drawn out between the points, a
-// short one among many more. A portion may go over sample 0 of a closed curve, and over limits.
+// Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. A portion
+// that is too wide asks for a length that goes with its width, and any that begins there and goes further is as
+// wide at least: so from each point the search leaps to where that length may be. The longest by points, and
+// whatever might come to be longer, is then drawn out between them, a short one among many more. A portion may
+// go over sample 0 of a closed curve, and over limits.
 
 import {
   bendBetween,
@@ -21,7 +21,7 @@ import {
   placeOnCourse,
   portionOfCourse,
   spannedInput,
-  wayOn,
+  wayBeyond,
 } from "./course.js";
 import { drawnOut } from "./drawn-out.js";
 import { straightestEnds } from "./straightest.js";
@@ -81,8 +81,9 @@ function longestOfAll(search) {
   // Where nothing is straight between points, those are all that is known.
   let best = refinedPortion(search, found, STRAIGHT_DEPTH) ??
     stricterPortion(search, STRAIGHT_DEPTH) ?? { size: distanceOnCourse(course, found), ends: found };
-  for (const rival of rivalPortions(search, width, best.size, found).slice(0, RIVALS)) {
-    best = longerOf(best, refinedPortion(search, rival, STRAIGHT_DEPTH));
+  for (const [from, to] of rivalPortions(search, width, best.size, found).slice(0, RIVALS)) {
+    const drawn = refinedPortion(search, [from, to], STRAIGHT_DEPTH);
+    best = longerOf(best, drawn ?? finePortion(search, [from - 1, to + 1], STRAIGHT_DEPTH));
   }
   return best.ends;
 }
@@ -119,92 +120,95 @@ function longestAbout(search, point) {
 
 // The points at the ends of the longest portion, for a part of the tolerance, and the width no portion may
 // have more of.
-function longestByPoints(search, part) {
-  const { course } = search;
-  const { x, y, count, longestChord } = course;
-  const tolerance = search.tolerance * part;
+function longestByPoints({ course, tolerance, least }, part) {
+  // The sooner something long is found, the less has to be looked at: first from points so far apart.
+  const STRIDE = 16;
+  const { x, y, starts, longestChord } = course;
+  const search = { course, tolerance: tolerance * part };
   let reach = 0;
-  for (let i = 0; i < count; i++) reach = Math.max(reach, Math.hypot(x[i] - x[0], y[i] - y[0]));
-  let [width, found] = [tolerance * 2 * reach, null];
-  for (;;) {
-    const longest = longestWithin(search, width, found);
-    if (!longest) return null;
-    const own = stripOfPoints(x, y, longest[0], longest[1] + 1);
-    const allowed = tolerance * own.length;
-    if (allowed >= width || own.width <= allowed) {
-      // Between points it may be longer by the way to the next at either end.
-      return { ends: longest, width: Math.min(width, tolerance * (own.length + 2 * longestChord)) };
-    }
-    [width, found] = [allowed, longest];
-  }
-}
-
-// The points at the ends of the longest portion in a strip of some width; part of it may be upon another
-// portion.
-function longestWithin({ course, least }, width, upon) {
-  const { starts, way, count } = course;
-  const order = [];
-  // The sooner something long is found, the less has to be looked at.
-  if (upon) for (let k = upon[0]; k < upon[1]; k += 4) order.push(k % starts);
-  const head = order.length;
-  for (let k = 0; k < starts; k++) order.push(k);
-  let [best, found, needed] = [0, null, 0];
-  order.forEach((from, at) => {
-    needed = from === 0 || at <= head ? from : Math.max(needed, from);
+  for (let i = 0; i <= starts; i++) reach = Math.max(reach, distanceOnCourse(course, [0, i]));
+  const widest = search.tolerance * 2 * reach;
+  let [best, found] = [0, null];
+  const lookFrom = (from) => {
     // However straight, a portion is not as long before its way is.
-    while (needed + 1 < count && way[needed] - way[from] <= best) needed += 1;
-    const longer = longestFrom(course, [from, Math.max(needed, from + least)], width, best);
+    const to = Math.max(wayBeyond(course, from, best), from + least);
+    const longer = longestFrom(search, [from, to], () => 0, widest, best);
     if (longer) [best, found] = [longer.length, [from, longer.to]];
-  });
-  return found;
+  };
+  for (let from = 0; from < starts; from += STRIDE) lookFrom(from);
+  for (let from = 0; from < starts; from++) lookFrom(from);
+  if (!found) return null;
+  const own = stripOfPoints(x, y, found[0], found[1] + 1);
+  // Between points it may be longer by the way to the next at either end.
+  return { ends: found, width: Math.min(widest, search.tolerance * (own.length + 2 * longestChord)) };
 }
 
-// The end and the length of the longest portion from a point, in a strip of some width, if it is longer than
-// `best`.
-function longestFrom(course, [from, begun], width, longest) {
+// The end and the length of the longest portion from a point, if it is longer than `longest`; it ends no
+// sooner than at another point, and is not `widest` or wider. It is as wide as it may be if it goes `further`
+// than the point at its end by so much.
+function longestFrom({ course, tolerance }, [from, begun], further, widest, longest) {
   const last = lastOfCourse(course, from);
   let [to, best, found] = [begun, longest, null];
   while (to <= last) {
     const far = distanceOnCourse(course, [from, to]);
-    if (far <= best) to = Math.max(wayOn(course, to, best - far), to + 1);
-    else if (fitsStrip(course, [from, to], width)) {
+    if (far <= best) {
+      to = wayBeyond(course, to, best - far);
+      continue;
+    }
+    const more = further(to);
+    const width = excessWidth(course, [from, to], tolerance * (far + more));
+    if (width === null) {
       [best, found] = [far, { to, length: far }];
       to += 1;
-    } else break;
+    } else if (width >= widest) break;
+    // What goes further is as wide at least, and has to be as long as that asks for.
+    else to = Math.max(wayBeyond(course, from, width / tolerance - more), to + 1);
   }
   return found;
 }
 
-// Whether a portion, by the points at its ends, may lie in a strip of some width.
-function fitsStrip(course, [from, to], width) {
+// How wide a portion is at least, by the points at its ends, if it is too wide; null where it may lie in a strip
+// of a width.
+function excessWidth(course, [from, to], most) {
   const { x, y } = course;
   const last = to - from;
   if (last < FEW_POINTS) {
-    if (bendBetween(course, [from, to]) > width) return false;
-    return last < 2 || stripOfPoints(x, y, from, to + 1).width <= width;
+    const bent = bendBetween(course, [from, to]);
+    if (bent > most) return bent;
+    const { width } = last < 2 ? { width: 0 } : stripOfPoints(x, y, from, to + 1);
+    return width > most ? width : null;
   }
   // First by triangles: one in a strip is no higher, over its longest side, than the strip is wide.
   const quarter = Math.floor(last / 4);
   const middle = from + Math.floor(last / 2);
-  if (heightOfTriangle(x, y, from, middle, to) > width) return false;
-  if (heightOfTriangle(x, y, from, from + quarter, to - quarter) > width) return false;
-  if (heightOfTriangle(x, y, from + quarter, to - quarter, to) > width) return false;
-  return stripOfRow(x, y, from, to + 1, [from, middle, to], width) !== null;
+  const triangles = [
+    [from, middle, to],
+    [from, from + quarter, to - quarter],
+    [from + quarter, to - quarter, to],
+  ];
+  for (const corners of triangles) {
+    const height = heightOfTriangle(x, y, ...corners);
+    if (height > most) return height;
+  }
+  const three = [from, middle, to];
+  if (stripOfRow(x, y, from, to + 1, three, most)) return null;
+  return Math.max(heightOfTriangle(x, y, ...three), most);
 }
 
 // Portions that might come to be longer than `best` between points, the longest first, none upon another.
-function rivalPortions({ course, least }, width, best, found) {
+function rivalPortions({ course, tolerance, least }, width, best, found) {
   const { starts, longestChord, count } = course;
   const all = [];
+  const shortest = best - 2 * longestChord;
   for (let from = 0; from < starts; from++) {
-    const needed = Math.max(wayOn(course, from, best - 2 * longestChord), from + least);
-    const longest = longestFrom(course, [from, needed], width, best - 2 * longestChord);
+    // Drawn out it reaches no further than the next points, and is as much longer at most.
+    const before = from > 0 ? distanceOnCourse(course, [from - 1, from]) : longestChord;
+    const further = (to) => before + (to + 1 < count ? distanceOnCourse(course, [to, to + 1]) : 0);
+    const first = Math.max(wayBeyond(course, from, shortest), from + least);
+    const longest = longestFrom({ course, tolerance }, [from, first], further, width, shortest);
     if (!longest) continue;
     const { to, length } = longest;
-    // Drawn out it reaches no further than the next points.
-    const before = from > 0 ? distanceOnCourse(course, [from - 1, from]) : longestChord;
-    const after = to + 1 < count ? distanceOnCourse(course, [to, to + 1]) : 0;
-    if (length + before + after > best) all.push({ length, ends: [from, to] });
+    if (length + further(to) > best) all.push({ length, ends: [from, to] });
   }
   all.sort((a, b) => b.length - a.length);
   const kept = [found];
@@ -222,8 +226,22 @@ function rivalPortions({ course, least }, width, best, found) {
 
 // A portion between points, { size, ends }, drawn out; one of few points by many more.
 function refinedPortion(search, ends, depth) {
-  if (ends[1] - ends[0] >= FEW_POINTS || depth === 0) return drawnOutStrip(search, ends);
+  if (ends[1] - ends[0] >= FEW_POINTS || depth === 0) return drawnFurthest(search, ends);
   return finePortion(search, [ends[0] - 1, ends[1] + 1], depth);
+}
+
+// A portion drawn out, and again from where it has come to while an end of it has gone nearly as far as it may.
+function drawnFurthest(search, ends) {
+  const [MOVES, FAR] = [4, 0.95];
+  let best = drawnOutStrip(search, ends);
+  for (let k = 0; best && k < MOVES; k++) {
+    if (Math.max(Math.abs(best.ends[0] - ends[0]), Math.abs(best.ends[1] - ends[1])) < FAR) break;
+    ends = best.ends;
+    const further = drawnOutStrip(search, ends);
+    if (!further || further.size <= best.size * (1 + 1e-6)) break;
+    best = further;
+  }
+  return best;
 }
 
 // The longest portion between two places, by many more points.
