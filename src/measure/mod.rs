@@ -46,7 +46,7 @@ pub struct Subject<'a> {
     pub linkage: &'a Linkage,
     /// All that it does.
     pub motion: &'a Motion,
-    /// The circuit.
+    /// The circuit, by as many samples as tell of its curves: a measure is one of the curve, however few its samples are.
     pub circuit: &'a Circuit,
     /// The traced joint.
     pub joint: JointId,
@@ -66,7 +66,7 @@ impl<'a> Subject<'a> {
     /// A traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
         let (alone, trail, course, straight, dwell, symmetry, transmission, cusps) = Default::default();
-        let asked = Straight::default();
+        let (asked, circuit) = (Straight::default(), circuit.finely(linkage));
         Subject {
             linkage,
             motion,
@@ -91,7 +91,7 @@ impl<'a> Subject<'a> {
 
     /// The straight portion asked for.
     pub fn straight(&self) -> Option<&Portion> {
-        self.straight.get_or_init(|| straight::portion(self.course(3)?, self.asked)).as_ref()
+        self.straight.get_or_init(|| straight::portion(self.course()?, self.asked)).as_ref()
     }
 
     /// The least and the greatest transmission angle, in degrees.
@@ -122,7 +122,7 @@ impl<'a> Subject<'a> {
 
     /// The best circular portion.
     pub fn dwell(&self) -> Option<&Dwell> {
-        self.dwell.get_or_init(|| dwell::dwell(self.course(5)?)).as_ref()
+        self.dwell.get_or_init(|| dwell::dwell(self.course()?)).as_ref()
     }
 
     /// The curve, made once for all measures.
@@ -134,10 +134,11 @@ impl<'a> Subject<'a> {
         Rc::new(Trail::of(self.circuit, self.joint, self.linkage.input()))
     }
 
-    /// The curve as a row of points, made once for all portions; `None` of fewer samples than so many.
-    fn course(&self, samples: usize) -> Option<&Course> {
+    /// The curve as a row of points, made once for all portions; `None` where it has no place at most of its samples.
+    fn course(&self) -> Option<&Course> {
+        const FEWEST: usize = 5;
         let course = || Course::of(self.trail.get_or_init(|| self.new_trail()).clone());
-        (self.trail().points.len() >= samples).then(|| self.course.get_or_init(course))
+        (self.trail().points.len() >= FEWEST).then(|| self.course.get_or_init(course))
     }
 }
 

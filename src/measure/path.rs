@@ -106,16 +106,17 @@ fn posed(subject: &Subject, direction: Vector, top: usize) -> f64 {
 /// The length of a joint's path from its first sample to each sample, and, where it closes, to the first again at the
 /// end; not a number where the joint has no place. The last of them is the measure `length`.
 pub fn lengths_from_start(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<f64> {
-    let trail = Trail::of(circuit, joint, linkage.input());
+    let [trail, fine] = [circuit, circuit.finely(linkage)].map(|circuit| Trail::of(circuit, joint, linkage.input()));
     let mut out = vec![f64::NAN; circuit.len() + usize::from(trail.closed)];
-    let mut length = 0.0;
-    let lengths = trail.lengths();
+    let mut lengths = vec![0.0];
+    for length in fine.lengths() {
+        lengths.push(lengths[lengths.len() - 1] + length);
+    }
     for (k, &sample) in trail.samples.iter().enumerate() {
-        out[sample] = length;
-        length += lengths.get(k).copied().unwrap_or(0.0);
+        out[sample] = fine.length_up_to(trail.points[k], trail.travel[k], &lengths);
     }
     if let (true, Some(last)) = (trail.closed && !trail.samples.is_empty(), out.last_mut()) {
-        *last = length;
+        *last = lengths[lengths.len() - 1];
     }
     out
 }

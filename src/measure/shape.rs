@@ -8,7 +8,7 @@ pub const CRUNODES: Measure = Measure {
     name: "crunodes",
     unit: "",
     is_word: false,
-    definition: "points at which the path crosses itself, as its samples show",
+    definition: "points at which the path crosses itself",
     take: |subject: &Subject| Value::Number(subject.trail().crossings().len() as f64),
 };
 
@@ -17,7 +17,7 @@ pub const INFLECTIONS: Measure = Measure {
     name: "inflections",
     unit: "",
     is_word: false,
-    definition: "points at which the path begins to bend the other way, as its samples show",
+    definition: "points at which the path begins to bend the other way",
     take: |subject: &Subject| Value::Number(subject.trail().inflections() as f64),
 };
 
@@ -35,7 +35,7 @@ pub const CURVATURE_MAX: Measure = Measure {
     name: "curvature_max",
     unit: "",
     is_word: false,
-    definition: "greatest curvature of the path, 1 over the manifest's unit; inf at a cusp",
+    definition: "greatest curvature of the path but for corners at change points, 1 over the manifest's unit; inf at a cusp",
     take: |subject: &Subject| sharpest(subject).map_or(Value::Missing, Value::Number),
 };
 

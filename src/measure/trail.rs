@@ -29,6 +29,8 @@ pub(super) struct Trail {
     /// The signed curvature at each sample, of the circle through it and its neighbours.
     pub bends: Vec<f64>,
     arcs: OnceCell<Vec<Arc>>,
+    /// At which of them the path may have a corner.
+    corners: Vec<usize>,
     /// Whether the path turns sharply about each sample.
     pub sharp: Vec<bool>,
     /// What is known of the curve about each sample, once it is asked for.
@@ -43,13 +45,34 @@ struct Arc {
     area: f64,
 }
 
+impl Arc {
+    /// Over a chord, of some curvature.
+    fn over(chord: f64, bend: f64) -> Arc {
+        // The sine of half the arc's angle. Where the samples are too far apart for their bend, at a cusp, the chord does.
+        let sine = bend * chord / 2.0;
+        if sine.abs() > 0.5 || chord == 0.0 {
+            return Arc { length: chord, area: 0.0 };
+        }
+        let square = sine * sine;
+        if square < 1e-4 {
+            // asin(x)/x and (d - sin d)/(2 k^2) by their series, good to 1e-16 below this.
+            let length = chord * (1.0 + square / 6.0 * (1.0 + square * 9.0 / 20.0 * (1.0 + square * 25.0 / 42.0)));
+            let area = chord * chord * sine / 6.0 * (1.0 + square * 3.0 / 10.0 * (1.0 + square * 25.0 / 28.0));
+            return Arc { length, area };
+        }
+        let angle = 2.0 * trig::asin(sine);
+        Arc { length: angle / bend, area: (angle - trig::sin(angle)) / (2.0 * bend * bend) }
+    }
+}
+
 impl Trail {
     pub fn of(circuit: &Circuit, joint: usize, input: Input) -> Trail {
         let kept = |(p, _): &(Point, usize)| p.x.is_finite() && p.y.is_finite();
         let (points, samples): (Vec<Point>, Vec<usize>) = circuit.points(joint).zip(0..).filter(kept).unzip();
         let inputs: Vec<f64> = samples.iter().map(|&sample| circuit.input[sample]).collect();
         let round = if input == Input::Length { f64::INFINITY } else { 360.0 };
-        Trail::new((points, samples), inputs, circuit.closed.then_some(round))
+        let corners = (0..samples.len()).filter(|&k| circuit.is_corner(samples[k])).collect();
+        Trail { corners, ..Trail::new((points, samples), inputs, circuit.closed.then_some(round)) }
     }
 
     /// A curve; a closed one is driven by an input of some period.
@@ -75,6 +98,7 @@ impl Trail {
             travel,
             chords: Vec::new(),
             bends: Vec::new(),
+            corners: Vec::new(),
             arcs: OnceCell::new(),
             sharp: Vec::new(),
             nears: Vec::new(),
@@ -102,9 +126,11 @@ impl Trail {
         if self.closed { Some(k.rem_euclid(n) as usize) } else { (0..n).contains(&k).then_some(k as usize) }
     }
 
-    /// The sample at which it bends most.
+    /// The sample at which it bends most, but for corners: what two samples on either side tell of the bend.
     pub fn sharpest(&self) -> Option<usize> {
-        (0..self.points.len()).max_by(|&a, &b| self.bends[a].abs().total_cmp(&self.bends[b].abs()))
+        let is_by_corner = |i: usize| (-2..=2).any(|off| self.at(i, off).is_some_and(|k| self.corners.contains(&k)));
+        let bent = (0..self.points.len()).filter(|&i| self.corners.is_empty() || !is_by_corner(i));
+        bent.max_by(|&a, &b| self.bends[a].abs().total_cmp(&self.bends[b].abs()))
     }
 
     /// Whether the path turns through more than a right angle about a sample, as at a cusp.
@@ -154,27 +180,20 @@ impl Trail {
 
     fn arc(&self, i: usize) -> Arc {
         let next = self.at(i, 1).unwrap_or(i);
-        let chord = self.chords[i];
-        let bend = (self.bends[i] + self.bends[next]) / 2.0;
-        // The sine of half the arc's angle. Where the samples are too far apart for their bend, at a cusp, the chord does.
-        let sine = bend * chord / 2.0;
-        if sine.abs() > 0.5 || chord == 0.0 {
-            return Arc { length: chord, area: 0.0 };
-        }
-        let square = sine * sine;
-        if square < 1e-4 {
-            // asin(x)/x and (d - sin d)/(2 k^2) by their series, good to 1e-16 below this.
-            let length = chord * (1.0 + square / 6.0 * (1.0 + square * 9.0 / 20.0 * (1.0 + square * 25.0 / 42.0)));
-            let area = chord * chord * sine / 6.0 * (1.0 + square * 3.0 / 10.0 * (1.0 + square * 25.0 / 28.0));
-            return Arc { length, area };
-        }
-        let angle = 2.0 * trig::asin(sine);
-        Arc { length: angle / bend, area: (angle - trig::sin(angle)) / (2.0 * bend * bend) }
+        Arc::over(self.chords[i], (self.bends[i] + self.bends[next]) / 2.0)
     }
 
     /// The length of the path from each sample to the next.
     pub fn lengths(&self) -> Vec<f64> {
         self.arcs().iter().map(|arc| arc.length).collect()
+    }
+
+    /// The length of the path from the first sample to a point on it, which the input reaches after going some way there
+    /// and back; `lengths` are those up to each sample.
+    pub fn length_up_to(&self, point: Point, travelled: f64, lengths: &[f64]) -> f64 {
+        let i = self.travel[..self.points.len()].partition_point(|&travel| travel <= travelled).max(1) - 1;
+        let next = self.at(i, 1).unwrap_or(i);
+        lengths[i] + Arc::over((point - self.points[i]).norm(), (self.bends[i] + self.bends[next]) / 2.0).length
     }
 
     /// The area it goes round, positive counter-clockwise; none of an open curve.

@@ -22,6 +22,7 @@ mod chain;
 mod circuit;
 mod enclosure;
 mod ends;
+mod fine;
 mod instant;
 mod interval;
 mod jet;

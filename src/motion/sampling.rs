@@ -1,4 +1,5 @@
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::circuit::{Pass, Route, Stop};
 use super::ends::place_end;
@@ -45,6 +46,8 @@ pub struct Circuit {
     pub places: Columns,
     /// The pass each sample is on; at the end of one, the pass it ends.
     pass: Vec<usize>,
+    /// The same by more samples, once they are asked for.
+    pub(super) fine: OnceLock<Box<Circuit>>,
 }
 
 impl Circuit {
@@ -68,6 +71,14 @@ impl Circuit {
         let last = pass + 1 == self.passes.len();
         let next = &self.passes[(pass + 1) % self.passes.len()];
         (!last || self.closed) && self.passes[pass].heading() != next.heading()
+    }
+
+    /// Whether paths may have a corner at a sample: where the input goes on over a change point, and the branch stays.
+    pub fn is_corner(&self, sample: usize) -> bool {
+        let k = self.pass[sample];
+        let (pass, next) = (&self.passes[k], &self.passes[(k + 1) % self.passes.len()]);
+        let is_end = self.input[sample] == pass.to.stop.at || (sample == 0 && self.closed);
+        is_end && !pass.to.flat.is_none() && !self.turns_after(k) && pass.signs == next.signs
     }
 
     /// Places and rates of all joints at a sample.
@@ -134,7 +145,7 @@ impl Sampler {
         }
         see(linkage, &mut places);
         let input = plan.stops.iter().map(|stop| stop.at).collect();
-        Circuit { closed: route.closed, passes: route.passes, input, places, pass: plan.pass }
+        Circuit { closed: route.closed, passes: route.passes, input, places, pass: plan.pass, fine: OnceLock::new() }
     }
 
     /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which

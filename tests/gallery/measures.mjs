@@ -30,9 +30,10 @@ const close = (a, b, tolerance, what) =>
 
 test("a circle is measured exactly", () => {
   const { found } = measured(evans([4, 1.5, 4, 4.5, 2]), 2);
-  close(found.length, 3 * Math.PI, 1e-13);
-  close(found.area, 2.25 * Math.PI, 1e-13);
-  close(found.curvature_max, 1 / 1.5, 1e-13);
+  // Over a degree the rounding of a place is a part in 1e14 of the way, and of how it bends a part in 1e12.
+  close(found.length, 3 * Math.PI, 1e-12);
+  close(found.area, 2.25 * Math.PI, 1e-12);
+  close(found.curvature_max, 1 / 1.5, 1e-12);
   close(found.speed_ratio, 1, 1e-12);
   close(found.dwell_radius, 1.5, 1e-10);
   assert.deepEqual([found.dwell_input_deg, found.cusps, found.crunodes, found.inflections], [360, 0, 0, 0]);

@@ -1,7 +1,7 @@
 //! Measures against closed forms, and what they must not depend on.
 
 use coupler_atlas::geometry::{Point, trig};
-use coupler_atlas::linkage::{Assembly, Circuits, FourBar, Linkage, Placement, Side, Travel};
+use coupler_atlas::linkage::{Assembly, Circuits, Continuation, FourBar, Linkage, Placement, Side, Travel};
 use coupler_atlas::measure::{self, Straight, Subject, Value};
 use coupler_atlas::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -50,6 +50,42 @@ fn a_circle_is_measured_as_one() {
     near("speed_ratio", 1.0);
     for name in ["cusps", "crunodes", "inflections"] {
         assert_eq!(value(name), Value::Number(0.0), "{name}");
+    }
+}
+
+/// A measure is one of the curve: few samples tell the same as many, to the last bit, and as thousands of its own to what a
+/// polynomial between samples a degree apart is off by.
+#[test]
+fn measures_are_of_the_curve_however_few_its_samples() {
+    // Over change points the branch stays, and curves have corners there.
+    let own = |bar, point| {
+        let mut linkage = four_bar(bar, point);
+        linkage.travel.continuation = Continuation::Branch;
+        (linkage, 2)
+    };
+    let linkages = [
+        own([4.0, 1.25, 3.0, 3.5], (1.0, 1.0)),
+        own([2.0, 2.2, 4.4, 2.1], (2.0, 0.3)),
+        // With change points.
+        own([3.0, 1.0, 2.0, 2.0], (1.0, 1.5)),
+        own([2.5, 1.0, 1.5, 2.0], (3.0, -0.5)),
+        (defaults("klann"), 0),
+        (defaults("geared-five-bar"), 0),
+    ];
+    for (linkage, trace) in &linkages {
+        let [few, more, many] = [12, 100, 8000].map(|samples| measured(linkage, *trace, 0, samples));
+        for m in &measure::ALL {
+            assert_eq!(few(m.name), more(m.name), "{}", m.name);
+        }
+        for name in ["length", "area", "bbox_x_min", "bbox_x_max", "bbox_y_min", "bbox_y_max", "curvature_max"] {
+            let [a, b] = [&more, &many].map(|value| number(value(name)));
+            assert!((a - b).abs() <= 1e-4 * b.abs().max(1.0), "{name}: {a} {b}");
+        }
+        for name in ["straight_length", "dwell_input_deg"] {
+            let [a, b] = [&more, &many].map(|value| number(value(name)));
+            assert!((a - b).abs() <= 2e-2 * b, "{name}: {a} {b}");
+        }
+        assert_eq!(["cusps", "crunodes", "inflections"].map(&more), ["cusps", "crunodes", "inflections"].map(&many));
     }
 }
 

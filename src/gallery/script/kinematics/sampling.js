@@ -7,7 +7,7 @@
 import { remainderOf } from "./angles.js";
 import { inputColumns, newColumns, placeJoints, seeColumns, stopAt } from "./columns.js";
 import { placeEnd } from "./ends.js";
-import { passLength } from "./pass.js";
+import { headingOf, passLength } from "./pass.js";
 import { modesOf, sideOf } from "./signs.js";
 import { mileageOf, smoothInput } from "./spacing.js";
 
@@ -62,6 +62,29 @@ export function sampledCircuit(linkage, sampler, { passes, closed }) {
   const signs = (sample) => passes[pass[sample]].signs;
   const branch = (sample, dyad = 0) => sideOf(signs(sample), dyad);
   return { passes, closed, count, input: inputs.at, pass: Uint32Array.from(pass), x, y, signs, branch };
+}
+
+// So many samples to a turn, or to a whole circuit that rocks, tell of a curve between them to a part in a
+// million.
+const FINE_SAMPLES = 360;
+const fineSamplers = new Map();
+
+/** A circuit by as many samples as tell of its curves between them, dense towards limits; itself if it has them. */
+export function finelySampled(linkage, circuit) {
+  const turns = linkage.input.isLength ? 1 : linkage.input.period / 360;
+  const samples = Math.min(FINE_SAMPLES * turns, MAX_SAMPLES);
+  if (circuit.count >= samples) return circuit;
+  if (!fineSamplers.has(samples)) fineSamplers.set(samples, samplerOf({ samples, spacing: "smooth" }));
+  return sampledCircuit(linkage, fineSamplers.get(samples), circuit);
+}
+
+/** Whether paths may have a corner at a sample: where the input goes on over a change point, and the branch stays. */
+export function isCorner({ passes, pass, input, closed }, sample) {
+  const k = pass[sample];
+  const [own, next] = [passes[k], passes[(k + 1) % passes.length]];
+  const isEnd = input[sample] === own.to || (sample === 0 && closed);
+  const turnsRound = (k + 1 < passes.length || closed) && headingOf(own) !== headingOf(next);
+  return isEnd && own.end.flat !== 0 && !turnsRound && own.signs === next.signs;
 }
 
 // Where the samples of a route are: pass after pass, each up to and with its end; before them the start,

@@ -3,6 +3,7 @@
 import { fourBarOf } from "../kinematics/four-bar.js";
 import { linkageWithOnePoint } from "../kinematics/linkage.js";
 import { headingOf } from "../kinematics/pass.js";
+import { finelySampled } from "../kinematics/sampling.js";
 import { courseOfTrail } from "./course.js";
 import { crossingsOfTrail } from "./crossings.js";
 import { circularPortion } from "./dwell.js";
@@ -41,10 +42,12 @@ export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
 }
 
 /**
- * What measures are taken of: a joint on a circuit of a linkage's motion, with its trail, made once for all
- * of them.
+ * What measures are taken of: a joint on a circuit of a linkage's motion, by as many samples as tell of its
+ * curves, with its trail, made once for all of them. A measure is one of the curve, however few its samples
+ * are.
  */
-function subjectOf(linkage, motion, circuit, joint) {
+function subjectOf(linkage, motion, sampled, joint) {
+  const circuit = finelySampled(linkage, sampled);
   const trail = trailOf(circuit, joint, linkage.input);
   return {
     linkage,
@@ -112,11 +115,12 @@ function symmetryMeasures(subject) {
   };
 }
 
-// Portions are looked for along a course; curves of few samples have none.
+// Portions are looked for along a course; curves that have no place at most of their samples have none.
 function portionMeasures({ trail }, asked) {
-  const course = trail.count >= 3 ? courseOfTrail(trail) : null;
-  const straight = course && straightPortion(course, asked);
-  const dwell = trail.count >= 5 ? circularPortion(course) : null;
+  if (trail.count < 5) return {};
+  const course = courseOfTrail(trail);
+  const straight = straightPortion(course, asked);
+  const dwell = circularPortion(course);
   const found = {};
   if (straight) {
     found.straight_length = straight.length;

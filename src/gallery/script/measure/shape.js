@@ -5,6 +5,7 @@ import { stopAt } from "../kinematics/columns.js";
 import { jetsAtStop } from "../kinematics/jets.js";
 import { passRange } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
+import { isCorner } from "../kinematics/sampling.js";
 import { curvatureNear, reachOfTrail } from "./between.js";
 import { arcsOfTrail, sampleAfter, topOfTrail } from "./trail.js";
 
@@ -115,15 +116,24 @@ export function cuspsOf(subject) {
   return circuit.count > 0 ? found.length : 0;
 }
 
+// The sample at which a trail bends most, but for corners: what two samples on either side tell of the bend.
+function sharpestSample(trail, circuit) {
+  const corners = trail.samples.map((sample) => isCorner(circuit, sample));
+  const isByCorner = (i) => [-2, -1, 0, 1, 2].some((off) => corners[sampleAfter(trail, i, off)]);
+  let sharpest = -1;
+  trail.bends.forEach((bend, i) => {
+    if ((sharpest < 0 || Math.abs(bend) >= Math.abs(trail.bends[sharpest])) && !isByCorner(i)) sharpest = i;
+  });
+  return sharpest;
+}
+
 /** The greatest curvature of a subject's path; infinite at a cusp, null of no points. */
 export function sharpestBend(subject, cusps) {
   const { trail, circuit } = subject;
   if (trail.count === 0) return null;
   if (cusps > 0) return Infinity;
-  let sharpest = 0;
-  trail.bends.forEach((bend, i) => {
-    if (Math.abs(bend) >= Math.abs(trail.bends[sharpest])) sharpest = i;
-  });
+  const sharpest = sharpestSample(trail, circuit);
+  if (sharpest < 0) return null;
   const sample = trail.samples[sharpest];
   let [a, b] = inputsBeside(subject, sample);
   const here = circuit.input[sample];
