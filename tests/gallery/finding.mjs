@@ -5,6 +5,7 @@
 import assert from "node:assert/strict";
 
 import { eventually, opened, runTests } from "./browser.mjs";
+import { COMPARING } from "./comparing.mjs";
 import { boxesDrawn, boxesRead, DRAWN } from "./drawn.mjs";
 
 const [small, large] = process.argv.slice(2);
@@ -360,4 +361,4 @@ const tests = [
   ],
 ];
 
-await runTests(tests);
+await runTests([...tests, ...COMPARING]);

@@ -78,3 +78,8 @@ export function captionInType(caption) {
     .split(/([A-Za-z][\w]*(?= = ))/)
     .map((part, k) => (k % 2 ? h("i", {}, part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
 }
+
+/** Changed parameters, a Map of names to numbers, as a caption: "with p = 3.5, k = 2". */
+export function changesInWords(changes) {
+  return `with ${[...changes].map(([name, value]) => `${name} = ${figure(value, 10)}`).join(", ")}`;
+}
