@@ -1,10 +1,10 @@
 // From names of curves to files.
 
-import { commandOfCurves, shortenedNames } from "../../take/command.js";
+import { commandBesideAtlas, commandOfCurves, shortenedNames } from "../../take/command.js";
 import { csvOfCurve } from "../../take/csv.js";
 import { dxfOfCurve } from "../../take/dxf.js";
 import { jsonOfCurve } from "../../take/json.js";
-import { manifestOfCurves } from "../../take/manifest.js";
+import { manifestOfCurves, namesInManifest } from "../../take/manifest.js";
 import { movingSvgOfCurve } from "../../take/moving.js";
 import { pngOfCurve } from "../../take/png.js";
 import { svgOfCurve } from "../../take/svg.js";
@@ -115,9 +115,21 @@ export async function manifestFor(app, names) {
 /** The command line that takes curves of some names away. */
 export async function commandFor(app, names) {
   const families = new Map();
+  const beside = [];
   for (const name of names) {
     const family = await familyOfName(app, name);
     families.set(family.id, family);
+    const curve = namedCase(family, name);
+    if (curve.beside !== null) beside.push({ ...curve, asked: name });
   }
-  return commandOfCurves(shortenedNames(names, families), names.length);
+  const plain = names.filter((name) => !beside.some(({ asked }) => asked === name));
+  const command = plain.length ? commandOfCurves(shortenedNames(plain, families), plain.length) : "";
+  if (beside.length === 0) return command;
+  return (
+    command +
+    commandBesideAtlas(
+      beside.map(({ name }) => name),
+      namesInManifest(beside),
+    )
+  );
 }
