@@ -7,6 +7,7 @@ import assert from "node:assert/strict";
 import { eventually, opened, runTests } from "./browser.mjs";
 import { COMPARING } from "./comparing.mjs";
 import { boxesDrawn, boxesRead, DRAWN } from "./drawn.mjs";
+import { FILTERING } from "./filtering.mjs";
 
 const [small, large] = process.argv.slice(2);
 
@@ -361,4 +362,4 @@ const tests = [
   ],
 ];
 
-await runTests([...tests, ...COMPARING]);
+await runTests([...tests, ...FILTERING, ...COMPARING]);

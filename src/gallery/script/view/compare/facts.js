@@ -2,7 +2,7 @@
 
 import { cellValues, measured } from "../../data/family.js";
 import { h } from "../dom.js";
-import { figure, measureInWords, measureText } from "../page-words.js";
+import { figure, measureAloneInWords, measureText } from "../page-words.js";
 
 /** A table of what is known of curves, [{ family, curve, name }]: a column for each, differing rows first. */
 export function factsTable(curves, measures, labels) {
@@ -66,7 +66,7 @@ function parameterRows(curves) {
 
 function measureRows(curves, measures) {
   return measures.map((measure) => ({
-    label: measureInWords(measure.name),
+    label: measureAloneInWords(measure.name),
     texts: curves.map(({ family, curve }) =>
       measured(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
     ),

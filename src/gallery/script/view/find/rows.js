@@ -3,15 +3,17 @@
 import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
 import { fill, h } from "../dom.js";
+import { watchPins } from "../pin-button.js";
 import { columnInWords, columnValueText } from "./column-words.js";
+import { pinnedByKey, pinOfCurve } from "./pin.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
 
 /** A table of rows; `sorted(name)` is called when a heading is pressed. */
 export class ResultRows {
-  constructor(sorted) {
-    this.sorted = sorted;
+  constructor(app, sorted) {
+    Object.assign(this, { app, sorted });
     this.rows = [];
     this.head = h("thead", {});
     this.body = h("tbody", {});
@@ -30,9 +32,15 @@ export class ResultRows {
         role: "region",
         "aria-label": "Table of curves",
         onscroll: () => this.fill(),
+        onkeydown: pinnedByKey,
       },
       this.figures,
     );
+    this.unwatch = watchPins(app, this.element);
+  }
+
+  end() {
+    this.unwatch();
   }
 
   put(table, rows, columns, sort) {
@@ -81,9 +89,10 @@ export class ResultRows {
     const { table } = this;
     const row = this.rows[k];
     const family = table.families[table.family[row]];
-    const key = curveKey(family, table.curve[row]);
+    const name = table.nameOf(row);
+    const href = address([family.id, "curve", curveKey(family, table.curve[row])]);
     const text = (column) => {
-      if (column.kind === "numbers") return columnValueText(column, table.numbers(column.name)[row]);
+      if (column.kind === "numbers") return columnValueText(column, family, table.numbers(column.name)[row]);
       const { values, codes } = table.words(column.name);
       return codes[row] === NO_WORD ? "–" : values[codes[row]];
     };
@@ -93,7 +102,8 @@ export class ResultRows {
       h(
         "th",
         { scope: "row", class: "text" },
-        h("a", { href: address([family.id, "curve", key]) }, `${family.id}:${key}`),
+        h("a", { href, "data-name": name }, name),
+        pinOfCurve(this.app, name),
       ),
       this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
     );

@@ -94,7 +94,7 @@ class ShapeRoom {
     const listed = familiesAsked(app.atlas, asked.families);
     fill(
       this.families,
-      familyChoice(app.atlas, asked.families, listed, (families) => {
+      familyChoice(app.atlas, listed, (families) => {
         asked.families = families;
         this.addressed();
         this.begin();
