@@ -178,6 +178,8 @@ check("1.11", "addresses that lead nowhere say so", on(atlas, "/nowhere/at/all")
   assert.match(await page.locator("main").innerText(), /nothing at this address/);
   await g.go("/evans/7");
   assert.match(await page.getByRole("alert").innerText(), /has 1 pages? only/);
+  const family = page.locator("main a", { hasText: "Evans linkage" });
+  assert.equal(await family.getAttribute("href"), "#/evans", "there is a way on");
   await page.getByRole("link", { name: "All families" }).click();
   await page.waitForSelector(".families");
 });
