@@ -147,15 +147,9 @@ class RoomShower {
     this.entitle("Not found");
     this.app.say(sentence);
     const family = this.app.atlas.families.find((candidate) => candidate.id === id);
-    const ways = [
-      family && h("a", { href: address([id]) }, family.title),
-      h("a", { href: address([]) }, "All families"),
-    ];
-    fill(
-      this.main,
-      h("p", { class: "trouble", role: "alert" }, sentence),
-      h("p", { class: "toolbar" }, ways),
-    );
+    const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
+    const all = h("a", { href: address([]) }, "All families");
+    fill(this.main, h("p", { class: "trouble", role: "alert" }, sentence, " ", own, all));
   }
 
   entitle(title) {
