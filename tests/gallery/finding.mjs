@@ -8,6 +8,7 @@ import { eventually, opened, runTests } from "./browser.mjs";
 import { COMPARING } from "./comparing.mjs";
 import { boxesDrawn, boxesRead, DRAWN } from "./drawn.mjs";
 import { FILTERING } from "./filtering.mjs";
+import { PRINTING } from "./printing.mjs";
 
 const [small, large] = process.argv.slice(2);
 
@@ -362,4 +363,4 @@ const tests = [
   ],
 ];
 
-await runTests([...tests, ...FILTERING, ...COMPARING]);
+await runTests([...tests, ...FILTERING, ...COMPARING, ...PRINTING]);

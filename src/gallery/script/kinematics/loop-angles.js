@@ -1,7 +1,7 @@
 // The angles of a four-bar and of an inverted slider-crank, as McCarthy and Soh have them (Geometric Design
-// of Linkages), at a sample { linkage, rates, input, side }: the rates of all joints there, the input in degrees
-// or as a length, and the side (1 or -1) of each two-valued joint, side(index). Angles are in degrees, rates
-// to a radian of input or a unit of length; not a number of a linkage that is neither.
+// of Linkages), at a sample { linkage, rates, input, side }: the rates of all joints there, the input in
+// degrees or as a length, and the side (1 or -1) of each two-valued joint, side(index). Angles are in
+// degrees, rates to a radian of input or a unit of length; not a number of a linkage that is neither.
 
 import { degreesOf } from "./angles.js";
 import { fourBarOf } from "./four-bar.js";

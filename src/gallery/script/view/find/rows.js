@@ -3,12 +3,15 @@
 import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
 import { fill, h } from "../dom.js";
+import { lineOnPaper, whenPrinted } from "../on-paper.js";
 import { watchPins } from "../pin-button.js";
 import { columnInWords, columnValueText } from "./column-words.js";
 import { pinnedByKey, pinOfCurve } from "./pin.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
+// So many rows at most, from the first, are printed.
+const PRINTED_ROWS = 1000;
 
 /** A table of rows; `sorted(name)` is called when a heading is pressed. */
 export class ResultRows {
@@ -37,10 +40,16 @@ export class ResultRows {
       this.figures,
     );
     this.unwatch = watchPins(app, this.element);
+    this.paper = whenPrinted(
+      this.element,
+      () => this.printed(),
+      () => this.fill(),
+    );
   }
 
   end() {
     this.unwatch();
+    this.paper.end();
   }
 
   put(table, rows, columns, sort) {
@@ -69,7 +78,7 @@ export class ResultRows {
   }
 
   fill() {
-    if (!this.table || !this.element.isConnected) return;
+    if (!this.table || !this.element.isConnected || this.paper.isPrinting) return;
     const first = Math.max(Math.floor(this.element.scrollTop / ROW_HEIGHT) - ROWS_AHEAD, 0);
     const last = Math.min(
       first + Math.ceil(this.element.clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD,
@@ -83,6 +92,16 @@ export class ResultRows {
     const shown = [];
     for (let k = first; k < last; k += 1) shown.push(this.line(k));
     fill(this.body, space(first), shown, space(this.rows.length - last));
+  }
+
+  /** Has the first rows in the page and no others, as they are on paper. */
+  printed() {
+    const last = Math.min(this.rows.length, PRINTED_ROWS);
+    fill(
+      this.body,
+      Array.from({ length: last }, (_, k) => this.line(k)),
+    );
+    return lineOnPaper(last, this.rows.length, "curves");
   }
 
   line(k) {

@@ -173,7 +173,7 @@ class ShapeRoom {
     const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
     const ranked = `by their ${by} deviation in % of the shape’s extent`;
     const sentence = found.length
-      ? `The nearest of ${count.toLocaleString("en")} curves, ${ranked}`
+      ? `The ${found.length === 1 ? "" : `${found.length} `}nearest of ${count.toLocaleString("en")} curves, ${ranked}`
       : "Nothing is like this";
     fill(this.status, sentence);
     this.app.say(sentence);
