@@ -59,7 +59,7 @@ export class Plate {
     this.transport = new Transport(this.drive, this.stage);
     this.dial = new DialView();
     this.speed = new SpeedView((part) => this.drive.seekByHand(part));
-    this.sliders = new Sliders({
+    this.sliders = new Sliders(family.legend, {
       change: (name, value) => this.#change(() => this.changes.set(name, value)),
       clear: (name) => this.#change(() => this.changes.delete(name)),
       settle: () => this.#settleSoon(0),
