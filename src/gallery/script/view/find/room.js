@@ -203,7 +203,7 @@ class Finding {
     this.laying = null;
     const { sort, show } = this.question;
     const column = this.columns.find(({ name }) => name === sort.name);
-    if (this.rows.length === 0 && this.table.count > 0) {
+    if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
       const without = (name) =>
         this.unfiltered(new Map([...this.question.filters].filter(([other]) => other !== name)));
       fill(this.results, nothingLeft(this.filters, without));
