@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 
 import { eventually, opened } from "./browser.mjs";
 
-const [small] = process.argv.slice(2);
+const [small, large] = process.argv.slice(2);
 
 const counted = (page) => page.locator(".counted b").innerText();
 
@@ -72,6 +72,34 @@ export const FILTERING = [
       await eventually(async () => (await page.locator(".results > li").count()) > 9, "they are there");
       const labels = await page.locator(".results .label").allInnerTexts();
       assert.ok(labels.slice(0, 10).every((label, k) => label.startsWith(`point ${k + 1} · `)));
+      await gallery.close();
+    },
+  ],
+  [
+    "4.12",
+    "whoever comes back from a plate is as far down what was found",
+    async ({ browser }) => {
+      const gallery = await opened(browser, large, "/find?class=change-point");
+      const { page } = gallery;
+      await eventually(async () => /^2,250 of/.test(await counted(page)), "all are there");
+      await page.evaluate(() => window.scrollTo(0, 20000));
+      await gallery.settled();
+      const names = () => page.locator(".results > li > a").evaluateAll((links) => links.map((a) => a.href));
+      await eventually(async () => !(await names())[0].endsWith("/1.1.1"), "tiles further down are there");
+      const href = await page.locator(".results > li > a").nth(20).getAttribute("href");
+      const link = page.locator(`.results > li > a[href="${href}"]`);
+      const depth = await link.evaluate((a) => {
+        a.scrollIntoView({ block: "center" });
+        return window.scrollY;
+      });
+      await link.click();
+      await page.waitForSelector(".plate");
+      await page.goBack();
+      await eventually(
+        () => page.evaluate((at) => document.activeElement.getAttribute("href") === at, href),
+        "the focus is where it was",
+      );
+      assert.ok(Math.abs((await page.evaluate(() => window.scrollY)) - depth) < 2, "as far down as before");
       await gallery.close();
     },
   ],

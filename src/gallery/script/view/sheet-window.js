@@ -81,6 +81,15 @@ export class TileWindow {
     this.fill();
   }
 
+  /** The size of a tile's leaf in pixels: alike of all, since to ask each would lay the page out each time. */
+  sizeOfLeaf(leaf) {
+    if (this.sizedAt !== this.wide) {
+      this.sizedAt = this.wide;
+      this.leafSize = { width: Math.max(leaf.clientWidth, 40), height: Math.max(leaf.clientHeight, 40) };
+    }
+    return this.leafSize;
+  }
+
   lay({ style }, k) {
     style.width = `${this.wide}px`;
     style.height = `${this.high}px`;

@@ -68,7 +68,7 @@ export class ResultTiles extends TileWindow {
     const { table } = this;
     const row = this.rows[k];
     const leaf = element.querySelector(".leaf");
-    const size = { width: Math.max(leaf.clientWidth, 40), height: Math.max(leaf.clientHeight, 40) };
-    leaf.replaceChildren(thumbnail(table.families[table.family[row]], [table.curve[row]], size));
+    const family = table.families[table.family[row]];
+    leaf.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(leaf)));
   }
 }
