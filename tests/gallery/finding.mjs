@@ -5,6 +5,10 @@
 import assert from "node:assert/strict";
 
 import { eventually, opened, runTests } from "./browser.mjs";
+import { COMPARING } from "./comparing.mjs";
+import { boxesDrawn, boxesRead, DRAWN } from "./drawn.mjs";
+import { FILTERING } from "./filtering.mjs";
+import { PRINTING } from "./printing.mjs";
 
 const [small, large] = process.argv.slice(2);
 
@@ -247,6 +251,43 @@ const tests = [
     },
   ],
   [
+    "4.8",
+    "a drawing with transforms is read as it is drawn, and its curve found",
+    async ({ browser }) => {
+      const blank = await browser.newPage();
+      const wanted = await boxesDrawn(blank, DRAWN);
+      await blank.close();
+      const boxes = boxesRead(DRAWN);
+      assert.equal(wanted.length, 8);
+      assert.equal(boxes.length, 8);
+      // Chords of bends lie within by up to 1 - cos(7.5 deg) of them, of half turns.
+      boxes.flat().forEach((value, k) => {
+        const [x0, y0, x1, y1] = wanted[k >> 2];
+        const off = Math.abs(value - wanted.flat()[k]) / Math.max(x1 - x0, y1 - y0);
+        assert.ok(off < 0.005, `${boxes[k >> 2]} is not ${wanted[k >> 2]}`);
+      });
+      const gallery = await opened(browser, small, "/shape");
+      const { page } = gallery;
+      // An ellipse twice as long as wide, drawn as a circle that is stretched and sheared.
+      const paste = async (text) => {
+        await page.getByLabel("Or paste points or a path").fill(text);
+        await page.getByRole("button", { name: "Use what is pasted" }).click();
+        await ranked(page);
+        return page.locator(".likenesses .label b").allInnerTexts();
+      };
+      const plain = await paste('<ellipse rx="200" ry="100"/>');
+      const transformed = await paste(
+        '<svg><g transform="rotate(30)"><g transform="scale(2 1)"><circle r="50"/></g></g></svg>',
+      );
+      assert.deepEqual(transformed.slice(0, 5), plain.slice(0, 5));
+      assert.notDeepEqual((await paste('<circle r="50"/>')).slice(0, 5), plain.slice(0, 5));
+      await page.getByLabel("Or paste points or a path").fill('<circle r="50" transform="turn(3)"/>');
+      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      assert.match(await page.getByRole("alert").innerText(), /transform “turn\(3\)” cannot be read/);
+      await gallery.close();
+    },
+  ],
+  [
     "5.1",
     "an address pins, and curves are compared side by side and over one another",
     async ({ browser }) => {
@@ -322,4 +363,4 @@ const tests = [
   ],
 ];
 
-await runTests(tests);
+await runTests([...tests, ...FILTERING, ...COMPARING, ...PRINTING]);

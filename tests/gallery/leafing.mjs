@@ -49,6 +49,12 @@ check("1.2", "families are searched by name", on(atlas, "/"), async (g, page) =>
     "Watt six-bar linkage",
   ]);
   assert.equal(await announced(page), "2 families");
+  assert.equal(await g.fragment(), "/?q=watt");
+  await page.getByRole("link", { name: "Watt six-bar linkage" }).click();
+  await page.waitForSelector(".sheet-room");
+  await page.goBack();
+  await eventually(async () => (await page.locator(".families li:visible").count()) === 2, "as it was left");
+  assert.equal(await page.getByRole("searchbox").inputValue(), "watt");
 });
 
 check(
@@ -177,7 +183,9 @@ check("1.10", "a place keeps how far it was read", on(large, "/hrones-nelson"), 
 check("1.11", "addresses that lead nowhere say so", on(atlas, "/nowhere/at/all"), async (g, page) => {
   assert.match(await page.locator("main").innerText(), /nothing at this address/);
   await g.go("/evans/7");
-  assert.match(await page.getByRole("alert").innerText(), /has 1 pages? only/);
+  assert.match(await page.getByRole("alert").innerText(), /^Evans linkage has 1 pages? only\. /);
+  const family = page.locator("main a", { hasText: "Evans linkage" });
+  assert.equal(await family.getAttribute("href"), "#/evans", "there is a way on");
   await page.getByRole("link", { name: "All families" }).click();
   await page.waitForSelector(".families");
 });

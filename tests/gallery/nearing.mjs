@@ -106,3 +106,33 @@ check("1.8", "nearer by two fingers", on(large, "/hrones-nelson/5", PHONE), asyn
   await touch("touchEnd", null);
   await eventually(async () => (await nearness(page)) > 250, "two fingers bring the page nearer");
 });
+
+check(
+  "1.15",
+  "what is in the middle stays there in a window of another size, and on the next page",
+  on(large, "/hrones-nelson/123?zoom=20.00&at=200.0,120.0"),
+  async (g, page) => {
+    const asked = async () => {
+      const [, zoom, x, y] = (await g.fragment()).match(/zoom=([\d.]+)&at=([\d.]+),([\d.]+)/) ?? [];
+      return [zoom, x, y].map(Number);
+    };
+    await page.setViewportSize({ width: 1024, height: 700 });
+    await eventually(async () => Math.abs((await asked())[0] - 20) > 1, "the address says how near it is");
+    const [zoom, x, y] = await asked();
+    assert.ok(zoom <= 32, "no nearer than can be");
+    assert.ok(Math.hypot(x - 200, y - 120) < 0.25, `the middle is at ${x}, ${y}`);
+    await page.keyboard.press("n");
+    await eventually(
+      async () => (await g.fragment()).startsWith("/hrones-nelson/124?zoom="),
+      "the address of the next page is as near",
+    );
+    assert.deepEqual(await asked(), [zoom, x, y]);
+  },
+);
+
+const low = { viewport: { width: 700, height: 500 } };
+check("1.16", "arrows scroll to what is below a whole page", on(atlas, "/evans/1", low), async (g, page) => {
+  await page.locator(".viewport").focus();
+  await page.keyboard.press("ArrowDown");
+  await eventually(async () => (await page.evaluate(() => window.scrollY)) > 10, "the window is scrolled");
+});

@@ -161,7 +161,7 @@ export const HANDS = [
   ],
   [
     "3.3",
-    "a finger drags joints, and two fingers zoom",
+    "a finger drags joints, and two fingers zoom and move the picture",
     async ({ browser, folder }) => {
       const plate = await opened(browser, folder, "/chebyshev/curve/1.1.1", {
         ...still,
@@ -195,6 +195,19 @@ export const HANDS = [
         await touch("touchMove", [left + 20, top + 20], [left + 60 + 8 * k, top + 20]);
       await touch("touchEnd");
       assert.ok((await scale()) > 1.5 * fitted, `the scale went from ${fitted} to ${await scale()}`);
+      const sheetAt = async () => {
+        const matrix = await page.locator(".still > g").getAttribute("transform");
+        return matrix.match(/-?[\d.]+/g).slice(-2).map(Number);
+      };
+      const [fromX, fromY] = await sheetAt();
+      await touch("touchStart", [left + 20, top + 20], [left + 60, top + 20]);
+      for (let k = 1; k <= 8; k += 1)
+        await touch("touchMove", [left + 20 + 5 * k, top + 20], [left + 60 + 5 * k, top + 20]);
+      await touch("touchEnd");
+      const [toX, toY] = await sheetAt();
+      // Each finger comes to be 40 to the right; what one goes ahead of the other zooms out again.
+      near(toX - fromX, 40, 4, "two fingers move it across");
+      near(toY, fromY, 1, "and not down");
       await plate.close();
     },
   ],

@@ -12,6 +12,7 @@ export const PARAMETERS = [
     async ({ browser, folder }) => {
       const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
       const { page } = plate;
+      assert.match(await page.locator(".sliders > .note").innerText(), /^frame p, crank r,/, "letters are told");
       const before = await page.locator(".dashes").getAttribute("d");
       await sliderOf(page, "p").fill("2.5");
       await page.waitForTimeout(400);

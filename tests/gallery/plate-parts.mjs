@@ -207,7 +207,7 @@ const tests = [
     },
   ],
   [
-    "what is taken away is of the circuit that is shown, where the atlas has it",
+    "what is taken away is of the circuit that is shown, by its number where the atlas does not have it",
     () => {
       const one = familyOf(folder, "evans");
       const all = { ...one, template: { ...one.template, circuits: "all" } };
@@ -219,8 +219,8 @@ const tests = [
       const named = (family, shown) => changedName({ family, curve: 0, changes, study: { home: 0, shown } });
       assert.equal(named(all, 0), "evans:1.1.1?p=2.5");
       assert.equal(named(all, 1), "evans:1.1.2?p=2.5");
-      assert.equal(named(all, 2), "evans:1.1.1?p=2.5", "a curve that is not there");
-      assert.equal(named(one, 1), "evans:1.1.1?p=2.5", "the atlas takes one circuit alone");
+      assert.equal(named(all, 2), "evans:1.1.1?p=2.5&circuit=3", "a curve that is not there");
+      assert.equal(named(one, 1), "evans:1.1.1?p=2.5&circuit=2", "the atlas takes one circuit alone");
       assert.equal(changedName({ family: all, curve: 0, changes: new Map(), study: null }), "evans:1.1.1");
     },
   ],

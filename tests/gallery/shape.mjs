@@ -95,10 +95,77 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   near(Math.max(...smooth.filter((_, k) => k % 2)), 7.5, 1e-9, "the reflected control point");
   assert.match(
     read("<svg><path class='a' d='M0 0Q5 5 10 0T20 0'/><polygon points='0,0 30,0 30,30'/></svg>").said,
-    /longest of 2/,
+    /longest of 2 outlines/,
   );
   for (const wrong of ["", "hello", "[1, 2]", "{", "<svg></svg>", "M0 0", "1 2"])
     assert.throws(() => read(wrong), Error, wrong);
+}
+
+/* What SVG draws, where its transforms put it. */
+
+{
+  const near2 = (svg, expected, what) => {
+    const { points } = shapeIn(svg);
+    assert.equal(points.length, expected.length, what);
+    // y points down in SVG.
+    expected.forEach((value, k) => near(points[k], k % 2 ? -value : value, 1e-12, what));
+  };
+  const line = '<path d="M1 0L3 0L3 1"/>';
+  const moved = (transform, expected) => near2(`<g transform="${transform}">${line}</g>`, expected, transform);
+  moved("translate(5)", [6, 0, 8, 0, 8, 1]);
+  moved("translate(5,-2)", [6, -2, 8, -2, 8, -1]);
+  moved("scale(2)", [2, 0, 6, 0, 6, 2]);
+  moved("scale(2 -1)", [2, 0, 6, 0, 6, -1]);
+  moved("rotate(90)", [0, 1, 0, 3, -1, 3]);
+  moved("rotate(90 1 0)", [1, 0, 1, 2, 0, 2]);
+  moved("skewX(45)", [1, 0, 3, 0, 4, 1]);
+  moved("skewY(45)", [1, 1, 3, 3, 3, 4]);
+  moved("matrix(1 2 3 4 5 6)", [6, 8, 8, 12, 11, 16]);
+  // The last of a list is done first, and what is within before what is about it.
+  moved("translate(5,0) , scale(2)rotate(90)", [5, 2, 5, 6, 3, 6]);
+  moved("none", [1, 0, 3, 0, 3, 1]);
+  near2(
+    `<svg:svg xmlns:svg="x" viewBox="0 0 9 9"><!-- <path d="M0 0L99 99"/> --><g transform="translate(5)">
+      <svg:path transform='scale(2)' d="M1 0&#10;L3 0 L3 1"><title>a &gt; b</title></svg:path></g></svg:svg>`,
+    [7, 0, 11, 0, 11, 2],
+    "nested",
+  );
+  // A transform that is closed again is over, and the longest is that which is drawn longest.
+  near2(`<g transform="scale(2)"/>${line}`, [1, 0, 3, 0, 3, 1], "a sibling");
+  near2(`<g transform="scale(9)"><path d="M0 0H1V1"/></g>${line}`, [0, 0, 9, 0, 9, 9], "drawn larger");
+  near2('<path d="M0 0H99" display="none"/><path d="M0 0H1"/>', [0, 0, 1, 0], "hidden");
+  near2(`<defs><path id="a" d="M0 0H99"/></defs>${line}`, [1, 0, 3, 0, 3, 1], "in defs alone");
+  const use = '<use xlink:href="#a" x="1" y="1" transform="scale(2)"/>';
+  near2(`<symbol><path id="a" d="M0 0H9"/></symbol>${use}`, [2, 2, 20, 2], "used");
+  near2('<line x1="1" y1="2" x2="1in" y2="2"/>', [1, 2, 96, 2], "line");
+  near2('<polyline points="0,0 1-1 2,0"/>', [0, 0, 1, -1, 2, 0], "polyline");
+  near2('<rect x="1" y="2" width="3" height="4"/>', [1, 2, 4, 2, 4, 6, 1, 6], "rectangle");
+  for (const [round, what] of [
+    ['<circle cx="2" cy="1" r="3" transform="scale(2 1)"/>', "circle"],
+    ['<g transform="scale(2,1) translate(2 1)"><ellipse rx="3" ry="3"/></g>', "ellipse"],
+    ['<rect x="-1" y="-2" width="6" height="6" rx="3" transform="scale(2 1)"/>', "rounded rectangle"],
+  ]) {
+    const { points, closed } = shapeIn(round);
+    assert.equal(closed, true, what);
+    for (let k = 0; k < points.length; k += 2)
+      near(((points[k] - 4) / 6) ** 2 + ((points[k + 1] + 1) / 3) ** 2, 1, 1e-12, what);
+  }
+  for (const [wrong, sentence] of [
+    [`<g transform="turn(3)">${line}</g>`, /The transform “turn\(3\)” cannot be read/],
+    [`<g transform="rotate(30deg)">${line}</g>`, /transform/],
+    [`<g transform="scale(1 2 3)">${line}</g>`, /transform/],
+    [`<g transform="constructor(1)">${line}</g>`, /transform/],
+    [`<g style="fill: none; transform: scale(2)">${line}</g>`, /style/],
+    [`<style>path { transform: scale(2) }</style>${line}`, /sheet of styles/],
+    [`<g transform="scale(2)" transform-origin="1 1">${line}</g>`, /transform-origin/],
+    ['<circle r="50%"/>', /r = “50%” of a circle/],
+    ['<polygon points="a b"/>', /points of a polygon/],
+    ['<g id="a"><use href="#a"/></g>', /uses itself/],
+    ['<use href="other.svg#a"/>', /not in the drawing/],
+    ["<svg><text>M0 0L9 9</text></svg>", /draws no path/],
+    [`<g transform="scale(0)">${line}</g>`, /Fewer than two/],
+  ])
+    assert.throws(() => shapeIn(wrong), { message: sentence }, wrong);
 }
 
 /* In the address. */

@@ -18,8 +18,7 @@
 //     measures: [{ trace, circuit, values: { name: number | string | "inf" | null } }],
 //         of a traced joint and a circuit, both counted from 1; null where one does not apply; may be left out
 //     rates: [{ trace, circuit, values: { column: [number | "inf" | "-inf" | null] } }] }
-//         further columns of points.csv, by samples, of which vx, vy, ax, ay, speed, curvature, pole_x, pole_y,
-//         moving_pole_x, moving_pole_y, inflection_x, inflection_y and mu_deg are compared; may be left out
+//         further columns of points.csv, by samples; may be left out
 // Exit 0 with a line of the greatest deviations, 1 with a line for each disagreement.
 
 import { readFileSync } from "node:fs";

@@ -85,6 +85,43 @@ const tests = [
       assert.equal(json.parameters.p, 2.5);
       assert.match((await saved(page, "Manifest fragment .toml")).text, /p = 2\.5, /);
     })],
+  ["6.7", "a circuit that the atlas does not have is taken away under its number among all", ({ browser }) =>
+    onPlate(browser, "/evans/curve/1.1.1", async (page) => {
+      const aside = page.getByText("The atlas does not have this circuit");
+      assert.equal(await aside.isVisible(), false);
+      await page.getByRole("radio", { name: /^2: a full turn, branch −1/ }).check();
+      await aside.waitFor();
+      const csv = await saved(page, "CSV points");
+      assert.equal(csv.name, "evans-1-1-circuit-2.csv");
+      const own = pointsOf(atlas, "evans").rows.get("1.1.1");
+      const rows = csv.text.trimEnd().split("\n").slice(1);
+      assert.equal(rows.length, own.length);
+      // The branches of Evans's linkage are mirror images in the frame: at the opposite crank angle, y is.
+      const place = (row) => row.split(",").slice(-2).map(Number);
+      rows.forEach((row, k) => {
+        assert.match(row, /^1,1,2,-1,/);
+        const [[x, y], [u, v]] = [place(row), place(own[(own.length - k) % own.length])];
+        assert.ok(Math.hypot(x - u, y + v) < 1e-12, `${row} is not the mirror image`);
+      });
+      for (const label of ["SVG still", "SVG, moving by itself .svg"]) {
+        const { name, text } = await saved(page, label);
+        assert.match(name, /^evans-1-1-circuit-2(-moving)?\.svg$/);
+        const look = await looked(page, text);
+        assert.ok(look.error === null && look.ink > 300, name);
+      }
+      assert.equal((await saved(page, "PNG 300 to the inch")).name, "evans-1-1-circuit-2.png");
+      assert.equal(entitiesOf((await saved(page, "DXF CAD, AutoCAD R12")).text).filter(({ kind }) => kind === "POLYLINE").length, 1);
+      const json = JSON.parse((await saved(page, "JSON all that is known")).text);
+      assert.deepEqual([json.curve, json.circuit, json.circuits.length], ["evans:1.1.1?circuit=2", 2, 2]);
+      assert.equal(json.measures.class, "crank-rocker");
+      const toml = await saved(page, "Manifest fragment .toml");
+      assert.match(toml.text, /# evans:1\.1\.1\?circuit=2 is circuit 2 of all[\s\S]*circuits = "all"/);
+      await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
+      await page.click(".take-button");
+      await page.getByRole("menuitem", { name: "Copy the command line" }).click();
+      const command = await page.locator(".take-copy textarea").inputValue();
+      assert.match(command, /^# The atlas does not have the circuit of evans:1\.1\.1\?circuit=2\.\n[\s\S]*coupler-atlas export circuits\.toml evans-taken:1\.1\.2 --format/);
+    })],
   ["6.3", "the command line and the fragment are copied, or shown to be copied", async ({ browser }) => {
     await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
       await page.click(".take-button");

@@ -1,7 +1,7 @@
 // The gallery begins here.
 
 import { openAtlas } from "./data/atlas.js";
-import { Pins } from "./view/pins.js";
+import { pinsOfTab } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { findRoom } from "./view/find/room.js";
 import { shapeRoom } from "./view/shape/room.js";
@@ -11,7 +11,7 @@ import { pageRoom } from "./view/page.js";
 import { plateRoom } from "./view/plate/room.js";
 import { sheetRoom } from "./view/sheet.js";
 
-const app = { atlas: openAtlas(document, window), pins: new Pins() };
+const app = { atlas: openAtlas(document, window), pins: pinsOfTab(window) };
 
 /** The rooms, the particular before the general. */
 const rooms = [overviewRoom, findRoom, shapeRoom, compareRoom, plateRoom, pageRoom, sheetRoom];

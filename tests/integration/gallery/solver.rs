@@ -10,7 +10,7 @@ use coupler_atlas::family::Family;
 use coupler_atlas::gallery;
 use coupler_atlas::linkage::{Circuits, Continuation, Linkage};
 use coupler_atlas::manifest;
-use coupler_atlas::measure::{self, Column, Subject, Value as Measured, column, take_columns};
+use coupler_atlas::measure::{self, COLUMNS, Subject, Value as Measured, take_columns};
 use coupler_atlas::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -57,20 +57,16 @@ fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
     told
 }
 
-/// Rates, poles and transmission angles of the first traced joint, sample by sample.
+/// Every further column of the first traced joint, sample by sample.
 fn rates(linkage: &Linkage, motion: &Motion) -> Vec<Value> {
-    const NAMES: [&str; 11] =
-        ["vx", "vy", "ax", "ay", "speed", "curvature", "pole_x", "pole_y", "moving_pole_x", "moving_pole_y", "mu_deg"];
-    let columns: Vec<Column> = NAMES.into_iter().filter_map(column).collect();
-    assert_eq!(columns.len(), NAMES.len());
     let of_circuit = |(number_of_circuit, circuit): (usize, &Circuit)| {
         let taken: Vec<Vec<f64>> = (0..circuit.len())
-            .map(|sample| take_columns(&columns, linkage, (circuit, linkage.traced[0]), sample))
+            .map(|sample| take_columns(&COLUMNS, linkage, (circuit, linkage.traced[0]), sample))
             .collect();
-        let values: serde_json::Map<String, Value> = NAMES
+        let values: serde_json::Map<String, Value> = COLUMNS
             .iter()
             .enumerate()
-            .map(|(k, name)| ((*name).to_owned(), taken.iter().map(|row| number(row[k])).collect()))
+            .map(|(k, column)| (column.name.to_owned(), taken.iter().map(|row| number(row[k])).collect()))
             .collect();
         json!({ "trace": 1, "circuit": number_of_circuit, "values": values })
     };

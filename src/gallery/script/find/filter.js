@@ -52,6 +52,12 @@ export class Filters {
     return this.rest;
   }
 
+  /** How many rows would pass without the filter of a column. */
+  countWithout(name) {
+    const own = this.fails.get(name);
+    return this.failing.reduce((count, fails, row) => count + (fails === (own ? own[row] : 0) ? 1 : 0), 0);
+  }
+
   /** Of each word of a column, how many rows have it that pass all other filters. */
   wordCounts(name) {
     const { values, codes } = this.table.words(name);

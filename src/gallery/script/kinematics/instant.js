@@ -18,9 +18,13 @@ const POLE_AT_INFINITY = 1e-13;
  * the link does not turn, and, but for the coupler of a four-bar, at a limit.
  */
 export function poleAt(linkage, pass, input, joint) {
+  return poleOfRates(linkage, ratesAt(linkage, pass, input), joint);
+}
+
+/** The same, of the rates of all joints that are there. */
+export function poleOfRates(linkage, rates, joint) {
   const motionOfLink = linkFrameOf(linkage, joint);
   if (!motionOfLink) return null;
-  const rates = ratesAt(linkage, pass, input);
   const { fourBar, frame } = motionOfLink;
   return fourBar ? couplerInstant(fourBar, pointsOfPose(rates.place)) : linkInstant(rates, frame);
 }

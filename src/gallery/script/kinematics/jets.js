@@ -1,4 +1,4 @@
-// Velocities and accelerations of all joints, by Taylor series through the chain of joints.
+// Velocities, accelerations and jerks of all joints, by Taylor series through the chain of joints.
 
 import { discriminantOfDyad, placeSeries, slideOffset } from "./chain.js";
 import { stopAt } from "./columns.js";
@@ -20,23 +20,29 @@ import {
 } from "./series.js";
 import { sideOf } from "./signs.js";
 
+// Of each dyad that touches its flat pose at an end of a pass one term is lost.
+const TERMS_AT_AN_END = 8;
+// A place and its first three rates.
+const TERMS_TO_JERK = 4;
+
 /**
- * Places and rates of all joints at an input of a pass: planar series of three terms, { x, y }, as seen from
- * the linkage's own view. Rates are to a radian of input, or to a unit of length: the velocity is the second
- * term, half the acceleration the third. At a limit they are infinite, at a change point as they are beside
- * it in the pass.
+ * Places and rates of all joints at an input of a pass: planar series of at least `terms` terms up to 4, { x,
+ * y }, as seen from the linkage's own view. Rates are to a radian of input, or to a unit of length: the
+ * velocity is the second term, half the acceleration the third, a sixth of the jerk the fourth. At a limit
+ * they are infinite, at a change point as they are beside it in the pass.
  */
-export function jetsOnPass(linkage, pass, at) {
+export function jetsOnPass(linkage, pass, at, terms = 3) {
   const ends = [
     [pass.end, -headingOf(pass)],
     [pass.begin, headingOf(pass)],
   ];
   for (const [end, inwards] of ends) {
     if (end.at === at && end.flat !== 0) {
-      return seenSeries(linkage, fixedFrameJets(linkage, end, pass.signs, end.flat, inwards, 8));
+      const jets = fixedFrameJets(linkage, end, pass.signs, end.flat, inwards, TERMS_AT_AN_END);
+      return seenSeries(linkage, jets);
     }
   }
-  return seenSeries(linkage, fixedFrameJets(linkage, stopAt(linkage.input, at), pass.signs, 0, 0, 3));
+  return seenSeries(linkage, fixedFrameJets(linkage, stopAt(linkage.input, at), pass.signs, 0, 0, terms));
 }
 
 /** The same at a stop { at, cos, sin } in an assembly mode, where no dyad lies flat. */
@@ -64,7 +70,7 @@ export function fixedFrameJets(linkage, stop, signs, flat, inwards, terms) {
     return movedPlace(place, rise.direction, scaledSeries(height, way), constantSeries(0, terms));
   };
   const all = placeSeries(linkage, linkage.joints.length, stop, mode, terms, settle);
-  return all.map(({ x, y }) => ({ x: x.slice(0, 3), y: y.slice(0, 3) }));
+  return all.map(({ x, y }) => ({ x: x.slice(0, TERMS_TO_JERK), y: y.slice(0, TERMS_TO_JERK) }));
 }
 
 // How a dyad's joint stands off from where it is when the dyad lies flat: where to, along a slider's line or

@@ -36,10 +36,20 @@ export function poseAt(linkage, pass, input) {
  */
 export function ratesAt(linkage, pass, input) {
   const jets = jetsOnPass(linkage, pass, input);
-  const rates = (order, factor) => {
-    const of = (k) => jets[k >> 1][k % 2 === 0 ? "x" : "y"][order] * factor;
-    const bounded = (value) => (Number.isNaN(value) && order > 0 ? Infinity : value);
-    return Float64Array.from({ length: 2 * jets.length }, (_, k) => bounded(of(k)));
-  };
-  return { place: rates(0, 1), velocity: rates(1, 1), acceleration: rates(2, 2) };
+  return { place: rateOfJets(jets, 0), velocity: rateOfJets(jets, 1), acceleration: rateOfJets(jets, 2) };
+}
+
+/** The same with the third derivatives of the places, { place, velocity, acceleration, jerk }. */
+export function ratesToJerkAt(linkage, pass, input) {
+  const jets = jetsOnPass(linkage, pass, input, 4);
+  const [place, velocity, acceleration, jerk] = [0, 1, 2, 3].map((order) => rateOfJets(jets, order));
+  return { place, velocity, acceleration, jerk };
+}
+
+// The derivative of that order, of a series: its coefficient times 1, 1, 2, 6.
+function rateOfJets(jets, order) {
+  const factor = [1, 1, 2, 6][order];
+  const of = (k) => jets[k >> 1][k % 2 === 0 ? "x" : "y"][order] * factor;
+  const bounded = (value) => (Number.isNaN(value) && order > 0 ? Infinity : value);
+  return Float64Array.from({ length: 2 * jets.length }, (_, k) => bounded(of(k)));
 }

@@ -1,5 +1,6 @@
 // Points from what is pasted: CSV, JSON, numbers in lines, points.csv, SVG path data, a whole SVG.
 
+import { drawnOutlines } from "./drawing.js";
 import { hasLength } from "./encode.js";
 import { lengthsAlong, looksClosed } from "./outline.js";
 import { subpathsOf } from "./path.js";
@@ -11,35 +12,36 @@ import { subpathsOf } from "./path.js";
 export function shapeIn(text) {
   const plain = text.trim();
   if (!plain) throw new Error("There is nothing to read.");
-  const found = /<(svg|path|poly)/i.test(plain)
-    ? svgShape(plain)
-    : /^m[\s,.\d+-]/i.test(plain)
-      ? pathShape(plain, 1)
-      : /^[[{]/.test(plain)
-        ? jsonShape(plain)
-        : tableShape(plain);
+  const found = readerOf(plain)(plain);
   if (!hasLength(found.points)) throw new Error("Fewer than two different points could be read.");
   return found;
 }
 
-/** The longest of the paths of an SVG; its coordinates point down. */
-function svgShape(text) {
-  const data = [...text.matchAll(/<path\b[^>]*?\sd\s*=\s*("([^"]*)"|'([^']*)')/gi)].map(
-    (match) => match[2] ?? match[3],
-  );
-  const polylines = [...text.matchAll(/<poly(line|gon)\b[^>]*?\spoints\s*=\s*("([^"]*)"|'([^']*)')/gi)];
-  for (const match of polylines)
-    data.push(`M${match[3] ?? match[4]}${match[1].toLowerCase() === "gon" ? "Z" : ""}`);
-  if (!data.length) throw new Error("The SVG has no path, polyline or polygon.");
-  return pathShape(data.join(" "), data.length);
+/** What reads a text, by how it begins; SVG may be a piece, with other things about it. */
+function readerOf(text) {
+  if (/^[[{]/.test(text)) return jsonShape;
+  if (/<[a-z!?]/i.test(text)) return svgShape;
+  return /^m[\s,.\d+-]/i.test(text) ? pathShape : tableShape;
 }
 
-function pathShape(data, count) {
-  const paths = subpathsOf(data);
-  if (!paths.length) throw new Error("The path data could not be read: it begins with M and a point.");
+/** The longest of the outlines of an SVG; its coordinates point down. */
+function svgShape(text) {
+  const outlines = drawnOutlines(text);
+  if (!outlines.length)
+    throw new Error("The SVG draws no path, line, polygon, rectangle, circle or ellipse that could be read.");
+  return longestShape(outlines);
+}
+
+function pathShape(data) {
+  const outlines = subpathsOf(data);
+  if (!outlines.length) throw new Error("The path data could not be read: it begins with M and a point.");
+  return longestShape(outlines);
+}
+
+function longestShape(outlines) {
   const length = ({ points, closed }) => lengthsAlong(points, closed).at(-1);
-  const longest = paths.reduce((best, path) => (length(path) > length(best) ? path : best));
-  const several = paths.length > 1 || count > 1 ? `, the longest of ${paths.length} paths` : "";
+  const longest = outlines.reduce((best, outline) => (length(outline) > length(best) ? outline : best));
+  const several = outlines.length > 1 ? `, the longest of ${outlines.length} outlines` : "";
   return {
     points: longest.points.map((value, k) => (k % 2 ? -value : value)),
     closed: longest.closed || looksClosed(longest.points),

@@ -1,53 +1,87 @@
-// The further columns of points.csv, as far as the page reckons them.
+// The further columns of points.csv.
 
-import { fourBarOf, transmissionAt } from "../kinematics/four-bar.js";
-import { poleAt } from "../kinematics/instant.js";
-import { ratesAt } from "../kinematics/poses.js";
+import { poleOfRates } from "../kinematics/instant.js";
+import {
+  betaAt,
+  distanceAt,
+  muAt,
+  phiAt,
+  phiRatioAt,
+  psiAt,
+  psiRatioAt,
+  slideAt,
+  solvabilityAt,
+} from "../kinematics/loop-angles.js";
+import { ratesToJerkAt } from "../kinematics/poses.js";
 
 /**
- * What each column is at a sample { place, vx, vy, ax, ay, pole(), mu() }, rates to a radian of input or a
- * unit of length.
+ * What each column is at a sample { linkage, rates, input, side, velocity, acceleration, jerk (of the traced
+ * joint), pole() }, rates to a radian of input or a unit of length.
  */
 const COLUMN_VALUES = new Map([
-  ["vx", ({ vx }) => vx],
-  ["vy", ({ vy }) => vy],
-  ["ax", ({ ax }) => ax],
-  ["ay", ({ ay }) => ay],
-  ["speed", ({ vx, vy }) => Math.sqrt(vx * vx + vy * vy)],
-  ["curvature", ({ vx, vy, ax, ay }) => (vx * ay - vy * ax) / Math.sqrt(vx * vx + vy * vy) ** 3],
+  ["vx", ({ velocity: [vx] }) => vx],
+  ["vy", ({ velocity: [, vy] }) => vy],
+  ["ax", ({ acceleration: [ax] }) => ax],
+  ["ay", ({ acceleration: [, ay] }) => ay],
+  ["jx", ({ jerk: [jx] }) => jx],
+  ["jy", ({ jerk: [, jy] }) => jy],
+  ["speed", ({ velocity: [vx, vy] }) => Math.sqrt(vx * vx + vy * vy)],
+  ["curvature", curvatureOfRates],
+  ["curvature_rate", curvatureRateOfRates],
   ["pole_x", ({ pole }) => pole()?.pole[0]],
   ["pole_y", ({ pole }) => pole()?.pole[1]],
   ["moving_pole_x", ({ pole }) => pole()?.moving[0]],
   ["moving_pole_y", ({ pole }) => pole()?.moving[1]],
   ["inflection_x", ({ pole }) => pole()?.inflection[0]],
   ["inflection_y", ({ pole }) => pole()?.inflection[1]],
-  ["mu_deg", ({ mu }) => mu()],
+  ["psi_deg", psiAt],
+  ["phi_deg", phiAt],
+  ["mu_deg", muAt],
+  ["psi_ratio", psiRatioAt],
+  ["phi_ratio", phiRatioAt],
+  ["solvability", solvabilityAt],
+  ["s", slideAt],
+  ["b", distanceAt],
+  ["beta_deg", betaAt],
 ]);
 
-/** The further columns of a family that the page reckons. */
-export function reckonedColumns({ columns }) {
-  return (columns ?? []).filter((name) => COLUMN_VALUES.has(name));
+/** The names of all further columns, in the order of the program. */
+export function columnNames() {
+  return [...COLUMN_VALUES.keys()];
 }
 
-/** Those that only the program does. */
-export function missingColumns({ columns }) {
-  return (columns ?? []).filter((name) => !COLUMN_VALUES.has(name));
-}
-
-/** The reckoned columns of a taken curve at a sample; not a number where one does not apply. */
-export function columnsAtSample({ family, linkage, course, joint }, sample) {
-  const names = reckonedColumns(family);
+/**
+ * The columns `names` of a joint at a sample of a circuit of a linkage; not a number where one does not
+ * apply.
+ */
+export function columnsAtSample(names, linkage, course, joint, sample) {
   if (names.length === 0) return [];
   // A closed circuit begins where its last pass ends, perhaps a few turns on.
   const pass = course.passes[course.pass[sample]];
   const input = sample === 0 && course.closed && pass.end.flat !== 0 ? pass.to : course.input[sample];
-  const { place, velocity, acceleration } = ratesAt(linkage, pass, input);
-  const [vx, vy] = velocity.subarray(2 * joint);
-  const [ax, ay] = acceleration.subarray(2 * joint);
-  const pole = () => poleAt(linkage, pass, input, joint);
-  const mu = () => {
-    const fourBar = linkage.seenFrom ? null : fourBarOf(linkage);
-    return fourBar ? transmissionAt(linkage, fourBar, place).mu : NaN;
+  const rates = ratesToJerkAt(linkage, pass, input);
+  const ofJoint = (all) => all.subarray(2 * joint, 2 * joint + 2);
+  const at = {
+    linkage,
+    rates,
+    input: course.input[sample],
+    side: (index) => course.branch(sample, index),
+    velocity: ofJoint(rates.velocity),
+    acceleration: ofJoint(rates.acceleration),
+    jerk: ofJoint(rates.jerk),
+    pole: () => poleOfRates(linkage, rates, joint),
   };
-  return names.map((name) => COLUMN_VALUES.get(name)({ vx, vy, ax, ay, pole, mu }) ?? NaN);
+  return names.map((name) => COLUMN_VALUES.get(name)(at) ?? NaN);
+}
+
+// Positive where the path bends to the left.
+function curvatureOfRates({ velocity: [vx, vy], acceleration: [ax, ay] }) {
+  return (vx * ay - vy * ax) / Math.sqrt(vx * vx + vy * vy) ** 3;
+}
+
+// Its derivative by the length of the path.
+function curvatureRateOfRates({ velocity: [vx, vy], acceleration: [ax, ay], jerk: [jx, jy] }) {
+  const v2 = vx * vx + vy * vy;
+  const bend = vx * ay - vy * ax;
+  return ((vx * jy - vy * jx) * v2 - 3 * bend * (vx * ax + vy * ay)) / (v2 * v2 * v2);
 }

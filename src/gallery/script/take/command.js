@@ -4,11 +4,27 @@
  * The command that takes away so many curves, which the words name (shortenedNames); the manifest is in the
  * folder.
  */
-export function commandOfCurves(words, count) {
+export function commandOfCurves(words, count, manifest = "atlas.toml") {
   const formats = ["svg", "moving-svg", "png", "dxf", "csv", "json", "toml"];
   const chosen = count > 20 ? ["svg", "dxf", "csv", "json", "toml"] : formats;
   const named = words.map(quotedForShell).join(" ");
-  return `coupler-atlas export atlas.toml ${named} --format ${chosen.join(",")} -o curves\n`;
+  return `coupler-atlas export ${manifest} ${named} --format ${chosen.join(",")} -o curves\n`;
+}
+
+/**
+ * What to do for curves on circuits beside the atlas, with the command; `names` are theirs, `words` those in
+ * the manifest fragment (namesInManifest), null of what it cannot say.
+ */
+export function commandBesideAtlas(names, words) {
+  const unsaid = names.filter((_, k) => words[k] === null);
+  const said = words.filter((word) => word !== null);
+  const lines = [
+    `# The atlas does not have the circuit of ${names.join(", ")}.`,
+    ...unsaid.map((name) => `# Nor can a manifest say the moved point of ${name}.`),
+  ];
+  if (said.length === 0) return `${lines.join("\n")}\n`;
+  lines.push("# Its manifest fragment has all circuits: put it under an [atlas] into circuits.toml.");
+  return `${lines.join("\n")}\n${commandOfCurves(said, said.length, "circuits.toml")}`;
 }
 
 /**

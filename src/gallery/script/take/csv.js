@@ -1,18 +1,18 @@
 // The rows of points.csv.
 
-import { columnsAtSample, reckonedColumns } from "./columns.js";
+import { columnsAtSample } from "./columns.js";
 import { shortestDigits } from "./digits.js";
 
 /** The names of the columns behind cell, trace and circuit. */
 export function pointColumns({ linkage, family }) {
   const further = Array.from({ length: Math.max(linkage.dyads - 1, 0) }, (_, k) => `branch_${k + 2}`);
   const input = linkage.input.isLength ? "input_length" : "input_deg";
-  return ["branch", ...further, "sample", input, "x", "y", ...reckonedColumns(family)];
+  return ["branch", ...further, "sample", input, "x", "y", ...(family.columns ?? [])];
 }
 
 /** The values of those columns, a row for each sample. */
 export function pointRows(taken) {
-  const { linkage, course, joint } = taken;
+  const { family, linkage, course, joint } = taken;
   const dyads = Math.max(linkage.dyads, 1);
   return Array.from({ length: course.count }, (_, k) => [
     ...Array.from({ length: dyads }, (_unused, dyad) => course.branch(k, dyad)),
@@ -20,11 +20,11 @@ export function pointRows(taken) {
     course.input[k],
     course.x[joint][k],
     course.y[joint][k],
-    ...columnsAtSample(taken, k),
+    ...columnsAtSample(family.columns ?? [], linkage, course, joint, k),
   ]);
 }
 
-/** The curve's rows of points.csv, under its header; without the columns that the page does not reckon. */
+/** The curve's rows of points.csv, under its header. */
 export function csvOfCurve(taken) {
   const { cell, trace, circuit } = taken;
   const lines = pointRows(taken).map((row) => [cell, trace, circuit, ...row].map(shortestDigits).join(","));

@@ -28,14 +28,34 @@ export const CATALOGUE = [
 ];
 
 /**
- * The families of some curves { family, values, name, changes }, in their order, as TOML; to be put into a
- * manifest that has an [atlas], and the linkages of the atlas's own that they name. A cell that several
- * curves are taken of stands once.
+ * The families of some curves { family, values, name, beside, changes }, in their order, as TOML; to be put
+ * into a manifest that has an [atlas], and the linkages of the atlas's own that they name. A cell that
+ * several curves are taken of stands once. Of a circuit beside the atlas all circuits are taken.
  */
 export function manifestOfCurves(curves) {
+  const tables = familiesOfCurves(curves).map(familyInManifest);
+  return `# Put this into a manifest with an [atlas].\n${tables.join("")}`;
+}
+
+/**
+ * The names that curves on circuits beside the atlas have in their manifest, "evans-taken:1.1.2"; null of one
+ * whose traced point was moved, for no parameter says that.
+ */
+export function namesInManifest(curves) {
+  const families = familiesOfCurves(curves);
+  return curves.map((curve) => {
+    const family = families.find((other) => other.curves.includes(curve));
+    const cell = [...rowsOfFamily(family).keys()].indexOf(caseInManifest(curve.family, curve.values)) + 1;
+    const isSaid = movedPoint(curve).length === 0;
+    return isSaid ? `${idInManifest(family)}:${cell}.${curve.trace}.${curve.beside}` : null;
+  });
+}
+
+// A family for each linkage, title and way of sampling, { settings, title, linkage, number, curves }.
+function familiesOfCurves(curves) {
   const families = [];
   for (const curve of curves) {
-    const settings = settingsInManifest(curve.family);
+    const settings = settingsInManifest(curve.family, curve.beside !== null);
     const title = curve.family.title;
     const same = families.find(
       (other) =>
@@ -45,29 +65,37 @@ export function manifestOfCurves(curves) {
     else families.push({ settings, title, linkage: curve.family.linkage, curves: [curve] });
   }
   const earlier = (k) => families.slice(0, k).filter(({ linkage }) => linkage === families[k].linkage).length;
-  const tables = families.map((family, k) => familyInManifest(family, earlier(k) + 1));
-  return `# Put this into a manifest with an [atlas].\n${tables.join("")}`;
+  return families.map((family, k) => ({ ...family, number: earlier(k) + 1 }));
 }
 
-function familyInManifest({ settings, title, linkage, curves }, number) {
+// The cells of a family in their order, with the names of the curves that each is there for.
+function rowsOfFamily({ curves }) {
   const rows = new Map();
   for (const { family, values, name } of curves) {
     const row = caseInManifest(family, values);
     rows.set(row, [...(rows.get(row) ?? []), name]);
   }
+  return rows;
+}
+
+function idInManifest({ linkage, number }) {
+  return `${linkage.slice(0, 50).replace(/-+$/, "")}-taken${number > 1 ? `-${number}` : ""}`;
+}
+
+function familyInManifest(made) {
+  const { settings, title, linkage, curves } = made;
+  const rows = rowsOfFamily(made);
   const columns = Math.min(rows.size, 3);
   const panels = [columns, Math.min(Math.ceil(rows.size / columns), 3)];
-  const stem = linkage.slice(0, 50).replace(/-+$/, "");
   const own = CATALOGUE.includes(linkage)
     ? ""
     : `\n# The [[linkage]] \`${linkage}\` is the atlas's own: copy it from its manifest.`;
-  const moved = curves
-    .flatMap(movedPoint)
+  const moved = [...curves.flatMap(movedPoint), ...curves.flatMap(circuitBeside)]
     .map((line) => `\n${line}`)
     .join("");
   const lines = [
     `${own}${moved}\n[[family]]`,
-    `id = "${stem}-taken${number > 1 ? `-${number}` : ""}"`,
+    `id = "${idInManifest(made)}"`,
     `linkage = "${linkage}"`,
     `title = ${textInManifest(title)}`,
     `panels = [${panels.join(", ")}]`,
@@ -84,20 +112,25 @@ function movedPoint({ family, name, changes }) {
   return [`# Of ${name}, ${words.join(" and ")} is for a [[linkage]] of your own: no parameter says it.`];
 }
 
+// A circuit that the atlas does not have is one of all.
+function circuitBeside({ name, beside }) {
+  return beside === null ? [] : [`# ${name} is circuit ${beside} of all: of each cell the others come too.`];
+}
+
 function caseInManifest(family, values) {
   const pairs = family.template.parameters.map(({ name }, k) => `${name} = ${shortestDigits(values[k])}`);
   return pairs.length > 0 ? `{ ${pairs.join(", ")} }` : "{}";
 }
 
 // What a family says beside its cells: by it families of one linkage are told apart.
-function settingsInManifest({ linkage, template, sampling, straight, columns }) {
+function settingsInManifest({ linkage, template, sampling, straight, columns }, hasAll) {
   const isLength = template.joints.some((joint) => "piston" in joint);
   const input = (value) => (isLength ? shortestDigits(value) : `"${shortestDigits(value)} deg"`);
   const { step, samples, spacing } = sampling;
   const spaced = spacing && spacing !== "even" ? `, spacing = "${spacing}"` : "";
   const lines = [
     `sampling = { ${step !== undefined ? `step = ${input(step)}` : `samples = ${samples}${spaced}`} }`,
-    `circuits = "${template.circuits}"`,
+    `circuits = "${hasAll ? "all" : template.circuits}"`,
     `continuation = "${template.continuation}"`,
   ];
   if (template.coincident !== "together" || !CATALOGUE.includes(linkage))

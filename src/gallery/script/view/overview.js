@@ -11,13 +11,13 @@ const MANY_FAMILIES = 8;
 // Fewer than these have room to be shown large.
 const FEW_FAMILIES = 4;
 
-/** The room with all families. */
+/** The room with all families: `#/?q=straight` those whose names have the words. */
 export const overviewRoom = {
   name: "families",
   label: "Families",
   way: () => address([]),
   opens: ({ path }) => path.length === 0,
-  view: (app) => {
+  view: (app, { query }) => {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
     const sight = whenSeen((tile) => showFirstPage(app, tiles.get(tile), tile));
@@ -33,7 +33,7 @@ export const overviewRoom = {
           "div",
           { class: "head" },
           h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, summaryOf(families))),
-          families.length >= MANY_FAMILIES ? familySearch(app, tiles) : null,
+          families.length >= MANY_FAMILIES ? familySearch(app, tiles, query.get("q") ?? "") : null,
         ),
         families.length ? list : h("p", { class: "empty" }, "There are no families in this atlas."),
       ),
@@ -112,24 +112,33 @@ async function showFirstPage(app, { id }, tile) {
   }
 }
 
-/** A field that leaves the families whose title, linkage or name has all the words in it. */
-function familySearch(app, tiles) {
+/**
+ * A field that leaves the families whose title, linkage or name has all the words in it; the address keeps
+ * them.
+ */
+function familySearch(app, tiles, asked) {
   const total = tiles.size;
-  const seek = (event) => {
-    const words = event.target.value.toLowerCase().split(/\s+/).filter(Boolean);
+  const leave = (text) => {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
     let left = 0;
     for (const [tile, { id, title, linkage }] of tiles) {
       const text = `${title} ${id} ${linkage}`.toLowerCase();
       tile.hidden = !words.every((word) => text.includes(word));
       left += tile.hidden ? 0 : 1;
     }
-    app.say(left === total ? `All ${total} families` : counted(left, "family", "families"));
+    return left === total ? `All ${total} families` : counted(left, "family", "families");
   };
+  const seek = (event) => {
+    app.say(leave(event.target.value));
+    app.replace(address([], { q: event.target.value.trim() }));
+  };
+  leave(asked);
   return h(
     "div",
     { class: "field" },
     h("input", {
       type: "search",
+      value: asked,
       "aria-label": "Search families by name",
       placeholder: `Search ${total} families`,
       oninput: seek,

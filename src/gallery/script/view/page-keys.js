@@ -17,10 +17,6 @@ function actOnPage(key, desk) {
     "-": () => zoom.by(1 / 1.5),
     "−": () => zoom.by(1 / 1.5),
     0: () => zoom.fit(),
-    ArrowLeft: () => zoom.pan(dx, 0),
-    ArrowRight: () => zoom.pan(-dx, 0),
-    ArrowUp: () => zoom.pan(0, dy),
-    ArrowDown: () => zoom.pan(0, -dy),
     n: () => desk.go(page + 1),
     PageDown: () => desk.go(page + 1),
     p: () => desk.go(page - 1),
@@ -33,6 +29,9 @@ function actOnPage(key, desk) {
       desk.remember();
     },
   };
+  // A page that is seen whole leaves arrows to the window, which may have more below it.
+  const ways = { ArrowLeft: [dx, 0], ArrowRight: [-dx, 0], ArrowUp: [0, dy], ArrowDown: [0, -dy] };
+  if (key in ways && !zoom.isFit) return () => zoom.pan(...ways[key]);
   return acts[key] ?? null;
 }
 
@@ -70,7 +69,7 @@ export function keysInWords() {
     h(
       "span",
       { class: "by-keys" },
-      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move it; ",
+      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move what is near; ",
       "n and p: the next page and the one before. ",
       "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
     ),

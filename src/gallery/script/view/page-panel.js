@@ -82,7 +82,7 @@ function curveRow(family, curve, { one, onenter, onleave }) {
 }
 
 /** Which of the traced points of its linkage draws a curve, where there are several. */
-function pointInWords(family, curve) {
+export function pointInWords(family, curve) {
   const { trace } = family.curves;
   return trace.some((number) => number > 1) ? `point ${trace[curve]}` : "";
 }

@@ -7,6 +7,9 @@ import { fill, h, s } from "./dom.js";
 import { paperTone } from "./paper-ink.js";
 import { drawnPage } from "./thumbnail-page.js";
 
+// The least breadth of the place of a link, in millimetres of paper.
+const LEAST_SPOT = 1;
+
 /**
  * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where
  * there is none that can be read. Settles when it can be painted.
@@ -53,14 +56,7 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
     dot,
     [...links.values()],
   );
-  for (const {
-    curve,
-    box: [x0, y0, x1, y1],
-  } of drawn) {
-    // What screen readers and the browser's own focus take for the place of the link.
-    const spot = { x: x0, y: y0, width: x1 - x0, height: y1 - y0, class: "spot" };
-    fill(links.get(curve), s("rect", spot));
-  }
+  for (const { curve, box } of drawn) fill(links.get(curve), spotOf(box));
   return {
     element,
     links,
@@ -72,6 +68,13 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
       dot.firstChild.setAttribute("r", radius);
     },
   };
+}
+
+/** What screen readers and the browser's own focus take for the place of a curve's link. */
+function spotOf([x0, y0, x1, y1]) {
+  // The box of a straight path has no breadth, and a rectangle without one is drawn by no browser.
+  const [width, height] = [Math.max(x1 - x0, LEAST_SPOT), Math.max(y1 - y0, LEAST_SPOT)];
+  return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "spot" });
 }
 
 function curveLink(family, curve, { onfocus, onblur }) {

@@ -39,6 +39,22 @@ const MEASURE_WORDS = {
   dwell_y: "its centre, y",
 };
 
+const WORDS_ALONE = {
+  straight_deviation: "departure of the straight portion",
+  straight_start_deg: "first input of the straight portion",
+  straight_input_deg: "input of the straight portion",
+  dwell_radius: "radius of the circular portion",
+  dwell_deviation: "departure of the circular portion",
+  dwell_start_deg: "first input of the circular portion",
+  dwell_x: "centre of the circular portion, x",
+  dwell_y: "centre of the circular portion, y",
+};
+
+/** What a measure is called where it does not stand in the order of the columns. */
+export function measureAloneInWords(name) {
+  return WORDS_ALONE[name] ?? measureInWords(name);
+}
+
 /** What a measure is called in words; read in the order of the columns, "its" is of the portion before. */
 export function measureInWords(name) {
   return MEASURE_WORDS[name] ?? name.replace(/_deg$/, "").replaceAll("_", " ");
@@ -60,13 +76,13 @@ export function figure(number, digits = 4) {
 export function measureText(family, curve, { name, unit }) {
   const value = measured(family, curve, name);
   if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
-  const isDegrees = unit === "deg" && !(isDrivenByLength(family) && /^(straight|dwell|input)_/.test(name));
-  return isDegrees ? `${figure(value)}°` : figure(value);
+  return isInDegrees(family, { name, unit }) ? `${figure(value)}°` : figure(value);
 }
 
-/** Whether the input of a family's linkage is a length, not an angle. */
-function isDrivenByLength({ template }) {
-  return template.joints.some((joint) => joint.piston !== undefined);
+/** Whether a measure of a family is in degrees: of a linkage that is driven by a length, inputs are not. */
+export function isInDegrees({ template }, { name, unit }) {
+  const isLength = template.joints.some((joint) => joint.piston !== undefined);
+  return unit === "deg" && !(isLength && /^(straight|dwell|input)_/.test(name));
 }
 
 /**
@@ -77,4 +93,9 @@ export function captionInType(caption) {
   return caption
     .split(/([A-Za-z][\w]*(?= = ))/)
     .map((part, k) => (k % 2 ? h("i", {}, part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
+}
+
+/** Changed parameters, a Map of names to numbers, as a caption: "with p = 3.5, k = 2". */
+export function changesInWords(changes) {
+  return `with ${[...changes].map(([name, value]) => `${name} = ${figure(value, 10)}`).join(", ")}`;
 }

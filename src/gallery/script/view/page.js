@@ -134,7 +134,8 @@ class PageDesk {
       this.forward.choose(null);
       this.beside();
     }
-    this.tell();
+    // A page that is turned stays as near as the one before, and its address says so.
+    this.zoomed();
   }
 
   /** The curves of the page beside it, or the one that is forward. */

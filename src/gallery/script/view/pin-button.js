@@ -8,13 +8,20 @@ import { h } from "./dom.js";
  */
 export function pinButton(app, name, attributes = {}, ...children) {
   const act = () => {
-    app.pins.toggle(name);
+    const { pin } = button.dataset;
+    app.pins.toggle(pin);
     markPin(app, button);
-    app.say(app.pins.has(name) ? `${name} pinned` : `${name} no longer pinned`);
+    app.say(app.pins.has(pin) ? `${pin} pinned` : `${pin} no longer pinned`);
   };
   const button = h("button", { type: "button", "data-pin": name, onclick: act, ...attributes }, ...children);
   markPin(app, button);
   return button;
+}
+
+/** Has a button pin the curve of another name from now on. */
+export function namePin(app, button, name) {
+  button.dataset.pin = name;
+  markPin(app, button);
 }
 
 /** Keeps the buttons in an element as the pins are, until the function that it returns is called. */

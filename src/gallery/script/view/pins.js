@@ -28,3 +28,26 @@ export class Pins {
     return () => this.listeners.delete(listener);
   }
 }
+
+/**
+ * The pins of a window: a tab keeps them for its page when that is loaded again, where the browser lets a
+ * page from disk.
+ */
+export function pinsOfTab(window) {
+  const pins = new Pins();
+  const key = `coupler-atlas-pins ${window.location.pathname}`;
+  try {
+    const kept = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
+    pins.put(kept.filter((name) => typeof name === "string"));
+  } catch {
+    // What was not kept is pinned again by hand.
+  }
+  pins.watch((names) => {
+    try {
+      window.sessionStorage.setItem(key, JSON.stringify(names));
+    } catch {
+      // Then pins last as long as the page.
+    }
+  });
+  return pins;
+}

@@ -1,6 +1,7 @@
 // A grid of any number of tiles, of which only those near the window are in the page.
 
 import { h } from "./dom.js";
+import { lineOnPaper, whenPrinted } from "./on-paper.js";
 
 // So much time of a frame, in milliseconds, goes into drawing tiles that have come into sight.
 const DRAWING_TIME = 8;
@@ -23,12 +24,13 @@ export class TileWindow {
       onkeydown: (event) => this.typed(event),
     });
     this.element.style.setProperty("--shape", `1 / ${this.aspect}`);
+    this.element.style.setProperty("--least", `${this.least}px`);
     this.there = new Map();
     this.queue = [];
     this.pending = 0;
     this.sizes = new ResizeObserver(() => this.measure());
     const later = () => this.later();
-    this.listeners = { scroll: later, resize: later, afterprint: later, beforeprint: () => this.printed() };
+    this.listeners = { scroll: later, resize: later };
   }
 
   /** The list is in the page, and has a width. */
@@ -37,11 +39,17 @@ export class TileWindow {
     this.sizes.observe(this.element);
     for (const [name, act] of Object.entries(this.listeners))
       window.addEventListener(name, act, { passive: true });
+    this.paper = whenPrinted(
+      this.element,
+      () => this.printed(),
+      () => this.fill(),
+    );
   }
 
   /** Ends what watches the window. */
   end() {
     this.sizes.disconnect();
+    this.paper?.end();
     for (const [name, act] of Object.entries(this.listeners)) window.removeEventListener(name, act);
     cancelAnimationFrame(this.pending);
     this.queue = [];
@@ -73,6 +81,15 @@ export class TileWindow {
     this.fill();
   }
 
+  /** The size of a tile's leaf in pixels: alike of all, since to ask each would lay the page out each time. */
+  sizeOfLeaf(leaf) {
+    if (this.sizedAt !== this.wide) {
+      this.sizedAt = this.wide;
+      this.leafSize = { width: Math.max(leaf.clientWidth, 40), height: Math.max(leaf.clientHeight, 40) };
+    }
+    return this.leafSize;
+  }
+
   lay({ style }, k) {
     style.width = `${this.wide}px`;
     style.height = `${this.high}px`;
@@ -89,6 +106,7 @@ export class TileWindow {
 
   /** Has the tiles near the window in the page, and no others but one with the focus. */
   fill() {
+    if (this.paper?.isPrinting) return;
     const top = -this.element.getBoundingClientRect().top;
     const ahead = window.innerHeight * TILES_AHEAD;
     const row = (y) => Math.floor(y / this.pitch);
@@ -126,9 +144,17 @@ export class TileWindow {
     if (this.queue.length) requestAnimationFrame(() => this.drawSome());
   }
 
+  /** Has the first tiles in the page and no others, as they are on paper. */
   printed() {
-    for (let k = 0; k < Math.min(this.count, PRINTED_TILES); k += 1) this.add(k);
+    const last = Math.min(this.count, PRINTED_TILES);
+    for (const [k, element] of this.there) {
+      if (k < last) continue;
+      element.remove();
+      this.there.delete(k);
+    }
+    for (let k = 0; k < last; k += 1) this.add(k);
     this.drawSome(Infinity);
+    return lineOnPaper(last, this.count, this.label.toLowerCase());
   }
 
   typed(event) {

@@ -138,7 +138,7 @@ function pageTiles(app, family, listed) {
 
 function curveTiles(family) {
   const { count, cell } = family.curves;
-  return new TileWindow({
+  const tiles = new TileWindow({
     count,
     least: 132,
     gap: 16,
@@ -164,7 +164,8 @@ function curveTiles(family) {
       ),
     draw: (element, k) => {
       const leaf = element.querySelector(".leaf");
-      leaf.append(thumbnail(family, [k], { width: leaf.clientWidth, height: leaf.clientHeight }));
+      leaf.append(thumbnail(family, [k], tiles.sizeOfLeaf(leaf)));
     },
   });
+  return tiles;
 }

@@ -8,6 +8,7 @@
 export function scrollMemory() {
   const left = new Map();
   let [present, newest] = [null, 0];
+  let settle = () => {};
   window.history.scrollRestoration = "manual";
   const entry = () => {
     const known = window.history.state?.entry;
@@ -18,18 +19,40 @@ export function scrollMemory() {
   };
   return {
     leave: () => {
+      settle();
       const link = document.activeElement?.closest("main a")?.getAttribute("href");
       if (present !== null) left.set(present, { depth: window.scrollY, link });
       present = entry();
     },
     arrive: () => {
       const known = left.get(present);
-      if (known) {
-        window.scrollTo(0, known.depth);
-        focusSoon(known.link);
-      } else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
+      if (known) settle = broughtBack(known);
+      else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
     },
   };
+}
+
+/**
+ * Goes as far down as an address was left, once its room has been filled so far; whoever moves meanwhile goes
+ * a way of his own. Gives a function that ends it.
+ */
+function broughtBack({ depth, link }) {
+  const moves = ["wheel", "pointerdown", "keydown"];
+  const growth = new ResizeObserver(() => goThere());
+  const end = () => {
+    growth.disconnect();
+    moves.forEach((name) => window.removeEventListener(name, end));
+  };
+  const goThere = () => {
+    window.scrollTo(0, depth);
+    if (window.scrollY < depth - 1) return;
+    end();
+    focusSoon(link);
+  };
+  moves.forEach((name) => window.addEventListener(name, end));
+  growth.observe(document.querySelector("main"));
+  goThere();
+  return end;
 }
 
 /** Gives the focus back to a link of the room, when what comes into sight by scrolling is there. */

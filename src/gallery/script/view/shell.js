@@ -116,7 +116,7 @@ class RoomShower {
       if (mine === this.turn) this.enter(room, view);
       else view.leave?.();
     } catch (error) {
-      if (mine === this.turn) this.trouble(error.message);
+      if (mine === this.turn) this.trouble(error.message, place);
     } finally {
       window.clearTimeout(waiting);
       if (mine === this.turn) this.main.removeAttribute("aria-busy");
@@ -141,11 +141,15 @@ class RoomShower {
     this.app.say(view.title || this.app.atlas.title);
   }
 
-  trouble(sentence) {
+  /** Says what is wrong with an address, and where to go on from there. */
+  trouble(message, { path: [id] }) {
+    const sentence = `${message[0].toUpperCase()}${message.slice(1)}`.replace(/[^.]$/, "$&.");
     this.entitle("Not found");
     this.app.say(sentence);
-    const families = h("a", { href: address([]) }, "All families");
-    fill(this.main, h("p", { class: "trouble", role: "alert" }, sentence, " ", families));
+    const family = this.app.atlas.families.find((candidate) => candidate.id === id);
+    const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
+    const all = h("a", { href: address([]) }, "All families");
+    fill(this.main, h("p", { class: "trouble", role: "alert" }, sentence, " ", own, all));
   }
 
   entitle(title) {

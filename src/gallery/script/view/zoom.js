@@ -123,14 +123,22 @@ export class Zoom {
     );
   }
 
+  /** What is in the middle of the viewport stays there, no nearer than can be. */
   resized() {
-    if (this.isFit) this.fit();
-    else this.lay();
+    if (this.isFit) {
+      this.fit();
+      return;
+    }
+    const { clientWidth, clientHeight } = this.viewport;
+    this.x += (clientWidth - this.laid.width) / 2;
+    this.y += (clientHeight - this.laid.height) / 2;
+    this.by(1);
   }
 
   /** Keeps a part of the sheet in sight, and puts it there in the next frame. */
   lay() {
     const { clientWidth, clientHeight } = this.viewport;
+    this.laid = { width: clientWidth, height: clientHeight };
     const within = (at, size, room) => Math.min(Math.max(at, room / 2 - size), room / 2);
     if (!this.isFit) {
       this.x = within(this.x, this.scale * this.width, clientWidth);

@@ -11,6 +11,10 @@ const OVER_HIGH = 540;
 const OVER_INSET = 34;
 const LETTER_AWAY = 16;
 const FINE_DECIMALS = 3;
+// Side by side each curve has a frame of this size, in the picture's pixels.
+const SIDE_WIDE = 300;
+const SIDE_HIGH = 220;
+const SIDE_INSET = 8;
 
 /** The letter of the k-th curve, from 0. */
 export function letterOf(k) {
@@ -43,6 +47,23 @@ export function overPicture(outlines, label) {
   const redraw = (k, points) =>
     paths[k].setAttribute("d", pathThrough(points, outlines[k].closed, view, FINE_DECIMALS));
   return { element, scale: view.scale, redraw };
+}
+
+/**
+ * Pictures of outlines, [{ points, closed }], side by side: all frames show the same part of the plane, so
+ * that what is laid over one another is seen at the same place and size. { elements, scale, redraw } are as
+ * of overPicture.
+ */
+export function sidePictures(outlines) {
+  const all = outlines.map(({ points }) => points);
+  const view = framing(all, SIDE_WIDE, SIDE_HIGH, SIDE_INSET);
+  const paths = outlines.map(({ points, closed }) => s("path", { d: pathThrough(points, closed, view) }));
+  const elements = paths.map((path) =>
+    s("svg", { class: "thumbnail", viewBox: `0 0 ${SIDE_WIDE} ${SIDE_HIGH}`, "aria-hidden": "true" }, path),
+  );
+  const redraw = (k, points) =>
+    paths[k].setAttribute("d", pathThrough(points, outlines[k].closed, view, FINE_DECIMALS));
+  return { elements, scale: view.scale, redraw };
 }
 
 /**

@@ -1,17 +1,16 @@
 // The room where pinned curves are compared.
 
 import { address } from "../../data/address.js";
-import { curveAt } from "../../data/family.js";
 import { fill, h } from "../dom.js";
-import { captionInType } from "../page-words.js";
+import { captionInType, changesInWords } from "../page-words.js";
 import { isInRoom, roomAddress } from "../room-address.js";
 import { takeAwayMenu } from "../take/menu.js";
-import { thumbnail } from "../thumbnail.js";
 import { laidOver } from "./aligned.js";
 import { ALIGNMENTS, comparisonOf, comparisonQuery, MOST_COMPARED } from "./asked.js";
+import { comparedCurve } from "./compared.js";
 import { factsTable } from "./facts.js";
 import { drawnFinely } from "./finely.js";
-import { letterOf, overPicture, strokeSample } from "./picture.js";
+import { letterOf, overPicture, sidePictures, strokeSample } from "./picture.js";
 
 /** `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`: opening such an address pins its curves. */
 export const compareRoom = {
@@ -50,6 +49,7 @@ function keptFocus(element) {
 class Comparison {
   constructor(app) {
     this.app = app;
+    this.known = new Map();
     this.body = h("div", { class: "comparison" });
     this.tools = h("div", { class: "toolbar" });
     this.take = h("div", {});
@@ -75,18 +75,16 @@ class Comparison {
     const { app, asked } = this;
     const names = [...app.pins.names];
     app.replace(roomAddress("compare", comparisonQuery(asked, names), app));
-    const missing = [];
-    const curves = [];
     for (const name of names) {
-      const [id, key] = name.split("?")[0].split(":");
-      const family = await app.atlas.family(id).catch(() => null);
-      const curve = family ? curveAt(family, key) : undefined;
-      if (curve === undefined) missing.push(name);
-      else curves.push({ name, family, curve, key });
+      if (!this.known.has(name)) this.known.set(name, await comparedCurve(app.atlas, name));
     }
     // More may have been pinned meanwhile.
     if (String(names) !== String(app.pins.names)) return;
-    this.show(curves, missing);
+    const found = names.map((name) => this.known.get(name));
+    this.show(
+      found.filter(({ family }) => family),
+      found.filter(({ family }) => !family),
+    );
   }
 
   show(all, missing) {
@@ -105,25 +103,30 @@ class Comparison {
         ? `${all.length} pinned`
         : "Nothing is pinned yet. Pin curves in Find (p), By shape, on a page or on a plate.",
       beyond ? `; the first ${MOST_COMPARED} are compared` : "",
-      missing.length ? `; not in this atlas: ${missing.join(", ")}` : "",
+      missing.map(({ name, reason }) => `; without ${name}: ${reason}`),
     );
     fill(this.take, all.length ? takeAwayMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
-    const laid = curves.map((one) => (curves.length > 1 ? laidOver(curves[0], one, asked.align) : null));
+    const laid = curves.map((one, k) => laidOver(curves[0], one, k > 0 ? asked.align : "none"));
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
     this.stop?.();
-    const picture =
-      asked.view === "over" && curves.length > 1
-        ? overPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`)
-        : null;
-    this.stop = picture && drawnFinely(picture, curves, laid);
+    const isOver = asked.view === "over" && curves.length > 1;
+    const picture = isOver
+      ? overPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`)
+      : sidePictures(laid);
+    this.stop = drawnFinely(picture, curves, laid);
     fill(
       this.body,
-      picture?.element,
+      picture.element,
       h(
         "ol",
-        { class: asked.view === "over" ? "pinned-list" : "pinned-tiles" },
-        curves.map((one, k) => this.entry(one, k, curves, laid[k])),
+        { class: isOver ? "pinned-list" : "pinned-tiles" },
+        curves.map((one, k) =>
+          this.entry(one, k, curves, {
+            deviation: laid[k],
+            picture: isOver ? strokeSample(k) : h("div", { class: "leaf" }, picture.elements[k]),
+          }),
+        ),
       ),
       curves.length ? factsTable(curves, app.atlas.measures, labels) : null,
     );
@@ -168,8 +171,8 @@ class Comparison {
     ];
   }
 
-  entry({ name, family, curve, key }, k, curves, laid) {
-    const { asked, app } = this;
+  entry({ name, family, curve, key, changes }, k, curves, { deviation, picture }) {
+    const { app } = this;
     const move = (by, label, sign) =>
       h(
         "button",
@@ -186,21 +189,20 @@ class Comparison {
     return h(
       "li",
       {},
-      asked.view === "over"
-        ? strokeSample(k)
-        : h("div", { class: "leaf" }, thumbnail(family, [curve], { width: 300, height: 220 })),
+      picture,
       h(
         "div",
         { class: "named" },
         h("b", {}, letterOf(k)),
         " ",
-        h("a", { href: address([family.id, "curve", key]) }, `${family.title}, ${key}`),
+        h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
         h("p", { class: "caption" }, captionInType(family.cells.caption[family.curves.cell[curve]])),
-        laid && k > 0
+        changes.size ? h("p", { class: "tag" }, captionInType(changesInWords(changes))) : null,
+        k > 0
           ? h(
               "p",
               { class: "deviation" },
-              `${percent(laid.rms)} rms from A, ${percent(laid.greatest)} at most`,
+              `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} at most`,
             )
           : null,
       ),

@@ -1,6 +1,6 @@
 // Columns in words.
 
-import { figure, measureInWords } from "../page-words.js";
+import { figure, isInDegrees, measureAloneInWords } from "../page-words.js";
 
 const DERIVED_WORDS = {
   mu_worst_deg: "transmission angle at least",
@@ -15,11 +15,11 @@ const DERIVED_WORDS = {
 /** What a column is called. */
 export function columnInWords(name) {
   if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
-  return DERIVED_WORDS[name] ?? measureInWords(name);
+  return DERIVED_WORDS[name] ?? measureAloneInWords(name);
 }
 
-/** A number of a column as it is written beside a curve. */
-export function columnValueText({ unit }, value) {
+/** The number of a column as it is written beside a curve of a family. */
+export function columnValueText(column, family, value) {
   if (Number.isNaN(value)) return "–";
-  return unit === "deg" ? `${figure(value)}°` : figure(value);
+  return isInDegrees(family, column) ? `${figure(value)}°` : figure(value);
 }

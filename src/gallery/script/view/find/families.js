@@ -7,10 +7,10 @@ import { bytesInWords } from "./loading.js";
  * Boxes for the families of an atlas; `changed(ids)` is called with those ticked, null for all. Nothing for
  * an only family.
  */
-export function familyChoice(atlas, asked, loaded, changed) {
+export function familyChoice(atlas, loaded, changed) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (withCurves.length < 2) return null;
-  const chosen = new Set(asked ?? loaded.map(({ id }) => id));
+  const chosen = new Set(loaded.map(({ id }) => id));
   const bytes = withCurves.reduce((sum, family) => sum + (family.bytes ?? 0), 0);
   const tick = (id) => {
     if (!chosen.delete(id)) chosen.add(id);
@@ -28,7 +28,7 @@ export function familyChoice(atlas, asked, loaded, changed) {
       { class: "check" },
       input,
       h("span", {}, family.title),
-      h("span", { class: "count" }, family.curves),
+      h("span", { class: "count" }, family.curves.toLocaleString("en")),
     );
   };
   return h(

@@ -11,6 +11,7 @@ import { takeAwayMenu } from "../take/menu.js";
 import { columnInWords, columnValueText } from "./column-words.js";
 import { familyChoice } from "./families.js";
 import { familiesAsked, loadingFamilies } from "./loading.js";
+import { nothingLeft } from "./nothing.js";
 import { FilterPanel } from "./panel.js";
 import { ResultRows } from "./rows.js";
 import { ResultTiles } from "./tiles.js";
@@ -40,12 +41,12 @@ class Finding {
     Object.assign(this, { app, question });
     this.panel = new FilterPanel((name, filter) => this.filtered(name, filter));
     this.tiles = new ResultTiles(app);
-    this.list = new ResultRows((name) =>
+    this.list = new ResultRows(app, (name) =>
       this.sortBy(name, this.question.sort.name === name ? !this.question.sort.down : false),
     );
     this.counted = h("p", { class: "counted" }, "Loading");
     this.told = h("p", { class: "note", hidden: true });
-    this.results = h("div", { class: "found" });
+    this.results = h("div", { class: "found", tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
       onchange: (event) => this.sortBy(event.target.value, this.question.sort.down),
@@ -63,11 +64,8 @@ class Finding {
     const show = (name, label) =>
       h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
     this.shows = [show("sheet", "Sheet"), show("table", "Table")];
-    const clear = h(
-      "button",
-      { type: "button", class: "quiet", onclick: () => this.put({ ...this.question, filters: new Map() }) },
-      "Clear all filters",
-    );
+    const clearAll = () => this.unfiltered(new Map());
+    this.clear = h("button", { type: "button", class: "quiet", onclick: clearAll }, "Clear all filters");
     const wide = window.matchMedia("(min-width: 60rem)").matches;
     return h(
       "div",
@@ -87,7 +85,6 @@ class Finding {
           h("summary", {}, "Filters"),
           this.families,
           this.panel.element,
-          clear,
         ),
         h(
           "div",
@@ -97,6 +94,7 @@ class Finding {
             { class: "toolbar" },
             h("span", { class: "field row" }, h("label", { for: "find-sort" }, "Sort by"), this.sorter),
             this.direction,
+            this.clear,
             h("div", { class: "segments end", role: "group", "aria-label": "Show as" }, this.shows),
           ),
           this.results,
@@ -112,7 +110,7 @@ class Finding {
     const listed = familiesAsked(app.atlas, question.families);
     fill(
       this.families,
-      familyChoice(app.atlas, question.families, listed, (families) =>
+      familyChoice(app.atlas, listed, (families) =>
         this.put({ ...this.question, families }),
       ),
     );
@@ -179,6 +177,12 @@ class Finding {
     this.addressed();
   }
 
+  /** Goes on with other filters, which leaves no button that was pressed for it. */
+  unfiltered(filters) {
+    this.put({ ...this.question, filters });
+    this.results.focus({ preventScroll: true });
+  }
+
   /** Shows what the filters leave. */
   show() {
     const { sort, show } = this.question;
@@ -188,6 +192,7 @@ class Finding {
     this.sorter.value = column?.name ?? "";
     fill(this.direction, sort.down ? "Greatest first" : "Least first");
     this.direction.disabled = !column;
+    this.clear.hidden = this.question.filters.size === 0;
     this.shows.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
     this.count();
     // While an end is dragged, curves are laid out once a frame.
@@ -198,19 +203,30 @@ class Finding {
     this.laying = null;
     const { sort, show } = this.question;
     const column = this.columns.find(({ name }) => name === sort.name);
+    if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
+      const without = (name) =>
+        this.unfiltered(new Map([...this.question.filters].filter(([other]) => other !== name)));
+      fill(this.results, nothingLeft(this.filters, without));
+      return;
+    }
     const view = show === "table" ? this.list : this.tiles;
     if (view.element.parentElement !== this.results) fill(this.results, view.element);
     if (show === "table") this.list.put(this.table, this.rows, this.columnsShown(column), sort);
     else this.tiles.put(this.table, this.rows, column ? (row) => this.valueText(column, row) : () => null);
   }
 
+  /** Columns that are sorted by or filtered come before those that are always shown, to be in sight. */
   columnsShown(column) {
-    const named = (name) => name === column?.name || this.question.filters.has(name);
-    return this.columns.filter(({ name, group }) => group === "first" || named(name));
+    const isNamed = ({ name }) => name === column?.name || this.question.filters.has(name);
+    const isFirst = ({ group }) => group === "first";
+    const named = this.columns.filter((one) => isNamed(one) && !isFirst(one));
+    return [...named, ...this.columns.filter(isFirst)];
   }
 
   valueText(column, row) {
-    if (column.kind === "numbers") return columnValueText(column, this.table.numbers(column.name)[row]);
+    const family = this.table.families[this.table.family[row]];
+    if (column.kind === "numbers")
+      return columnValueText(column, family, this.table.numbers(column.name)[row]);
     const { values, codes } = this.table.words(column.name);
     return values[codes[row]] ?? "–";
   }
@@ -259,6 +275,7 @@ class Finding {
     this.stop?.();
     cancelAnimationFrame(this.laying);
     this.tiles.end();
+    this.list.end();
     window.clearTimeout(this.writing);
     window.clearTimeout(this.saying);
   }

@@ -3,15 +3,20 @@
 import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
 import { fill, h } from "../dom.js";
+import { lineOnPaper, whenPrinted } from "../on-paper.js";
+import { watchPins } from "../pin-button.js";
 import { columnInWords, columnValueText } from "./column-words.js";
+import { pinnedByKey, pinOfCurve } from "./pin.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
+// So many rows at most, from the first, are printed.
+const PRINTED_ROWS = 1000;
 
 /** A table of rows; `sorted(name)` is called when a heading is pressed. */
 export class ResultRows {
-  constructor(sorted) {
-    this.sorted = sorted;
+  constructor(app, sorted) {
+    Object.assign(this, { app, sorted });
     this.rows = [];
     this.head = h("thead", {});
     this.body = h("tbody", {});
@@ -30,9 +35,21 @@ export class ResultRows {
         role: "region",
         "aria-label": "Table of curves",
         onscroll: () => this.fill(),
+        onkeydown: pinnedByKey,
       },
       this.figures,
     );
+    this.unwatch = watchPins(app, this.element);
+    this.paper = whenPrinted(
+      this.element,
+      () => this.printed(),
+      () => this.fill(),
+    );
+  }
+
+  end() {
+    this.unwatch();
+    this.paper.end();
   }
 
   put(table, rows, columns, sort) {
@@ -61,7 +78,7 @@ export class ResultRows {
   }
 
   fill() {
-    if (!this.table || !this.element.isConnected) return;
+    if (!this.table || !this.element.isConnected || this.paper.isPrinting) return;
     const first = Math.max(Math.floor(this.element.scrollTop / ROW_HEIGHT) - ROWS_AHEAD, 0);
     const last = Math.min(
       first + Math.ceil(this.element.clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD,
@@ -77,13 +94,24 @@ export class ResultRows {
     fill(this.body, space(first), shown, space(this.rows.length - last));
   }
 
+  /** Has the first rows in the page and no others, as they are on paper. */
+  printed() {
+    const last = Math.min(this.rows.length, PRINTED_ROWS);
+    fill(
+      this.body,
+      Array.from({ length: last }, (_, k) => this.line(k)),
+    );
+    return lineOnPaper(last, this.rows.length, "curves");
+  }
+
   line(k) {
     const { table } = this;
     const row = this.rows[k];
     const family = table.families[table.family[row]];
-    const key = curveKey(family, table.curve[row]);
+    const name = table.nameOf(row);
+    const href = address([family.id, "curve", curveKey(family, table.curve[row])]);
     const text = (column) => {
-      if (column.kind === "numbers") return columnValueText(column, table.numbers(column.name)[row]);
+      if (column.kind === "numbers") return columnValueText(column, family, table.numbers(column.name)[row]);
       const { values, codes } = table.words(column.name);
       return codes[row] === NO_WORD ? "–" : values[codes[row]];
     };
@@ -93,7 +121,8 @@ export class ResultRows {
       h(
         "th",
         { scope: "row", class: "text" },
-        h("a", { href: address([family.id, "curve", key]) }, `${family.id}:${key}`),
+        h("a", { href, "data-name": name }, name),
+        pinOfCurve(this.app, name),
       ),
       this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
     );

@@ -4,9 +4,11 @@ import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { h } from "../dom.js";
 import { captionInType } from "../page-words.js";
-import { pinButton, watchPins } from "../pin-button.js";
+import { pointInWords } from "../page-panel.js";
+import { watchPins } from "../pin-button.js";
 import { TileWindow } from "../sheet-window.js";
 import { thumbnail } from "../thumbnail.js";
+import { pinnedByKey, pinOfCurve } from "./pin.js";
 
 /**
  * Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null.
@@ -16,7 +18,7 @@ export class ResultTiles extends TileWindow {
     super({ count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" });
     Object.assign(this, { app, rows: [], table: null, valueOf: () => null });
     this.element.classList.add("results");
-    this.element.addEventListener("keydown", (event) => this.pinned(event));
+    this.element.addEventListener("keydown", pinnedByKey);
     this.unwatch = watchPins(app, this.element);
   }
 
@@ -41,7 +43,9 @@ export class ResultTiles extends TileWindow {
     const curve = table.curve[row];
     const name = table.nameOf(row);
     const value = this.valueOf(row);
-    const caption = family.cells.caption[family.curves.cell[curve]];
+    const caption = family.cells.caption[family.curves.cell[curve]] || name;
+    const circuit = family.curves.circuit[curve];
+    const which = [pointInWords(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
     return h(
       "li",
       {},
@@ -53,16 +57,10 @@ export class ResultTiles extends TileWindow {
           "span",
           { class: "label" },
           value ? [h("b", {}, value), " "] : null,
-          captionInType(caption || name),
+          captionInType([...which, caption].filter(Boolean).join(" · ")),
         ),
       ),
-      pinButton(
-        app,
-        name,
-        { class: "pin quiet", tabindex: "-1", title: "Pin (p)" },
-        h("span", { "aria-hidden": "true" }, "⚲"),
-        h("span", { class: "unseen" }, `Pin ${name}`),
-      ),
+      pinOfCurve(app, name),
     );
   }
 
@@ -70,13 +68,7 @@ export class ResultTiles extends TileWindow {
     const { table } = this;
     const row = this.rows[k];
     const leaf = element.querySelector(".leaf");
-    const size = { width: Math.max(leaf.clientWidth, 40), height: Math.max(leaf.clientHeight, 40) };
-    leaf.replaceChildren(thumbnail(table.families[table.family[row]], [table.curve[row]], size));
-  }
-
-  pinned(event) {
-    const name = event.target.dataset.name;
-    if (event.key !== "p" || !name || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.target.parentElement.querySelector(".pin").click();
+    const family = table.families[table.family[row]];
+    leaf.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(leaf)));
   }
 }

@@ -34,7 +34,7 @@ export class WordFilter {
   /** Shows how many rows each word would leave. */
   show(counts) {
     counts.forEach((count, k) => {
-      this.counts[k].textContent = count;
+      this.counts[k].textContent = count.toLocaleString("en");
     });
   }
 }

@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveKey, measured } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
 import { fill, h } from "../dom.js";
+import { sourceOf } from "../overview.js";
 import { measureInWords } from "../page-words.js";
 import { shortLength } from "./speed-view.js";
 
@@ -34,7 +35,7 @@ export function originOfCurve(app, family, curve) {
         : "",
     ],
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
-    ["Source", family.source],
+    ["Source", sourceOf(family)],
   ];
   const told = rows.filter(([, value]) => value);
   return h(

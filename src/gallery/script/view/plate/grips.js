@@ -17,6 +17,7 @@ export function gripStage(stage, plate) {
   const { picture } = stage;
   const hands = new Map();
   let drag = null;
+  let holding = null;
   const pointOf = (event) => {
     const box = picture.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -28,6 +29,7 @@ export function gripStage(stage, plate) {
     const joint = event.target.closest?.("[data-joint]")?.dataset.joint;
     if (joint !== undefined && hands.size === 1) {
       plate.drive.hold();
+      holding = event.pointerId;
       drag = begunDrag(plate, stage, Number(joint), planePoint(stage.view, at));
       stage.element.classList.add("dragging");
     }
@@ -40,8 +42,10 @@ export function gripStage(stage, plate) {
     const before = hands.get(event.pointerId);
     if (!before) return;
     const at = pointOf(event);
-    if (drag) drag(planePoint(stage.view, at));
-    else if (hands.size === 2) pinch(stage, hands, event.pointerId, at);
+    if (drag) {
+      // A second finger beside the one that drags does nothing.
+      if (event.pointerId === holding) drag(planePoint(stage.view, at));
+    } else if (hands.size === 2) pinch(stage, hands, event.pointerId, at);
     else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
     hands.set(event.pointerId, at);
   };
@@ -81,6 +85,7 @@ function pinch(stage, hands, id, at) {
   const apart = ([x, y]) => Math.hypot(x - other[0], y - other[1]);
   if (apart(before) > 0)
     stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
+  stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
 }
 
 // A function to be called with the places, in the plane, where the hand is.

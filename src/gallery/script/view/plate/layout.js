@@ -4,10 +4,10 @@ import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { fill, h } from "../dom.js";
 import { originOfCurve, wordsOfCell } from "./facts.js";
-import { pinButton, watchPins } from "../pin-button.js";
+import { captionInType, changesInWords } from "../page-words.js";
+import { namePin, pinButton, watchPins } from "../pin-button.js";
 import { takeAwayMenu } from "../take/menu.js";
 import { neighbourAddress } from "./keys.js";
-import { plainNumber } from "./sliders.js";
 
 /** The element of a plate, { element, refresh(), leave() }. */
 export function plateLayout(plate) {
@@ -76,8 +76,9 @@ export function plateLayout(plate) {
   );
   const refresh = () => {
     changed.hidden = plate.isRecorded || plate.study === null;
-    const changes = [...plate.changes].map(([name, value]) => `${name} = ${plainNumber(value)}`);
-    fill(changed, changes.length ? `with ${changes.join(", ")}` : "another circuit");
+    fill(changed, plate.changes.size ? captionInType(changesInWords(plate.changes)) : "another circuit");
+    namePin(app, pin, plate.name);
+    pin.disabled = plate.reason !== null;
   };
   return { element, refresh, leave: watchPins(app, element) };
 }

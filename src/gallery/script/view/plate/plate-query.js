@@ -28,17 +28,29 @@ export function plateAddress({ family, curve, changes, asked, on, study }) {
   return address([family.id, "curve", curveKey(family, curve)], query);
 }
 
-/** The name of a curve beyond its family, on the circuit that is shown, with what is changed of it. */
+/**
+ * The name of a curve beyond its family, on the circuit that is shown, with what is changed of it; a circuit
+ * that the atlas does not have is named by its number among all: "evans:1.1.1?circuit=2".
+ */
 export function changedName({ family, curve, changes, study }) {
+  const { key, beside } = keyOfCircuit(family, curve, study);
   const words = [...changes].map(([name, value]) => `${encodeURIComponent(name)}=${value}`);
-  return `${family.id}:${keyOfCircuit(family, curve, study)}${words.length ? `?${words.join("&")}` : ""}`;
+  if (beside) words.push(`circuit=${beside}`);
+  return `${family.id}:${key}${words.length ? `?${words.join("&")}` : ""}`;
 }
 
-/** The key of the curve on the circuit that a study shows; its own where the atlas has no curve of that. */
+/** Whether a plate shows a circuit that the atlas does not have. */
+export function isBesideAtlas({ family, curve, study }) {
+  return keyOfCircuit(family, curve, study).beside !== null;
+}
+
+/** The key of the curve on the circuit that a study shows; its own with a number where there is none. */
 function keyOfCircuit(family, curve, study) {
   const own = curveKey(family, curve);
+  if (!study || study.shown === study.home) return { key: own, beside: null };
   // Only where the atlas takes all circuits are they numbered as a plate counts them.
-  if (!study || family.template.circuits !== "all") return own;
-  const key = own.replace(/\d+$/, study.shown + 1);
-  return curveAt(family, key) === undefined ? own : key;
+  const key = family.template.circuits === "all" ? own.replace(/\d+$/, study.shown + 1) : null;
+  return key !== null && curveAt(family, key) !== undefined
+    ? { key, beside: null }
+    : { key: own, beside: study.shown + 1 };
 }

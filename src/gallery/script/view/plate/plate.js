@@ -11,7 +11,7 @@ import { measuresOfStudy } from "./measures-now.js";
 import { Overlays } from "./overlays.js";
 import { changeableParameters } from "./parameters.js";
 import { pathsOfStudy, straightStretch, straightWords } from "./paths.js";
-import { changedName, plateAddress, readPlateQuery } from "./plate-query.js";
+import { changedName, isBesideAtlas, plateAddress, readPlateQuery } from "./plate-query.js";
 import { Poser } from "./poser.js";
 import { Sliders } from "./sliders.js";
 import { SpeedView } from "./speed-view.js";
@@ -59,7 +59,7 @@ export class Plate {
     this.transport = new Transport(this.drive, this.stage);
     this.dial = new DialView();
     this.speed = new SpeedView((part) => this.drive.seekByHand(part));
-    this.sliders = new Sliders({
+    this.sliders = new Sliders(family.legend, {
       change: (name, value) => this.#change(() => this.changes.set(name, value)),
       clear: (name) => this.#change(() => this.changes.delete(name)),
       settle: () => this.#settleSoon(0),
@@ -194,7 +194,7 @@ export class Plate {
   #settle(isAddressed = true) {
     const { family, curve, study } = this;
     this.measures.show(this.reason ? null : this.measured);
-    this.switches.show(this.candidates, study, this.on);
+    this.switches.show(this.candidates, study, this.on, isBesideAtlas(this));
     this.layout.refresh();
     if (this.reason) this.app.say(`It cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
@@ -216,7 +216,7 @@ export class Plate {
     if (name === "others") this.stage.show(this.study, this.#paths(false));
     this.overlays.show(this.study, this.on, false);
     if (before !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
-    this.switches.show(this.candidates, this.study, this.on);
+    this.switches.show(this.candidates, this.study, this.on, isBesideAtlas(this));
     this.#draw();
     this.app.replace(plateAddress(this));
   }

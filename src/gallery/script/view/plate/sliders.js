@@ -11,11 +11,12 @@ const PARAMETER_KINDS = {
 };
 
 /**
- * The controls of parameters (parameters.js). `on` has change(name, value), clear(name), settle() when a hand
- * lets go, and reset(). `show(parameters)` says what they are now; rows stay while their names do.
+ * The controls of parameters (parameters.js), below `legend`, what their letters mean. `on` has change(name,
+ * value), clear(name), settle() when a hand lets go, and reset(). `show(parameters)` says what they are now;
+ * rows stay while their names do.
  */
 export class Sliders {
-  constructor(on) {
+  constructor(legend, on) {
     this.on = on;
     this.rows = new Map();
     this.free = h("div", { class: "parameters" });
@@ -31,6 +32,7 @@ export class Sliders {
       "section",
       { class: "gauge sliders" },
       h("h3", {}, "Parameters"),
+      legend ? h("p", { class: "note" }, legend) : null,
       this.free,
       this.more,
       this.reset,

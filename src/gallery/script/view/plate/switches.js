@@ -24,7 +24,8 @@ export class Switches {
     this.aside = h(
       "p",
       { class: "note", hidden: true },
-      "What is pinned and taken away is this curve’s own circuit.",
+      "The atlas does not have this circuit. It is taken away as the page solves it; no command line names it " +
+        "yet, and the manifest fragment takes all circuits.",
     );
     this.circuitSection = h(
       "section",
@@ -46,8 +47,11 @@ export class Switches {
     );
   }
 
-  /** `candidates` has the linkage and routes of what was asked for, `study` what is drawn. */
-  show(candidates, study, on) {
+  /**
+   * `candidates` has the linkage and routes of what was asked for, `study` what is drawn, `isBeside`
+   * whether the atlas lacks its circuit.
+   */
+  show(candidates, study, on, isBeside) {
     for (const { name, there } of OVERLAYS) {
       const { box, row } = this.boxes.get(name);
       row.hidden = !study || !there(study);
@@ -60,7 +64,7 @@ export class Switches {
       routes.map((route, k) => this.#circuit(candidates, route, k)),
     );
     this.circuitSection.hidden = routes.length < 2;
-    this.aside.hidden = !candidates || candidates.shown === candidates.home;
+    this.aside.hidden = !isBeside;
   }
 
   #circuit({ linkage, home, shown }, route, k) {

@@ -11,7 +11,7 @@ export function pasteField(use) {
     id: "shape-text",
     rows: 4,
     spellcheck: "false",
-    placeholder: "x,y lines, JSON, points.csv, or an SVG path: M0 0 C…",
+    placeholder: "x,y lines, JSON, points.csv, a drawing in SVG, or its path: M0 0 C…",
   });
   const wrong = h("p", { class: "trouble", role: "alert" });
   const read = () => {

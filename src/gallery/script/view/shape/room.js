@@ -94,7 +94,7 @@ class ShapeRoom {
     const listed = familiesAsked(app.atlas, asked.families);
     fill(
       this.families,
-      familyChoice(app.atlas, asked.families, listed, (families) => {
+      familyChoice(app.atlas, listed, (families) => {
         asked.families = families;
         this.addressed();
         this.begin();
@@ -173,7 +173,7 @@ class ShapeRoom {
     const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
     const ranked = `by their ${by} deviation in % of the shape’s extent`;
     const sentence = found.length
-      ? `The nearest of ${count.toLocaleString("en")} curves, ${ranked}`
+      ? `The ${found.length === 1 ? "" : `${found.length} `}nearest of ${count.toLocaleString("en")} curves, ${ranked}`
       : "Nothing is like this";
     fill(this.status, sentence);
     this.app.say(sentence);

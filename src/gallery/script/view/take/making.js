@@ -1,11 +1,10 @@
 // From names of curves to files.
 
-import { commandOfCurves, shortenedNames } from "../../take/command.js";
-import { missingColumns } from "../../take/columns.js";
+import { commandBesideAtlas, commandOfCurves, shortenedNames } from "../../take/command.js";
 import { csvOfCurve } from "../../take/csv.js";
 import { dxfOfCurve } from "../../take/dxf.js";
 import { jsonOfCurve } from "../../take/json.js";
-import { manifestOfCurves } from "../../take/manifest.js";
+import { manifestOfCurves, namesInManifest } from "../../take/manifest.js";
 import { movingSvgOfCurve } from "../../take/moving.js";
 import { pngOfCurve } from "../../take/png.js";
 import { svgOfCurve } from "../../take/svg.js";
@@ -13,8 +12,8 @@ import { fileStem, namedCase, parsedName, takenCurve } from "../../take/taken.js
 import { zipOfFiles } from "../../take/zip.js";
 
 /**
- * What curves can be saved as: { label, note, ending, type, hasColumns, made(app, taken) -> text or bytes,
- * perhaps in a while }.
+ * What curves can be saved as: { label, note, ending, type, made(app, taken) -> text or bytes, perhaps in a
+ * while }.
  */
 export const TAKEN_FORMATS = [
   {
@@ -50,7 +49,6 @@ export const TAKEN_FORMATS = [
     note: "points",
     ending: ".csv",
     type: "text/csv",
-    hasColumns: true,
     made: (app, taken) => csvOfCurve(taken),
   },
   {
@@ -58,7 +56,6 @@ export const TAKEN_FORMATS = [
     note: "all that is known",
     ending: ".json",
     type: "application/json",
-    hasColumns: true,
     made: (app, taken) => jsonOfCurve(taken, measureNames(app)),
   },
 ];
@@ -73,8 +70,8 @@ function measureNames({ atlas }) {
 }
 
 /**
- * Curves of some names as one file { name, type, bytes, lacks }, several in an archive; `lacks` are the
- * columns of points that the page does not reckon, and `told` is told how many are done.
+ * Curves of some names as one file { name, type, bytes }, several in an archive; `told` is told how many are
+ * done.
  */
 export async function filesFor(app, names, format, told = () => {}) {
   if (names.length === 0) throw new Error("There is no curve to take away");
@@ -82,13 +79,11 @@ export async function filesFor(app, names, format, told = () => {}) {
     throw new Error(`Take ${MOST_TAKEN} curves at most here: the command line takes all ${names.length}`);
   }
   const files = [];
-  const lacks = new Set();
   let rested = performance.now();
   for (const name of names) {
     const taken = takenCurve(await familyOfName(app, name), name);
     const made = await format.made(app, taken);
     const bytes = typeof made === "string" ? new TextEncoder().encode(made) : made;
-    if (format.hasColumns) missingColumns(taken.family).forEach((column) => lacks.add(column));
     files.push({ name: `${fileStem(taken)}${format.ending}`, type: format.type, bytes });
     if (performance.now() - rested > TAKEN_PATIENCE) {
       told(files.length);
@@ -98,9 +93,9 @@ export async function filesFor(app, names, format, told = () => {}) {
       rested = performance.now();
     }
   }
-  const file =
-    files.length === 1 ? files[0] : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
-  return { ...file, lacks: [...lacks] };
+  return files.length === 1
+    ? files[0]
+    : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
 }
 
 function familyOfName(app, name) {
@@ -120,9 +115,21 @@ export async function manifestFor(app, names) {
 /** The command line that takes curves of some names away. */
 export async function commandFor(app, names) {
   const families = new Map();
+  const beside = [];
   for (const name of names) {
     const family = await familyOfName(app, name);
     families.set(family.id, family);
+    const curve = namedCase(family, name);
+    if (curve.beside !== null) beside.push({ ...curve, asked: name });
   }
-  return commandOfCurves(shortenedNames(names, families), names.length);
+  const plain = names.filter((name) => !beside.some(({ asked }) => asked === name));
+  const command = plain.length ? commandOfCurves(shortenedNames(plain, families), plain.length) : "";
+  if (beside.length === 0) return command;
+  return (
+    command +
+    commandBesideAtlas(
+      beside.map(({ name }) => name),
+      namesInManifest(beside),
+    )
+  );
 }

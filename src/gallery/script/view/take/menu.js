@@ -42,9 +42,7 @@ export function takeAwayMenu(app, names) {
 async function savedCurves(app, names, format, tell) {
   const file = await filesFor(app, names, format, (done) => tell(`${done} of ${names.length}`));
   saveFile(file);
-  const without =
-    file.lacks.length > 0 ? `, without ${file.lacks.join(", ")}: the command line has these` : "";
-  return `Saved as ${file.name}${without}`;
+  return `Saved as ${file.name}`;
 }
 
 async function savedManifest(app, names) {

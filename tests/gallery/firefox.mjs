@@ -1,0 +1,195 @@
+// The gallery in Firefox, from disk: FIREFOX=/usr/bin/firefox node tests/gallery/firefox.mjs ATLAS HRONES-NELSON
+//
+// Every room is opened and does what it is for, and the browser's console stays empty. How they do it is tried in
+// pages.mjs, plate.mjs, finding.mjs and taking.mjs; here it is what engines of the web differ in: events, sizes, the
+// policy, what is saved. Skipped where FIREFOX names no browser.
+
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+import { firefoxThere, startedFirefox } from "./marionette.mjs";
+
+const [atlas, large] = process.argv
+  .slice(2)
+  .map((folder) => pathToFileURL(join(resolve(folder), "index.html")).href);
+
+/** Opens an address of an atlas, from an empty page, and waits for its room. */
+async function at(firefox, home, fragment) {
+  await firefox.open("about:blank");
+  await firefox.open(`${home}#${fragment}`);
+  const isOpen = () => document.querySelector("main > *") && !document.querySelector("main[aria-busy]");
+  await firefox.eventually(isOpen, `${fragment} does not open`);
+}
+
+/** The box of an element in the window. */
+const boxOf = (firefox, selector) =>
+  firefox.evaluate((wanted) => {
+    const { left, top, width, height } = document.querySelector(wanted).getBoundingClientRect();
+    return { left, top, width, height };
+  }, selector);
+
+const countOf = (selector) => document.querySelectorAll(selector).length;
+const hash = () => window.location.hash;
+
+const TESTS = [
+  [
+    "families and their pages are drawn, thousands of them as they are scrolled to",
+    async (firefox) => {
+      await at(firefox, atlas, "/");
+      await firefox.eventually(countOf, "no family is drawn", ".families .leaf path");
+      await at(firefox, large, "/hrones-nelson");
+      await firefox.eventually(countOf, "no page is drawn", ".window svg path");
+      await firefox.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));
+      await firefox.eventually(
+        () => document.querySelector('.window a[href="#/hrones-nelson/780"] svg path'),
+        "the last page is not drawn",
+      );
+    },
+  ],
+  [
+    "a page comes nearer by the wheel, its curves forward under the pointer, and stays where it is",
+    async (firefox) => {
+      await at(firefox, large, "/hrones-nelson/100");
+      await firefox.eventually(() => document.querySelector(".page-sheet img")?.complete, "no picture");
+      const before = await boxOf(firefox, ".viewport");
+      const spot = await boxOf(firefox, '.overlay a[href$="/43.49.1"] .spot');
+      const x = spot.left + spot.width / 2;
+      const down = Array.from({ length: Math.floor(spot.height / 2) }, (_, k) => [x, spot.top + 2 * k]);
+      for (const place of down) {
+        await firefox.mouse([place]);
+        if (await firefox.evaluate(countOf, ".viewport.receded")) break;
+      }
+      assert.match(await firefox.evaluate(() => document.querySelector(".reading").innerText), /input\s+\d/);
+      // What is said beside it may need a bar to scroll by: the sheet must not move under the hand for it.
+      assert.equal((await boxOf(firefox, ".viewport")).width, before.width);
+      await firefox.wheel([x, spot.top], -300);
+      await firefox.eventually(() => window.location.hash.includes("zoom=1."), "the wheel does nothing");
+    },
+  ],
+  [
+    "every curve of a page has a place, one drawn as a straight line too",
+    async (firefox) => {
+      await at(firefox, atlas, "/scotch-yoke/1");
+      await firefox.eventually(countOf, "no curves", ".overlay .spot");
+      const boxes = await firefox.evaluate(() =>
+        [...document.querySelectorAll(".overlay .spot")].map((spot) => spot.getBoundingClientRect().width),
+      );
+      assert.ok(
+        boxes.every((width) => width > 0),
+        boxes.join(", "),
+      );
+    },
+  ],
+  [
+    "the plate moves by itself, by the slider and by the hand, and is recomputed by a parameter",
+    async (firefox) => {
+      await at(firefox, atlas, "/evans/curve/1.1.1");
+      const input = () => document.querySelector(".input-now").textContent;
+      const first = await firefox.evaluate(input);
+      await firefox.eventually(
+        (was) => document.querySelector(".input-now").textContent !== was,
+        "it stands still",
+        first,
+      );
+      await firefox.evaluate(() => {
+        [...document.querySelectorAll("button")].find((button) => button.textContent === "Pause").click();
+        document.querySelector('input[aria-label="Place on the circuit"]').focus();
+      });
+      // Home, and the arrow to the right.
+      await firefox.keys("\uE011\uE014");
+      await firefox.eventually(() => document.querySelector(".input-now").textContent === "1.0°", "no step");
+      const crank = await boxOf(firefox, '.grip[data-joint="2"]:not(.crank-grip)');
+      const pin = [crank.left + crank.width / 2, crank.top + crank.height / 2];
+      await firefox.mouse([pin, [pin[0], pin[1] - 8], [pin[0] - 8, pin[1] - 25]], true);
+      assert.notEqual(await firefox.evaluate(input), "1.0°", "the crank does not follow");
+      const path = await firefox.evaluate(() => document.querySelector(".dashes").getAttribute("d"));
+      await firefox.evaluate(() => {
+        const field = document.querySelector('input[aria-label="Value of p"]');
+        field.focus();
+        field.select();
+      });
+      await firefox.keys("2.5\uE007");
+      await firefox.eventually(() => window.location.hash.endsWith("?p=2.5"), "the parameter is not taken");
+      assert.notEqual(
+        await firefox.evaluate(() => document.querySelector(".dashes").getAttribute("d")),
+        path,
+      );
+    },
+  ],
+  [
+    "curves are found by a measure, and by a shape that is drawn",
+    async (firefox) => {
+      await at(firefox, large, "/find?mu_worst_deg=30..");
+      await firefox.eventually(
+        () => /^[\d,]+ of 7,800 curves/m.test(document.querySelector("main").innerText),
+        "nothing is counted",
+      );
+      await firefox.eventually(countOf, "no result is drawn", ".results > li :is(svg, canvas)");
+      await at(firefox, large, "/shape");
+      await firefox.eventually(countOf, "no pad", "svg.pad");
+      const { left, top, width, height } = await boxOf(firefox, "svg.pad");
+      const stroke = Array.from({ length: 50 }, (_, k) => {
+        const angle = (2 * Math.PI * k) / 50;
+        return [left + width * (0.5 + 0.3 * Math.cos(angle)), top + height * (0.5 + 0.2 * Math.sin(angle))];
+      });
+      await firefox.mouse(stroke, true);
+      await firefox.eventually(countOf, "nothing is like it", ".likenesses:not([aria-busy]) > li svg");
+      assert.match(await firefox.evaluate(hash), /^#\/shape\?d=c/);
+    },
+  ],
+  [
+    "curves are compared, and what is taken away is saved",
+    async (firefox) => {
+      await at(firefox, atlas, "/compare?c=evans:1.1.1,watt:3.1.1");
+      await firefox.eventually(countOf, "no curves side by side", "main svg path");
+      await at(firefox, atlas, "/hoeken/curve/1.1.1");
+      await firefox.eventually(countOf, "no menu", ".take-button");
+      await firefox.evaluate(() => {
+        document.querySelector(".take-button").click();
+        for (const name of [/^SVG *still/, /^PNG/])
+          [...document.querySelectorAll(".take-menu button")]
+            .find((entry) => name.test(entry.textContent))
+            .click();
+      });
+      const isSaved = () =>
+        readdirSync(firefox.saved).filter((name) => /^hoeken-1-1-1\.(svg|png)$/.test(name)).length === 2 &&
+        /<\/svg>\s*$/.test(readFileSync(join(firefox.saved, "hoeken-1-1-1.svg"), "utf8"));
+      for (let k = 0; k < 200 && !isSaved(); k += 1) await firefox.evaluate(settling);
+      assert.ok(isSaved(), readdirSync(firefox.saved).join(", "));
+    },
+  ],
+];
+
+/** A promise of the next frames of the page. */
+const settling = () =>
+  new Promise((done) => {
+    setTimeout(done, 50);
+  });
+
+async function tried(firefox) {
+  await firefox.resize(1400, 1000);
+  for (const [sentence, test] of TESTS) {
+    try {
+      await test(firefox);
+      console.log(`ok ${sentence}`);
+    } catch (error) {
+      process.exitCode = 1;
+      console.log(`FAILED ${sentence}\n  ${error.stack ?? error}`);
+    }
+  }
+  const complaints = [atlas, large].map((home) => new URL(".", home).href);
+  for (const home of complaints) assert.deepEqual(await firefox.complaints(home), [], "the page is not quiet");
+  console.log("ok the browser's console is empty");
+}
+
+const program = firefoxThere();
+if (program) {
+  const firefox = await startedFirefox(program);
+  try {
+    await tried(firefox);
+  } finally {
+    await firefox.close();
+  }
+} else console.log("skipped: FIREFOX names no browser");
