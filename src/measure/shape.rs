@@ -1,7 +1,7 @@
 use super::{Measure, Subject, Value};
 use crate::geometry::{cross, trig};
 use crate::linkage::{Flat, Input};
-use crate::motion::{Jets, Stop};
+use crate::motion::{End, Jets, Stop};
 
 /// How often the path crosses itself.
 pub const CRUNODES: Measure = Measure {
@@ -35,7 +35,7 @@ pub const CURVATURE_MAX: Measure = Measure {
     name: "curvature_max",
     unit: "",
     is_word: false,
-    definition: "greatest curvature of the path but for corners at change points, 1 over the manifest's unit; inf at a cusp",
+    definition: "greatest curvature of the path but for corners at change points, 1 over the manifest's unit; inf at a cusp, and where the path turns back at a limit",
     take: |subject: &Subject| sharpest(subject).map_or(Value::Missing, Value::Number),
 };
 
@@ -88,18 +88,22 @@ pub(super) fn cusps(subject: &Subject) -> usize {
     found.len()
 }
 
+/// The ends of passes at which a dyad lies flat.
+fn ends<'a>(subject: &Subject<'a>) -> impl Iterator<Item = &'a End> {
+    let ends = subject.circuit.passes.iter().flat_map(|pass| [&pass.from, &pass.to]);
+    ends.filter(|end| !end.flat.is_none())
+}
+
 fn sharpest(subject: &Subject) -> Option<f64> {
     let trail = subject.trail();
     let sharpest = trail.sharpest()?;
-    if subject.cusps() > 0 {
+    let is_limit = |i: &usize| ends(subject).any(|end| end.stop.at == trail.inputs[*i]);
+    if subject.cusps() > 0 || (0..trail.points.len()).filter(is_limit).any(|i| trail.doubles_back(i)) {
         return Some(f64::INFINITY);
     }
     let sample = trail.samples[sharpest];
     let [mut a, mut b] = beside(subject, sample);
-    let is_end = |input: &f64| {
-        let ends = || subject.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]);
-        ends().any(|end| !end.flat.is_none() && (end.stop.at - input).abs() <= (b - a).abs())
-    };
+    let is_end = |input: &f64| ends(subject).any(|end| (end.stop.at - input).abs() <= (b - a).abs());
     // At a limit the path bends as it does elsewhere, but its rates do not tell.
     if is_end(&subject.circuit.input[sample]) {
         return Some(trail.curvature_near(sharpest));

@@ -144,11 +144,22 @@ impl Trail {
         before.dot(&after) < 0.5 * before.norm() * after.norm()
     }
 
-    /// How often it begins to bend the other way. Where it is straight to a part in ten million, or turns sharply, its
-    /// samples do not tell which way it bends.
+    /// Whether the path goes back about a sample the way it came.
+    pub fn doubles_back(&self, i: usize) -> bool {
+        let (Some(a), Some(b)) = (self.at(i, -1), self.at(i, 1)) else { return false };
+        let (before, after) = (self.points[i] - self.points[a], self.points[b] - self.points[i]);
+        before.dot(&after) < -0.9 * before.norm() * after.norm()
+    }
+
+    /// How often it begins to bend the other way. Where it is straight to a part in ten million, or to what places are
+    /// rounded to, or turns sharply, its samples do not tell which way it bends.
     pub fn inflections(&self) -> usize {
         let size = self.points.iter().fold(0.0, |size: f64, p| size.max((p - self.points[0]).norm()));
-        let tells = |i: &usize| self.bends[*i].abs() * size > 1e-7 && !self.turns_sharply(*i);
+        let before = |i: usize| self.at(i, -1).map_or(0.0, |k| self.chords[k]);
+        let tells = |&i: &usize| {
+            let bend = self.bends[i].abs();
+            bend * size > 1e-7 && bend * self.chords[i] * before(i) > 1e-12 * size && !self.turns_sharply(i)
+        };
         let bends: Vec<bool> = (0..self.points.len()).filter(tells).map(|i| self.bends[i] > 0.0).collect();
         let changes = bends.windows(2).filter(|pair| pair[0] != pair[1]).count();
         changes + usize::from(self.closed && bends.first() != bends.last())

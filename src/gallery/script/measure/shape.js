@@ -116,6 +116,15 @@ export function cuspsOf(subject) {
   return circuit.count > 0 ? found.length : 0;
 }
 
+// Whether the path goes back about a sample the way it came.
+function doublesBack(trail, i) {
+  const { x, y } = trail;
+  const [a, b] = [sampleAfter(trail, i, -1), sampleAfter(trail, i, 1)];
+  if (a < 0 || b < 0) return false;
+  const [ux, uy, vx, vy] = [x[i] - x[a], y[i] - y[a], x[b] - x[i], y[b] - y[i]];
+  return ux * vx + uy * vy < -0.9 * Math.sqrt(ux * ux + uy * uy) * Math.sqrt(vx * vx + vy * vy);
+}
+
 // The sample at which a trail bends most, but for corners: what two samples on either side tell of the bend.
 function sharpestSample(trail, circuit) {
   const corners = trail.samples.map((sample) => isCorner(circuit, sample));
@@ -131,14 +140,16 @@ function sharpestSample(trail, circuit) {
 export function sharpestBend(subject, cusps) {
   const { trail, circuit } = subject;
   if (trail.count === 0) return null;
-  if (cusps > 0) return Infinity;
+  const limits = flatInputs(circuit);
+  const turnsBack = (_, i) => limits.includes(trail.inputs[i]) && doublesBack(trail, i);
+  if (cusps > 0 || trail.samples.some(turnsBack)) return Infinity;
   const sharpest = sharpestSample(trail, circuit);
   if (sharpest < 0) return null;
   const sample = trail.samples[sharpest];
   let [a, b] = inputsBeside(subject, sample);
   const here = circuit.input[sample];
   // At a limit the path bends as it does elsewhere, but its rates do not tell.
-  if (flatInputs(circuit).some((at) => Math.abs(at - here) <= Math.abs(b - a)))
+  if (limits.some((at) => Math.abs(at - here) <= Math.abs(b - a)))
     return curvatureNear(trail, sharpest);
   const at = (input) => speedAndCurvature(subject, sample, input)[1];
   // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.

@@ -145,14 +145,20 @@ export function topOfTrail({ x, y, count }, [dx, dy]) {
 }
 
 /**
- * How often the curve begins to bend the other way. Where it is straight, or turns sharply, its samples do
- * not tell.
+ * How often the curve begins to bend the other way. Where it is straight, to a part in ten million or to what
+ * places are rounded to, or turns sharply, its samples do not tell.
  */
-export function inflectionsOfTrail({ x, y, count, bends, sharp, closed }) {
+export function inflectionsOfTrail(trail) {
+  const { x, y, count, bends, sharp, closed } = trail;
   let size = 0;
   for (let i = 0; i < count; i++) size = Math.max(size, Math.hypot(x[i] - x[0], y[i] - y[0]));
+  const before = (i) => (sampleAfter(trail, i, -1) < 0 ? 0 : chordAfter(trail, sampleAfter(trail, i, -1)));
+  const tells = (i) => {
+    const bend = Math.abs(bends[i]);
+    return bend * size > 1e-7 && bend * chordAfter(trail, i) * before(i) > 1e-12 * size && !sharp[i];
+  };
   const ways = [];
-  for (let i = 0; i < count; i++) if (Math.abs(bends[i]) * size > 1e-7 && !sharp[i]) ways.push(bends[i] > 0);
+  for (let i = 0; i < count; i++) if (tells(i)) ways.push(bends[i] > 0);
   let changes = 0;
   for (let i = 1; i < ways.length; i++) if (ways[i] !== ways[i - 1]) changes += 1;
   return changes + (closed && ways.length > 0 && ways[0] !== ways[ways.length - 1] ? 1 : 0);
