@@ -462,6 +462,31 @@ fn long_captions_and_single_points_have_room() {
     assert_eq!((pages.len(), pages[0].1.len()), (1, 1));
 }
 
+#[test]
+fn hairlines_lead_from_the_link_to_all_points() {
+    let plan = example();
+    for solved in solved(&plan, 40) {
+        for (scene, _) in pages(&plan.families[0].family, "", &solved, &on(PAPERS[2])) {
+            let lines = |class| paths(&scene, &[class]).into_iter().flat_map(|path| &path.lines).collect::<Vec<_>>();
+            let hairs: Vec<[Point; 2]> = lines("grid").iter().map(|line| [line.points[0], line.points[1]]).collect();
+            assert!(!hairs.is_empty() && hairs.iter().all(|[a, b]| (b - a).norm() > 0.1), "{hairs:?}");
+            let links: Vec<[Point; 2]> =
+                lines("linkage").iter().flat_map(|line| line.points.windows(2)).map(|p| [p[0], p[1]]).collect();
+            // A line meets another where an end of one is on the other, or where the ends of each are on both sides.
+            let meets = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
+                let side = |o: Point, u: Point, v: Point| (u - o).perp(&(v - o));
+                let crosses = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+                // To the rounding of coordinates on the page.
+                let touches = |p: Point, q: Point, r: Point| distance_to_segment(p, q, r) < 1e-6;
+                crosses || touches(a, c, d) || touches(b, c, d) || touches(c, a, b) || touches(d, a, b)
+            };
+            assert!(hairs.iter().any(|hair| links.iter().any(|link| meets(*hair, *link))), "{hairs:?}");
+            // And each other.
+            assert!(hairs.iter().all(|hair| hairs.len() == 1 || hairs.iter().any(|o| o != hair && meets(*hair, *o))));
+        }
+    }
+}
+
 /// Proportions for the parameters of the catalogue that have no default.
 const GIVEN: [(&str, &[(&str, f64)]); 5] = [
     ("four-bar", &[("frame", 4.0), ("crank", 1.0), ("coupler", 3.0), ("rocker", 3.5)]),
