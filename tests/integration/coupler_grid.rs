@@ -463,6 +463,17 @@ fn long_captions_and_single_points_have_room() {
 }
 
 #[test]
+fn a_page_keeps_its_number_however_long_its_titles_are() {
+    let long =
+        "title = \"A family with a title that does not end where others do, but goes on and on and then on again\"\n";
+    let text = format!("{GOOD}{long}").replace("\"T\"", "\"An atlas of no few words, with a title as long as that\"");
+    for (k, (scene, _)) in first(&text).1.iter().enumerate() {
+        let number = format!("… · page {} of 2", k + 1);
+        assert!(texts(scene).iter().any(|(_, text)| words(text).ends_with(&number)), "{number}");
+    }
+}
+
+#[test]
 fn hairlines_lead_from_the_link_to_all_points() {
     let plan = example();
     for solved in solved(&plan, 40) {
@@ -551,6 +562,7 @@ fn pages_are_numbered_through_the_family() {
     // A cell that cannot be assembled has one page, with the reason.
     assert!(pages[4].contains("not assembled") && pages[4].contains("</tspan> = 9.0<"), "{}", pages[4]);
     assert!(!pages[..4].iter().any(|page| page.contains("not assembled")));
+    assert!(pages[3].contains("one dash and its gap") && !pages[4].contains("one dash and its gap"));
     let kept = rendered(&format!("{GOOD}where = \"is_crank_rocker or is_change_point\"\n"));
     assert_eq!(kept.len(), 4);
     assert!(kept[3].contains("page 4 of 4<") && kept[3].contains("change-point"));
