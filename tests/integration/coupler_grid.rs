@@ -498,6 +498,24 @@ fn hairlines_lead_from_the_link_to_all_points() {
     }
 }
 
+#[test]
+fn places_are_told_apart_and_joints_have_none() {
+    let near = "along = { from = 0.9995, to = 1.0005, count = 3 }, across = { from = -0.001, to = 0.001, count = 2 }";
+    let grid = "along = { from = 0.5, to = 1.5, count = 3 }, across = { from = -1, to = 1, count = 4 }";
+    let says = |text: &str| -> Vec<String> {
+        first(text).1.iter().flat_map(|(scene, _)| texts(scene)).map(|(_, text)| words(text)).collect()
+    };
+    let said = says(&GOOD.replace(grid, near));
+    assert!(
+        ["0.9995", "1.0000", "1.0005", "0.001", "−0.001"].iter().all(|place| said.contains(&(*place).to_owned())),
+        "{said:?}"
+    );
+    let said = says(GOOD);
+    assert!(["0.50", "1.50", "0.33", "−1.00"].iter().all(|place| said.contains(&(*place).to_owned())), "{said:?}");
+    let said = says(&GOOD.replace("[\"M\"]", "[\"B\"]"));
+    assert!(said.contains(&"straight".to_owned()) && !said.contains(&"along".to_owned()), "{said:?}");
+}
+
 /// Proportions for the parameters of the catalogue that have no default.
 const GIVEN: [(&str, &[(&str, f64)]); 5] = [
     ("four-bar", &[("frame", 4.0), ("crank", 1.0), ("coupler", 3.0), ("rocker", 3.5)]),
