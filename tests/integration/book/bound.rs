@@ -254,6 +254,23 @@ fn the_index_has_the_best_first() {
 }
 
 #[test]
+fn long_titles_have_as_many_lines_as_they_take() {
+    let title = "An atlas of the straight-line and dwell linkages that are driven by cranks, with all their cognates and limits";
+    let family = "Linkages that are driven by cranks, with their limits, cognates and a longer title than most";
+    let cell = Cell { caption: "p = 1".to_owned(), page: 1 };
+    let atlas = Atlas { title, program: "p", chapters: vec![chapter(family, 1, vec![cell])] };
+    for (_, paper) in Paper::NAMED {
+        let front = book::front(&atlas, &atlas.volumes(9)[0], None, &options(paper));
+        for (scene, whole) in front.iter().zip([title, family]) {
+            let says = says(scene);
+            assert!(!says.contains(&whole.to_owned()) && says.join(" ").contains(whole), "{says:?}");
+        }
+        // Every line leads to the page, which is told once.
+        assert!(front[1].links.len() >= 3 && says(&front[1]).iter().filter(|line| *line == "1").count() == 2);
+    }
+}
+
+#[test]
 fn an_atlas_of_many_cells_names_some_of_them_and_says_so() {
     let cell = |k: usize| Cell { caption: format!("p = {k}"), page: k / 15 + 1 };
     let atlas =
