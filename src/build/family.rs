@@ -97,21 +97,31 @@ fn remove_others(earlier: Option<FamilyRecord>, record: &FamilyRecord, folder: &
     files::remove(folder, known.iter().map(|file| file.name.as_str()).filter(|name| !stay.contains(name)))
 }
 
-/// The pages that an earlier run drew in formats which the command line leaves out this time: they stay.
+/// The pages that an earlier run drew in formats which the command line leaves out this time: they stay, and what they were
+/// made from is known no more where it is not what the family's pages are made from now.
 fn others_left(
     earlier: Option<&FamilyRecord>,
     record: &FamilyRecord,
     formats: &[PageFormat],
     options: &Options,
 ) -> Vec<FileRecord> {
-    let known = earlier.filter(|_| options.formats.is_some()).map(|earlier| earlier.files.as_slice());
-    let others: Vec<PageFormat> = PageFormat::ALL.into_iter().filter(|format| !formats.contains(format)).collect();
-    let is_of_page = |file: &&FileRecord| {
-        others.iter().any(|&format| {
-            earlier::page_number(&record.id, &file.name, format).is_some_and(|page| (1..=record.pages).contains(&page))
-        })
+    let Some(earlier) = earlier.filter(|_| options.formats.is_some()) else { return Vec::new() };
+    let page_in = |file: &FileRecord, of: &[PageFormat]| {
+        of.iter().find_map(|&format| earlier::page_number(&record.id, &file.name, format))
     };
-    known.unwrap_or_default().iter().filter(is_of_page).cloned().collect()
+    let drawn: HashMap<usize, &FileRecord> =
+        record.files.iter().filter_map(|file| Some((page_in(file, formats)?, file))).collect();
+    let others: Vec<PageFormat> = PageFormat::ALL.into_iter().filter(|format| !formats.contains(format)).collect();
+    let left = |file: &FileRecord| {
+        let page = page_in(file, &others).filter(|page| (1..=record.pages).contains(page))?;
+        let is_current = match drawn.get(&page) {
+            Some(drawn) => drawn.inputs_sha256 == file.inputs_sha256,
+            None => record.inputs_sha256 == earlier.inputs_sha256,
+        };
+        let inputs_sha256 = file.inputs_sha256.clone().filter(|_| is_current);
+        Some(FileRecord { inputs_sha256, ..file.clone() })
+    };
+    earlier.files.iter().filter_map(left).collect()
 }
 
 /// What is known of a family before any of it is made.

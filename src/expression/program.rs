@@ -89,8 +89,11 @@ impl Expression {
             let (wanted, given) = match instruction {
                 Instruction::Load(name) => {
                     let name = &self.names[*name];
-                    let unknown =
-                        || Error::new(span.clone(), format!("there is no `{name}`"), nearest_or_all(name, known));
+                    let unknown = || {
+                        let number = || "write a number: there are no names here".to_owned();
+                        let help = if known.is_empty() { number() } else { nearest_or_all(name, known) };
+                        Error::new(span.clone(), format!("there is no `{name}`"), help)
+                    };
                     (Kind::Number, kind_of(name).ok_or_else(unknown)?)
                 }
                 Instruction::Push(_) | Instruction::Negate | Instruction::Call(..) => (Kind::Number, Kind::Number),

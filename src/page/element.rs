@@ -194,13 +194,37 @@ impl Words {
     }
 
     /// The same in no more than `width`: set smaller, to two thirds, and then cut short.
-    pub fn fitted(mut self, width: f64) -> Words {
+    pub fn fitted(self, width: f64) -> Words {
+        self.fitted_before("", width)
+    }
+
+    /// The same with an `end`, in no more than `width`: set smaller, to two thirds, and then cut short before the end,
+    /// which stays whole while there is room for it.
+    pub fn fitted_before(mut self, end: &str, width: f64) -> Words {
         // What fits to rounding fits: a room may have been made for this very text.
         let width = width * (1.0 + 1e-9);
-        let natural = self.text.width();
+        let face = self.text.runs.last().map(|run| run.face);
+        let taken = |size: f64| face.map_or(0.0, |face| face.width(end, size));
+        let natural = self.text.width() + taken(self.text.size);
         if natural > width {
             self.text.size *= (width / natural).max(2.0 / 3.0);
         }
+        if !end.is_empty() {
+            self.cut(width - taken(self.text.size));
+            match self.text.runs.last_mut() {
+                Some(run) => run.text.push_str(end),
+                // What parts an end from nothing is left out.
+                None => {
+                    self.text.runs.extend(face.map(|face| Run { text: end.trim_start_matches(" · ").to_owned(), face }))
+                }
+            }
+        }
+        self.cut(width);
+        self
+    }
+
+    /// Cuts what is wider than `width`.
+    fn cut(&mut self, width: f64) {
         while self.text.width() > width {
             match self.text.runs.last_mut() {
                 Some(run) if run.text.chars().count() > 1 => {
@@ -217,7 +241,6 @@ impl Words {
                 None => break,
             }
         }
-        self
     }
 
     /// The text in lines no wider than `width`, broken between words.
@@ -269,6 +292,8 @@ mod tests {
         let cut = words("a line of some length").fitted(0.3 * natural).text;
         assert!(cut.width() <= 0.3 * natural && cut.runs[0].text.ends_with('…'));
         assert!(words("a").fitted(0.0).text.runs.is_empty());
+        let ended = words("a line of some length").fitted_before(", page 1", 0.6 * natural).text;
+        assert!(ended.width() <= 0.6 * natural && ended.runs[0].text.ends_with("…, page 1"), "{ended:?}");
         // In a room of its own width it stays whole, however that was come by.
         for k in 1..200 {
             let before = 0.37 * f64::from(k);

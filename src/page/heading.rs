@@ -47,9 +47,14 @@ impl Heading<'_> {
             draw(root, &words(line, at).fitted(right - left));
             at.y += 1.35 * theme.source;
         }
-        let folio = format!("{} · page {} of {}", self.atlas, self.page, self.of);
         let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
-        draw(root, &theme.words(&folio, at, Anchor::End, theme.source, theme.grey).fitted(right - left));
+        let atlas = theme.words(self.atlas, at, Anchor::End, theme.source, theme.grey);
+        draw(root, &atlas.fitted_before(&self.folio(), right - left));
+    }
+
+    /// What ends the last line of the page.
+    pub(super) fn folio(&self) -> String {
+        format!(" · page {} of {}", self.page, self.of)
     }
 }
 

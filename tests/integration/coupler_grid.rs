@@ -462,6 +462,60 @@ fn long_captions_and_single_points_have_room() {
     assert_eq!((pages.len(), pages[0].1.len()), (1, 1));
 }
 
+#[test]
+fn a_page_keeps_its_number_however_long_its_titles_are() {
+    let long =
+        "title = \"A family with a title that does not end where others do, but goes on and on and then on again\"\n";
+    let text = format!("{GOOD}{long}").replace("\"T\"", "\"An atlas of no few words, with a title as long as that\"");
+    for (k, (scene, _)) in first(&text).1.iter().enumerate() {
+        let number = format!("… · page {} of 2", k + 1);
+        assert!(texts(scene).iter().any(|(_, text)| words(text).ends_with(&number)), "{number}");
+    }
+}
+
+#[test]
+fn hairlines_lead_from_the_link_to_all_points() {
+    let plan = example();
+    for solved in solved(&plan, 40) {
+        for (scene, _) in pages(&plan.families[0].family, "", &solved, &on(PAPERS[2])) {
+            let lines = |class| paths(&scene, &[class]).into_iter().flat_map(|path| &path.lines).collect::<Vec<_>>();
+            let hairs: Vec<[Point; 2]> = lines("grid").iter().map(|line| [line.points[0], line.points[1]]).collect();
+            assert!(!hairs.is_empty() && hairs.iter().all(|[a, b]| (b - a).norm() > 0.1), "{hairs:?}");
+            let links: Vec<[Point; 2]> =
+                lines("linkage").iter().flat_map(|line| line.points.windows(2)).map(|p| [p[0], p[1]]).collect();
+            // A line meets another where an end of one is on the other, or where the ends of each are on both sides.
+            let meets = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
+                let side = |o: Point, u: Point, v: Point| (u - o).perp(&(v - o));
+                let crosses = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+                // To the rounding of coordinates on the page.
+                let touches = |p: Point, q: Point, r: Point| distance_to_segment(p, q, r) < 1e-6;
+                crosses || touches(a, c, d) || touches(b, c, d) || touches(c, a, b) || touches(d, a, b)
+            };
+            assert!(hairs.iter().any(|hair| links.iter().any(|link| meets(*hair, *link))), "{hairs:?}");
+            // And each other.
+            assert!(hairs.iter().all(|hair| hairs.len() == 1 || hairs.iter().any(|o| o != hair && meets(*hair, *o))));
+        }
+    }
+}
+
+#[test]
+fn places_are_told_apart_and_joints_have_none() {
+    let near = "along = { from = 0.9995, to = 1.0005, count = 3 }, across = { from = -0.001, to = 0.001, count = 2 }";
+    let grid = "along = { from = 0.5, to = 1.5, count = 3 }, across = { from = -1, to = 1, count = 4 }";
+    let says = |text: &str| -> Vec<String> {
+        first(text).1.iter().flat_map(|(scene, _)| texts(scene)).map(|(_, text)| words(text)).collect()
+    };
+    let said = says(&GOOD.replace(grid, near));
+    assert!(
+        ["0.9995", "1.0000", "1.0005", "0.001", "−0.001"].iter().all(|place| said.contains(&(*place).to_owned())),
+        "{said:?}"
+    );
+    let said = says(GOOD);
+    assert!(["0.50", "1.50", "0.33", "−1.00"].iter().all(|place| said.contains(&(*place).to_owned())), "{said:?}");
+    let said = says(&GOOD.replace("[\"M\"]", "[\"B\"]"));
+    assert!(said.contains(&"straight".to_owned()) && !said.contains(&"along".to_owned()), "{said:?}");
+}
+
 /// Proportions for the parameters of the catalogue that have no default.
 const GIVEN: [(&str, &[(&str, f64)]); 5] = [
     ("four-bar", &[("frame", 4.0), ("crank", 1.0), ("coupler", 3.0), ("rocker", 3.5)]),
@@ -526,6 +580,7 @@ fn pages_are_numbered_through_the_family() {
     // A cell that cannot be assembled has one page, with the reason.
     assert!(pages[4].contains("not assembled") && pages[4].contains("</tspan> = 9.0<"), "{}", pages[4]);
     assert!(!pages[..4].iter().any(|page| page.contains("not assembled")));
+    assert!(pages[3].contains("one dash and its gap") && !pages[4].contains("one dash and its gap"));
     let kept = rendered(&format!("{GOOD}where = \"is_crank_rocker or is_change_point\"\n"));
     assert_eq!(kept.len(), 4);
     assert!(kept[3].contains("page 4 of 4<") && kept[3].contains("change-point"));

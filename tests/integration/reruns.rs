@@ -118,6 +118,30 @@ fn a_changed_case_draws_its_page() {
 }
 
 #[test]
+fn what_one_format_missed_the_next_run_draws() {
+    let atlas = Atlas::new(MANIFEST);
+    atlas.run(&[]);
+    let changed = |a: &str| MANIFEST.replace("p = 3, a = 4.0", &format!("p = 3, a = {a}"));
+    let pages = |touched: Vec<String>| -> Vec<String> {
+        let is_page = |name: &String| name.starts_with("evans/evans-");
+        touched.into_iter().filter(is_page).collect()
+    };
+    atlas.edit(&changed("4.1"));
+    assert_eq!(pages(atlas.touched(&["--format", "svg"]).1), ["evans/evans-002.svg"]);
+    assert_eq!(pages(atlas.touched(&["--format", "svg"]).1), [""; 0]);
+    assert_eq!(pages(atlas.touched(&[]).1), ["evans/evans-002.png"]);
+    assert_eq!(pages(atlas.touched(&[]).1), [""; 0]);
+    // Where no page was drawn at all, nothing tells which of them have changed.
+    atlas.edit(&changed("4.2"));
+    assert_eq!(pages(atlas.touched(&["--format", "pdf"]).1), [""; 0]);
+    assert!(pages(atlas.touched(&[]).1).iter().filter(|name| name.contains("-002.")).count() == 2);
+    let fresh = Atlas::new(&changed("4.2"));
+    fresh.run(&[]);
+    let page = "evans/evans-002.png";
+    assert_eq!(fs::read(atlas.out().join(page)).unwrap(), fs::read(fresh.out().join(page)).unwrap());
+}
+
+#[test]
 fn whatever_pages_are_made_from_draws_them() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);

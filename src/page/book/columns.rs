@@ -77,8 +77,10 @@ struct Columns {
 /// A line with its place: from the top of a column, on the baseline.
 struct Placed<'r> {
     row: &'r Row<'r>,
-    /// Of a note the line it is, of the others nothing.
+    /// Of a heading or a note the line it is, of others nothing.
     text: Option<String>,
+    /// Whether it is the first of its row.
+    is_first: bool,
     column: usize,
     y: f64,
 }
@@ -115,6 +117,10 @@ pub(super) fn set(
 
 fn words(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> Words {
     theme.words(text, at, anchor, size, theme.ink)
+}
+
+fn heading(text: &str, theme: &Theme) -> Words {
+    words(text, Point::origin(), Anchor::Start, theme.caption, theme)
 }
 
 fn note(text: &str, theme: &Theme) -> Words {
@@ -164,18 +170,26 @@ impl Columns {
                 y += before;
             }
             let texts = match row {
+                Row::Heading { text, page } => {
+                    heading(text, theme).wrapped(self.beside(*page)).into_iter().map(Some).collect()
+                }
                 Row::Note(text) => note(text, theme).wrapped(self.size.x).into_iter().map(Some).collect(),
-                _ => vec![None],
+                Row::Entry(_) => vec![None],
             };
-            for text in texts {
+            for (k, text) in texts.into_iter().enumerate() {
                 if y > 0.0 && y + self.line > self.size.y {
                     (column, y) = (column + 1, 0.0);
                 }
                 y += self.line;
-                placed.push(Placed { row, text, column, y });
+                placed.push(Placed { row, text, is_first: k == 0, column, y });
             }
         }
         placed
+    }
+
+    /// The width that is left beside a heading's page.
+    fn beside(&self, page: Option<usize>) -> f64 {
+        self.size.x - page.map_or(0.0, |_| self.page)
     }
 
     /// Where a line begins on its page.
@@ -190,18 +204,16 @@ impl Columns {
         for line in placed {
             let at = self.start(line);
             let end = at + Vector::new(self.size.x, 0.0);
+            let says = line.text.as_deref().unwrap_or_default();
+            let at_place = |words: Words| Words { text: Text { at, ..words.text } };
             match line.row {
-                Row::Heading { text, page } => {
-                    let room = self.size.x - page.map_or(0.0, |_| self.page);
-                    draw(root, &words(text, at, Anchor::Start, theme.caption, theme).fitted(room));
-                    if let Some(page) = page {
+                Row::Heading { page, .. } => {
+                    draw(root, &at_place(heading(says, theme)).fitted(self.beside(*page)));
+                    if let Some(page) = page.filter(|_| line.is_first) {
                         draw(root, &words(&page.to_string(), end, Anchor::End, theme.note, theme));
                     }
                 }
-                Row::Note(_) => {
-                    let says = line.text.as_deref().unwrap_or_default();
-                    draw(root, &Words { text: Text { at, ..note(says, theme).text } }.fitted(self.size.x));
-                }
+                Row::Note(_) => draw(root, &at_place(note(says, theme)).fitted(self.size.x)),
                 Row::Entry(entry) => leaders.extend(self.entry(root, entry, at, theme)),
             }
         }

@@ -11,8 +11,8 @@ pub struct Geometry {
     pub(super) straight: Option<Found>,
     /// Its least transmission angle in degrees, from 0 to 90.
     pub(super) transmission: Option<Found>,
-    /// Its symmetrical curves, by the direction of their axes in degrees.
-    pub(super) symmetrical: Vec<Found>,
+    /// Its most symmetrical curve by how far its mirror image is from it, by its greatest extent.
+    pub(super) symmetry: Option<Found>,
 }
 
 /// A value, the curve it is of, and its page.
@@ -33,22 +33,18 @@ impl Geometry {
         let found = |value: f64, k: usize, curve: &Curve| {
             value.is_finite().then(|| Found { value, curve: has_many.then_some(curve.trace), page: page(k) })
         };
-        let best = |value: fn(&Curve) -> Option<f64>| {
+        let best = |value: fn(&Curve) -> Option<f64>, is_better: fn(f64, f64) -> bool| {
             let values = solved.curves.iter().enumerate().filter_map(|(k, curve)| found(value(curve)?, k, curve));
             // The first of those that are equal.
-            values.reduce(|best, other| if other.value > best.value { other } else { best })
+            values.reduce(|best, other| if is_better(other.value, best.value) { other } else { best })
         };
-        let symmetrical = solved.curves.iter().enumerate().filter_map(|(k, curve)| {
-            let axis = curve.symmetry.as_ref().and_then(Symmetry::of_symmetrical)?;
-            found(axis.deg(), k, curve)
-        });
         Geometry {
             chapter,
             caption: caption.to_owned(),
-            straight: best(straightness),
+            straight: best(straightness, |a, b| a > b),
             // It is the same for all points of a linkage.
-            transmission: best(least_transmission).map(|found| Found { curve: None, ..found }),
-            symmetrical: symmetrical.collect(),
+            transmission: best(least_transmission, |a, b| a > b).map(|found| Found { curve: None, ..found }),
+            symmetry: best(asymmetry, |a, b| a < b),
         }
     }
 }
@@ -62,6 +58,13 @@ fn straightness(curve: &Curve) -> Option<f64> {
 /// The least angle between coupler and output link, whichever side of 90 degrees it is.
 fn least_transmission(curve: &Curve) -> Option<f64> {
     Some(number(curve, "mu_min_deg")?.min(180.0 - number(curve, "mu_max_deg")?))
+}
+
+/// How far the mirror image of a curve is from it, by its greatest extent, in whole steps of what is called symmetrical: what
+/// is nearer than that is alike. Nothing of a circle, which has no axis of its own.
+fn asymmetry(curve: &Curve) -> Option<f64> {
+    let symmetry = curve.symmetry.as_ref().filter(|symmetry| symmetry.axis.is_some())?;
+    Some((symmetry.residual / Symmetry::NEAR).round() * Symmetry::NEAR)
 }
 
 fn number(curve: &Curve, name: &str) -> Option<f64> {

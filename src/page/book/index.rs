@@ -1,3 +1,5 @@
+use std::cmp::Ordering;
+
 use super::columns::{Entry, Row};
 use super::geometry::Found;
 use super::{Atlas, Geometry, Volume};
@@ -10,14 +12,14 @@ type Entries<'g> = Vec<(&'g Geometry, Found)>;
 /// What the index of a volume says: of every measure what it is, and the geometries, the best first.
 pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry]) -> Vec<Row<'a>> {
     let here = |(_, found): &(&Geometry, Found)| volume.range().contains(&found.page);
-    let best = |pick: fn(&Geometry) -> Option<Found>| {
+    let ranked = |pick: fn(&Geometry) -> Option<Found>, order: fn(f64, f64) -> Ordering| {
         let picked = found.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
         let mut entries: Entries = picked.filter(here).collect();
-        entries.sort_by(|(_, a), (_, b)| b.value.total_cmp(&a.value).then(a.page.cmp(&b.page)));
+        entries.sort_by(|(_, a), (_, b)| order(a.value, b.value).then(a.page.cmp(&b.page)));
         entries
     };
-    let symmetrical =
-        found.iter().flat_map(|geometry| geometry.symmetrical.iter().map(move |found| (geometry, *found)));
+    let greatest = |a: f64, b: f64| b.total_cmp(&a);
+    let least = |a: f64, b: f64| a.total_cmp(&b);
     let sections = [
         Section {
             title: "By straightness",
@@ -25,21 +27,25 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry])
                    first",
             unit: " %",
             scale: 100.0,
-            entries: best(|geometry| geometry.straight),
+            decimals: 1,
+            entries: ranked(|geometry| geometry.straight, greatest),
         },
         Section {
             title: "By transmission angle",
             note: "the least angle between coupler and output link that the motion comes to; the greatest first",
             unit: "°",
             scale: 1.0,
-            entries: best(|geometry| geometry.transmission),
+            decimals: 1,
+            entries: ranked(|geometry| geometry.transmission, greatest),
         },
         Section {
             title: "By symmetry",
-            note: "the curves that are symmetrical, in the order of their pages, with the direction of their axes",
-            unit: "°",
-            scale: 1.0,
-            entries: symmetrical.filter(here).collect(),
+            note: "how far the most symmetrical curve is from its mirror image, as a part of its greatest extent; the nearest \
+                   first",
+            unit: " %",
+            scale: 100.0,
+            decimals: 2,
+            entries: ranked(|geometry| geometry.symmetry, least),
         },
     ];
     sections.iter().flat_map(|section| section.rows(atlas)).collect()
@@ -51,13 +57,14 @@ struct Section<'a> {
     /// What follows a value, and how often it is written.
     unit: &'static str,
     scale: f64,
+    decimals: u32,
     entries: Entries<'a>,
 }
 
 impl<'a> Section<'a> {
     /// Nothing, where there is no entry.
     fn rows(&self, atlas: &'a Atlas) -> Vec<Row<'a>> {
-        let Section { title, note, unit, scale, ref entries } = *self;
+        let Section { title, note, unit, scale, decimals, ref entries } = *self;
         if entries.is_empty() {
             return Vec::new();
         }
@@ -67,12 +74,13 @@ impl<'a> Section<'a> {
         }
         rows.extend(entries.iter().take(MOST).map(|(geometry, found)| {
             let chapter = atlas.chapters.get(geometry.chapter);
+            let (fine, decimals) = (f64::from(10_u32.pow(decimals)), decimals as usize);
             Row::Entry(Entry {
                 family: chapter.filter(|_| atlas.chapters.len() > 1).map(|chapter| chapter.title),
                 caption: &geometry.caption,
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
                 // Without the sign of a zero that is rounded from below.
-                value: format!("{:.1}{unit}", (10.0 * scale * found.value).round() / 10.0 + 0.0),
+                value: format!("{:.decimals$}{unit}", (fine * scale * found.value).round() / fine + 0.0),
                 curve: found.curve,
                 page: found.page,
             })

@@ -27,18 +27,22 @@ pub(super) fn compose(
     let centred = |text: &str, y: f64, size: f64, color: Color| {
         draw(&root, &theme.words(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fitted(room));
     };
+    let lines = families(atlas);
+    let step = 1.7 * theme.source;
+    let foot = page.y - theme.border - 2.2 * theme.margin;
+    let first = foot - 1.6 * theme.title - step * lines.len() as f64;
     let mut y = theme.border + 5.2 * theme.title;
-    centred(atlas.title, y, 2.2 * theme.title, theme.ink);
-    y += 1.3 * theme.title;
+    let most = (first - 4.0 * theme.title - y) / (LEADING * theme.title) + 1.0;
+    for line in title(atlas.title, room, most.clamp(1.0, 4.0) as usize, theme) {
+        centred(&line, y, TITLE * theme.title, theme.ink);
+        y += LEADING * theme.title;
+    }
+    y += (1.3 - LEADING) * theme.title;
     rule(&root, Point::new(page.x / 2.0, y), 5.0 * theme.title, theme);
     if let Some(name) = volume.name() {
         y += 1.4 * theme.title;
         centred(&name, y, 1.3 * theme.source, theme.grey);
     }
-    let lines = families(atlas);
-    let step = 1.7 * theme.source;
-    let foot = page.y - theme.border - 2.2 * theme.margin;
-    let first = foot - 1.6 * theme.title - step * lines.len() as f64;
     for (line, k) in lines.iter().zip(1..) {
         centred(line, first + step * f64::from(k), 1.1 * theme.source, theme.ink);
     }
@@ -50,6 +54,22 @@ pub(super) fn compose(
     }
     drop(root);
     number(scene, Label::Roman(1), options);
+}
+
+/// The em of the title, and from one of its lines to the next, in those of a page's.
+const TITLE: f64 = 2.2;
+const LEADING: f64 = 2.7;
+
+/// A title in lines no wider than `room` and about as wide as each other, `most` at most.
+fn title(title: &str, room: f64, most: usize, theme: &Theme) -> Vec<String> {
+    let words = theme.words(title, Point::origin(), Anchor::Middle, TITLE * theme.title, theme.ink);
+    let count = words.wrapped(room).len();
+    let even = words.text.width() / count as f64;
+    let widths = (20..).map(|k| (f64::from(k) / 20.0 * even).min(room));
+    let mut lines = widths.map(|width| words.wrapped(width)).find(|lines| lines.len() <= count).unwrap_or_default();
+    let rest = lines.split_off(most.min(lines.len()) - 1);
+    lines.push(rest.join(" "));
+    lines
 }
 
 /// What the atlas has, a line for each family.

@@ -17,25 +17,24 @@ pub(super) fn draw(area: &Area, sheet: &GridSheet, options: &Options, theme: &Th
     let ratios = sheet.panel.caption.replace("  ", "\u{2003}");
     let ratios = theme.words(&ratios, at, Anchor::Start, theme.title, theme.ink);
     put(area, &ratios.italic(sheet.heading.symbols).fitted(half));
-    let mut y = at.y;
-    for text in [folio(sheet), facts(sheet, options)].into_iter().filter(|text| !text.is_empty()) {
-        let line = theme.words(&text, Point::new(right, y), Anchor::End, theme.source, theme.grey);
-        put(area, &line.fitted(half));
-        y -= 1.5 * theme.source;
+    let line = |text: &str, y: f64| theme.words(text, Point::new(right, y), Anchor::End, theme.source, theme.grey);
+    let titles = format!("{} · {}", sheet.heading.atlas, sheet.heading.title);
+    put(area, &line(&titles, at.y).fitted_before(&sheet.heading.folio(), half));
+    let facts = facts(sheet, options);
+    if !facts.is_empty() {
+        put(area, &line(&facts, at.y - 1.5 * theme.source).fitted(half));
     }
     theme.border + 0.65 * theme.margin + 1.5 * theme.title
 }
 
-fn folio(sheet: &GridSheet) -> String {
-    let heading = &sheet.heading;
-    format!("{} · {} · page {} of {}", heading.atlas, heading.title, heading.page, heading.of)
-}
-
-/// Its class, the range of its transmission angle, and what a dash is.
+/// Its class, the range of its transmission angle, and what a dash is where a curve is drawn.
 fn facts(sheet: &GridSheet, options: &Options) -> String {
     let solved = sheet.panel.solved;
-    let dash = figure::dash(solved, options);
-    let dash = format!("one dash and its gap = {dash}{} of input", super::input_unit(solved));
+    let dash = || {
+        let span = figure::dash(solved, options);
+        format!("one dash and its gap = {span}{} of input", super::input_unit(solved))
+    };
+    let dash = if sheet.shown.is_empty() { String::new() } else { dash() };
     let parts = [sheet.panel.facts[0].as_str(), &sheet.panel.note, &dash];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
 }

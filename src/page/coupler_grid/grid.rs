@@ -60,7 +60,7 @@ impl Grid {
 
 impl Sheet {
     /// A line through all points of a station, along and across; those across begin on the axis of the link, which is
-    /// drawn as far as the points reach.
+    /// drawn as far as the points reach, and from the link to them.
     fn lines(&self, pose: &[Point]) -> Vec<[Point; 2]> {
         let (origin, unit) = (pose[self.base[0]], pose[self.base[1]] - pose[self.base[0]]);
         let at = |along: f64, across: f64| origin + unit * along + left_normal(unit) * across;
@@ -71,11 +71,11 @@ impl Sheet {
         let [alongs, acrosses] = &self.stations;
         let ([first, last], [low, high]) = (span(alongs), span(acrosses));
         let (low, high) = (low.min(0.0), high.max(0.0));
-        let mut lines: Vec<[Point; 2]> = alongs.iter().map(|&along| [at(along, low), at(along, high)]).collect();
-        lines.extend(acrosses.iter().map(|&across| [at(first, across), at(last, across)]));
-        if !acrosses.contains(&0.0) {
-            lines.push([at(first, 0.0), at(last, 0.0)]);
-        }
-        lines
+        // The nearest of the link's ends where all points are beyond one of them.
+        let axis = [at(first.min(1.0), 0.0), at(last.max(0.0), 0.0)];
+        let along =
+            acrosses.iter().filter(|across| **across != 0.0).map(|&across| [at(first, across), at(last, across)]);
+        let across = alongs.iter().map(|&along| [at(along, low), at(along, high)]);
+        across.chain(along).chain([axis]).filter(|[a, b]| a != b).collect()
     }
 }

@@ -54,7 +54,8 @@ pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, t
     let edge = theme.border + theme.margin;
     let column = (0.19 * size.x).max(COLUMN * theme.note);
     let height = size.y - edge - foot;
-    let figure = Frame { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge - column, height) };
+    let whole = Frame { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, height) };
+    let figure = Frame { size: whole.size - Vector::new(column + GUTTER * theme.note, 0.0), ..whole };
     let side = Frame { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
     let solved = sheet.panel.solved;
     let shown = shown(solved, &sheet.shown);
@@ -66,7 +67,7 @@ pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, t
         }
         None => {
             let reason = solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
-            super::panels::draw_reason(&root, figure, reason, theme);
+            super::panels::draw_reason(&root, whole, reason, theme);
         }
     }
     foot::source(&root, side, sheet, theme);
@@ -85,6 +86,9 @@ fn legible(theme: &Theme, paper: Vector) -> Theme {
 
 /// The least width of the column, in ems of a note.
 const COLUMN: f64 = 22.0;
+
+/// What is free between figure and column, likewise: the dashes of curves are not to run into those of the table.
+const GUTTER: f64 = 2.0;
 
 /// The curves of a page, numbered by their points.
 fn shown<'a>(solved: &'a Solved, places: &[usize]) -> Vec<Shown<'a>> {

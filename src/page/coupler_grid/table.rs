@@ -28,7 +28,11 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
     let mut y = frame.corner.y + 1.5 * row;
     let is_straight = shown.iter().any(|s| s.curve.measure("straight_length") != Value::Missing);
     let columns = if is_straight { COLUMNS.len() } else { OF_POINTS };
-    for (column, (head, _)) in COLUMNS.iter().enumerate().take(columns) {
+    let places: Vec<Option<[f64; 2]>> = shown.iter().map(|s| place(&solved.linkage, s.curve)).collect();
+    let decimals = [0, 1].map(|k| decimals(places.iter().flatten().map(|place| place[k])));
+    // Joints of links have no places to tell of.
+    let is_blank = |column: usize| (1..OF_POINTS).contains(&column) && places.iter().all(Option::is_none);
+    for (column, (head, _)) in COLUMNS.iter().enumerate().take(columns).filter(|(column, _)| !is_blank(*column)) {
         put(area, &theme.words(head, at(column, y), Anchor::End, 0.9 * theme.note, theme.grey));
     }
     let rule =
@@ -37,7 +41,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
     put(area, &Drawing { class: "rule", title: String::new(), items: vec![rule] });
     y += 0.25 * row;
     let last = frame.corner.y + frame.size.y - 3.0 * row;
-    for (k, s) in shown.iter().enumerate() {
+    for (k, (s, place)) in shown.iter().zip(&places).enumerate() {
         y += row;
         if y > last && k + 1 < shown.len() {
             let rest = format!("and {} more", shown.len() - k);
@@ -47,7 +51,7 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
         put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note), s, theme));
         let number =
             if has_circuits { format!("{}/{}", s.curve.trace, s.curve.circuit) } else { s.curve.trace.to_string() };
-        let [along, across] = place(&solved.linkage, s.curve);
+        let [along, across] = [0, 1].map(|k| place.map_or(String::new(), |place| fixed(place[k], decimals[k])));
         let [straight, over] = straight(solved, s.curve);
         for (column, text) in [number, along, across, straight, over].iter().enumerate().take(columns) {
             let color = if column == 0 { s.ink(theme) } else { theme.grey };
@@ -78,20 +82,39 @@ fn swatch(at: Point, shown: &Shown, theme: &Theme) -> Drawing {
     Drawing { class: "swatch", title: String::new(), items }
 }
 
-/// Where a point is on its link, along its base from the first joint and to the left of it; empty where it is not
+/// Where a point is on its link, along its base from the first joint and to the left of it; nothing where it is not
 /// placed that way.
-fn place(linkage: &Linkage, curve: &Curve) -> [String; 2] {
-    let Step::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].step else {
-        return Default::default();
-    };
-    let ends = |link: &&crate::linkage::Link| link.place(from).is_some() && link.place(to).is_some();
-    let base = linkage.links.iter().find(ends).and_then(|link| Some((link.place(to)? - link.place(from)?).norm()));
-    let short = |part: f64| base.map_or(String::new(), |base| minus(format!("{:.2}", part * base + 0.0)));
-    [short(along), short(across)]
+fn place(linkage: &Linkage, curve: &Curve) -> Option<[f64; 2]> {
+    let Step::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].step else { return None };
+    let link = linkage.links.iter().find(|link| link.place(from).is_some() && link.place(to).is_some())?;
+    let base = (link.place(to)? - link.place(from)?).norm();
+    Some([along * base, across * base])
 }
 
-/// A true minus sign.
-fn minus(number: String) -> String {
+/// The decimals it takes to tell some values from each other and from zero: two, or more while the column has room.
+fn decimals(values: impl Iterator<Item = f64>) -> usize {
+    /// What differs by this part is the same but for rounding.
+    const ALIKE: f64 = 1e-9;
+    /// As many figures and signs as the column has room for.
+    const ROOM: usize = 7;
+    let mut values: Vec<f64> = values.chain([0.0]).collect();
+    values.sort_by(f64::total_cmp);
+    let is_told = |pair: &[f64], decimals: usize| {
+        let alike = pair[1] - pair[0] <= ALIKE * pair[0].abs().max(pair[1].abs());
+        alike || fixed(pair[0], decimals) != fixed(pair[1], decimals)
+    };
+    let has_room = |decimals: usize| values.iter().all(|value| fixed(*value, decimals).chars().count() <= ROOM);
+    let all_told = |decimals: usize| values.windows(2).all(|pair| is_told(pair, decimals));
+    let mut decimals = 2;
+    while !all_told(decimals) && has_room(decimals + 1) {
+        decimals += 1;
+    }
+    decimals
+}
+
+/// A number with so many decimals and a true minus sign; zero has none.
+fn fixed(value: f64, decimals: usize) -> String {
+    let number = format!("{value:.decimals$}");
     if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
         return number.trim_start_matches('-').to_owned();
     }

@@ -248,8 +248,26 @@ fn the_index_has_the_best_first() {
     assert!(angles.iter().zip(&wanted).all(|(a, b)| (a - b).abs() <= 0.05 + 1e-9), "{angles:?} {wanted:?}");
     let parts = section("By straightness", "By transmission angle", " %");
     assert!(parts.len() == 6 && parts.is_sorted_by(|a, b| a >= b) && parts[5] > 0.0 && parts[0] < 100.0, "{parts:?}");
-    // Evans linkages with s = a are symmetrical by theorem 2.
-    assert!(section("By symmetry", "", "°").len() >= 2);
+    // Evans linkages with s = a are symmetrical by theorem 2, and the others have some curve that is most nearly so.
+    let apart = section("By symmetry", "", " %");
+    assert!(apart.len() == 6 && apart.is_sorted() && apart[..2] == [0.0, 0.0] && apart[2] > 0.0, "{apart:?}");
+}
+
+#[test]
+fn long_titles_have_as_many_lines_as_they_take() {
+    let title = "An atlas of the straight-line and dwell linkages that are driven by cranks, with all their cognates and limits";
+    let family = "Linkages that are driven by cranks, with their limits, cognates and a longer title than most";
+    let cell = Cell { caption: "p = 1".to_owned(), page: 1 };
+    let atlas = Atlas { title, program: "p", chapters: vec![chapter(family, 1, vec![cell])] };
+    for (_, paper) in Paper::NAMED {
+        let front = book::front(&atlas, &atlas.volumes(9)[0], None, &options(paper));
+        for (scene, whole) in front.iter().zip([title, family]) {
+            let says = says(scene);
+            assert!(!says.contains(&whole.to_owned()) && says.join(" ").contains(whole), "{says:?}");
+        }
+        // Every line leads to the page, which is told once.
+        assert!(front[1].links.len() >= 3 && says(&front[1]).iter().filter(|line| *line == "1").count() == 2);
+    }
 }
 
 #[test]
