@@ -38,14 +38,10 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// A whole curve, by its samples or, where they are few, more points.
+    /// A whole curve, by its samples.
     pub fn of(trail: Rc<Trail>) -> Course {
-        /// Portions are found between so many points, and then between those.
-        const POINTS: usize = 360;
-        let fold = POINTS.div_ceil(trail.points.len().max(1));
-        let once = trail.intervals() * fold;
-        let is_closed = trail.closed;
-        let mut course = Course::sampled(trail, [0.0, 1.0 / fold as f64], once + usize::from(!is_closed));
+        let (once, is_closed) = (trail.intervals(), trail.closed);
+        let mut course = Course::sampled(trail, [0.0, 1.0], once + usize::from(!is_closed));
         if is_closed {
             course.go_round_again();
         }

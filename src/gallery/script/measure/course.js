@@ -7,17 +7,13 @@ import { arrivedAtPlace, pointOfTrail } from "./between.js";
 import { bendThrough } from "./trail.js";
 
 /**
- * The whole of a trail as a course, by its samples or, where they are few, more points: { trail, first,
- * apart, x, y, travel, way, count, starts, isClosed, longestChord }: where its first point is among the
- * trail's samples and how far its points are apart there; the points; how far the input has gone, there and
- * back, at each; the way by chords up to each; at how many points a portion may begin; and whether it goes on
- * at its first point after its last.
+ * The whole of a trail as a course, by its samples: { trail, first, apart, x, y, travel, way, count, starts,
+ * isClosed, longestChord }: where its first point is among the trail's samples and how far its points are
+ * apart there; the points; how far the input has gone, there and back, at each; the way by chords up to each;
+ * at how many points a portion may begin; and whether it goes on at its first point after its last.
  */
 export function courseOfTrail(trail) {
-  const POINTS = 360;
-  const fold = Math.ceil(POINTS / Math.max(trail.count, 1));
-  const once = trail.intervals * fold;
-  const course = sampledCourse(trail, 0, 1 / fold, once + (trail.closed ? 0 : 1));
+  const course = sampledCourse(trail, 0, 1, trail.intervals + (trail.closed ? 0 : 1));
   return trail.closed ? goneRoundTwice(course) : course;
 }
 
