@@ -262,7 +262,7 @@ fn long_titles_have_as_many_lines_as_they_take() {
     for (_, paper) in Paper::NAMED {
         let front = book::front(&atlas, &atlas.volumes(9)[0], None, &options(paper));
         for (scene, whole) in front.iter().zip([title, family]) {
-            let says = says(scene);
+            let says: Vec<String> = says(scene).into_iter().filter(|line| line != "1").collect();
             assert!(!says.contains(&whole.to_owned()) && says.join(" ").contains(whole), "{says:?}");
         }
         // Every line leads to the page, which is told once.
