@@ -1,14 +1,12 @@
 // The shape that is asked for, made ready to be compared.
 
-import { cleaned, extentOf, lengthsAlong, resampled, thinned } from "./outline.js";
-
-// Points nearer than this to one another, by the extent, may be the trembling of a hand.
-const TREMBLING = 0.012;
+import { cleaned, extentOf, resampled } from "./outline.js";
+import { quieted } from "./quiet.js";
 
 /**
- * A shape from its points: { closed, points, extent, frame, outline }: `outline` lies about its middle with
- * an extent of 1, `frame` is the similarity from the points as given to it. Null where there are not two
- * different points.
+ * A shape from its points: { closed, points, extent, frame, outline, trembles }: `outline` lies about its
+ * middle with an extent of 1, `frame` is the similarity from the points as given to it, and `trembles` says
+ * whether it had to be smoothed. Null where there are not two different points.
  */
 export function askedShape(points, closed) {
   const given = cleaned(points, closed);
@@ -17,9 +15,8 @@ export function askedShape(points, closed) {
   const [x, y] = middleOf(given);
   const frame = { mirror: false, re: 1 / extent, im: 0, x: -x / extent, y: -y / extent };
   const own = given.map((value, k) => (value - (k % 2 ? y : x)) / extent);
-  const quiet = thinned(own, closed, TREMBLING);
-  const trembles = lengthOf(own, closed) > 1.03 * lengthOf(quiet, closed);
-  return { closed, points: given, extent, frame, outline: trembles && quiet.length >= 6 ? quiet : own };
+  const outline = quieted(own, closed);
+  return { closed, points: given, extent, frame, outline, trembles: outline !== own };
 }
 
 /** The even points of a shape; `open`: also of a closed one from its first point round to it again. */
@@ -36,10 +33,6 @@ export function thereAndBack(shape) {
   const back = [];
   for (let k = outline.length - 4; k >= 2; k -= 2) back.push(outline[k], outline[k + 1]);
   return { ...shape, closed: true, outline: Float64Array.from([...outline, ...back]) };
-}
-
-function lengthOf(points, closed) {
-  return lengthsAlong(points, closed).at(-1);
 }
 
 function middleOf(points) {

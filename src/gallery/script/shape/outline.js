@@ -86,34 +86,6 @@ export function mirroredOutline(points) {
 }
 
 /**
- * An outline with its points at least `spacing` apart, each the mean of those that it stands for: the
- * trembling of a hand, and the noise of a measurement, would otherwise add to the length along it.
- */
-export function thinned(points, closed, spacing) {
-  const out = [];
-  let [x, y, n] = [points[0], points[1], 1];
-  let [atX, atY] = [x, y];
-  for (let k = 2; k < points.length; k += 2) {
-    const [dx, dy] = [points[k] - atX, points[k + 1] - atY];
-    if (dx * dx + dy * dy < spacing * spacing) {
-      x += points[k];
-      y += points[k + 1];
-      n += 1;
-    } else {
-      out.push(x / n, y / n);
-      [x, y, n] = [points[k], points[k + 1], 1];
-      [atX, atY] = [x, y];
-    }
-  }
-  out.push(x / n, y / n);
-  const end = points.length;
-  // The ends of an open outline are where they were.
-  if (!closed && out.length > 4) out.splice(0, 2, points[0], points[1]);
-  if (!closed && out.length > 4) out.splice(out.length - 2, 2, points[end - 2], points[end - 1]);
-  return Float64Array.from(out);
-}
-
-/**
  * Whether an outline comes back so near to its beginning that it is meant to close: within 12 % of its
  * extent.
  */

@@ -33,10 +33,8 @@ export function* searching(indexes, shape, { part = false, mirror = true, least 
     likely.push(...found);
   }
   likely.sort((a, b) => b.value - a.value);
-  // The places of portions are settled already, better than a rough comparison would.
-  const chosen = part
-    ? likely.slice(0, EXACT).map(({ index, curve, seeds }) => ({ index, curve, seed: seeds[0] }))
-    : yield* roughlyCompared(likely.slice(0, ROUGH), outlinesOf(shape, part, ROUGH_POINTS));
+  const rough = outlinesOf(shape, part, ROUGH_POINTS);
+  const chosen = yield* (part ? chosenParts : roughlyCompared)(likely.slice(0, ROUGH), rough, shape);
   const outlines = outlinesOf(shape, part, EXACT_POINTS);
   const results = [];
   for (const { index, curve, seed } of chosen) {
@@ -61,6 +59,23 @@ function* roughlyCompared(likely, outlines) {
     if (fits.length % 8 < seeds.length) yield;
   }
   return nearestOnce(fits, EXACT);
+}
+
+/**
+ * The likeliest portions: their places are settled already, better than a rough comparison would. What a
+ * trembling shape's noise does along a curve spoils likeness, though, but not distances from the curve: half
+ * of them are those that a rough comparison brings nearest.
+ */
+function* chosenParts(likely, outlines, { trembles }) {
+  const settled = likely.map(({ index, curve, seeds: [seed] }) => ({ index, curve, seed }));
+  if (!trembles) return settled.slice(0, EXACT);
+  const fits = [];
+  for (const { index, curve, seed } of settled.slice(EXACT / 2)) {
+    const { rms } = partFit(index, curve, outlines, seed, "rough");
+    fits.push({ index, curve, rms, seed });
+    if (fits.length % 16 === 0) yield;
+  }
+  return [...settled.slice(0, EXACT / 2), ...nearestOnce(fits, EXACT / 2)];
 }
 
 /** A shape in even points, as it is compared with closed curves and with open ones. */
