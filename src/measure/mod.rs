@@ -11,6 +11,7 @@ mod exchange;
 mod extreme;
 mod input_range;
 mod kind;
+mod longest;
 mod mirror;
 mod path;
 mod shape;
