@@ -78,9 +78,7 @@ impl Search<'_> {
         while round <= FEW as f64 {
             let window = [point - round, point + round];
             let Some((length, ends)) = self.finely(window, DEPTH) else { break };
-            if found.is_none_or(|(longest, _)| length > longest) {
-                found = Some((length, ends));
-            }
+            found = found.into_iter().chain([(length, ends)]).reduce(longer);
             let [from, to] = self.course.clamp(window);
             // What fills the window may go on outside.
             let near = 0.05 * round;

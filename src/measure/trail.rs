@@ -106,7 +106,7 @@ impl Trail {
         trail.nears = vec![OnceCell::new(); trail.points.len()];
         trail.chords = (0..trail.points.len()).map(|i| trail.chord(i)).collect();
         trail.bends = (0..trail.points.len()).map(|i| trail.bend(i)).collect();
-        trail.sharp = (0..trail.points.len()).map(|i| trail.turns_about(i)).collect();
+        trail.sharp = (0..trail.points.len()).map(|i| trail.turns_further(i, 0.5)).collect();
         trail
     }
 
@@ -138,27 +138,25 @@ impl Trail {
         self.sharp[i]
     }
 
-    fn turns_about(&self, i: usize) -> bool {
-        let (Some(a), Some(b)) = (self.at(i, -1), self.at(i, 1)) else { return false };
-        let (before, after) = (self.points[i] - self.points[a], self.points[b] - self.points[i]);
-        before.dot(&after) < 0.5 * before.norm() * after.norm()
-    }
-
     /// Whether the path goes back about a sample the way it came.
     pub fn doubles_back(&self, i: usize) -> bool {
+        self.turns_further(i, -0.9)
+    }
+
+    /// Whether the path turns about a sample through more than the angle of some cosine.
+    fn turns_further(&self, i: usize, cosine: f64) -> bool {
         let (Some(a), Some(b)) = (self.at(i, -1), self.at(i, 1)) else { return false };
         let (before, after) = (self.points[i] - self.points[a], self.points[b] - self.points[i]);
-        before.dot(&after) < -0.9 * before.norm() * after.norm()
+        before.dot(&after) < cosine * before.norm() * after.norm()
     }
 
     /// How often it begins to bend the other way. Where it is straight to a part in ten million, or to what places are
     /// rounded to, or turns sharply, its samples do not tell which way it bends.
     pub fn inflections(&self) -> usize {
         let size = self.points.iter().fold(0.0, |size: f64, p| size.max((p - self.points[0]).norm()));
-        let before = |i: usize| self.at(i, -1).map_or(0.0, |k| self.chords[k]);
         let tells = |&i: &usize| {
             let bend = self.bends[i].abs();
-            bend * size > 1e-7 && bend * self.chords[i] * before(i) > 1e-12 * size && !self.turns_sharply(i)
+            bend * size > 1e-7 && bend * self.chords[i] * self.chord_before(i) > 1e-12 * size && !self.turns_sharply(i)
         };
         let bends: Vec<bool> = (0..self.points.len()).filter(tells).map(|i| self.bends[i] > 0.0).collect();
         let changes = bends.windows(2).filter(|pair| pair[0] != pair[1]).count();
@@ -167,6 +165,10 @@ impl Trail {
 
     fn chord(&self, i: usize) -> f64 {
         self.at(i, 1).map_or(0.0, |next| (self.points[next] - self.points[i]).norm())
+    }
+
+    fn chord_before(&self, i: usize) -> f64 {
+        self.at(i, -1).map_or(0.0, |k| self.chords[k])
     }
 
     fn bend(&self, i: usize) -> f64 {
@@ -234,8 +236,7 @@ impl Trail {
 
     /// How much of the length each sample stands for: half the way to either neighbour.
     pub fn weights(&self) -> Vec<f64> {
-        let before = |i: usize| self.at(i, -1).map_or(0.0, |k| self.chords[k]);
-        (0..self.points.len()).map(|i| (before(i) + self.chords[i]) / 2.0).collect()
+        (0..self.points.len()).map(|i| (self.chord_before(i) + self.chords[i]) / 2.0).collect()
     }
 
     /// How far a point is from the lines to the neighbours of a sample.

@@ -7,7 +7,7 @@ import { passRange } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 import { isCorner } from "../kinematics/sampling.js";
 import { curvatureNear, reachOfTrail } from "./between.js";
-import { arcsOfTrail, sampleAfter, topOfTrail } from "./trail.js";
+import { arcsOfTrail, sampleAfter, topOfTrail, turnsFurther } from "./trail.js";
 
 const GOLDEN_PART = 0.6180339887498949;
 
@@ -116,15 +116,6 @@ export function cuspsOf(subject) {
   return circuit.count > 0 ? found.length : 0;
 }
 
-// Whether the path goes back about a sample the way it came.
-function doublesBack(trail, i) {
-  const { x, y } = trail;
-  const [a, b] = [sampleAfter(trail, i, -1), sampleAfter(trail, i, 1)];
-  if (a < 0 || b < 0) return false;
-  const [ux, uy, vx, vy] = [x[i] - x[a], y[i] - y[a], x[b] - x[i], y[b] - y[i]];
-  return ux * vx + uy * vy < -0.9 * Math.sqrt(ux * ux + uy * uy) * Math.sqrt(vx * vx + vy * vy);
-}
-
 // The sample at which a trail bends most, but for corners: what two samples on either side tell of the bend.
 function sharpestSample(trail, circuit) {
   const corners = trail.samples.map((sample) => isCorner(circuit, sample));
@@ -141,7 +132,8 @@ export function sharpestBend(subject, cusps) {
   const { trail, circuit } = subject;
   if (trail.count === 0) return null;
   const limits = flatInputs(circuit);
-  const turnsBack = (_, i) => limits.includes(trail.inputs[i]) && doublesBack(trail, i);
+  // Where it goes back the way it came.
+  const turnsBack = (_, i) => limits.includes(trail.inputs[i]) && turnsFurther(trail, i, -0.9);
   if (cusps > 0 || trail.samples.some(turnsBack)) return Infinity;
   const sharpest = sharpestSample(trail, circuit);
   if (sharpest < 0) return null;

@@ -34,7 +34,7 @@ export function trailOf(circuit, joint, { isLength }) {
     nears: new Array(count).fill(null),
   };
   trail.bends = Float64Array.from(samples, (_, i) => bendOfTrail(trail, i));
-  trail.sharp = samples.map((_, i) => turnsAbout(trail, i));
+  trail.sharp = samples.map((_, i) => turnsFurther(trail, i, 0.5));
   return trail;
 }
 
@@ -74,12 +74,13 @@ function bendOfTrail(trail, i) {
   return bendThrough(trail.x, trail.y, before, at, after);
 }
 
-function turnsAbout(trail, i) {
+/** Whether the path turns about a sample through more than the angle of some cosine. */
+export function turnsFurther(trail, i, cosine) {
   const [a, b] = [sampleAfter(trail, i, -1), sampleAfter(trail, i, 1)];
   if (a < 0 || b < 0) return false;
   const { x, y } = trail;
   const [ux, uy, vx, vy] = [x[i] - x[a], y[i] - y[a], x[b] - x[i], y[b] - y[i]];
-  return ux * vx + uy * vy < 0.5 * Math.sqrt(ux * ux + uy * uy) * Math.sqrt(vx * vx + vy * vy);
+  return ux * vx + uy * vy < cosine * Math.sqrt(ux * ux + uy * uy) * Math.sqrt(vx * vx + vy * vy);
 }
 
 /** The length of the chord from a sample to the next. */
