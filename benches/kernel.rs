@@ -5,9 +5,9 @@
 
 use std::hint::black_box;
 
-use coupler_atlas::linkage::{Assembly, Flat, Linkage, Side, Signs, Travel};
-use coupler_atlas::measure::{self, Subject};
-use coupler_atlas::motion::{Columns, Inputs, Modes, Motion, Sampler, Sampling, Stop, place};
+use coupler_curves::linkage::{Assembly, Flat, Linkage, Side, Signs, Travel};
+use coupler_curves::measure::{self, Subject};
+use coupler_curves::motion::{Columns, Inputs, Modes, Motion, Sampler, Sampling, Stop, place};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const SAMPLES: usize = 360;

@@ -1,13 +1,14 @@
 //! How many pages one core draws: a page of ten coupler curves, composed and rendered: `cargo bench --bench pages`.
 
+use coupler_curves::solve;
 use std::hint::black_box;
 
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::motion::Sampler;
-use coupler_atlas::page::{self, GridSheet, Heading, Layout, Panel, View};
-use coupler_atlas::render::{self, TextMode};
-use coupler_atlas::scene::Scene;
-use coupler_atlas::sweep::{self, Solved};
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve::Solved;
+use coupler_drawing::page::{self, GridSheet, Heading, Layout, Panel, View};
+use coupler_drawing::render::{self, TextMode};
+use coupler_drawing::scene::Scene;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// The pages of one cell of the atlas of Hrones and Nelson.
@@ -33,7 +34,7 @@ fn pages(criterion: &mut Criterion) {
     let family = &plan.families[0].family;
     let sampler = Sampler::new(family.sampling);
     // A = 2.5, B = 3.5, C = 3: its curves are neither small nor long.
-    let solved = sweep::solve(family, &sampler, 87).expect("a cell");
+    let solved = solve::solve(family, &sampler, 87).expect("a cell");
     let scenes = compose(&plan, &solved);
     let mut group = criterion.benchmark_group("pages");
     group.throughput(Throughput::Elements(scenes.len() as u64));

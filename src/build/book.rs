@@ -2,21 +2,23 @@
 //!
 //! The cells are solved for it anew: a book is made where any page of it has changed, and then has all of them.
 
+use coupler_curves::solve;
 use std::path::Path;
 
 use super::inputs::Inputs;
 use super::journal::Journal;
 use super::{Error, Event, Options, earlier, files};
-use crate::chart::Gathering;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
-use crate::page::{Layout, Sheet};
 use crate::press::{Composer, Press, Setting, leaves, told_on_pages};
 use crate::record::{BookRecord, FileRecord};
-use crate::render::{Format, pdf};
-use crate::scene::Scene;
-use crate::sweep::{self, Arrangement, Groups, Solved};
-use crate::template::Circuits;
+use crate::sweep::{self, Arrangement, Groups};
+use coupler_curves::solve::Solved;
+use coupler_curves::template::Circuits;
+use coupler_drawing::chart::Gathering;
+use coupler_drawing::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
+use coupler_drawing::page::{Layout, Sheet};
+use coupler_drawing::render::{Format, pdf};
+use coupler_drawing::scene::Scene;
 
 /// The program, as a book names it.
 const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
@@ -148,8 +150,8 @@ fn bind(
 /// The first cell of a family that has a curve, of a coupler grid with those of the page in the middle.
 fn first_cell<'a>(part: &'a Part) -> Option<(&'a Composer<'a>, Solved)> {
     let family = &part.press.composer.planned.family;
-    let sampler = crate::motion::Sampler::new(family.sampling);
-    let solved = part.press.arrangement.order.iter().filter_map(|&cell| sweep::solve(family, &sampler, cell));
+    let sampler = coupler_curves::motion::Sampler::new(family.sampling);
+    let solved = part.press.arrangement.order.iter().filter_map(|&cell| solve::solve(family, &sampler, cell));
     let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
     if part.press.composer.planned.layout == Layout::CouplerGrid {
         let leaves = leaves(&solved);

@@ -8,10 +8,10 @@ use rayon::prelude::*;
 
 use super::{Error, Event, files};
 use crate::gallery;
-use crate::page::book::Volume;
 use crate::press::page_name;
 use crate::record::{FamilyRecord, FileRecord, ReadError, Run};
-use crate::render::PageFormat;
+use coupler_drawing::page::book::Volume;
+use coupler_drawing::render::PageFormat;
 
 /// The tables of a family, which every one has, and its data for the gallery.
 const TABLES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT];

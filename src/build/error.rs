@@ -2,7 +2,7 @@ use std::io::{self, ErrorKind};
 use std::path::PathBuf;
 
 use crate::record::ReadError;
-use crate::render;
+use coupler_drawing::render;
 
 /// Why a plan was not built, or a file not read or written.
 #[derive(Debug, thiserror::Error)]

@@ -12,8 +12,9 @@ use super::{Error, Event, Options, earlier};
 use crate::gallery::{self, Statements};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::press::{Off, Press};
-use crate::record::{Cells, FamilyRecord, FileRecord, Points, shortfalls};
-use crate::render::{Format, PageFormat};
+use crate::record::{Cells, FamilyRecord, FileRecord, shortfalls};
+use coupler_curves::exchange::Points;
+use coupler_drawing::render::{Format, PageFormat};
 
 /// Builds a family into its folder, unless all of it is there as it would be.
 pub(super) fn build(

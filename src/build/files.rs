@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
+use crate::record::is_whole_png;
 use crate::record::{FileRecord, RunningDigest};
-use crate::render::is_whole_png;
 
 /// The text of a manifest.
 ///

@@ -2,7 +2,7 @@
 
 use crate::manifest::PlannedFamily;
 use crate::record::RunningDigest;
-use crate::sweep::Solved;
+use coupler_curves::solve::Solved;
 
 /// What the files of a family are made from.
 #[derive(Clone, Copy, Debug)]

@@ -19,10 +19,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::manifest::{Plan, PlannedFamily};
-use crate::problem::Problem;
 use crate::record::{BookRecord, FamilyRecord, ReadError, Run};
-use crate::render::Format;
 use crate::sweep;
+use coupler_curves::problem::Problem;
+use coupler_drawing::render::Format;
 use journal::Journal;
 use lock::Lock;
 

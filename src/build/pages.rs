@@ -7,9 +7,10 @@ use super::inputs::Inputs;
 use super::{Error, stop_if};
 use crate::gallery::Statements;
 use crate::press::{Composer, Hand, Leaf, Matter, page_name};
-use crate::record::{Cells, FileRecord, Points};
-use crate::render::{self, PageFormat};
-use crate::sweep::{Solved, Status};
+use crate::record::{Cells, FileRecord};
+use coupler_curves::exchange::Points;
+use coupler_curves::solve::{Solved, Status};
+use coupler_drawing::render::{self, PageFormat};
 
 /// A page in each format.
 pub(super) struct Printed {

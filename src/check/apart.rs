@@ -1,10 +1,10 @@
 //! How far two curves are apart as sets of points, whatever their samples.
 
 use super::track::Track;
-use crate::geometry::{Point, Vector, cross, distance_to_segment};
-use crate::linkage::JointId;
-use crate::motion::{Circuit, Pass, poses};
-use crate::sweep::Solved;
+use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment};
+use coupler_curves::linkage::JointId;
+use coupler_curves::motion::{Circuit, Pass, poses};
+use coupler_curves::solve::Solved;
 
 /// How far recorded points are from the curve that comes out now at most, or the samples of that from the recorded
 /// curve, whichever is more.

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use super::curve::difference;
 use super::finding::{Change, Finding, Place};
 use crate::manifest::Tolerances;
-use crate::measure::{self, Measure};
 use crate::record::{Flaw, Row};
+use coupler_curves::measure::{self, Measure};
 
 /// Where the columns of a `cells.csv` are, in a recorded one and in the present one.
 #[derive(Clone, Debug)]

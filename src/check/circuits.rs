@@ -2,7 +2,7 @@
 
 use super::finding::Change;
 use super::track::Track;
-use crate::geometry::Point;
+use coupler_curves::geometry::Point;
 
 /// The recorded curves of one traced joint, and those that come out now.
 pub(super) struct Matching {

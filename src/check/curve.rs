@@ -3,10 +3,10 @@
 use super::apart::apart;
 use super::finding::{Change, Move, coordinates};
 use super::track::{Track, distance};
-use crate::geometry::Point;
 use crate::manifest::Tolerances;
-use crate::motion::Circuit;
-use crate::sweep::{Curve, Solved};
+use coupler_curves::geometry::Point;
+use coupler_curves::motion::Circuit;
+use coupler_curves::solve::{Curve, Solved};
 
 /// A curve as it comes out now.
 #[derive(Clone, Copy)]

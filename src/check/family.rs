@@ -1,5 +1,6 @@
 //! A family as it comes off the press, held against what is recorded of it.
 
+use coupler_curves::solve;
 use std::convert::Infallible;
 use std::path::Path;
 
@@ -12,10 +13,10 @@ use super::pages::{Page, Pages};
 use super::tables::Tables;
 use super::track::Track;
 use crate::manifest::Tolerances;
-use crate::motion::Sampler;
 use crate::press::{Hand, Leaf, Press};
 use crate::record::{FamilyRecord, Flaw, rows};
-use crate::sweep::{self, Curve, Solved};
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve::{Curve, Solved};
 
 /// A family that is held against its record.
 pub(super) struct Checked<'a> {
@@ -152,7 +153,7 @@ impl<'a> Checked<'a> {
     pub fn both(&self, number: usize) -> Option<(Vec<Track>, Solved)> {
         let Recorded::As(recorded) = self.numbering.recorded(number) else { return None };
         let family = &self.press.composer.planned.family;
-        let solved = sweep::solve(family, &Sampler::new(family.sampling), number.checked_sub(1)?)?;
+        let solved = solve::solve(family, &Sampler::new(family.sampling), number.checked_sub(1)?)?;
         Some((self.tables.recorded_tracks(recorded)?, solved))
     }
 

@@ -2,7 +2,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::geometry::Point;
+use coupler_curves::geometry::Point;
 
 /// Something that is not as it was recorded.
 #[derive(Clone, Debug, PartialEq, Serialize)]

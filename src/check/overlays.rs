@@ -6,13 +6,13 @@ use std::sync::atomic::AtomicBool;
 
 use super::family::Checked;
 use super::{Change, Finding, Options, Report};
-use crate::geometry::Point;
 use crate::manifest::Plan;
-use crate::motion::{self, Dashes};
-use crate::page::{self, OverlaySheet};
 use crate::press::Press;
 use crate::record::Run;
-use crate::render;
+use coupler_curves::geometry::Point;
+use coupler_curves::motion::{self, Dashes};
+use coupler_drawing::page::{self, OverlaySheet};
+use coupler_drawing::render;
 
 /// A page that shows how a curve has moved.
 #[derive(Clone, Debug)]

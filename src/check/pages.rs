@@ -8,9 +8,9 @@ use super::finding::{Change, Finding, Place};
 use super::tables::altered;
 use super::track::Track;
 use crate::press::{Leaf, Matter, Press, page_name};
-use crate::record::{FamilyRecord, FileRecord, Flaw, LineDigests, open_plain};
-use crate::render::{self, PageFormat};
-use crate::sweep::Solved;
+use crate::record::{FamilyRecord, FileRecord, Flaw, LineDigests, drawn_curves, is_whole_png, open_plain};
+use coupler_curves::solve::Solved;
+use coupler_drawing::render::{self, PageFormat};
 
 /// The recorded pages of a family.
 pub(super) struct Pages<'a> {
@@ -71,7 +71,7 @@ impl<'a> Pages<'a> {
                 page.differing.push(record.name.clone());
             }
             let wrong = match read(&self.folder.join(&record.name)) {
-                Ok(bytes) if render::is_whole_png(&bytes) => None,
+                Ok(bytes) if is_whole_png(&bytes) => None,
                 Ok(_) => Some("is no whole image".to_owned()),
                 Err(flaw) => Some(flaw.to_string()),
             };
@@ -110,7 +110,7 @@ impl<'a> Pages<'a> {
         recorded: impl Fn(usize) -> Option<Vec<Track>>,
     ) -> Vec<Finding> {
         let place = self.file(&record.name);
-        let curves = match render::drawn_curves(bytes) {
+        let curves = match drawn_curves(bytes) {
             Ok(curves) => curves,
             Err(error) => return vec![place.has(Change::Damaged { wrong: error.to_string() })],
         };

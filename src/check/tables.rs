@@ -5,10 +5,11 @@ use std::path::Path;
 use super::cells::Columns;
 use super::finding::{Change, Finding, Place};
 use super::track::{Layout, Track};
-use crate::motion::Sampler;
 use crate::press::Press;
-use crate::record::{Cells, FamilyRecord, FileRecord, Flaw, Points, Row, Table, rows};
-use crate::sweep::Solved;
+use crate::record::{Cells, FamilyRecord, FileRecord, Flaw, Row, Table, rows};
+use coupler_curves::exchange::Points;
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve::Solved;
 
 /// What is recorded in `points.csv` and `cells.csv`, where it can be read, and how they are written now.
 pub(super) struct Tables<'a> {

@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 
-use crate::geometry::{Bounds, Point};
 use crate::record::{Flaw, Row};
+use coupler_curves::geometry::{Bounds, Point};
 
 /// A curve as the rows of `points.csv` have it.
 #[derive(Clone, Debug, PartialEq)]

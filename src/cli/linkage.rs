@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use coupler_atlas::expression::Expression;
-use coupler_atlas::problem::nearest_or_all;
-use coupler_atlas::template::Template;
-use coupler_atlas::{build, catalogue, manifest};
+use coupler_atlas::{build, manifest};
+use coupler_curves::catalogue;
+use coupler_curves::expression::Expression;
+use coupler_curves::problem::nearest_or_all;
+use coupler_curves::template::Template;
 
 use super::{WrongInput, plan};
 

@@ -1,7 +1,7 @@
 use clap::{Args, ValueEnum};
-use coupler_atlas::page::{Layout, Theme};
-use coupler_atlas::template::Template;
-use coupler_atlas::{catalogue, measure};
+use coupler_curves::template::Template;
+use coupler_curves::{catalogue, measure};
+use coupler_drawing::page::{Layout, Theme};
 
 use super::{Outcome, print, schema};
 

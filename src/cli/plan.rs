@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use coupler_atlas::build;
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::problem::{self, Problem, nearest_or_all};
+use coupler_curves::problem::{self, Problem, nearest_or_all};
 
 use super::{WrongInput, count, say};
 

@@ -4,9 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use coupler_atlas::build::{self, Event};
-use coupler_atlas::problem::nearest_or_all;
 use coupler_atlas::record::FamilyRecord;
-use coupler_atlas::render::Format;
+use coupler_curves::problem::nearest_or_all;
+use coupler_drawing::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{INTERRUPTED, Outcome, count, plan, print, say};

@@ -1,7 +1,7 @@
 //! The JSON Schema of a manifest, from the tables its reader goes by.
 
-use coupler_atlas::expression::Dimension;
 use coupler_atlas::manifest::{Form, Key, MANIFEST, Table};
+use coupler_curves::expression::Dimension;
 use serde_json::{Map, Value, json};
 
 /// The schema, with which an editor completes a manifest and finds its slips as it is written.

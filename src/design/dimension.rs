@@ -3,12 +3,13 @@ use super::search::SAMPLES;
 use super::stroke::Stroke;
 use super::trial::{Figures, Trial, figures, number, subject};
 use super::wishes::Wishes;
-use crate::family::{Family, Straight};
-use crate::geometry::Point;
-use crate::linkage::FourBar;
-use crate::measure::Portion;
-use crate::motion::{Sampler, Sampling};
-use crate::sweep::{self, Solved};
+use coupler_curves::family::{Family, Straight};
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::FourBar;
+use coupler_curves::measure::Portion;
+use coupler_curves::motion::{Sampler, Sampling};
+use coupler_curves::solve;
+use coupler_curves::solve::Solved;
 
 /// How a linkage's proportions were come by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +66,7 @@ impl Design {
         let given: Vec<(String, f64)> = named.map(|(name, value)| (name.clone(), scaled(&name, value))).collect();
         let mut family = Family::single(template, &given, Sampling::Samples(SAMPLES)).ok()?;
         family.straight = Straight::Tolerance(trial.tolerance);
-        let solved = sweep::solve(&family, sampler, 0)?;
+        let solved = solve::solve(&family, sampler, 0)?;
         let measured = subject(&solved.linkage, &solved.motion, trial.tolerance)?;
         let straight = measured.straight()?.clone();
         let figures = figures(trial.arrangement, &measured, &straight)?;

@@ -1,6 +1,6 @@
 //! How much room a linkage takes.
 
-use crate::geometry::{Point, Vector, trig};
+use coupler_curves::geometry::{Point, Vector, trig};
 
 /// The greatest distance between any two of some points, by the pairs that are furthest apart in each of many directions,
 /// from the best of which on in the direction of the pair itself.

@@ -6,10 +6,10 @@
 use std::sync::Arc;
 
 use super::wishes::FRAMES;
-use crate::catalogue;
-use crate::geometry::trig;
-use crate::linkage::Class;
-use crate::template::Template;
+use coupler_curves::catalogue;
+use coupler_curves::geometry::trig;
+use coupler_curves::linkage::Class;
+use coupler_curves::template::Template;
 
 /// A linkage of chapter 10, and Hoeken's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -31,7 +31,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::template::Template;
+use coupler_curves::template::Template;
 use search::Samplers;
 use trial::{Goal, Question, Trial};
 

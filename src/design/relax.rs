@@ -97,7 +97,7 @@ fn best(wishes: &Wishes, goal: Goal, samplers: &Samplers, least: impl Fn(&Trial)
 
 fn question<'a>(
     arrangement: Arrangement,
-    template: &'a std::sync::Arc<crate::template::Template>,
+    template: &'a std::sync::Arc<coupler_curves::template::Template>,
     wishes: &'a Wishes,
     goal: Goal,
 ) -> Question<'a> {

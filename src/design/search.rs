@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::simplex::{self, Effort};
 use super::trial::{Goal, Question, Trial, UNMET, apart, next_tolerance};
 use super::wishes::TOLERANCES;
-use crate::motion::{Sampler, Sampling};
+use coupler_curves::motion::{Sampler, Sampling};
 
 /// The samplers of a search.
 pub(super) struct Samplers {
@@ -130,7 +130,7 @@ fn near(question: &Question, start: &[f64], samplers: &Samplers) -> (f64, Option
 }
 
 fn descend(question: &Question, start: &[f64], sampler: &Sampler, effort: Effort) -> (f64, Option<Trial>) {
-    use crate::geometry::trig::{exp, ln};
+    use coupler_curves::geometry::trig::{exp, ln};
     let free = question.arrangement.kind.proportions(question.tolerance);
     let held = usize::from(fixed_p(question).is_some());
     let place: Vec<f64> = (held..start.len()).map(|k| ln(start[k]) / free[k].step).collect();

@@ -1,8 +1,8 @@
 //! What a linkage goes through along its straight portion.
 
-use crate::geometry::{Point, Vector, cross, trig};
-use crate::linkage::{FourBar, JointId};
-use crate::measure::{Portion, Subject};
+use coupler_curves::geometry::{Point, Vector, cross, trig};
+use coupler_curves::linkage::{FourBar, JointId};
+use coupler_curves::measure::{Portion, Subject};
 
 /// The poses of a straight portion, from its beginning to its end.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,11 +4,11 @@ use super::extent::extent;
 use super::kind::{Arrangement, Input, Kind};
 use super::stroke::{Driven, Stroke};
 use super::wishes::Wishes;
-use crate::geometry::{Point, trig};
-use crate::linkage::{FourBar, Linkage};
-use crate::measure::{self, Portion, Straight, Subject, Value};
-use crate::motion::{Motion, Sampler};
-use crate::template::Template;
+use coupler_curves::geometry::{Point, trig};
+use coupler_curves::linkage::{FourBar, Linkage};
+use coupler_curves::measure::{self, Portion, Straight, Subject, Value};
+use coupler_curves::motion::{Motion, Sampler};
+use coupler_curves::template::Template;
 
 /// A linkage tried out, its unit link 1.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,13 +6,13 @@ use serde_json::{Map, Value, json};
 
 use super::packed::{f64s, u8s, u16s, u32s};
 use super::template::{expression, template};
-use crate::family::{Sampling, Straight};
-use crate::geometry::{Bounds, Point};
 use crate::manifest::{Plan, PlannedFamily};
-use crate::measure;
-use crate::page::Layout;
-use crate::scene::{Group, Item, Scene};
-use crate::sweep::{Curve, Solved, Status};
+use coupler_curves::family::{Sampling, Straight};
+use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::measure;
+use coupler_curves::solve::{Curve, Solved, Status};
+use coupler_drawing::page::Layout;
+use coupler_drawing::scene::{Group, Item, Scene};
 
 /// The name of the script in a family's folder.
 pub const SCRIPT: &str = "gallery.js";

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::parts::{SCRIPTS, STYLES, joined};
-use crate::measure;
 use crate::record::{FamilyRecord, Run};
+use coupler_curves::measure;
 
 /// A family as the gallery shows it.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,10 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::expression::{Bound, Postfix, Unit};
-use crate::template::{Circuits, Coincident, Continuation, Coordinate, InputValue, Parameter, Placing, Side, Template};
+use coupler_curves::expression::{Bound, Postfix, Unit};
+use coupler_curves::template::{
+    Circuits, Coincident, Continuation, Coordinate, InputValue, Parameter, Placing, Side, Template,
+};
 
 /// An expression: a number, or a program for a stack machine: numbers are pushed, a name's place in brackets pushes its
 /// value, words are operators, or functions with their number of arguments.
@@ -79,9 +81,11 @@ fn placing(placing: &Placing) -> Value {
 }
 
 /// A parameter; `slots` are the places of the template's own names.
-fn parameter(parameter: &Parameter, scope: &[(&str, crate::expression::Kind)]) -> Value {
-    let default =
-        parameter.default.as_ref().and_then(|default| default.bind(scope, crate::expression::Kind::Number).ok());
+fn parameter(parameter: &Parameter, scope: &[(&str, coupler_curves::expression::Kind)]) -> Value {
+    let default = parameter
+        .default
+        .as_ref()
+        .and_then(|default| default.bind(scope, coupler_curves::expression::Kind::Number).ok());
     json!({
         "name": parameter.name,
         "min": parameter.min,
@@ -92,10 +96,10 @@ fn parameter(parameter: &Parameter, scope: &[(&str, crate::expression::Kind)]) -
 
 /// A template, in the words of a manifest.
 pub fn template(template: &Template) -> Value {
-    let number = crate::expression::Kind::Number;
-    let scope: Vec<(&str, crate::expression::Kind)> =
+    let number = coupler_curves::expression::Kind::Number;
+    let scope: Vec<(&str, coupler_curves::expression::Kind)> =
         template.parameters.iter().map(|parameter| (parameter.name.as_str(), number)).collect();
-    let joint = |joint: &crate::template::JointTemplate| {
+    let joint = |joint: &coupler_curves::template::JointTemplate| {
         let mut entry = Map::new();
         entry.insert("name".to_owned(), json!(joint.name));
         if let Value::Object(placed) = placing(&joint.placing) {
@@ -104,7 +108,7 @@ pub fn template(template: &Template) -> Value {
         Value::Object(entry)
     };
     let placement = template.placement;
-    let axis = placement.vector(crate::geometry::Vector::new(1.0, 0.0));
+    let axis = placement.vector(coupler_curves::geometry::Vector::new(1.0, 0.0));
     json!({
         "id": template.id,
         "parameters": template.parameters.iter().map(|p| parameter(p, &scope)).collect::<Vec<_>>(),

@@ -2,12 +2,12 @@
 
 use super::names::Names;
 use super::table::measures;
-use crate::chart::{self, Chart, Over, Quantity};
-use crate::expression::{Bound, Expression};
-use crate::family::{MAX_CELLS, Space};
-use crate::notation::{Fields, Form, Key, Reader, Table, Value};
-use crate::problem::{Problem, nearest_or_all};
-use crate::template::Template;
+use coupler_curves::expression::{Bound, Expression};
+use coupler_curves::family::{MAX_CELLS, Space};
+use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value};
+use coupler_curves::problem::{Problem, nearest_or_all};
+use coupler_curves::template::Template;
+use coupler_drawing::chart::{self, Chart, Over, Quantity};
 
 /// The `chart` of a family.
 pub(super) static CHART: Table = Table::new(
@@ -298,7 +298,7 @@ pub(super) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, reader: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expression::Kind;
+    use coupler_curves::expression::Kind;
 
     #[test]
     fn a_measure_is_no_name_of_the_familys_own() {

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use super::names::{given, names, read_expressions};
 use super::table::{FAMILY, LEAST_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing};
 use super::{Inputs, PlannedFamily, Templates, chart, settings, tolerance};
-use crate::expression::Dimension;
-use crate::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, MEASURES, Sampling, Straight};
-use crate::notation::{self, Fields, Reader, Value};
-use crate::page::{Layout, Options};
-use crate::problem::{Problem, Span, nearest_or_all};
-use crate::render::Format;
-use crate::template::{Placement, Template};
+use coupler_curves::expression::Dimension;
+use coupler_curves::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, MEASURES, Sampling, Straight};
+use coupler_curves::notation::{self, Fields, Reader, Value};
+use coupler_curves::problem::{Problem, Span, nearest_or_all};
+use coupler_curves::template::{Placement, Template};
+use coupler_drawing::page::{Layout, Options};
+use coupler_drawing::render::Format;
 
 /// The id of a table and its place, if it has one.
 pub(super) fn id(value: &Value) -> Option<(String, Span)> {

@@ -1,7 +1,7 @@
 //! The version of the language a manifest is written in.
 
-use crate::notation::{Reader, Value};
-use crate::problem::Problem;
+use coupler_curves::notation::{Reader, Value};
+use coupler_curves::problem::Problem;
 
 /// The version of the language of manifests that this program reads.
 pub const FORMAT: usize = 1;

@@ -1,7 +1,7 @@
 //! The values of a grid: lists, ranges by step and ranges by count.
 
-use crate::notation::{Fields, Form, Key, Reader, Table, Value};
-use crate::problem::Problem;
+use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value};
+use coupler_curves::problem::Problem;
 
 /// What a name of a grid may be given.
 pub(super) const VALUES: Form =

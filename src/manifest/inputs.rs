@@ -1,4 +1,4 @@
-use crate::notation::{Fields, Value, normal};
+use coupler_curves::notation::{Fields, Value, normal};
 
 /// What a manifest says of that which a family's files are made from, in a form that does not tell how it was written.
 ///

@@ -16,18 +16,18 @@ pub use inputs::Inputs;
 pub use table::MANIFEST;
 pub use tolerance::{GivenTolerances, Tolerances};
 
-pub use crate::notation::{Form, Key, Table};
+pub use coupler_curves::notation::{Form, Key, Table};
 
 use std::sync::Arc;
 
-use crate::catalogue;
-use crate::chart::Chart;
-use crate::family::Family;
-use crate::notation::{self, Fields, Reader, Value};
-use crate::page;
-use crate::problem::{Problem, Span};
-use crate::render::{Format, TextMode};
-use crate::template::Template;
+use coupler_curves::catalogue;
+use coupler_curves::family::Family;
+use coupler_curves::notation::{self, Fields, Reader, Value};
+use coupler_curves::problem::{Problem, Span};
+use coupler_curves::template::Template;
+use coupler_drawing::chart::Chart;
+use coupler_drawing::page;
+use coupler_drawing::render::{Format, TextMode};
 
 /// All that is to be done.
 #[derive(Clone, Debug)]
@@ -205,7 +205,7 @@ impl Templates {
             let built_in = catalogue::all().iter().map(|template| template.id.as_str());
             let known: Vec<&str> = self.ids.iter().map(String::as_str).chain(built_in).collect();
             let problem = Problem::error(value.span(), format!("there is no linkage `{}`", id.escape_debug()));
-            reader.note(problem.help(crate::problem::nearest_or_all(&id, &known)));
+            reader.note(problem.help(coupler_curves::problem::nearest_or_all(&id, &known)));
         }
         found
     }

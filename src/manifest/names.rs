@@ -1,11 +1,11 @@
 //! The names of a family: what `grid`, `cases`, `let` and the linkage's defaults give them.
 
 use super::{chart, grid};
-use crate::expression::{Bound, Caption, Expression, Kind};
-use crate::family::{Axis, Case, Family, MAX_CELLS, Space, derivation};
-use crate::notation::{self, Fields, Reader, Value};
-use crate::problem::{Problem, Span, nearest};
-use crate::template::Template;
+use coupler_curves::expression::{Bound, Caption, Expression, Kind};
+use coupler_curves::family::{Axis, Case, Family, MAX_CELLS, Space, derivation};
+use coupler_curves::notation::{self, Fields, Reader, Value};
+use coupler_curves::problem::{Problem, Span, nearest};
+use coupler_curves::template::Template;
 
 /// The names of a family and where their values come from.
 pub(super) struct Names {

@@ -1,11 +1,11 @@
 //! The tables `[atlas]` and `[page]`.
 
 use super::{FORMAT, theme};
-use crate::expression::Dimension;
-use crate::notation::{Fields, Form, Key, Reader, Table, Value, words};
-use crate::page::{Options, Paper, Theme};
-use crate::problem::Problem;
-use crate::render::{Format, TextMode};
+use coupler_curves::expression::Dimension;
+use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value, words};
+use coupler_curves::problem::Problem;
+use coupler_drawing::page::{Options, Paper, Theme};
+use coupler_drawing::render::{Format, TextMode};
 
 pub(super) struct Atlas {
     pub title: String,

@@ -5,11 +5,11 @@ use super::grid::VALUES;
 use super::names::MAX_LIMIT;
 use super::settings::{ATLAS, FORMATS, PAGE};
 use super::tolerance::{CHECK, OWN_CHECK};
-use crate::catalogue;
-use crate::expression::Dimension;
-use crate::family::{COLUMNS, Family, MAX_SAMPLES, MEASURES};
-use crate::notation::{CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, Form, Key, LINKAGES, Table, words};
-use crate::page::Layout;
+use coupler_curves::catalogue;
+use coupler_curves::expression::Dimension;
+use coupler_curves::family::{COLUMNS, Family, MAX_SAMPLES, MEASURES};
+use coupler_curves::notation::{CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, Form, Key, LINKAGES, Table, words};
+use coupler_drawing::page::Layout;
 
 /// A manifest.
 pub static MANIFEST: Table = Table::new(

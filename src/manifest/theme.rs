@@ -1,11 +1,11 @@
 //! The `theme` of `[page]`: the name of one, or a table that starts from one and changes it.
 
 use super::settings::within;
-use crate::expression::Dimension;
-use crate::notation::{Fields, Form, Key, Reader, Table, Value, words};
-use crate::page::Theme;
-use crate::problem::{Problem, Span};
-use crate::scene::{Color, Typeface};
+use coupler_curves::expression::Dimension;
+use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value, words};
+use coupler_curves::problem::{Problem, Span};
+use coupler_drawing::page::Theme;
+use coupler_drawing::scene::{Color, Typeface};
 
 /// The name of a theme.
 pub(super) const NAME: Form = Form::Word(|| Theme::NAMED.map(|named| named.name).to_vec());

@@ -1,5 +1,5 @@
-use crate::notation::{Fields, Form, Key, Reader, Table, Value};
-use crate::problem::Problem;
+use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value};
+use coupler_curves::problem::Problem;
 
 /// By how much a recorded value may differ from the one that comes out now.
 ///

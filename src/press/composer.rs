@@ -3,12 +3,12 @@
 use std::cell::LazyCell;
 use std::rc::Rc;
 
-use crate::chart::{Chart, Gathered};
-use crate::family::Family;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::{self, ChartSheet, GridSheet, Heading, Label, Layout, Panel, Sheet, View};
-use crate::scene::Scene;
-use crate::sweep::Solved;
+use coupler_curves::family::Family;
+use coupler_curves::solve::Solved;
+use coupler_drawing::chart::{Chart, Gathered};
+use coupler_drawing::page::{self, ChartSheet, GridSheet, Heading, Label, Layout, Panel, Sheet, View};
+use coupler_drawing::scene::Scene;
 
 /// A cell with its lines.
 fn panel<'s>(family: &Family, solved: &'s Solved) -> Panel<'s> {

@@ -9,12 +9,13 @@ pub use setting::{Setting, told_on_pages};
 
 use std::sync::atomic::AtomicBool;
 
-use crate::chart::{Chart, Gathering, Taken};
 use crate::manifest::{Plan, PlannedFamily};
-use crate::page::Layout;
-use crate::render::PageFormat;
-use crate::scene::Scene;
-use crate::sweep::{self, Arrangement, Groups, Solved};
+use crate::sweep::{self, Arrangement, Groups};
+use coupler_curves::solve::Solved;
+use coupler_drawing::chart::{Chart, Gathering, Taken};
+use coupler_drawing::page::Layout;
+use coupler_drawing::render::PageFormat;
+use coupler_drawing::scene::Scene;
 
 /// The name of the file of a page.
 pub fn page_name(family: &str, page: usize, format: PageFormat) -> String {

@@ -1,8 +1,8 @@
-use crate::family::Family;
 use crate::manifest::PlannedFamily;
-use crate::measure::{self, Measure};
-use crate::page::{self, Layout};
 use crate::sweep::Arrangement;
+use coupler_curves::family::Family;
+use coupler_curves::measure::{self, Measure};
+use coupler_drawing::page::{self, Layout};
 
 /// Which measures it takes to draw the cells of a family on pages of their own.
 pub fn told_on_pages(family: &Family) -> Vec<bool> {

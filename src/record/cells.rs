@@ -1,8 +1,7 @@
-use super::number::whole;
-use super::shortest;
-use crate::family::Family;
-use crate::measure::Value;
-use crate::sweep::{Curve, Solved, Status};
+use coupler_curves::exchange::{shortest, whole};
+use coupler_curves::family::Family;
+use coupler_curves::measure::Value;
+use coupler_curves::solve::{Curve, Solved, Status};
 
 /// `cells.csv`: a row for each traced curve; a single one, without trace and circuit, for a cell that has no motion.
 #[derive(Clone, Copy, Debug)]

@@ -4,13 +4,13 @@
 pub const LOCK: &str = ".coupler-atlas.lock";
 
 mod cells;
-mod number;
-mod points;
+mod drawn;
+mod png;
 mod run;
 mod table;
 
 pub use cells::{Cells, shortfalls};
-pub use number::shortest;
-pub use points::Points;
+pub use drawn::{DrawnCurve, DrawnError, drawn_curves};
+pub use png::is_whole_png;
 pub use run::{BookRecord, FORMAT, FamilyRecord, FileRecord, LineDigests, ReadError, Run, RunningDigest};
 pub use table::{Flaw, Row, Table, open_plain, rows};

@@ -160,7 +160,7 @@ function comparedFamily({ id }) {
 function testNumbersAndWords(families) {
   const digits = [[2, "2"], [-0, "0"], [0.1 + 0.2, "0.30000000000000004"], [1e-7, "1e-7"], [1e-5, "0.00001"], [1e300, "1e300"], [9e-6, "9e-6"], [Infinity, "inf"], [NaN, ""]];
   for (const [value, expected] of digits) assert.equal(shortestDigits(value), expected);
-  const catalogue = readdirSync(join(here, "../../src/catalogue")).filter((name) => name.endsWith(".toml")).map((name) => name.slice(0, -5));
+  const catalogue = readdirSync(join(here, "../../crates/coupler-curves/src/catalogue")).filter((name) => name.endsWith(".toml")).map((name) => name.slice(0, -5));
   assert.deepEqual(CATALOGUE, catalogue.sort(), "the catalogue");
   const archive = zipOfFiles([{ name: "a.txt", bytes: new TextEncoder().encode("one") }, { name: "b", bytes: new Uint8Array() }]);
   assert.deepEqual(filesOfZip(archive).map(({ name, bytes }) => [name, new TextDecoder().decode(bytes)]), [["a.txt", "one"], ["b", ""]]);

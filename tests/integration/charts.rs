@@ -1,14 +1,15 @@
 //! Charts: what their manifests may say, what they show against the tables, and where it stands on the page.
 
+use coupler_curves::solve;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use coupler_atlas::chart::{Gathering, MOST_NUMBERS, Over, Series};
-use coupler_atlas::geometry::trig;
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::problem::report;
 use coupler_atlas::sweep;
+use coupler_curves::geometry::trig;
+use coupler_curves::problem::report;
+use coupler_drawing::chart::{Gathering, MOST_NUMBERS, Over, Series};
 use tempfile::TempDir;
 
 const GOOD: &str = r#"[atlas]
@@ -37,7 +38,7 @@ fn series(text: &str) -> Vec<Series> {
     let chart = planned.chart.as_ref().unwrap();
     let mut gathering = Gathering::new(chart, &planned.family);
     let kept = sweep::select(&planned.family);
-    let take = |_, solved: Vec<sweep::Solved>| solved.iter().flat_map(|solved| chart.take(solved)).collect::<Vec<_>>();
+    let take = |_, solved: Vec<solve::Solved>| solved.iter().flat_map(|solved| chart.take(solved)).collect::<Vec<_>>();
     let groups = sweep::Groups { cells: &kept, size: 4, bytes: 0, wanted: None };
     sweep::run(&planned.family, groups, take, |taken| -> Result<(), ()> {
         taken.into_iter().for_each(|taken| gathering.add(taken));
@@ -387,7 +388,7 @@ fn too_many_numbers_are_counted_and_not_kept() {
     let numbers = vec![1.0; MOST_NUMBERS / 3];
     for cell in 1..=6 {
         let numbers = numbers.clone();
-        gathering.add(coupler_atlas::chart::Taken { cell, trace: 1, circuit: 1, numbers });
+        gathering.add(coupler_drawing::chart::Taken { cell, trace: 1, circuit: 1, numbers });
     }
     let gathered = gathering.finish();
     assert_eq!((gathered.series.len(), gathered.curves, gathered.left_out), (3, 6, 3));

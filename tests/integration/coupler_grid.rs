@@ -1,17 +1,19 @@
 //! Pages of coupler grids: how many, what is on them, and that nothing on them is cut off or runs into another thing.
 
+use coupler_curves::solve;
 use std::fs;
 use std::process::Command;
 
-use coupler_atlas::catalogue;
-use coupler_atlas::family::{Family, Sampling};
-use coupler_atlas::geometry::{Point, Vector, distance_to_segment};
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::motion::{self, Sampler};
-use coupler_atlas::page::{self, GridSheet, Heading, Label, Layout, Options, Panel, Paper, Theme, View};
-use coupler_atlas::problem::report;
-use coupler_atlas::scene::{Circle, Color, Group, Item, Path, Scene, Text};
-use coupler_atlas::sweep::{self, Solved};
+use coupler_atlas::sweep;
+use coupler_curves::catalogue;
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::geometry::{Point, Vector, distance_to_segment};
+use coupler_curves::motion::{self, Sampler};
+use coupler_curves::problem::report;
+use coupler_curves::solve::Solved;
+use coupler_drawing::page::{self, GridSheet, Heading, Label, Layout, Options, Panel, Paper, Theme, View};
+use coupler_drawing::scene::{Circle, Color, Group, Item, Path, Scene, Text};
 use tempfile::TempDir;
 
 /// A crank-rocker, a change point and a case that cannot be assembled, with twelve points.
@@ -96,7 +98,7 @@ fn solved(plan: &Plan, every: usize) -> Vec<Solved> {
     let family = &plan.families[0].family;
     let sampler = Sampler::new(family.sampling);
     let kept = sweep::select(family);
-    kept.iter().step_by(every).map(|&k| sweep::solve(family, &sampler, k).unwrap()).collect()
+    kept.iter().step_by(every).map(|&k| solve::solve(family, &sampler, k).unwrap()).collect()
 }
 
 /// All pages of some cells.
@@ -223,7 +225,7 @@ fn outside(scene: &Scene) -> Vec<String> {
     let mut out = Vec::new();
     for (class, item) in leaves(scene).into_iter().skip(1) {
         let around = |p: Point, by: f64| Rect { low: p - Vector::repeat(by), high: p + Vector::repeat(by) };
-        let half = |stroke: Option<coupler_atlas::scene::Stroke>| stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+        let half = |stroke: Option<coupler_drawing::scene::Stroke>| stroke.map_or(0.0, |stroke| stroke.width / 2.0);
         let is_in = match item {
             Item::Circle(circle) => around(circle.centre, circle.radius + half(circle.stroke)).is_in(&inner),
             Item::Text(text) => text.runs.is_empty() || Rect::of_face(text).is_in(&inner),
@@ -329,7 +331,7 @@ fn no_type_is_too_small_to_read() {
 fn first(text: &str) -> (Solved, Vec<(Scene, Vec<usize>)>) {
     let plan = plan(text);
     let planned = &plan.families[0];
-    let solved = sweep::solve(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
+    let solved = solve::solve(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
     let pages = pages(&planned.family, &planned.source, &solved, &on(PAPERS[0]));
     for (scene, _) in &pages {
         assert_eq!(outside(scene), [""; 0]);
@@ -535,7 +537,7 @@ fn every_linkage_of_the_catalogue_has_its_page() {
         let given: Vec<(String, f64)> = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
         let family = Family::single(template.clone(), &given, Sampling::Samples(72));
         let family = family.unwrap_or_else(|wrong| panic!("{}: {wrong:?}", template.id));
-        let solved = sweep::solve(&family, &Sampler::new(family.sampling), 0).unwrap();
+        let solved = solve::solve(&family, &Sampler::new(family.sampling), 0).unwrap();
         for paper in [PAPERS[0], PAPERS[2], PAPERS[4], PAPERS[5]] {
             for (scene, shown) in pages(&family, template.source.as_str(), &solved, &on(paper)) {
                 let id = &template.id;

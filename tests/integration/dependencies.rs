@@ -65,10 +65,9 @@ fn licences() -> BTreeMap<String, String> {
 #[test]
 fn every_direct_dependency_is_accounted_for_and_no_other() {
     let cargo = parsed(include_str!("../../Cargo.toml"));
-    let direct = ["dependencies", "dev-dependencies"].map(|key| table(&cargo, key));
-    let direct: BTreeMap<&str, String> = direct
-        .into_iter()
-        .flatten()
+    let direct: BTreeMap<&str, String> = table(table(&cargo, "workspace"), "dependencies")
+        .iter()
+        .filter(|(name, _)| !name.get_ref().starts_with("coupler-"))
         .map(|(name, value)| (name.get_ref().as_ref(), features(value.get_ref())))
         .collect();
     let documented = documented();
@@ -127,7 +126,7 @@ fn nothing_comes_from_elsewhere_and_no_banned_crate_comes_in() {
     for package in packages.iter().filter_map(|package| package.get_ref().as_table()) {
         let name = text(package, "name").unwrap();
         let source = text(package, "source");
-        let is_own = name == "coupler-atlas" && source.is_none();
+        let is_own = name.starts_with("coupler-") && source.is_none();
         let is_of_crates_io = source.as_deref() == Some("registry+https://github.com/rust-lang/crates.io-index");
         assert!(is_own || is_of_crates_io, "{name} comes from {source:?}");
         names.insert(name);
@@ -144,11 +143,17 @@ fn nothing_comes_from_elsewhere_and_no_banned_crate_comes_in() {
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// The lints of Cargo.toml go for the library, the program, tests, benches and examples alike.
+/// The lints of the workspace apply to libraries, program, tests, benchmarks and examples of every crate alike.
 #[test]
 fn unsafe_code_is_forbidden() {
     let cargo = parsed(include_str!("../../Cargo.toml"));
-    let level = table(table(&cargo, "lints"), "rust").get("unsafe_code").and_then(|value| value.get_ref().as_str());
+    let lints = table(table(&cargo, "workspace"), "lints");
+    let level = table(lints, "rust").get("unsafe_code").and_then(|value| value.get_ref().as_str());
     assert_eq!(level, Some("forbid"));
-    assert!(cargo.get("workspace").is_none(), "one crate, to which the lints belong");
+    let curves = parsed(include_str!("../../crates/coupler-curves/Cargo.toml"));
+    let drawing = parsed(include_str!("../../crates/coupler-drawing/Cargo.toml"));
+    for member in [&cargo, &curves, &drawing] {
+        let inherits = table(member, "lints").get("workspace").and_then(|value| value.get_ref().as_bool());
+        assert_eq!(inherits, Some(true));
+    }
 }

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::process::Command;
 
 use coupler_atlas::design::{self, Design, Found, Input, Kind, Origin, Wish, Wishes};
-use coupler_atlas::family::{Sampling, Straight};
-use coupler_atlas::geometry::{Point, trig};
 use coupler_atlas::manifest;
-use coupler_atlas::measure::{self, Subject, Value};
-use coupler_atlas::motion::{Motion, Sampler};
-use coupler_atlas::problem::report;
+use coupler_curves::family::{Sampling, Straight};
+use coupler_curves::geometry::{Point, trig};
+use coupler_curves::measure::{self, Subject, Value};
+use coupler_curves::motion::{Motion, Sampler};
+use coupler_curves::problem::report;
 use proptest::prelude::*;
 use serde_json::Value as Json;
 use tempfile::TempDir;

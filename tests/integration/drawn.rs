@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use coupler_atlas::geometry::{Point, Vector, left_normal};
-use coupler_atlas::render::{DrawnCurve, DrawnError, drawn_curves};
+use coupler_atlas::record::{DrawnCurve, DrawnError, drawn_curves};
+use coupler_curves::geometry::{Point, Vector, left_normal};
 
 use super::folder::Atlas;
 

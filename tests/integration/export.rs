@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use coupler_atlas::geometry::trig;
+use coupler_curves::geometry::trig;
 use tempfile::TempDir;
 
 use crate::folder::files;

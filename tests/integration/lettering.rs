@@ -4,9 +4,9 @@
 use std::fs;
 
 use coupler_atlas::manifest;
-use coupler_atlas::problem::report;
-use coupler_atlas::render::{self, TextMode};
-use coupler_atlas::scene::{Group, Item, Scene, Typeface};
+use coupler_curves::problem::report;
+use coupler_drawing::render::{self, TextMode};
+use coupler_drawing::scene::{Group, Item, Scene, Typeface};
 use roxmltree::{Document, Node};
 
 use crate::book::reader::Pdf;
@@ -153,7 +153,7 @@ fn every_character_there_is_makes_a_page() {
     let scene = Scene {
         width: 100.0,
         height: 100.0,
-        paper: coupler_atlas::scene::Color(255, 255, 255),
+        paper: coupler_drawing::scene::Color(255, 255, 255),
         title: any.clone(),
         items: vec![Item::Group(group)],
         links: Vec::new(),

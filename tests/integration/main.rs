@@ -1,41 +1,31 @@
 //! Everything the library and the program promise, seen from outside; a topic a file.
 
+mod architecture;
 mod atlas;
 mod binding;
 mod book;
-mod catalogue;
 mod charts;
 mod check;
-mod circuits;
-mod cognates;
 mod corpus;
 mod coupler_grid;
 mod dependencies;
 mod design;
 mod drawn;
 mod export;
-mod expressions;
+mod family_measures;
 mod faults;
 mod folder;
 mod formats;
 mod gallery;
-mod house;
-mod instant;
 mod lettering;
-mod linkages;
 mod manifests;
-mod mccarthy;
-mod measures;
 mod program;
 mod rates;
 mod readme;
 mod reruns;
 mod schema;
-mod sextic;
-mod straight_line;
 mod surroundings;
 mod themes;
-mod thesis;
 
 /// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and
 /// `PROPTEST_RNG_SEED=…` for others.

@@ -1,7 +1,7 @@
 //! What is wrong with a manifest is said at its place, with a remedy, all of it in one run.
 
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::problem::report;
+use coupler_curves::problem::report;
 
 /// A good manifest, to be spoilt.
 const GOOD: &str = r#"[atlas]
@@ -181,7 +181,7 @@ fn where_is_a_condition_over_names_and_measures() {
 
 #[test]
 fn every_measure_can_be_asked_for_sorted_by_and_told() {
-    for measure in coupler_atlas::measure::ALL {
+    for measure in coupler_curves::measure::ALL {
         let name = measure.name;
         let uses = format!("where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
         if measure.is_word {
@@ -368,7 +368,7 @@ fn an_actuators_input_is_a_length() {
 
 #[test]
 fn a_family_may_be_placed_mirrored_and_turned() {
-    use coupler_atlas::geometry::{Placement, Point};
+    use coupler_curves::geometry::{Placement, Point};
     let placed = |place: &str| {
         let text = OWN.replacen("sampling =", &format!("place = {place}\nsampling ="), 1);
         plan(&text).families[0].family.template.placement
@@ -493,9 +493,9 @@ mod properties {
                 let cells: Vec<_> = (0..family.cells()).map(|k| family.cell(k)).collect();
                 let values = |cell| ["p", "h", "g"].map(|name| family.value(name, cell).to_bits());
                 // Joints are numbered as they are written: the motion of the traced one tells that they are the same.
-                let sampler = coupler_atlas::motion::Sampler::new(family.sampling);
+                let sampler = coupler_curves::motion::Sampler::new(family.sampling);
                 let curves = |k| {
-                    let solved = coupler_atlas::sweep::solve(family, &sampler, k).unwrap();
+                    let solved = coupler_curves::solve::solve(family, &sampler, k).unwrap();
                     let joint = solved.linkage.traced[0];
                     solved.motion.circuits.iter().map(|c| c.points(joint).map(|p| [p.x.to_bits(), p.y.to_bits()]).collect()).collect::<Vec<Vec<_>>>()
                 };

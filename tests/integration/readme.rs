@@ -1,11 +1,12 @@
 //! What the README shows is so.
 
+use coupler_curves::solve;
 use std::sync::atomic::AtomicBool;
 
 use coupler_atlas::manifest;
-use coupler_atlas::page::Layout;
-use coupler_atlas::problem::report;
 use coupler_atlas::sweep;
+use coupler_curves::problem::report;
+use coupler_drawing::page::Layout;
 
 #[test]
 fn the_readmes_manifest_is_one() {
@@ -25,9 +26,9 @@ fn the_readmes_feeder_is_found() {
     let family = &manifest::load(text).plan.expect("a valid manifest").families[0].family;
     let kept = sweep::select(family);
     assert_eq!((family.cells(), kept.as_slice()), (1125, &[899][..]));
-    let solved = sweep::solve(family, &coupler_atlas::motion::Sampler::new(family.sampling), 899).unwrap();
+    let solved = solve::solve(family, &coupler_curves::motion::Sampler::new(family.sampling), 899).unwrap();
     let number = |name: &str| match solved.curves[0].measure(name) {
-        coupler_atlas::measure::Value::Number(number) => number,
+        coupler_curves::measure::Value::Number(number) => number,
         other => panic!("{name} is {other:?}"),
     };
     assert_eq!(format!("{:.3}", number("straight_length")), "2.105");

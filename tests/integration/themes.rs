@@ -3,11 +3,11 @@
 use std::fs;
 use std::process::Command;
 
-use coupler_atlas::geometry::trig;
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::page::{Layout, Options, Paper, Theme};
-use coupler_atlas::problem::report;
-use coupler_atlas::scene::{Color, Typeface};
+use coupler_curves::geometry::trig;
+use coupler_curves::problem::report;
+use coupler_drawing::page::{Layout, Options, Paper, Theme};
+use coupler_drawing::scene::{Color, Typeface};
 use tempfile::TempDir;
 
 /// Panels of five curves and their plate, a case that cannot be assembled, and a chart of several lines.

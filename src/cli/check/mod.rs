@@ -12,7 +12,7 @@ use clap::Args;
 use coupler_atlas::build;
 use coupler_atlas::check::{self, Event, Report};
 use coupler_atlas::manifest::GivenTolerances;
-use coupler_atlas::problem::nearest_or_all;
+use coupler_curves::problem::nearest_or_all;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::plan::{self, Source};

@@ -11,8 +11,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use coupler_atlas::build;
 use coupler_atlas::design::{self, Found, Input, Kind, Wish, Wishes};
-use coupler_atlas::expression::Expression;
-use coupler_atlas::problem::nearest_or_all;
+use coupler_curves::expression::Expression;
+use coupler_curves::problem::nearest_or_all;
 
 use super::{Outcome, WrongInput, print};
 

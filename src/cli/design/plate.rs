@@ -1,7 +1,7 @@
 use coupler_atlas::design::Design;
-use coupler_atlas::page::{self, Heading, Layout, Options, Panel, Paper, Sheet, View};
-use coupler_atlas::render::{self, TextMode};
-use coupler_atlas::sweep::Solved;
+use coupler_curves::solve::Solved;
+use coupler_drawing::page::{self, Heading, Layout, Options, Panel, Paper, Sheet, View};
+use coupler_drawing::render::{self, TextMode};
 
 use super::Report;
 use super::text::{proportions, short};

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use coupler_atlas::family::{Family, Space};
-use coupler_atlas::measure;
-use coupler_atlas::problem::nearest_or_all;
-use coupler_atlas::sweep::{self, Groups, Solved};
+use coupler_atlas::sweep::{self, Groups};
+use coupler_curves::family::{Family, Space};
+use coupler_curves::measure;
+use coupler_curves::problem::nearest_or_all;
+use coupler_curves::solve::Solved;
 
 use super::moved::moved;
 use super::name::Name;

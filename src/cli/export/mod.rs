@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use coupler_atlas::build;
-use coupler_atlas::export::{Case, Chosen, Format, Options, fragment};
-use coupler_atlas::family::{Family, Sampling};
+use coupler_atlas::export::{self, Format, Options};
 use coupler_atlas::manifest::Plan;
-use coupler_atlas::page;
-use coupler_atlas::problem::nearest_or_all;
-use coupler_atlas::render::TextMode;
+use coupler_curves::exchange::{Case, Chosen, fragment};
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::problem::nearest_or_all;
+use coupler_drawing::page;
+use coupler_drawing::render::TextMode;
 
 use super::{Outcome, WrongInput, count, linkage, plan, print, print_bytes, say};
 use choice::Choice;
@@ -251,7 +252,7 @@ fn taken<'a>(
         let mut files = Vec::new();
         for chosen in &each {
             for &format in of_each() {
-                files.push((chosen.file(format), chosen.bytes(format, options)));
+                files.push((export::file_name(chosen, format), export::bytes(chosen, format, options)));
             }
         }
         (files, each.iter().map(Case::of).collect::<Vec<_>>())

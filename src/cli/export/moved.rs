@@ -1,7 +1,7 @@
 //! A traced point that is moved on its link: `M.along` and `M.across` among changed parameters.
 
-use coupler_atlas::expression::{Bound, Expression, Kind};
-use coupler_atlas::template::{Coordinate, JointTemplate, Placing, Template};
+use coupler_curves::expression::{Bound, Expression, Kind};
+use coupler_curves::template::{Coordinate, JointTemplate, Placing, Template};
 
 /// A template with the point of a trace, counted from 1, where `changed` has it on its link, and the number of its trace
 /// then: a point of a grid comes to stand beside the grid, and is traced last.

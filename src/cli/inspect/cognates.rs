@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::geometry::Point;
-use coupler_atlas::linkage::{
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{
     Circuits, Class, Cognate, Cognates, FourBar, JointId, Linkage, NoCognates, PlacedFourBar, Travel,
 };
-use coupler_atlas::motion::{Motion, Sampler, Sampling};
-use coupler_atlas::page::{self, Panel, View};
-use coupler_atlas::sweep::{Curve, Solved};
+use coupler_curves::motion::{Motion, Sampler, Sampling};
+use coupler_curves::solve::{Curve, Solved};
+use coupler_drawing::page::{self, Panel, View};
 
 use super::text::{course, point, short};
 use super::{Report, WrongInput};

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::linkage::{Node, PlacedFourBar, Sextic};
-use coupler_atlas::sweep::Solved;
+use coupler_curves::linkage::{Node, PlacedFourBar, Sextic};
+use coupler_curves::solve::Solved;
 use serde_json::{Value, json};
 
 use super::text::{point, short};
@@ -33,7 +33,7 @@ pub(super) fn text(equations: &[Equation], in_full: bool, out: &mut String) {
     for Equation { trace, name, sextic } in equations {
         let name = if is_grid { format!("{name} {trace}") } else { name.clone() };
         let doubles = sextic.double_points();
-        let double = |double: &coupler_atlas::linkage::DoublePoint| {
+        let double = |double: &coupler_curves::linkage::DoublePoint| {
             let isolated = if double.kind == Node::Acnode { ", isolated" } else { "" };
             format!("{} {}{isolated}", double.kind.name(), point(double.at))
         };

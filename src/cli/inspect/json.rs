@@ -1,7 +1,7 @@
-use coupler_atlas::geometry::{Point, Vector};
-use coupler_atlas::linkage::{Bar, FourBar, Input, Linkage, PlacedFourBar};
-use coupler_atlas::measure;
-use coupler_atlas::motion::{Circuit, End, Pass};
+use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::linkage::{Bar, FourBar, Input, Linkage, PlacedFourBar};
+use coupler_curves::measure;
+use coupler_curves::motion::{Circuit, End, Pass};
 use serde_json::{Map, Value, json};
 
 use super::cognates::{Found, Member};

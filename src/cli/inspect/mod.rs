@@ -6,15 +6,16 @@ mod json;
 mod plate;
 mod text;
 
+use coupler_curves::solve;
 use std::path::PathBuf;
 
 use clap::Args;
 use coupler_atlas::build;
-use coupler_atlas::family::{Family, Sampling};
-use coupler_atlas::geometry::{Vector, cross};
-use coupler_atlas::linkage::{Flat, Input, JointId, Linkage};
-use coupler_atlas::motion::{Instant, Jets, Pass, Sampler};
-use coupler_atlas::sweep::{self, Solved};
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::geometry::{Vector, cross};
+use coupler_curves::linkage::{Flat, Input, JointId, Linkage};
+use coupler_curves::motion::{Instant, Jets, Pass, Sampler};
+use coupler_curves::solve::Solved;
 
 use super::{Outcome, WrongInput, linkage, print};
 
@@ -86,7 +87,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let branch = arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 });
     let family = Family::single(template, &given, Sampling::Samples(360))
         .map_err(|wrong| WrongInput(format!("{}: {}", arguments.linkage, wrong.join("; "))))?;
-    let Some(solved) = sweep::solve(&family, &Sampler::new(family.sampling), 0) else {
+    let Some(solved) = solve::solve(&family, &Sampler::new(family.sampling), 0) else {
         return Err(WrongInput(format!("{}: its values make no linkage", arguments.linkage)).into());
     };
     let poses: Vec<Pose> = at.map(|at| poses(&solved, at, branch)).unwrap_or_default();
@@ -149,7 +150,7 @@ fn turnings<'a>(solved: &'a Solved, pose: &Pose) -> Vec<Turning<'a>> {
     let linkage = &solved.linkage;
     let jets = &pose.jets;
     let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, linkage.ground()));
-    let turning = |link: &'a coupler_atlas::linkage::Link| {
+    let turning = |link: &'a coupler_curves::linkage::Link| {
         let (first, place) = *link.joints.first()?;
         let (second, _) = *link.joints.iter().find(|(_, other)| *other != place)?;
         let between = |of: fn(&Jets, JointId) -> Vector| of(jets, second) - of(jets, first);
@@ -172,7 +173,7 @@ fn instants<'a>(solved: &'a Solved, pose: &'a Pose) -> impl Iterator<Item = (Joi
 
 /// The names of the joints whose dyads lie flat at an end.
 fn flat_joints(linkage: &Linkage, flat: Flat) -> Vec<&str> {
-    let is_flat = |joint: &&coupler_atlas::linkage::Joint| joint.step.index().is_some_and(|index| flat.has(index));
+    let is_flat = |joint: &&coupler_curves::linkage::Joint| joint.step.index().is_some_and(|index| flat.has(index));
     linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
 }
 

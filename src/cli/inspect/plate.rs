@@ -1,8 +1,9 @@
-use coupler_atlas::export::{Options as Taken, moving_view};
-use coupler_atlas::motion;
-use coupler_atlas::page::{self, Heading, Layout, Options, Panel, Sheet, View};
-use coupler_atlas::render::{self, TextMode};
-use coupler_atlas::sweep::Solved;
+use coupler_atlas::export::Options as Taken;
+use coupler_curves::motion;
+use coupler_curves::solve::Solved;
+use coupler_drawing::page::{self, Heading, Layout, Options, Panel, Sheet, View};
+use coupler_drawing::plate::moving_view;
+use coupler_drawing::render::{self, TextMode};
 
 use super::{Report, cognates};
 

@@ -1,9 +1,9 @@
 use std::fmt::Write;
 
-use coupler_atlas::geometry::Point;
-use coupler_atlas::linkage::{FourBar, Linkage};
-use coupler_atlas::motion::{Circuit, Pass};
-use coupler_atlas::sweep::Solved;
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{FourBar, Linkage};
+use coupler_curves::motion::{Circuit, Pass};
+use coupler_curves::solve::Solved;
 
 use super::{Pose, Report, flat_joints, instants, turnings, unit};
 

@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use coupler_atlas::manifest::{self, Plan};
-use coupler_atlas::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
-use coupler_atlas::page::{self, Heading, Options, Panel, Paper, Sheet, View};
-use coupler_atlas::render::pdf::Book;
-use coupler_atlas::scene::{Item, Label, Scene};
-use coupler_atlas::sweep::{self, Solved};
+use coupler_atlas::sweep;
+use coupler_curves::solve::Solved;
+use coupler_drawing::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
+use coupler_drawing::page::{self, Heading, Options, Panel, Paper, Sheet, View};
+use coupler_drawing::render::pdf::Book;
+use coupler_drawing::scene::{Item, Label, Scene};
 
 use super::reader::{Contents, Pdf};
 
@@ -236,7 +237,7 @@ fn the_index_has_the_best_first() {
     let angles = section("By transmission angle", "By symmetry", "°");
     let least = |solved: &Solved| {
         let number = |name| match solved.curves[0].measure(name) {
-            coupler_atlas::measure::Value::Number(value) => value,
+            coupler_curves::measure::Value::Number(value) => value,
             other => panic!("{name}: {other:?}"),
         };
         number("mu_min_deg").min(180.0 - number("mu_max_deg"))

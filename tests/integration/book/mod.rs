@@ -3,9 +3,9 @@
 mod bound;
 pub mod reader;
 
-use coupler_atlas::geometry::{Point, Vector};
-use coupler_atlas::render::pdf::{Book, Error};
-use coupler_atlas::scene::{
+use coupler_curves::geometry::{Point, Vector};
+use coupler_drawing::render::pdf::{Book, Error};
+use coupler_drawing::scene::{
     Anchor, Circle, Color, Entry, Face, Group, Item, Label, Line, Link, Moving, Path, Run, Scene, Stroke, Text,
     Typeface,
 };

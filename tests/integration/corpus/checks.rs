@@ -1,16 +1,16 @@
 //! What holds of any text: the fuzz targets and the test over their corpora ask the same.
 
+use coupler_curves::solve;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use coupler_atlas::build;
 use coupler_atlas::check::{self, Report};
-use coupler_atlas::expression::{Caption, Dimension, Error, Expression, Quantity};
-use coupler_atlas::family::Family;
 use coupler_atlas::manifest;
-use coupler_atlas::motion::{Sampler, Sampling};
-use coupler_atlas::problem::report;
-use coupler_atlas::sweep;
+use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity};
+use coupler_curves::family::Family;
+use coupler_curves::motion::{Sampler, Sampling};
+use coupler_curves::problem::report;
 
 /// A manifest is a plan or has problems: each at a place in it, with a remedy, and what is said of them is plain text.
 ///
@@ -37,7 +37,7 @@ pub fn manifest(text: &str) {
 fn solve(family: &Family) {
     let Some(last) = family.cells().checked_sub(1) else { return };
     let few = family.linkage(&family.cell(last)).is_ok_and(|linkage| linkage.traced.len() <= 20);
-    if few && let Some(solved) = sweep::solve(family, &Sampler::new(Sampling::Samples(12)), last) {
+    if few && let Some(solved) = solve::solve(family, &Sampler::new(Sampling::Samples(12)), last) {
         let circuits = &solved.motion.circuits;
         assert!(circuits.iter().all(|circuit| circuit.input.iter().all(|input| input.is_finite())));
         family.describe(&solved.cell, solved.measures());

@@ -46,7 +46,7 @@ fn run(texts: &[(PathBuf, String)], changes: usize, check: fn(&str)) {
 
 #[test]
 fn any_manifest_is_a_plan_or_has_problems() {
-    let small = texts(&["fuzz/corpus/manifest", "src/cli/starter.toml", "src/catalogue"]);
+    let small = texts(&["fuzz/corpus/manifest", "src/cli/starter.toml", "crates/coupler-curves/src/catalogue"]);
     assert!(small.len() > 20);
     run(&small, changes(), checks::manifest);
     let great = texts(&["atlas.toml", "examples"]);

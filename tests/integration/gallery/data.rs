@@ -5,7 +5,7 @@ use std::fs;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use coupler_atlas::render::drawn_curves;
+use coupler_atlas::record::drawn_curves;
 use serde_json::Value;
 
 use crate::folder::Atlas;

@@ -70,7 +70,7 @@ fn text_of_the_manifest_is_text() {
     assert_eq!(atlas["families"][0]["curves"], 1);
     assert_eq!(atlas["families"][0]["page_format"], "svg");
     let measures = atlas["measures"].as_array().unwrap();
-    assert_eq!(measures.len(), coupler_atlas::measure::ALL.len());
+    assert_eq!(measures.len(), coupler_curves::measure::ALL.len());
 }
 
 #[test]

@@ -5,13 +5,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use coupler_atlas::catalogue;
-use coupler_atlas::family::Family;
 use coupler_atlas::gallery;
-use coupler_atlas::linkage::{Circuits, Continuation, Linkage};
 use coupler_atlas::manifest;
-use coupler_atlas::measure::{self, COLUMNS, Subject, Value as Measured, take_columns};
-use coupler_atlas::motion::{Circuit, Motion, Sampler};
+use coupler_curves::catalogue;
+use coupler_curves::family::Family;
+use coupler_curves::linkage::{Circuits, Continuation, Linkage};
+use coupler_curves::measure::{self, COLUMNS, Subject, Value as Measured, take_columns};
+use coupler_curves::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -24,8 +24,8 @@ fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
     let rows = |of: &dyn Fn(usize) -> Vec<Value>| (0..linkage.joints.len()).map(of).collect::<Vec<_>>();
     let column = |values: &[f64]| values.iter().map(|value| json!(value)).collect::<Vec<_>>();
     let sides =
-        |signs: coupler_atlas::linkage::Signs| (0..linkage.dyads()).map(|dyad| signs.get(dyad)).collect::<Vec<_>>();
-    let pass = |pass: &coupler_atlas::motion::Pass| json!({ "from": pass.from.stop.at, "to": pass.to.stop.at, "signs": sides(pass.signs) });
+        |signs: coupler_curves::linkage::Signs| (0..linkage.dyads()).map(|dyad| signs.get(dyad)).collect::<Vec<_>>();
+    let pass = |pass: &coupler_curves::motion::Pass| json!({ "from": pass.from.stop.at, "to": pass.to.stop.at, "signs": sides(pass.signs) });
     json!({
         "closed": circuit.closed,
         "input": circuit.input,
@@ -95,7 +95,7 @@ fn case(family: &Family, cell: usize, name: &str) -> Value {
 
 /// A family with other ways to travel.
 fn travelling(family: &Family, circuits: Circuits, continuation: Continuation) -> Family {
-    let template = coupler_atlas::template::Template { circuits, continuation, ..(*family.template).clone() };
+    let template = coupler_curves::template::Template { circuits, continuation, ..(*family.template).clone() };
     Family { template: template.into(), ..family.clone() }
 }
 

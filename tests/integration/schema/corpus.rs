@@ -67,7 +67,7 @@ fn every_manifest_of_the_repository_satisfies_the_schema() {
 #[test]
 fn the_catalogue_and_what_the_program_writes_satisfy_the_schema() {
     let mut catalogue = Vec::new();
-    files(&root().join("src/catalogue"), "toml", &mut catalogue);
+    files(&root().join("crates/coupler-curves/src/catalogue"), "toml", &mut catalogue);
     assert!(catalogue.len() > 15);
     let family = json!({ "id": "f", "linkage": "evans", "sampling": { "samples": 9 }, "cases": [{ "p": 2 }] });
     for path in catalogue {

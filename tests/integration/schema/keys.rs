@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use coupler_atlas::manifest::{self, Form, MANIFEST, PlannedFamily, Table};
-use coupler_atlas::template::Template;
+use coupler_curves::template::Template;
 use serde_json::Value;
 
 use super::{EVERY_KEY, SCHEMA, complaints, is_valid, json, places, toml};

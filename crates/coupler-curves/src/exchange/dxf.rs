@@ -1,0 +1,230 @@
+//! A drawing in the Drawing Interchange Format of AutoCAD R12 (AC1009), which every CAD program reads.
+//!
+//! The curve is a polyline, or a circle or an arc where it is one; the linkage is lines in one pose, its joints points, the
+//! fixed ones on a layer of their own. Lengths are in the manifest's own unit: R12 has no way to name a unit.
+//!
+//! # Source
+//! *AutoCAD Release 12 Customization Manual*, chapter 11.
+
+use std::fmt::{Display, Write};
+
+use super::Chosen;
+use super::circle::{Circle, circle_of};
+use crate::geometry::{Bounds, Point};
+use crate::linkage::{JointId, LinkOutline, Linkage, Travel, is_plate};
+use crate::motion::{self, Dashes};
+
+const CURVE: &str = "CURVE";
+const LINKAGE: &str = "LINKAGE";
+const JOINTS: &str = "JOINTS";
+const PIVOTS: &str = "PIVOTS";
+
+/// The layers, each with its colour by AutoCAD's numbers: 0 is always there, 1 is red, 7 black on white.
+const LAYERS: [(&str, u8); 5] = [("0", 7), (CURVE, 1), (LINKAGE, 7), (JOINTS, 5), (PIVOTS, 7)];
+
+/// The whole drawing; no chord of a polyline is further from the curve than `chord` parts of its extent.
+pub(super) fn document(chosen: &Chosen, chord: f64) -> String {
+    let (path, closed) = outline(chosen, chord);
+    let pose = chosen.pose();
+    let linkage = &chosen.solved.linkage;
+    let joints = shown_joints(chosen);
+    let mut out = Groups(String::new());
+    out.group(999, concat!("coupler-atlas ", env!("CARGO_PKG_VERSION")));
+    out.group(999, chosen.name());
+    out.group(999, "lengths are in the unit of the manifest");
+    header(Bounds::of(path.iter().chain(joints.iter().map(|&joint| &pose[joint])).copied()), &mut out);
+    tables(&mut out);
+    out.section("BLOCKS");
+    out.end("ENDSEC");
+    out.section("ENTITIES");
+    let samples: Vec<Point> = chosen.circuit().points(chosen.curve().joint).filter(is_finite).collect();
+    match circle_of(&path, &samples) {
+        Some(circle) => out.circle(&circle),
+        None => out.polyline(&path, closed),
+    }
+    for [from, to] in bars(linkage, &pose) {
+        out.line(pose[from], pose[to]);
+    }
+    let pivots = linkage.pivots();
+    for joint in joints {
+        out.point(if pivots.contains(&joint) { PIVOTS } else { JOINTS }, pose[joint]);
+    }
+    out.end("ENDSEC");
+    out.end("EOF");
+    out.0
+}
+
+/// The curve's path, and whether it is closed; its beginning does not stand at its end once more then.
+fn outline(chosen: &Chosen, chord: f64) -> (Vec<Point>, bool) {
+    let (circuit, joint) = (chosen.circuit(), chosen.curve().joint);
+    let extent = Bounds::of(circuit.points(joint)).size().max();
+    // The arc that a source shows parts a path of pages, and none of this drawing's.
+    let travel = Travel { arc: None, ..chosen.solved.linkage.travel.clone() };
+    let (alone, joint) = Linkage { travel, ..chosen.solved.linkage.clone() }.with_one_point(joint);
+    let unbroken = Dashes { period: f64::INFINITY, drawn: f64::INFINITY };
+    let paths = motion::paths(&alone, circuit, &[joint], unbroken, chord * extent);
+    let whole = paths.into_iter().flat_map(|path| path.whole);
+    (whole.filter(is_finite).collect(), circuit.closed)
+}
+
+fn is_finite(p: &Point) -> bool {
+    p.x.is_finite() && p.y.is_finite()
+}
+
+/// The lines of the moving links, each from joint to joint.
+fn bars(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
+    let mut bars = Vec::new();
+    for LinkOutline { joints, .. } in linkage.link_outlines() {
+        bars.extend(joints.windows(2).map(|pair| [pair[0], pair[1]]));
+        let points: Vec<Point> = joints.iter().map(|&joint| pose[joint]).collect();
+        if let (true, [first, .., last]) = (is_plate(&points), &joints[..]) {
+            bars.push([*last, *first]);
+        }
+    }
+    bars.retain(|bar| bar.iter().all(|&joint| is_finite(&pose[joint])));
+    bars
+}
+
+/// The joints that are shown: those of links and of the frame, and the one that draws the curve.
+fn shown_joints(chosen: &Chosen) -> Vec<JointId> {
+    let linkage = &chosen.solved.linkage;
+    let mut joints: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
+    joints.extend(linkage.pivots());
+    joints.push(chosen.curve().joint);
+    joints.sort_unstable();
+    joints.dedup();
+    let pose = chosen.pose();
+    joints.retain(|&joint| is_finite(&pose[joint]));
+    joints
+}
+
+fn header(bounds: Bounds, out: &mut Groups) {
+    out.section("HEADER");
+    let corner = |out: &mut Groups, name: &str, p: Point, dimensions: usize| {
+        out.group(9, name);
+        for (code, value) in [(10, p.x), (20, p.y), (30, 0.0)].into_iter().take(dimensions) {
+            out.number(code, value);
+        }
+    };
+    out.group(9, "$ACADVER");
+    out.group(1, "AC1009");
+    corner(out, "$INSBASE", Point::origin(), 3);
+    corner(out, "$EXTMIN", bounds.min, 3);
+    corner(out, "$EXTMAX", bounds.max, 3);
+    corner(out, "$LIMMIN", bounds.min, 2);
+    corner(out, "$LIMMAX", bounds.max, 2);
+    // Decimal numbers, of as many places as it shows; angles in decimal degrees from the x-axis, counter-clockwise.
+    for (name, value) in [("$LUNITS", 2), ("$LUPREC", 8), ("$AUNITS", 0), ("$AUPREC", 8), ("$ANGDIR", 0)] {
+        out.group(9, name);
+        out.group(70, value);
+    }
+    out.group(9, "$ANGBASE");
+    out.number(50, 0.0);
+    // Points are shown as circles with a cross, of a hundredth of the drawing.
+    out.group(9, "$PDMODE");
+    out.group(70, 34);
+    out.group(9, "$PDSIZE");
+    out.number(40, bounds.size().max() / 100.0);
+    out.end("ENDSEC");
+}
+
+fn tables(out: &mut Groups) {
+    out.section("TABLES");
+    out.table("LTYPE", 1);
+    out.group(0, "LTYPE");
+    out.group(2, "CONTINUOUS");
+    out.group(70, 0);
+    out.group(3, "Solid line");
+    out.group(72, 65);
+    out.group(73, 0);
+    out.number(40, 0.0);
+    out.end("ENDTAB");
+    out.table("LAYER", LAYERS.len());
+    for (name, color) in LAYERS {
+        out.group(0, "LAYER");
+        out.group(2, name);
+        out.group(70, 0);
+        out.group(62, color);
+        out.group(6, "CONTINUOUS");
+    }
+    out.end("ENDTAB");
+    out.end("ENDSEC");
+}
+
+/// Groups of a code and a value, each on a line of its own.
+struct Groups(String);
+
+impl Groups {
+    fn group(&mut self, code: u16, value: impl Display) {
+        // Writing to a string cannot fail.
+        let _ = write!(self.0, "{code:3}\n{value}\n");
+    }
+
+    /// A number in the fewest digits that read back to it, with a point or an exponent: some readers take one without
+    /// either for a whole number.
+    fn number(&mut self, code: u16, value: f64) {
+        // Zero has no sign.
+        self.group(code, format_args!("{:?}", value + 0.0));
+    }
+
+    fn section(&mut self, name: &str) {
+        self.group(0, "SECTION");
+        self.group(2, name);
+    }
+
+    fn table(&mut self, name: &str, entries: usize) {
+        self.group(0, "TABLE");
+        self.group(2, name);
+        self.group(70, entries);
+    }
+
+    fn end(&mut self, word: &str) {
+        self.group(0, word);
+    }
+
+    fn entity(&mut self, kind: &str, layer: &str) {
+        self.group(0, kind);
+        self.group(8, layer);
+    }
+
+    fn place(&mut self, first: u16, p: Point) {
+        self.number(first, p.x);
+        self.number(first + 10, p.y);
+        self.number(first + 20, 0.0);
+    }
+
+    fn point(&mut self, layer: &str, p: Point) {
+        self.entity("POINT", layer);
+        self.place(10, p);
+    }
+
+    fn line(&mut self, from: Point, to: Point) {
+        self.entity("LINE", LINKAGE);
+        self.place(10, from);
+        self.place(11, to);
+    }
+
+    fn circle(&mut self, circle: &Circle) {
+        self.entity(if circle.arc_deg.is_some() { "ARC" } else { "CIRCLE" }, CURVE);
+        self.place(10, circle.centre);
+        self.number(40, circle.radius);
+        for (code, deg) in [50, 51].into_iter().zip(circle.arc_deg.iter().flatten()) {
+            self.number(code, *deg);
+        }
+    }
+
+    /// A polyline; of a closed one the last point is the first, and is not said twice.
+    fn polyline(&mut self, path: &[Point], closed: bool) {
+        let vertices = if closed && path.len() > 1 { &path[..path.len() - 1] } else { path };
+        self.entity("POLYLINE", CURVE);
+        // Vertices follow; the place is a dummy, but for its height.
+        self.group(66, 1);
+        self.place(10, Point::origin());
+        self.group(70, u8::from(closed));
+        for vertex in vertices {
+            self.entity("VERTEX", CURVE);
+            self.place(10, *vertex);
+        }
+        self.entity("SEQEND", CURVE);
+    }
+}

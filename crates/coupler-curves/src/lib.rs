@@ -1,0 +1,48 @@
+//! Kinematics of planar linkages: coupler curves, their analysis and their measures.
+//!
+//! Data flows one way; the modules are in reading order, and none imports one that comes after it:
+//!
+//! ```text
+//! linkage format -> template -> family x cell -> linkage -> motion -> measures -> solved cell -> exchange formats
+//! ```
+//!
+//! A four-bar and its coupler curve, without a manifest:
+//!
+//! ```
+//! use coupler_curves::linkage::{Assembly, FourBar, Class, Side, Travel};
+//! use coupler_curves::motion::{Motion, Sampler, Sampling};
+//!
+//! let mut assembly = Assembly::default();
+//! let o = assembly.fixed("O", [0.0, 0.0].into());
+//! let c = assembly.fixed("C", [4.0, 0.0].into());
+//! let a = assembly.crank("A", o, 1.0)?;
+//! let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left)?;
+//! let m = assembly.point("M", [a, b], 1.5, 1.0)?;
+//! let linkage = assembly.finish(vec![m], None, Travel::default())?;
+//!
+//! assert_eq!(FourBar::of(&linkage).map(FourBar::class), Some(Class::CrankRocker));
+//! let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(2.0)));
+//! assert_eq!(motion.circuits[0].points(m).count(), 180);
+//! # Ok::<(), coupler_curves::linkage::Error>(())
+//! ```
+
+pub mod geometry;
+pub mod problem;
+
+pub mod expression;
+
+pub mod linkage;
+
+pub mod motion;
+
+pub mod measure;
+pub mod template;
+
+pub mod notation;
+
+pub mod catalogue;
+pub mod family;
+
+pub mod solve;
+
+pub mod exchange;

@@ -1,0 +1,65 @@
+//! The joints that a linkage's links are drawn through: bars, plates, and the pivots on the ground.
+
+use super::{JointId, Link, Linkage, Step};
+use crate::geometry::{Bounds, Point, Vector, cross, trig};
+
+impl Linkage {
+    /// The joints of the ground that moving links are on, in the order of the ground's joints.
+    pub fn pivots(&self) -> Vec<JointId> {
+        let ground = self.ground();
+        let is_pivot =
+            |joint: JointId| self.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some());
+        ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| is_pivot(joint)).collect()
+    }
+
+    /// The outlines of the moving links that have two joints or more.
+    pub fn link_outlines(&self) -> Vec<LinkOutline> {
+        let ground = self.ground();
+        let moving = self.links.iter().enumerate().filter(|(_, link)| !std::ptr::eq(*link, ground));
+        let outlines = moving.map(|(index, link)| LinkOutline { link: index, joints: outline(self, link) });
+        outlines.filter(|outline| outline.joints.len() > 1).collect()
+    }
+}
+
+/// The joints that a moving link is drawn through.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LinkOutline {
+    /// The link's index in [`Linkage::links`].
+    pub link: usize,
+    /// Its joints in the order of the outline: along a bar, counter-clockwise around a plate. Points of a grid are left out.
+    pub joints: Vec<JointId>,
+}
+
+/// The joints of a link round its hull; the points of a grid are left out.
+fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
+    // The points of a grid stand side by side, under one name.
+    let name = |joint: JointId| linkage.joints.get(joint).map(|joint| &joint.name);
+    let is_grid = |joint: JointId| {
+        matches!(linkage.joints[joint].step, Step::Rigid { .. })
+            && (name(joint + 1) == name(joint) || joint.checked_sub(1).and_then(name) == name(joint))
+    };
+    let joints: Vec<(usize, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
+    let centre = joints.iter().map(|(_, place)| place).sum::<Vector>() / joints.len().max(1) as f64;
+    let points: Vec<Point> = joints.iter().map(|(_, place)| Point::from(*place)).collect();
+    let mut order: Vec<usize> = (0..joints.len()).collect();
+    if is_flat(&points) {
+        let along = points.last().zip(points.first()).map_or(Vector::zeros(), |(b, a)| b - a);
+        order.sort_by(|&a, &b| along.dot(&points[a].coords).total_cmp(&along.dot(&points[b].coords)));
+    } else {
+        let angle = |k: usize| trig::atan2(joints[k].1.y - centre.y, joints[k].1.x - centre.x);
+        order.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+    }
+    order.into_iter().map(|k| joints[k].0).collect()
+}
+
+/// Whether a link with joints at these positions is a plate and not a bar: three joints or more that are not on one line.
+pub fn is_plate(points: &[Point]) -> bool {
+    points.len() > 2 && !is_flat(points)
+}
+
+/// Whether points lie on one line, to a thousandth of their extent.
+fn is_flat(points: &[Point]) -> bool {
+    let size = Bounds::of(points.iter().copied()).size().norm();
+    let Some((first, rest)) = points.split_first() else { return true };
+    rest.iter().all(|a| rest.iter().all(|b| cross(a - first, b - first).abs() <= 1e-3 * size * size))
+}

@@ -1,0 +1,311 @@
+//! The Roberts-Chebyshev cognates: three four-bars, one curve.
+
+use coupler_curves::catalogue;
+use coupler_curves::geometry::{Placement, Point, Vector, cross, distance_to_segment, trig};
+use coupler_curves::linkage::{
+    Bar, Circuits, Class, Cognates, FourBar, Linkage, NoCognates, PlacedFourBar, Sextic, Side, Travel,
+};
+use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
+use proptest::prelude::*;
+
+use crate::linkages::check_motion;
+
+/// What draws the traced joint of a linkage, evenly sampled along it.
+fn drawn(linkage: &Linkage) -> Vec<Vec<Point>> {
+    let motion = Motion::of(linkage, &Sampler::new(Sampling::Arc(500)));
+    let path = |circuit: &Circuit| {
+        let mut path: Vec<Point> = circuit.points(linkage.traced[0]).collect();
+        if circuit.closed {
+            path.extend(path.first().copied());
+        }
+        path
+    };
+    motion.circuits.iter().map(path).collect()
+}
+
+/// The greatest distance of points of one drawing from the other, in parts of the other's longest chord.
+fn apart(one: &[Vec<Point>], other: &[Vec<Point>]) -> f64 {
+    let chords = || other.iter().flat_map(|path| path.windows(2));
+    let longest = chords().map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+    let from = |p: &Point| chords().map(|pair| distance_to_segment(*p, pair[0], pair[1])).fold(f64::INFINITY, f64::min);
+    one.iter().flatten().map(from).fold(0.0, f64::max) / longest
+}
+
+fn same(one: &[Vec<Point>], other: &[Vec<Point>]) -> bool {
+    // Of a smooth curve a chord is off by far less than its length; the rest is for cusps.
+    one.is_empty() == other.is_empty() && (one.is_empty() || apart(one, other).max(apart(other, one)) < 0.5)
+}
+
+/// Crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
+fn poses(linkage: &Linkage, samples: usize) -> Vec<[Point; 4]> {
+    let pins = FourBar::pins(linkage).unwrap();
+    let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(samples)));
+    let Some(circuit) = motion.circuits.first() else { return Vec::new() };
+    (0..circuit.len()).map(|i| pins.map(|pin| circuit.places.point(pin, i))).collect()
+}
+
+fn placed() -> impl Strategy<Value = PlacedFourBar> {
+    let lengths = prop::array::uniform4(0.3f64..3.0);
+    let point = (-3.0f64..3.0, prop_oneof![Just(0.0), -3.0f64..3.0]);
+    (lengths, point, (-2.0f64..2.0, -2.0f64..2.0, -180.0f64..180.0)).prop_map(
+        |([frame, crank, coupler, rocker], (along, across), (x, y, turn))| {
+            let (cos, sin) = trig::cos_sin_deg(turn);
+            let o = Point::new(x, y);
+            PlacedFourBar {
+                pivots: [o, o + Vector::new(cos, sin) * frame],
+                lengths: FourBar { frame, crank, coupler, rocker },
+                point: Vector::new(along, across),
+            }
+        },
+    )
+}
+
+fn all() -> Travel {
+    Travel { circuits: Circuits::All, ..Travel::default() }
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    /// Every sample of each satisfies the equation of every other, and all are of one class of chain.
+    #[test]
+    fn cognates_have_one_equation(four_bar in placed()) {
+        let Ok(cognates) = Cognates::of(four_bar) else { return Ok(()) };
+        let three = cognates.all();
+        let is_grashof = |c: Class| c != Class::TripleRocker;
+        for member in &three {
+            let linkage = member.linkage([], &all()).unwrap();
+            prop_assert_eq!(is_grashof(member.four_bar.lengths.class()), is_grashof(four_bar.lengths.class()));
+            let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
+            for other in &three {
+                let sextic = Sextic::of(other.four_bar.lengths, other.four_bar.point).unwrap();
+                let [o, c] = other.four_bar.pivots;
+                let axis = (c - o).normalize();
+                for p in motion.circuits.iter().flat_map(|circuit| circuit.points(linkage.traced[0])) {
+                    let own = Point::new(axis.dot(&(p - o)), cross(axis, p - o));
+                    let [value, terms] = sextic.at(own);
+                    // Sixty-odd terms of the sixth degree; the cognates' own lengths and places are rounded too.
+                    prop_assert!(value.abs() <= 1e-10 * terms, "{value} of {terms}");
+                }
+            }
+        }
+    }
+
+    /// All circuits together are the same set of points.
+    #[test]
+    fn cognates_draw_one_curve(four_bar in placed()) {
+        let Ok(cognates) = Cognates::of(four_bar) else { return Ok(()) };
+        let [original, first, second] = cognates.all().map(|c| drawn(&c.linkage([], &all()).unwrap()));
+        prop_assert!(same(&original, &first) && same(&original, &second));
+    }
+
+    /// A circuit of the original is one circuit of each cognate: that through the start it is given.
+    #[test]
+    fn cognates_draw_the_circuit_asked_for(four_bar in placed(), left: bool) {
+        let Ok(cognates) = Cognates::of(four_bar) else { return Ok(()) };
+        let side = if left { Side::Left } else { Side::Right };
+        let original = four_bar.linkage(side, Travel::default()).unwrap();
+        let curve = drawn(&original);
+        prop_assume!(!curve.is_empty());
+        for cognate in cognates.others {
+            let linkage = cognate.linkage(poses(&original, 90), &original.travel).unwrap();
+            prop_assert!(same(&curve, &drawn(&linkage)), "{cognate:?}");
+        }
+    }
+
+    /// Hung on, they keep all their lengths while the original moves, and each link turns as the one it should.
+    #[test]
+    fn cognates_hang_together(four_bar in placed(), mirror: bool, turn in -180.0f64..180.0) {
+        let plain = four_bar.linkage(Side::Left, all()).unwrap();
+        let linkage = Linkage { placement: Placement::new(mirror, turn), ..plain };
+        let m = linkage.traced[0];
+        let Ok((hung, links)) = Cognates::hung(&linkage, m) else { return Ok(()) };
+        let cognates = Cognates::of(PlacedFourBar::of(&linkage, m).unwrap()).unwrap();
+        let motion = Motion::of(&hung, &Sampler::new(Sampling::Samples(24)));
+        check_motion(&hung, &motion)?;
+        prop_assert_eq!(links.concat().len(), 6);
+        let joint = |name: &str| hung.joints.iter().position(|joint| joint.name == name).unwrap();
+        let [o, c, q] = ["O", "C", "Q"].map(joint);
+        let pins = FourBar::pins(&linkage).unwrap();
+        for circuit in &motion.circuits {
+            for i in 0..circuit.len() {
+                let at = |joint| circuit.places.point(joint, i);
+                // Rounding of places and of their sums, lengths up to some hundred.
+                let close = |a: Point, b: Point| (a - b).norm() <= 1e-12 * (1.0 + a.coords.norm() + b.coords.norm());
+                prop_assert!(close(at(q), cognates.third_pivot));
+                for (cognate, [own, shared]) in cognates.others.iter().zip([["D", "E"], ["F", "G"]]) {
+                    let ends = cognate.pins(pins.map(at));
+                    let (own, shared) = (at(joint(own)), at(joint(shared)));
+                    let first = cognate.four_bar.pivots[0];
+                    let is_own = close(first, at(o)) || close(first, at(c));
+                    let expected = if is_own && !close(first, at(q)) { [own, shared] } else { [shared, own] };
+                    prop_assert!(close(ends[0], expected[0]) && close(ends[1], expected[1]));
+                    let FourBar { coupler, .. } = cognate.four_bar.lengths;
+                    let along = (ends[1] - ends[0]) / coupler;
+                    let point = cognate.four_bar.point;
+                    let left = Vector::new(-along.y, along.x);
+                    prop_assert!(close(ends[0] + along * point.x + left * point.y, at(m)));
+                }
+            }
+        }
+    }
+}
+
+/// A link on a pivot that is the shortest of all drives its cognate; and the pairs of links that turn alike.
+#[test]
+fn cognates_are_driven_by_what_turns_fully() {
+    let bar = |frame, crank, coupler, rocker| PlacedFourBar {
+        pivots: [Point::origin(), Point::new(frame, 0.0)],
+        lengths: FourBar { frame, crank, coupler, rocker },
+        point: Vector::new(1.1, 0.7),
+    };
+    use Bar::{Coupler, Crank, Rocker};
+    for (bars, classes, turns) in [
+        // The crank turns fully: so does that of the cognate on the rocker's pivot, about the third.
+        (bar(4.0, 1.0, 3.0, 3.5), [Class::DoubleRocker, Class::CrankRocker], [Coupler, Crank]),
+        (bar(4.0, 3.5, 3.0, 1.0), [Class::CrankRocker, Class::DoubleRocker], [Rocker, Crank]),
+        (bar(4.0, 3.5, 1.0, 3.0), [Class::CrankRocker, Class::CrankRocker], [Coupler, Coupler]),
+        (bar(1.0, 3.5, 4.0, 3.0), [Class::DragLink, Class::DragLink], [Coupler, Crank]),
+        (bar(4.0, 2.0, 2.5, 2.0), [Class::TripleRocker, Class::TripleRocker], [Rocker, Crank]),
+    ] {
+        let cognates = Cognates::of(bars).unwrap();
+        assert_eq!(cognates.others.map(|c| c.four_bar.lengths.class()), classes, "{bars:?}");
+        assert_eq!(cognates.others.map(|c| c.turns_as[0]), turns, "{bars:?}");
+        for (cognate, class) in cognates.others.iter().zip(classes) {
+            let motion = Motion::of(&cognate.linkage([], &all()).unwrap(), &Sampler::new(Sampling::Samples(8)));
+            let turns = motion.circuits.iter().all(|c| c.closed && c.passes.len() == 1);
+            assert_eq!(turns, matches!(class, Class::CrankRocker | Class::DragLink), "{bars:?}");
+        }
+    }
+}
+
+/// Change points, whose circuits cross.
+#[test]
+fn cognates_go_through_change_points() {
+    for [frame, crank, coupler, rocker] in [[3.0, 2.0, 1.0, 2.0], [2.0, 1.0, 2.0, 1.0], [1.5, 2.0, 1.5, 2.0]] {
+        let four_bar = PlacedFourBar {
+            pivots: [Point::origin(), Point::new(frame, 0.0)],
+            lengths: FourBar { frame, crank, coupler, rocker },
+            point: Vector::new(0.7, 0.6),
+        };
+        let [original, first, second] =
+            Cognates::of(four_bar).unwrap().all().map(|c| drawn(&c.linkage([], &all()).unwrap()));
+        assert!(same(&original, &first) && same(&original, &second), "{four_bar:?}");
+    }
+}
+
+/// In Cayley's diagram the links on the third pivot, each parallel to a link of the others, end where the others' triangles
+/// have their corners: of any four-bar, on every circuit.
+#[test]
+fn cayleys_diagram_closes() {
+    let template = catalogue::find("cognates").unwrap();
+    for values in [
+        [4.0, 1.5, 3.0, 3.5, 1.8, 1.3],
+        [4.0, 3.0, 1.5, 3.5, 0.6, 1.2],
+        [1.5, 3.0, 3.5, 4.0, 2.0, -1.5],
+        [4.0, 2.5, 2.0, 2.5, 1.0, -1.7],
+        [2.0, 1.0, 2.6, 2.6, 5.2, 0.0],
+        [3.0, 2.0, 1.0, 2.0, -0.4, 0.3],
+    ] {
+        let linkage = template.linkage(&values).unwrap();
+        let linkage = Linkage { travel: Travel { circuits: Circuits::All, ..linkage.travel.clone() }, ..linkage };
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(90)));
+        let joint = |name: &str| linkage.joints.iter().position(|joint| joint.name == name).unwrap();
+        let pairs = [["H", "E"], ["I", "G"]].map(|pair| pair.map(joint));
+        assert!(motion.is_assembled());
+        for circuit in &motion.circuits {
+            for (i, [one, other]) in (0..circuit.len()).flat_map(|i| pairs.map(|pair| (i, pair))) {
+                let [one, other] = [one, other].map(|joint| circuit.places.point(joint, i));
+                // Six sums of places of the size of ten.
+                assert!((one - other).norm() < 5e-14, "{values:?} at {}: {one} {other}", circuit.input[i]);
+            }
+        }
+        // The diagram's own four-bars are those found from the first.
+        let cognates = Cognates::of(PlacedFourBar::of(&linkage, linkage.traced[0]).unwrap()).unwrap();
+        let length = |name: &str, other: &str| {
+            let [from, to] = [name, other].map(joint);
+            let places = linkage.links.iter().find_map(|link| Some((link.place(from)?, link.place(to)?)));
+            places.map(|(from, to)| (to - from).norm()).unwrap()
+        };
+        for (cognate, [pivot, own, shared, end]) in
+            cognates.others.iter().zip([["O", "D", "E", "H"], ["C", "F", "G", "I"]])
+        {
+            let FourBar { frame, crank, coupler, rocker } = cognate.four_bar.lengths;
+            let own = [length(pivot, "Q"), length(pivot, own), length(own, shared), length("Q", end)];
+            let found = if cognate.turns_as[0] == Bar::Coupler {
+                [frame, crank, coupler, rocker]
+            } else {
+                [frame, rocker, coupler, crank]
+            };
+            assert!(own.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-14 * (a + b)), "{own:?} {found:?}");
+        }
+    }
+}
+
+/// One of a grid of points stands alone on the coupler, so that it can be seen to carry all three.
+#[test]
+fn a_point_of_a_grid_carries_the_cognates_alone() {
+    let linkage = crate::catalogue::defaults("hrones-nelson");
+    let joint = linkage.traced[2];
+    let (hung, links) = Cognates::hung(&linkage, joint).unwrap();
+    let carriers = hung.links.iter().filter(|link| link.place(joint).is_some()).count();
+    assert_eq!((carriers, links.concat().len()), (3, 6));
+    assert!(
+        linkage.traced.iter().all(|&other| hung.links.iter().all(|link| other == joint || link.place(other).is_none()))
+    );
+    assert_eq!(hung.joints[joint].name, "M3");
+}
+
+#[test]
+fn what_has_no_cognates_says_why() {
+    let bars = |along, across| PlacedFourBar {
+        pivots: [Point::origin(), Point::new(4.0, 0.0)],
+        lengths: FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 },
+        point: Vector::new(along, across),
+    };
+    assert_eq!(Cognates::of(bars(0.0, 0.0)), Err(NoCognates::OnPin { pin: "crank" }));
+    assert_eq!(Cognates::of(bars(3.0, 1e-14)), Err(NoCognates::OnPin { pin: "rocker" }));
+    let linkage = bars(1.0, 1.0).linkage(Side::Left, all()).unwrap();
+    let pin = |joint: usize| PlacedFourBar::of(&linkage, joint);
+    assert_eq!(pin(0), Err(NoCognates::NotOnCoupler { joint: "O".to_owned() }));
+    assert_eq!(Cognates::hung(&linkage, 2).unwrap_err(), NoCognates::OnPin { pin: "crank" });
+    let klann = crate::catalogue::defaults("klann");
+    assert_eq!(PlacedFourBar::of(&klann, klann.traced[0]), Err(NoCognates::NoFourBar));
+}
+
+/// Chebyshev's linkage, driven by its coupler, has Evans's at half size for its cognates: crank 1/2, frame p/2, coupler and
+/// rocker r/2, and the point as far again beyond the rocker pin. And Evans's has Chebyshev's at twice the size.
+#[test]
+fn chebyshevs_cognate_is_evanss_at_half_size() {
+    let [chebyshev, evans] = ["chebyshev", "evans"].map(|id| catalogue::find(id).unwrap());
+    for k in 0..=89 {
+        let p = 1.1 + 0.1 * f64::from(k);
+        let a = trig::pow(1.0 + p, 1.5) / 2.0;
+        // p, r, s, a and p, r, a, s, k.
+        let chebyshev = chebyshev.linkage(&[p, a, a, 1.0, 0.5]).unwrap();
+        let evans = evans.linkage(&[p, 1.0, a, a, 2.0]).unwrap();
+        let [of_chebyshev, of_evans] =
+            [&chebyshev, &evans].map(|linkage| PlacedFourBar::of(linkage, linkage.traced[0]).unwrap());
+        let close = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * (x.abs() + y.abs());
+        let is_scaled = |one: &PlacedFourBar, other: &PlacedFourBar, by: f64| {
+            let list = |b: &PlacedFourBar| {
+                [b.lengths.frame, b.lengths.crank, b.lengths.coupler, b.lengths.rocker, b.point.x, b.point.y]
+            };
+            list(one).into_iter().zip(list(other)).all(|(x, y)| close(x, by * y))
+        };
+        let cognates = Cognates::of(of_chebyshev).unwrap();
+        assert!(close(cognates.third_pivot.x, p / 2.0) && cognates.third_pivot.y == 0.0);
+        for cognate in cognates.others {
+            assert!(is_scaled(&cognate.four_bar, &of_evans, 0.5), "p = {p}: {cognate:?}");
+            assert_eq!(cognate.turns_as[0], Bar::Coupler, "crank-driven where Chebyshev's coupler turns");
+            assert_eq!(cognate.four_bar.lengths.class(), Class::CrankRocker);
+        }
+        let back = Cognates::of(of_evans).unwrap().others[0];
+        assert!(is_scaled(&back.four_bar, &of_chebyshev, 2.0), "p = {p}: {back:?}");
+        // And so they are drawn: twice the half-size Evans is Evans.
+        let [one, other] =
+            [chebyshev.clone(), cognates.others[0].linkage(poses(&chebyshev, 90), &chebyshev.travel).unwrap()]
+                .map(|linkage| drawn(&linkage));
+        assert!(same(&one, &other), "p = {p}");
+    }
+}

@@ -1,0 +1,221 @@
+//! McCarthy's formulas against each other, against the thesis's vector solution, and against the kernels.
+
+use coupler_curves::geometry::{Point, Vector, trig};
+use coupler_curves::linkage::{Assembly, Circuits, Flat, FourBar, InvertedSliderCrank, JointId, Linkage, Side, Travel};
+use coupler_curves::motion::{Circuit, Jets, Motion, Sampler, Sampling, Stop};
+use proptest::prelude::*;
+
+fn all() -> Travel {
+    Travel { circuits: Circuits::All, ..Travel::default() }
+}
+
+/// The difference of two angles, brought into [-pi, pi].
+fn apart(a: f64, b: f64) -> f64 {
+    let d = a - b;
+    trig::atan2(trig::sin(d), trig::cos(d)).abs()
+}
+
+fn direction(v: Vector) -> f64 {
+    trig::atan2(v.y, v.x)
+}
+
+fn four_bar(bar: FourBar) -> Linkage {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", Point::origin());
+    let c = assembly.fixed("C", Point::new(bar.frame, 0.0));
+    let a = assembly.crank("A", o, bar.crank).unwrap();
+    let b = assembly.dyad("B", [a, c], [bar.coupler, bar.rocker], Side::Left).unwrap();
+    assembly.finish(vec![b], None, all()).unwrap()
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    #[test]
+    fn all_derivations_of_the_4r_chain_agree(l in prop::array::uniform4(0.3f64..3.0), theta in -3.1f64..3.1) {
+        let bar = FourBar { frame: l[0], crank: l[1], coupler: l[2], rocker: l[3] };
+        let size: f64 = l.iter().sum();
+        // The roots lose digits as the dyad flattens: in proportion to its height, so a fixed share is kept clear.
+        prop_assume!(bar.solvability(theta) > 1e-3 * size * size * size * size);
+        let (psi, phi) = (bar.output_angles(theta).unwrap(), bar.coupler_angles(theta).unwrap());
+        let (cos, sin) = (trig::cos(theta), trig::sin(theta));
+        let (a, c) = (Vector::new(cos, sin) * bar.crank, Vector::new(bar.frame, 0.0));
+        for (k, branch) in [1.0, -1.0].into_iter().enumerate() {
+            // The thesis's vectors, (9.1) and (9.2): rd from the rocker's pivot to the crank pin.
+            let rd = a - c;
+            let d = rd.norm();
+            let foot = (bar.rocker * bar.rocker - bar.coupler * bar.coupler + d * d) / (2.0 * d);
+            let height = branch * (bar.rocker * bar.rocker - foot * foot).sqrt();
+            let unit = rd / d;
+            let r2 = Vector::new(height * unit.y, -height * unit.x) + unit * (foot - d);
+            let b = a + r2;
+            prop_assert!(apart(psi[k], direction(b - c)) < 1e-11);
+            prop_assert!(apart(theta + phi[k], direction(r2)) < 1e-11);
+            prop_assert!(apart(phi[k], bar.coupler_angle(theta, psi[k])) < 1e-11);
+            let cosine = (a - b).dot(&(c - b)) / ((a - b).norm() * (c - b).norm());
+            prop_assert!((bar.transmission_angle(theta).unwrap() - trig::acos(cosine)).abs() < 1e-11);
+        }
+    }
+
+    #[test]
+    fn the_inverted_slider_crank_is_mccarthys(g in 0.3f64..3.0, r in 0.3f64..3.0, e in 0.05f64..2.0) {
+        let formulas = InvertedSliderCrank { g, r, e };
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", Point::origin());
+        let c = assembly.fixed("C", Point::new(g, 0.0));
+        let a = assembly.crank("A", o, r).unwrap();
+        let b = assembly.slot("B", [c, a], e, Side::Right).unwrap();
+        let m = assembly.point("M", [c, a], 1.0, 0.25).unwrap();
+        let linkage = assembly.finish(vec![m], None, all()).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(7.0)));
+        prop_assert_eq!(motion.is_assembled(), formulas.crank_range().is_some());
+        for circuit in &motion.circuits {
+            for i in 0..circuit.len() {
+                let at = |j: JointId| circuit.places.point(j, i);
+                let theta = trig::radians(circuit.input[i]);
+                let cb = at(b) - at(c);
+                prop_assert!((cb.norm() - e).abs() < 1e-12);
+                prop_assert!(cb.dot(&(at(a) - at(b))).abs() < 1e-12 * (g + r) * (g + r));
+                let Some(size) = formulas.slide(theta) else { continue };
+                if size < 1e-2 {
+                    continue;
+                }
+                // McCarthy's slide is positive where the foot is right of C -> A.
+                let s = -f64::from(circuit.signs(i).get(0)) * size;
+                prop_assert!(((at(a) - at(b)).norm() - size).abs() < 1e-10);
+                prop_assert!(apart(formulas.psi(theta, s), direction(cb)) < 1e-10);
+                prop_assert!((formulas.b(s) - (at(a) - at(c)).norm()).abs() < 1e-12);
+                prop_assert!((trig::cos(formulas.theta(s).unwrap()) - trig::cos(theta)).abs() < 1e-10);
+                // The line's link carries M: along the line as McCarthy's s is counted, and to its left.
+                let line = Vector::new(-cb.y, cb.x) / e;
+                let expected = at(c) + line - cb / e * 0.25;
+                prop_assert!((at(m) - expected).norm() < 1e-12);
+            }
+            if let (Some([least, _]), true) = (formulas.crank_range(), circuit.passes[0].from.flat.has(0)) {
+                let reached = trig::radians(circuit.passes[0].from.stop.at);
+                prop_assert!((reached.abs() - least).abs() < 1e-7 || (g - r).abs() - e < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_slider_stays_on_its_line(crank in 0.2f64..2.0, coupler in 0.2f64..3.0, offset in -2.0f64..2.0, turn in 0.0f64..6.0) {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", Point::new(0.3, -0.2));
+        let (cos, sin) = (trig::cos(turn), trig::sin(turn));
+        let p = assembly.fixed("P", Point::new(0.3, -0.2));
+        let q = assembly.fixed("Q", Point::new(0.3 + 2.0 * cos, -0.2 + 2.0 * sin));
+        let a = assembly.crank("A", o, crank).unwrap();
+        let b = assembly.slide("B", (a, coupler), ([p, q], offset), Side::Left).unwrap();
+        let linkage = assembly.finish(vec![b], None, all()).unwrap();
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(5.0)));
+        prop_assert_eq!(motion.is_assembled(), offset.abs() < crank + coupler);
+        for circuit in &motion.circuits {
+            for i in 0..circuit.len() {
+                let from_o = circuit.places.point(b, i) - circuit.places.point(o, i);
+                prop_assert!((cos * from_o.y - sin * from_o.x - offset).abs() < 1e-12);
+                let link = (circuit.places.point(b, i) - circuit.places.point(a, i)).norm();
+                prop_assert!((link - coupler).abs() < 1e-12 * (crank + coupler));
+            }
+            for k in 0..circuit.passes.len() {
+                if circuit.passes[k].to.flat.has(0) && circuit.closed {
+                    // A limit: the link stands square to the line.
+                    let theta = trig::radians(circuit.passes[k].to.stop.at);
+                    let distance = offset - crank * trig::sin(theta - turn);
+                    prop_assert!((distance.abs() - coupler).abs() < 1e-7);
+                }
+            }
+        }
+    }
+
+    /// Rates in closed form against differences of high order, away from limits.
+    #[test]
+    fn rates_are_those_of_differences(l in prop::array::uniform4(0.5f64..3.0), at in 0usize..720, kind in 0..3) {
+        let linkage = match kind {
+            0 => four_bar(FourBar { frame: l[0], crank: l[1], coupler: l[2], rocker: l[3] }),
+            1 => {
+                let mut assembly = Assembly::default();
+                let o = assembly.fixed("O", Point::origin());
+                let x = assembly.fixed("X", Point::new(1.0, 0.4));
+                let a = assembly.crank("A", o, l[1]).unwrap();
+                let b = assembly.slide("B", (a, l[2] + 1.0), ([o, x], 0.3), Side::Left).unwrap();
+                assembly.finish(vec![b], None, all()).unwrap()
+            }
+            _ => {
+                let mut assembly = Assembly::default();
+                let o = assembly.fixed("O", Point::origin());
+                let c = assembly.fixed("C", Point::new(l[0], 0.0));
+                let a = assembly.crank("A", o, l[1]).unwrap();
+                assembly.slot("B", [c, a], 0.2, Side::Right).unwrap();
+                let m = assembly.point("M", [c, a], l[2], 0.3).unwrap();
+                // Seen from the turning link, everything else moves.
+                let b = 3;
+                assembly.finish(vec![m], Some([c, b]), all()).unwrap()
+            }
+        };
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(0.5)));
+        let Some(circuit) = motion.circuits.first() else { return Ok(()) };
+        let inside = |i: usize| (0..=8).all(|k| i + k < circuit.len() && circuit.signs(i + k) == circuit.signs(i));
+        prop_assume!(circuit.passes[0].from.flat.is_none() && inside(at % circuit.len()));
+        let i = at % circuit.len() + 4;
+        let jets = Jets::of(&linkage, Stop::angle(circuit.input[i]), circuit.signs(i), Flat::NONE);
+        let h = trig::radians(0.5);
+        for &joint in &linkage.traced {
+            prop_assert!((jets.place(joint) - circuit.places.point(joint, i)).norm() < 1e-12);
+            // Where a joint all but turns round, eight orders of a step are not enough.
+            prop_assume!(jets.jerk(joint).norm() < 30.0);
+            for (found, expected) in [
+                (jets.velocity(joint), difference(circuit, joint, i, &VELOCITY) / h),
+                (jets.acceleration(joint), difference(circuit, joint, i, &ACCELERATION) / (h * h)),
+            ] {
+                prop_assert!((found - expected).norm() < 1e-6 * (1.0 + found.norm()), "{found} {expected}");
+            }
+            let jerk = difference(circuit, joint, i, &JERK) / (h * h * h);
+            prop_assert!((jets.jerk(joint) - jerk).norm() < 1e-3 * (1.0 + jerk.norm()));
+        }
+    }
+}
+
+/// Central differences of the eighth order for the first and second derivative, of the sixth for the third.
+const VELOCITY: [f64; 9] = [1.0 / 280.0, -4.0 / 105.0, 0.2, -0.8, 0.0, 0.8, -0.2, 4.0 / 105.0, -1.0 / 280.0];
+const ACCELERATION: [f64; 9] =
+    [-1.0 / 560.0, 8.0 / 315.0, -0.2, 1.6, -205.0 / 72.0, 1.6, -0.2, 8.0 / 315.0, -1.0 / 560.0];
+const JERK: [f64; 9] =
+    [-7.0 / 240.0, 0.3, -169.0 / 120.0, 61.0 / 30.0, 0.0, -61.0 / 30.0, 169.0 / 120.0, -0.3, 7.0 / 240.0];
+
+fn difference(circuit: &Circuit, joint: JointId, i: usize, weights: &[f64; 9]) -> Vector {
+    (0..9).map(|k| circuit.places.point(joint, i + k - 4).coords * weights[k]).sum()
+}
+
+#[test]
+fn rates_at_a_limit_are_unbounded() {
+    let linkage = four_bar(FourBar { frame: 4.0, crank: 2.0, coupler: 2.0, rocker: 2.0 });
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
+    let end = motion.circuits[0].passes[0].to;
+    let jets = Jets::of(&linkage, end.stop, motion.circuits[0].passes[0].signs, end.flat);
+    assert!(jets.velocity(2).norm().is_finite(), "the crank turns on");
+    assert_eq!(jets.velocity(3), Vector::new(f64::INFINITY, f64::INFINITY));
+}
+
+#[test]
+fn columns_are_mccarthys_angles() {
+    use coupler_curves::measure::{column, take_columns};
+    let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
+    let linkage = four_bar(bar);
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(5.0)));
+    let names = ["psi_deg", "phi_deg", "mu_deg", "solvability", "speed", "psi_ratio", "s"];
+    let columns = names.map(|name| column(name).unwrap());
+    for (k, circuit) in motion.circuits.iter().enumerate() {
+        for i in 0..circuit.len() {
+            let theta = trig::radians(circuit.input[i]);
+            let values = take_columns(&columns, &linkage, (circuit, 3), i);
+            let psi = bar.output_angles(theta).unwrap()[k];
+            assert!(apart(trig::radians(values[0]), psi) < 1e-12);
+            assert!(apart(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);
+            assert!(apart(trig::radians(values[2]), bar.transmission_angle(theta).unwrap()) < 1e-12);
+            assert!((values[3] - bar.solvability(theta)).abs() < 1e-9);
+            assert!((values[4] - values[5].abs() * bar.rocker).abs() < 1e-12, "B goes round C");
+            assert!(values[6].is_nan(), "there is no slide");
+        }
+    }
+}

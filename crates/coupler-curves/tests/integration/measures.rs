@@ -1,0 +1,488 @@
+//! Measures against closed forms, and what they must not depend on.
+
+use coupler_curves::geometry::{Point, trig};
+use coupler_curves::linkage::{Assembly, Circuits, Continuation, FourBar, Linkage, Placement, Side, Travel};
+use coupler_curves::measure::{self, Straight, Subject, Value};
+use coupler_curves::motion::{Motion, Sampler, Sampling};
+use proptest::prelude::*;
+
+use crate::catalogue::defaults;
+
+/// A four-bar with its pins A and B and a coupler point M traced.
+fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", Point::new(0.0, 0.0));
+    let c = assembly.fixed("C", Point::new(frame, 0.0));
+    let a = assembly.crank("A", o, crank).unwrap();
+    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = assembly.point("M", [a, b], along, across).unwrap();
+    let travel = Travel { circuits: Circuits::All, ..Travel::default() };
+    assembly.finish(vec![a, b, m], None, travel).unwrap()
+}
+
+/// The measures of a traced joint on a circuit, by name.
+fn measured(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
+    let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(samples)));
+    let subject = Subject::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
+    let values = measure::take(&subject);
+    move |name| values[measure::ALL.iter().position(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))]
+}
+
+fn number(value: Value) -> f64 {
+    if let Value::Number(value) = value { value } else { panic!("{value:?}") }
+}
+
+#[test]
+fn a_circle_is_measured_as_one() {
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    let value = measured(&linkage, 0, 0, 36);
+    let near = |name: &str, expected: f64| {
+        let found = number(value(name));
+        assert!((found - expected).abs() < 1e-6 * expected.abs().max(1.0), "{name}: {found} {expected}");
+    };
+    let pi = std::f64::consts::PI;
+    near("length", 2.5 * pi);
+    near("area", 1.25 * 1.25 * pi);
+    for (name, side) in [("bbox_x_min", -1.25), ("bbox_x_max", 1.25), ("bbox_y_min", -1.25), ("bbox_y_max", 1.25)] {
+        near(name, side);
+    }
+    near("curvature_max", 0.8);
+    near("speed_ratio", 1.0);
+    for name in ["cusps", "crunodes", "inflections"] {
+        assert_eq!(value(name), Value::Number(0.0), "{name}");
+    }
+}
+
+/// A measure is one of the curve: few samples tell the same as many, to the last bit, and as thousands of its own to what a
+/// polynomial between samples a degree apart is off by.
+#[test]
+fn measures_are_of_the_curve_however_few_its_samples() {
+    // Over change points the branch stays, and curves have corners there.
+    let own = |bar, point| {
+        let mut linkage = four_bar(bar, point);
+        linkage.travel.continuation = Continuation::Branch;
+        (linkage, 2)
+    };
+    let linkages = [
+        own([4.0, 1.25, 3.0, 3.5], (1.0, 1.0)),
+        own([2.0, 2.2, 4.4, 2.1], (2.0, 0.3)),
+        // With change points.
+        own([3.0, 1.0, 2.0, 2.0], (1.0, 1.5)),
+        own([2.5, 1.0, 1.5, 2.0], (3.0, -0.5)),
+        (defaults("klann"), 0),
+        (defaults("geared-five-bar"), 0),
+    ];
+    for (linkage, trace) in &linkages {
+        let [few, more, many] = [12, 100, 8000].map(|samples| measured(linkage, *trace, 0, samples));
+        for m in &measure::ALL {
+            assert_eq!(few(m.name), more(m.name), "{}", m.name);
+        }
+        for name in ["length", "area", "bbox_x_min", "bbox_x_max", "bbox_y_min", "bbox_y_max", "curvature_max"] {
+            let [a, b] = [&more, &many].map(|value| number(value(name)));
+            assert!(a == b || (a - b).abs() <= 1e-4 * b.abs().max(1.0), "{name}: {a} {b}");
+        }
+        for name in ["straight_length", "dwell_input_deg"] {
+            let [a, b] = [&more, &many].map(|value| number(value(name)));
+            assert!((a - b).abs() <= 2e-2 * b, "{name}: {a} {b}");
+        }
+        assert_eq!(["cusps", "crunodes", "inflections"].map(&more), ["cusps", "crunodes", "inflections"].map(&many));
+    }
+}
+
+#[test]
+fn transmission_swing_and_time_ratio_have_closed_forms() {
+    let bar = [4.0, 1.0, 3.0, 3.5];
+    let value = measured(&four_bar(bar, (1.0, 1.0)), 2, 0, 50);
+    let angle = |c: f64| trig::degrees(trig::acos(c));
+    // McCarthy 2.3.3: cos mu = (h^2 + b^2 - d^2) / 2hb with d from g - a to g + a.
+    let mu = |d: f64| angle((9.0 + 12.25 - d * d) / 21.0);
+    assert!((number(value("mu_min_deg")) - mu(3.0)).abs() < 1e-12);
+    assert!((number(value("mu_max_deg")) - mu(5.0)).abs() < 1e-12);
+    // The rocker's turning points, from the triangles with crank and coupler in line.
+    let psi = |reach: f64| angle((16.0 + 12.25 - reach * reach) / 28.0);
+    assert!((number(value("output_swing_deg")) - (psi(4.0) - psi(2.0))).abs() < 1e-9);
+    let theta = |reach: f64| angle((16.0 + reach * reach - 12.25) / (8.0 * reach));
+    let slower = 180.0 + (theta(2.0) - theta(4.0)).abs();
+    assert!((number(value("time_ratio")) - slower / (360.0 - slower)).abs() < 1e-12);
+    assert_eq!((value("type"), value("shortest")), (Value::Word("crank-rocker"), Value::Word("crank")));
+    // A triple-rocker: the angle is 0 or 180 at its limits, and 180 where the crank is on the frame line.
+    let value = measured(&four_bar([4.0, 2.0, 2.0, 2.0], (1.0, 1.0)), 2, 0, 50);
+    assert!((number(value("mu_min_deg")) - angle(0.5)).abs() < 1e-12, "folded crank: 2, 2 and 2");
+    assert_eq!(number(value("mu_max_deg")), 180.0);
+    assert_eq!(value("type"), Value::Word("0π double-rocker"));
+    assert_eq!(value("time_ratio"), Value::Missing);
+    // A drag-link turns its output round.
+    let value = measured(&four_bar([1.0, 3.0, 3.5, 4.0], (1.0, 1.0)), 2, 0, 50);
+    assert_eq!((value("output_swing_deg"), value("type")), (Value::Number(360.0), Value::Word("double-crank")));
+    // A parallelogram's cranks keep the angle 0 at its change points.
+    let value = measured(&four_bar([3.0, 1.0, 3.0, 1.0], (1.0, 1.0)), 2, 0, 48);
+    assert_eq!((number(value("mu_min_deg")), number(value("mu_max_deg"))), (0.0, 180.0));
+}
+
+/// Every type of McCarthy's has its motion: what is said of the input and the output is so.
+#[test]
+fn types_say_where_the_links_go() {
+    let all = [[4.0, 1.0, 3.0, 3.5], [4.0, 3.5, 3.0, 1.0], [1.0, 3.0, 3.5, 4.0], [4.0, 3.0, 1.0, 3.5]];
+    let kinds = ["crank-rocker", "rocker-crank", "double-crank", "double-rocker"];
+    let rockers = [[2.0, 4.5, 1.0, 3.0], [4.0, 2.0, 2.0, 2.0], [2.0, 2.2, 4.4, 2.1], [2.0, 2.5, 1.0, 4.0]];
+    let names = ["00 double-rocker", "0π double-rocker", "π0 double-rocker", "ππ double-rocker"];
+    for (lengths, kind) in all.into_iter().zip(kinds).chain(rockers.into_iter().zip(names)) {
+        let [frame, crank, coupler, rocker] = lengths;
+        let found = FourBar { frame, crank, coupler, rocker }.kind();
+        let linkage = four_bar(lengths, (1.0, 1.0));
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(360)));
+        let circuit = &motion.circuits[0];
+        let turns = circuit.passes.len() == 1;
+        let goes_to = |at: Point, pivot: f64, way: f64| ((at.x - pivot) * way > 0.0) && at.y.abs() < 0.05;
+        let crank_goes = |way| circuit.points(2).any(|p| goes_to(p, 0.0, way));
+        let rocker_goes = |way| circuit.points(3).any(|p| goes_to(p, frame, way));
+        let expected = match kind {
+            "crank-rocker" | "double-crank" => turns,
+            "rocker-crank" | "double-rocker" => !turns,
+            "00 double-rocker" => crank_goes(1.0) && !crank_goes(-1.0) && rocker_goes(1.0) && !rocker_goes(-1.0),
+            "0π double-rocker" => crank_goes(1.0) && !crank_goes(-1.0) && rocker_goes(-1.0) && !rocker_goes(1.0),
+            "π0 double-rocker" => crank_goes(-1.0) && !crank_goes(1.0) && rocker_goes(1.0) && !rocker_goes(-1.0),
+            _ => crank_goes(-1.0) && !crank_goes(1.0) && rocker_goes(-1.0) && !rocker_goes(1.0),
+        };
+        assert!(expected && found == kind, "{lengths:?}: {found}, {kind}");
+    }
+}
+
+/// Bernoulli's lemniscate: of half-width a its length is 5.24411510858424 a (the lemniscate constant twice), it crosses
+/// itself once and there bends the other way twice, and its two halves go round opposite ways.
+#[test]
+fn a_lemniscate_is_measured_as_one() {
+    let root = 2f64.sqrt();
+    let linkage = four_bar([2.0, root, 2.0, root], (1.0, 0.0));
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(360)));
+    // Of the parallelogram and the antiparallelogram, the one whose middle does not go on a circle.
+    let eight =
+        (0..2).find(|&k| motion.circuits[k].points(4).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5)).unwrap();
+    let value = measured(&linkage, 2, eight, 360);
+    assert!((number(value("length")) - 5.244_115_108_584_24 * root).abs() < 1e-5, "{:?}", value("length"));
+    assert!(number(value("area")).abs() < 1e-6);
+    assert_eq!((value("crunodes"), value("inflections")), (Value::Number(1.0), Value::Number(2.0)));
+    assert!((number(value("bbox_x_max")) - 1.0 - root).abs() < 1e-7);
+    // Its greatest curvature is 3 / a, at both ends.
+    assert!((number(value("curvature_max")) - 3.0 / root).abs() < 1e-5, "{:?}", value("curvature_max"));
+}
+
+/// The published proportions of Hoeken's linkage, crank 1, frame 2, coupler and rocker 2.5.
+#[test]
+fn hoekens_box_is_that_of_its_crossings() {
+    let linkage = defaults("hoeken");
+    let value = measured(&linkage, 0, 0, 360);
+    // (8.3): on the axis at p the curve is at the roots of 4 a^2 - p^2 +- 2 p r - r^2.
+    assert!((number(value("bbox_y_max")) - 24f64.sqrt()).abs() < 1e-7);
+    assert_eq!((value("cusps"), value("crunodes")), (Value::Number(0.0), Value::Number(0.0)));
+}
+
+/// A coupler point on the moving centrode has a cusp where it comes to the pole.
+#[test]
+fn a_point_of_the_moving_centrode_has_a_cusp() {
+    use coupler_curves::motion::Instant;
+    let plain = four_bar([4.0, 1.0, 3.0, 3.5], (1.0, 1.0));
+    let motion = Motion::of(&plain, &Sampler::new(Sampling::Samples(360)));
+    let jets = motion.circuits[0].jets(&plain, 100);
+    let pole = Instant::of_link(&jets, [2, 3]).unwrap().moving_pole;
+    let value = measured(&four_bar([4.0, 1.0, 3.0, 3.5], (pole.x, pole.y)), 2, 0, 77);
+    assert_eq!((value("cusps"), value("curvature_max")), (Value::Number(1.0), Value::Number(f64::INFINITY)));
+    assert_eq!(value("crunodes"), Value::Number(0.0));
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    /// What is measured depends on neither size nor place; lengths and areas go with the scale.
+    #[test]
+    fn measures_are_those_of_the_shape(
+        lengths in prop::array::uniform4(0.3f64..3.0), (along, across) in (-2.0f64..2.0, -2.0f64..2.0),
+        (scale, turn, mirrored) in (0.1f64..10.0, 0.0f64..360.0, any::<bool>()),
+    ) {
+        let plain = four_bar(lengths, (along, across));
+        let moved = Linkage {
+            placement: Placement::new(mirrored, turn),
+            ..four_bar(lengths.map(|l| l * scale), (along * scale, across * scale))
+        };
+        let motion = Motion::of(&plain, &Sampler::new(Sampling::Samples(60)));
+        let rocks: Vec<bool> = motion.circuits.iter().map(|circuit| circuit.passes.len() > 1).collect();
+        for (circuit, rocks) in rocks.iter().enumerate() {
+            let (before, after) = (measured(&plain, 2, circuit, 60), measured(&moved, 2, circuit, 60));
+            for m in measure::ALL {
+                let power = match m.name {
+                    "length" | "straight_length" | "straight_deviation" | "dwell_radius" | "dwell_deviation" => scale,
+                    // Of a symmetrical curve two portions are equally long; and a centre is a place.
+                    "straight_start_deg" | "dwell_start_deg" | "dwell_x" | "dwell_y" | "symmetry_deg" => continue,
+                    "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
+                    "curvature_max" => 1.0 / scale,
+                    name if name.starts_with("bbox") => continue,
+                    _ => 1.0,
+                };
+                match (before(m.name), after(m.name)) {
+                    (Value::Number(a), Value::Number(b)) => {
+                        prop_assert!(!a.is_nan(), "{}", m.name);
+                        // Of a bend sharper than the samples lie, rounding decides which sample is nearest to it.
+                        // Beside a limit that is so of every bend.
+                        if m.name == "curvature_max" && (a * number(before("length")) > 60.0 || *rocks) {
+                            continue;
+                        }
+                        // Where a portion ends is sought to a hundredth of the way between samples, of which it has dozens.
+                        let is_sought = m.name.starts_with("straight") || m.name.starts_with("dwell");
+                        // Its length hardly changes with where it lies, but the input it spans there does, and so does
+                        // the circle of a short arc.
+                        let near = match m.name {
+                            "straight_input_deg" | "dwell_radius" => 5e-2,
+                            // One that is shorter than the way between two samples is sought in windows of few points, and
+                            // rounding decides in which of them it is found.
+                            "straight_length" | "straight_deviation"
+                                if number(before("straight_length")) * 60.0 < number(before("length")) =>
+                            {
+                                2e-2
+                            }
+                            _ if is_sought => 2e-3,
+                            _ => 1e-5,
+                        };
+                        let is_same = a * power == b || (a * power - b).abs() <= near * b.abs().max(scale.min(1.0) * 1e-3);
+                        prop_assert!(is_same, "{} {:?}: {} {}", m.name, lengths, a * power, b);
+                    }
+                    (a, b) => prop_assert_eq!(a, b, "{}", m.name),
+                }
+            }
+        }
+    }
+}
+
+/// An arc of angle phi lies in a strip r (1 - cos phi/2) wide over 2 r sin phi/2: their quotient is tan(phi/4) / 2.
+#[test]
+fn the_straight_portion_of_a_circle_is_that_of_its_strip() {
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    for samples in [36, 360] {
+        let value = measured(&linkage, 0, 0, samples);
+        let angle = 4.0 * trig::atan2(0.002, 1.0);
+        let length = 2.5 * trig::sin(angle / 2.0);
+        let found = ["straight_length", "straight_deviation", "straight_input_deg"].map(|name| number(value(name)));
+        assert!((found[0] - length).abs() < 2e-3 * length, "{samples}: {found:?} {length}");
+        assert!((found[1] - 0.0005 * length).abs() < 1e-2 * 0.0005 * length, "{samples}: {found:?}");
+        assert!((found[2] - trig::degrees(angle)).abs() < 2e-3 * trig::degrees(angle), "{samples}: {found:?}");
+    }
+}
+
+/// The straightest portion of a given span may begin between the last sample and the first, or just beyond the first.
+#[test]
+fn a_portion_of_a_given_span_may_begin_about_the_first_sample() {
+    let linkage = four_bar([3.211, 2.818, 3.872, 0.787], (1.753, 0.0));
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(120)));
+    for circuit in &motion.circuits {
+        let portion = |asked: Straight| {
+            let subject = Subject::new(&linkage, &motion, circuit, linkage.traced[2]).asking(asked);
+            subject.straight().cloned().expect("a portion")
+        };
+        for span in [20.0, 60.0] {
+            let by_input = portion(Straight::Input(span));
+            assert!((by_input.input - span).abs() < 1e-9, "{by_input:?}");
+            let far = portion(Straight::Length(by_input.length));
+            // One that is as long and straighter may span another input.
+            assert!(far.deviation <= by_input.deviation * (1.0 + 1e-6), "{far:?} {by_input:?}");
+        }
+    }
+}
+
+/// Peaucellier's line is straight from end to end, and spans the input from limit to limit.
+#[test]
+fn a_straight_line_is_straight_from_end_to_end() {
+    let linkage = defaults("peaucellier-lipkin");
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(120)));
+    let limit = motion.circuits[0].passes[0].to.stop.at;
+    let ends = motion.circuits[0].points(linkage.traced[0]).map(|p| p.y.abs()).fold(0.0, f64::max);
+    let value = measured(&linkage, 0, 0, 120);
+    assert!((number(value("straight_length")) - 2.0 * ends).abs() < 1e-9);
+    assert!(number(value("straight_deviation")) < 1e-12);
+    assert!((number(value("straight_input_deg")) - 2.0 * limit).abs() < 1e-6, "{:?}", value("straight_input_deg"));
+}
+
+/// Against every portion from sample to sample.
+#[test]
+fn no_portion_is_longer_than_the_one_found() {
+    for (id, samples) in [("hoeken", 180), ("jansen", 180), ("klann", 360)] {
+        let linkage = defaults(id);
+        let value = measured(&linkage, 0, 0, samples);
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
+        // Every portion from sample to sample, its strip by the chord's own and all other directions.
+        let mut longest: f64 = 0.0;
+        for from in 0..samples {
+            for span in 3..samples / 2 {
+                let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
+                let chord = part[span] - part[0];
+                let strip = |turn: f64| {
+                    let (cos, sin) = (trig::cos(turn), trig::sin(turn));
+                    let along =
+                        [cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y].map(|c| c / chord.norm());
+                    let extent = |of: &dyn Fn(&Point) -> f64| {
+                        part.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)])
+                    };
+                    let width = extent(&|p| along[0] * p.y - along[1] * p.x);
+                    let length = extent(&|p| along[0] * p.x + along[1] * p.y);
+                    (width[1] - width[0], length[1] - length[0])
+                };
+                // The best strip is within a few widths' slope of the chord.
+                let best = (-20..=20).map(|k| strip(f64::from(k) * 1e-4)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                if best.0 <= 0.001 * best.1 {
+                    longest = longest.max(best.1);
+                }
+                if strip(0.0).0 > 0.02 * chord.norm() {
+                    break;
+                }
+            }
+        }
+        let found = number(value("straight_length"));
+        // Between samples it is longer by less than two of them.
+        assert!(found >= longest * 0.999 && found < 1.2 * longest, "{id}: {found} {longest}");
+        assert!(number(value("straight_deviation")) <= 0.000_51 * found, "{id}");
+    }
+}
+
+/// The pins go on circles: the crank's round its own, the rocker's there and back on its arc.
+#[test]
+fn pins_dwell_all_the_time() {
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    for (trace, radius, centre) in [(0, 1.25, [0.0, 0.0]), (1, 3.5, [4.0, 0.0])] {
+        let value = measured(&linkage, trace, 0, 120);
+        let found = ["dwell_input_deg", "dwell_radius", "dwell_x", "dwell_y"].map(|name| number(value(name)));
+        for (found, expected) in found.into_iter().zip([360.0, radius, centre[0], centre[1]]) {
+            // Where the rocker turns back its pin's samples do not tell of a smooth curve.
+            let near = if trace == 0 { 1e-9 } else { 1e-5 };
+            assert!((found - expected).abs() < near, "{trace}: {found} {expected}");
+        }
+        assert!(number(value("dwell_deviation")) < 1e-5, "{:?}", value("dwell_deviation"));
+    }
+}
+
+/// Against every portion from sample to sample, by circles whose centres are moved about to where the ring is narrowest.
+#[test]
+fn no_circular_portion_spans_more_than_the_one_found() {
+    let ring = |points: &[Point], centre: Point| {
+        let far = points.iter().map(|p| (p - centre).norm());
+        let [low, high] = far.fold([f64::INFINITY, 0.0f64], |[low, high], r| [low.min(r), high.max(r)]);
+        high - low
+    };
+    for id in ["hoeken", "jansen", "hrones-nelson"] {
+        let linkage = defaults(id);
+        let samples = 90;
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let subject = Subject::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+        let dwell = subject.dwell().expect("a dwell");
+        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
+        let extent = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
+        let length = number(measured(&linkage, 0, 0, samples)("length"));
+        // What is found is what it is said to be, and no wider than is allowed but for the curve between its points.
+        assert!((ring(&dwell.points, dwell.centre) - 2.0 * dwell.deviation).abs() < 1e-9 * extent, "{id}");
+        assert!(dwell.deviation <= 0.000_505 * extent, "{id}: {} {extent}", dwell.deviation);
+        // No portion one sample longer fits: from the centre found, a pattern search for a narrower ring ends above.
+        let span = (dwell.input / 360.0 * samples as f64).floor() as usize + 1;
+        for from in 0..samples {
+            let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
+            let circle = {
+                // Through the ends and the middle, to begin with.
+                let [a, b, c] = [part[0], part[span / 2], part[span]];
+                let (u, v) = (b - a, c - a);
+                let d = 2.0 * (u.x * v.y - u.y * v.x);
+                let (uu, vv) = (u.norm_squared(), v.norm_squared());
+                a + nalgebra::Vector2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / d
+            };
+            let (mut centre, mut step) = (circle, extent * 0.1);
+            while step > 1e-7 * extent {
+                let around = (0..16).map(|k| {
+                    let (cos, sin) = trig::cos_sin_deg(22.5 * f64::from(k));
+                    centre + nalgebra::Vector2::new(cos, sin) * step
+                });
+                let best = around.min_by(|a, b| ring(&part, *a).total_cmp(&ring(&part, *b))).unwrap();
+                if ring(&part, best) < ring(&part, centre) { centre = best } else { step /= 2.0 }
+            }
+            let radius = (part[0] - centre).norm();
+            let is_straight = radius > length;
+            assert!(is_straight || ring(&part, centre) > 0.001 * extent * 0.999, "{id} from {from}: {span} samples");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    /// Whatever the lengths, also of linkages that hardly move or not at all: no value is no number.
+    #[test]
+    fn every_four_bar_is_measured(
+        lengths in prop::array::uniform4(prop_oneof![0.1f64..4.0, (1u8..9).prop_map(|k| f64::from(k) / 2.0)]),
+        (along, across) in (-4.0f64..4.0, prop_oneof![Just(0.0), -4.0f64..4.0]), samples in 2usize..400,
+    ) {
+        let linkage = four_bar(lengths, (along, across));
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        for circuit in &motion.circuits {
+            for &joint in &linkage.traced {
+                for (measure, value) in measure::ALL.iter().zip(measure::take(&Subject::new(&linkage, &motion, circuit, joint))) {
+                    if let Value::Number(value) = value {
+                        prop_assert!(!value.is_nan(), "{}", measure.name);
+                        let may_be_unbounded = matches!(measure.name, "curvature_max" | "speed_ratio");
+                        prop_assert!(value.is_finite() || may_be_unbounded, "{} is {value}", measure.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Theorem 1: the perpendicular bisector of the frame. Theorem 2: through the rocker's pivot, half the angle at its pin.
+#[test]
+fn the_theorems_of_chapter_7_are_recognised() {
+    let axis = |linkage: &Linkage, circuit: usize| {
+        let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(180)));
+        let subject = Subject::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
+        let symmetry = *subject.symmetry().expect("a curve");
+        (symmetry.theorem, symmetry.axis.expect("an axis"), symmetry.residual)
+    };
+    for height in [0.0, 0.7, -1.3] {
+        let (theorem, axis, residual) = axis(&four_bar([2.0, 2.5, 1.0, 2.5], (0.5, height)), 0);
+        assert_eq!(theorem, Some("theorem 1"), "{height} {axis:?} {residual}");
+        assert!((axis.deg() - 90.0).abs() < 1e-12 && (axis.through.x - 1.0).abs() < 1e-15, "{axis:?}");
+        assert!(residual < 1e-6, "{residual}");
+    }
+    for beta in [40.0, 100.0, 180.0, -75.0] {
+        // M at beta from A about B, B at distance 2.5 along the coupler.
+        let (cos, sin) = trig::cos_sin_deg(180.0 - beta);
+        let (theorem, axis, residual) = axis(&four_bar([2.0, 1.0, 2.5, 2.5], (2.5 + 2.5 * cos, -2.5 * sin)), 0);
+        assert_eq!(theorem, Some("theorem 2"), "{beta}");
+        assert!((axis.through - Point::new(2.0, 0.0)).norm() < 1e-12);
+        // (7.8) and (7.12): the axis is turned from the frame by half of beta.
+        let off = [-0.5, 0.5].map(|part| (axis.deg() + part * beta + 1.0).rem_euclid(180.0) - 1.0);
+        assert!(off.iter().any(|off| off.abs() < 1e-9), "{beta}: {}", axis.deg());
+        assert!(residual < 1e-6, "{beta}: {residual}");
+    }
+}
+
+/// Without a theorem the axis is found: of a slider-crank's point on the line, and of none elsewhere.
+#[test]
+fn other_symmetrical_curves_are_found_by_their_shape() {
+    let measured = |across: f64, turn: f64| {
+        let mut assembly = Assembly::default();
+        let o = assembly.fixed("O", Point::new(0.0, 0.0));
+        let p = assembly.fixed("P", Point::new(1.0, 0.0));
+        let a = assembly.crank("A", o, 1.0).unwrap();
+        let b = assembly.slide("B", (a, 2.5), ([o, p], 0.0), Side::Left).unwrap();
+        let m = assembly.point("M", [a, b], 1.0, across).unwrap();
+        let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
+        let linkage = Linkage { placement: Placement::new(false, turn), ..linkage };
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(180)));
+        *Subject::new(&linkage, &motion, &motion.circuits[0], m).symmetry().expect("a curve")
+    };
+    for turn in [0.0, 33.0] {
+        let found = measured(0.0, turn);
+        assert!(found.residual < 1e-7 && found.theorem.is_none(), "{found:?}");
+        assert!((found.axis.expect("an axis").deg() - turn).abs() < 1e-5, "{found:?}");
+        assert!(measured(0.5, turn).residual > 0.002);
+    }
+    // A circle has no axis of its own.
+    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(180)));
+    let circle = *Subject::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
+    assert_eq!((circle.axis, circle.residual), (None, 0.0));
+}

@@ -1,0 +1,404 @@
+//! Velocity, acceleration and jerk of every kind of joint, against nested dual numbers: numbers that carry their exact
+//! derivative, here through formulas of their own (circles cut by the law of cosines, angles by a Taylor-free sine).
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use coupler_curves::geometry::{Point, Vector, trig};
+use coupler_curves::linkage::{
+    Assembly, Circuits, Flat, JointId, LineIs, Linkage, Placement, Side, Signs, Step, Travel,
+};
+use coupler_curves::motion::{Jets, Motion, Sampler, Sampling, Stop};
+use proptest::prelude::*;
+
+/// A number and its derivative; of duals, its second derivative too, and so on.
+#[derive(Clone, Copy, Debug)]
+struct Dual<T>(T, T);
+
+/// What dual numbers are made of.
+trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    fn of(x: f64) -> Self;
+    fn sqrt(self) -> Self;
+    fn cos_sin(self) -> [Self; 2];
+}
+
+impl Real for f64 {
+    fn of(x: f64) -> f64 {
+        x
+    }
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    fn cos_sin(self) -> [f64; 2] {
+        [trig::cos(self), trig::sin(self)]
+    }
+}
+
+impl<T: Real> Add for Dual<T> {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Dual(self.0 + o.0, self.1 + o.1)
+    }
+}
+impl<T: Real> Sub for Dual<T> {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Dual(self.0 - o.0, self.1 - o.1)
+    }
+}
+impl<T: Real> Neg for Dual<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Dual(-self.0, -self.1)
+    }
+}
+impl<T: Real> Mul for Dual<T> {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        Dual(self.0 * o.0, self.0 * o.1 + self.1 * o.0)
+    }
+}
+impl<T: Real> Div for Dual<T> {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        Dual(self.0 / o.0, (self.1 * o.0 - self.0 * o.1) / (o.0 * o.0))
+    }
+}
+impl<T: Real> Real for Dual<T> {
+    fn of(x: f64) -> Self {
+        Dual(T::of(x), T::of(0.0))
+    }
+    fn sqrt(self) -> Self {
+        let root = self.0.sqrt();
+        Dual(root, self.1 / (T::of(2.0) * root))
+    }
+    fn cos_sin(self) -> [Self; 2] {
+        let [cos, sin] = self.0.cos_sin();
+        [Dual(cos, -(self.1 * sin)), Dual(sin, self.1 * cos)]
+    }
+}
+
+type Third = Dual<Dual<Dual<f64>>>;
+
+/// The variable, of which everything is differentiated three times.
+fn variable(x: f64) -> Third {
+    Dual(Dual(Dual(x, 1.0), Dual(1.0, 0.0)), Dual(Dual(1.0, 0.0), Dual(0.0, 0.0)))
+}
+
+/// The value and the three derivatives.
+fn orders(x: Third) -> [f64; 4] {
+    [x.0.0.0, x.1.0.0, x.1.1.0, x.1.1.1]
+}
+
+/// Every joint by its step, the input in radians or as a length.
+fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
+    let n = Third::of;
+    let minus = |a: [Third; 2], b: [Third; 2]| [a[0] - b[0], a[1] - b[1]];
+    let dot = |a: [Third; 2], b: [Third; 2]| a[0] * b[0] + a[1] * b[1];
+    let moved = |p: [Third; 2], u: [Third; 2], along: Third, across: Third| {
+        [p[0] + along * u[0] - across * u[1], p[1] + along * u[1] + across * u[0]]
+    };
+    let unit = |v: [Third; 2]| {
+        let length = dot(v, v).sqrt();
+        [v[0] / length, v[1] / length]
+    };
+    // Where circles about p and q cut each other, by the angle at p.
+    let cut = |p: [Third; 2], q: [Third; 2], [l0, l1]: [Third; 2], side: f64| {
+        let base = minus(q, p);
+        let d = dot(base, base).sqrt();
+        let cos = (l0 * l0 + d * d - l1 * l1) / (n(2.0) * l0 * d);
+        moved(p, unit(base), l0 * cos, n(side) * l0 * (n(1.0) - cos * cos).sqrt())
+    };
+    let mut at: Vec<[Third; 2]> = Vec::new();
+    for joint in &linkage.joints {
+        let side = |index| f64::from(signs.get(index));
+        let place = match joint.step {
+            Step::Fixed(p) => [n(p.x), n(p.y)],
+            Step::Crank { pivot, length } => moved(at[pivot], input.cos_sin(), n(length), n(0.0)),
+            Step::Gear { pivot, length, ratio: [turns, of], phase_deg } => {
+                let angle = input * n(turns as f64 / of as f64) + n(trig::radians(phase_deg));
+                moved(at[pivot], angle.cos_sin(), n(length), n(0.0))
+            }
+            Step::Piston { base: [p, q], length, offset, index } => {
+                let reach = (input * input + n(offset * offset)).sqrt();
+                cut(at[p], at[q], [reach, n(length)], side(index))
+            }
+            Step::Dyad { base: [p, q], lengths, index } => cut(at[p], at[q], lengths.map(n), side(index)),
+            Step::Slide { from, length, line: [p, q], offset, index } => {
+                // Along the line from its foot below the hanging joint.
+                let u = unit(minus(at[q], at[p]));
+                let arm = minus(at[from], at[p]);
+                let off = n(offset) - (u[0] * arm[1] - u[1] * arm[0]);
+                let along = (n(length * length) - off * off).sqrt();
+                moved(at[p], u, dot(u, arm) + n(side(index)) * along, n(offset))
+            }
+            Step::Slot { base: [p, q], offset, index } => {
+                // The foot is on Thales' circle over the base, so far from the pivot.
+                let base = minus(at[q], at[p]);
+                let d = dot(base, base).sqrt();
+                let cos = n(offset) / d;
+                moved(at[p], unit(base), n(offset) * cos, n(side(index) * offset) * (n(1.0) - cos * cos).sqrt())
+            }
+            Step::Yoke { from, line: [p, q], offset, slot } => {
+                // Cramer's rule for p + t u + offset n = from - w slot.
+                let u = unit(minus(at[q], at[p]));
+                let w = moved([n(0.0); 2], u, n(slot.x), n(slot.y));
+                let start = moved(at[p], u, n(0.0), n(offset));
+                let to = minus(at[from], start);
+                moved(start, u, (to[0] * w[1] - to[1] * w[0]) / (u[0] * w[1] - u[1] * w[0]), n(0.0))
+            }
+            Step::Directed { from, line: [p, q], offset, line_is, along, across } => {
+                let sense = if let LineIs::Turned(index) = line_is { -side(index) } else { 1.0 };
+                let [along, across] = [along * sense, across * sense];
+                // The base's direction, turned to the right until the line through q runs beside p.
+                let base = minus(at[q], at[p]);
+                let sin = n(offset) / dot(base, base).sqrt();
+                let direction = moved([n(0.0); 2], unit(base), (n(1.0) - sin * sin).sqrt(), -sin);
+                moved(at[from], direction, n(along), n(across))
+            }
+            Step::Parallelogram { corners: [p, q, r] } => std::array::from_fn(|k| at[p][k] + at[r][k] - at[q][k]),
+            Step::Rigid { base: [p, q], along, across } => moved(at[p], minus(at[q], at[p]), n(along), n(across)),
+        };
+        at.push(place);
+    }
+    at
+}
+
+/// A linkage with a joint of every kind but the piston, each hanging on moving ones.
+fn everything([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [4.0, 0.5].into());
+    let f = assembly.fixed("F", [-3.0, 1.0].into());
+    let pin = assembly.crank("A", o, crank).unwrap();
+    let gear = assembly.gear("G", (c, 0.5 * crank), [-3.0, 2.0], phase).unwrap();
+    let dyad = assembly.dyad("B", [pin, gear], [a, b], Side::Left).unwrap();
+    let point = assembly.point("M", [pin, dyad], 1.2, -0.7).unwrap();
+    let slide = assembly.slide("S", (point, 7.0), ([f, o], offset), Side::Right).unwrap();
+    let block = assembly.point("K", [slide, o], 0.3, 0.4).unwrap();
+    let slot = assembly.slot("T", [f, block], offset, Side::Right).unwrap();
+    let carried = assembly.point("L", [f, block], 1.0, 0.5).unwrap();
+    let yoke = assembly.yoke("Y", carried, ([f, pin], 0.25), 70.0).unwrap();
+    let arm = assembly.point("N", [yoke, pin], 0.6, -0.2).unwrap();
+    let plain = assembly.slot("U", [c, arm], 0.0, Side::Left).unwrap();
+    let end = assembly.point("E", [c, arm], 2.0, 0.3).unwrap();
+    let corner = assembly.parallelogram("R", [o, pin, dyad]).unwrap();
+    assembly.point("W", [corner, dyad], 0.5, 0.4).unwrap();
+    assembly.finish(vec![slot, plain, end], None, Travel::default()).unwrap()
+}
+
+fn actuated(offset: f64) -> Linkage {
+    let mut assembly = Assembly::default();
+    let c = assembly.fixed("C", [2.0, 0.3].into());
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let a = assembly.piston("A", [c, o], (1.0, offset), Side::Left).unwrap();
+    let p = assembly.point("P", [c, a], 0.7, 0.2).unwrap();
+    assembly.finish(vec![p], None, Travel::default()).unwrap()
+}
+
+/// The jets at an input against dual numbers, relative to how large each derivative gets in the linkage.
+fn compare(linkage: &Linkage, stop: Stop, variable: Third, signs: Signs) -> Result<(), TestCaseError> {
+    let jets = Jets::of(linkage, stop, signs, Flat::NONE);
+    let expected = places(linkage, variable, signs);
+    for joint in 0..linkage.joints.len() {
+        let found = [jets.place(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
+        for axis in 0..2 {
+            let expected = orders(expected[joint][axis]);
+            for order in 0..4 {
+                // Both lose digits by the conditioning of the chain, and more with each derivative.
+                let size = expected.iter().fold(1.0, |a: f64, b| a.max(b.abs()));
+                let off = (found[order][axis] - expected[order]).abs();
+                let name = &linkage.joints[joint].name;
+                prop_assert!(off <= 1e-9 * size, "{name} order {order}: {} {}", found[order][axis], expected[order]);
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    #[test]
+    fn rates_are_those_of_dual_numbers(
+        (crank, a, b) in (0.5f64..1.0, 3.0f64..4.0, 2.5f64..4.0),
+        (offset, phase, deg) in (0.1f64..0.6, 0.0f64..360.0, 0.0f64..720.0),
+    ) {
+        let linkage = everything([crank, a, b, offset, phase]);
+        compare(&linkage, Stop::angle(deg), variable(trig::radians(deg)), linkage.travel.signs)?;
+        let actuated = actuated(offset);
+        let s = 1.3 + deg / 720.0;
+        let stop = Stop { at: s, cos: 0.0, sin: 0.0 };
+        compare(&actuated, stop, variable(s), actuated.travel.signs)?;
+    }
+
+    /// The kernels place every joint where the jets do, in every placement, and bodies keep their shapes.
+    #[test]
+    fn kernels_and_jets_agree_however_the_linkage_is_placed(turn in -360.0f64..360.0, mirrored: bool, offset in 0.1f64..0.6) {
+        for linkage in [everything([0.8, 3.5, 3.0, offset, 20.0]), actuated(offset)] {
+            let placement = Placement::new(mirrored, turn);
+            let placed = Linkage { placement, ..linkage.clone() };
+            let sampler = Sampler::new(Sampling::Samples(20));
+            let (plain, placed_motion) = (Motion::of(&linkage, &sampler), Motion::of(&placed, &sampler));
+            prop_assert!(plain.is_assembled());
+            for (before, after) in plain.circuits.iter().zip(&placed_motion.circuits) {
+                prop_assert_eq!(&before.input, &after.input);
+                for i in 0..after.len() {
+                    let jets = after.jets(&placed, i);
+                    for joint in 0..placed.joints.len() {
+                        let place = after.places.point(joint, i);
+                        prop_assert!((jets.place(joint) - place).norm() < 1e-11);
+                        prop_assert!((placement.point(before.places.point(joint, i)) - place).norm() < 1e-14 * 16.0);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn find(linkage: &Linkage, name: &str) -> JointId {
+    linkage.joints.iter().position(|joint| joint.name == name).unwrap()
+}
+
+/// A Scotch yoke goes with the cosine of its crank.
+#[test]
+fn a_scotch_yoke_goes_with_the_cosine() {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let q = assembly.fixed("Q", [1.0, 0.0].into());
+    let a = assembly.crank("A", o, 2.0).unwrap();
+    let y = assembly.yoke("Y", a, ([o, q], 0.5), 90.0).unwrap();
+    let leaning = assembly.yoke("Z", a, ([o, q], 0.5), 45.0).unwrap();
+    let arm = assembly.point("P", [y, q], 3.0, 1.0).unwrap();
+    let linkage = assembly.finish(vec![y, leaning, arm], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(15.0)));
+    let circuit = &motion.circuits[0];
+    assert!(circuit.closed && circuit.len() == 24);
+    for i in 0..circuit.len() {
+        let (cos, sin) = trig::cos_sin_deg(circuit.input[i]);
+        assert!((circuit.places.point(y, i) - Point::new(2.0 * cos, 0.5)).norm() < 1e-15);
+        assert!((circuit.places.point(leaning, i) - Point::new(2.0 * cos - (2.0 * sin - 0.5), 0.5)).norm() < 1e-15);
+        assert!((circuit.places.point(arm, i) - Point::new(2.0 * cos + 3.0, 1.5)).norm() < 1e-14);
+    }
+}
+
+/// An actuator's line stays the offset from its pivot, through the pin, and its points keep their places on it.
+#[test]
+fn points_of_an_actuator_go_with_its_line() {
+    for offset in [0.0, 0.5, -0.4] {
+        let linkage = actuated(offset);
+        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(30)));
+        for i in 0..motion.circuits[0].len() {
+            let at = |name: &str| motion.circuits[0].places.point(find(&linkage, name), i);
+            let (arm, pin, s) = (at("P") - at("C"), at("A") - at("C"), motion.circuits[0].input[i]);
+            assert!((arm.norm_squared() - (0.7 * 0.7 + 0.2 * 0.2)).abs() < 1e-14);
+            // In the frame of the line the pin is s along, and the offset to the right: McCarthy's beta is atan2(s, e).
+            let along = (arm.dot(&pin), arm.x * pin.y - arm.y * pin.x);
+            assert!((along.0 - (0.7 * s - 0.2 * offset)).abs() < 1e-12, "{offset}: {along:?}");
+            assert!((along.1 - (-0.7 * offset - 0.2 * s)).abs() < 1e-12, "{offset}: {along:?}");
+        }
+    }
+}
+
+/// The slide, its angles and their rates are McCarthy's without offset too, and of the actuator.
+#[test]
+fn columns_know_sliders_without_offset_and_actuators() {
+    use coupler_curves::measure::{column, take_columns};
+    let columns = ["s", "b", "beta_deg", "psi_deg", "psi_ratio"].map(|name| column(name).unwrap());
+    let (g, r) = (2.0, 1.0);
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [g, 0.0].into());
+    let a = assembly.crank("A", o, r).unwrap();
+    let b = assembly.slot("B", [c, a], 0.0, Side::Right).unwrap();
+    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(30.0)));
+    for i in 0..motion.circuits[0].len() {
+        let [s, length, beta, psi, ratio] =
+            take_columns(&columns, &linkage, (&motion.circuits[0], b), i).try_into().unwrap();
+        let (cos, sin) = trig::cos_sin_deg(motion.circuits[0].input[i]);
+        let arm = Vector::new(r * cos - g, r * sin);
+        assert!((s - arm.norm()).abs() < 1e-14 && (length - s).abs() < 1e-14 && beta == 90.0);
+        let angle = trig::degrees(trig::atan2(arm.y, arm.x)) - 90.0;
+        assert!((psi - angle).abs() < 1e-12 || (psi - angle).abs() > 359.0, "{psi} {angle}");
+        let turning = (arm.x * r * cos + arm.y * r * sin) / arm.norm_squared();
+        assert!((ratio - turning).abs() < 1e-14);
+    }
+    // The other way round the same angles belong to the same slides.
+    let linkage = actuated(0.3);
+    let a = find(&linkage, "A");
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(12)));
+    for i in 0..motion.circuits[0].len() {
+        let circuit = &motion.circuits[0];
+        let [s, length, beta, _, _]: [f64; 5] = take_columns(&columns, &linkage, (circuit, a), i).try_into().unwrap();
+        assert!(s == circuit.input[i] && (length - (s * s + 0.09).sqrt()).abs() < 1e-13);
+        assert!((beta - trig::degrees(trig::atan2(s, 0.3))).abs() < 1e-12);
+    }
+}
+
+/// A slider on a fixed line has unbounded rates along it at its limit, and none across.
+#[test]
+fn rates_at_a_limit_are_bounded_across_a_fixed_line() {
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let q = assembly.fixed("Q", [1.0, 0.0].into());
+    let a = assembly.crank("A", o, 2.0).unwrap();
+    let b = assembly.slide("B", (a, 1.0), ([o, q], 0.0), Side::Left).unwrap();
+    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(10)));
+    let jets = motion.circuits[0].jets(&linkage, 0);
+    assert_eq!(jets.velocity(b), Vector::new(f64::INFINITY, 0.0));
+    assert_eq!(jets.jerk(b), Vector::new(f64::INFINITY, 0.0));
+}
+
+/// Through a change point the motion goes on smoothly, and so do its rates: of wheels on parallel rods, whose dyads all lie
+/// flat at once, and of Cardan's trammel, crank and link of one length.
+#[test]
+fn rates_go_on_through_change_points() {
+    let mut wheels = Assembly::default();
+    let o = wheels.fixed("O", [0.0, 0.0].into());
+    let c = wheels.fixed("C", [3.0, 0.0].into());
+    let d = wheels.fixed("D", [5.0, 0.0].into());
+    let a = wheels.crank("A", o, 1.0).unwrap();
+    let b = wheels.dyad("B", [a, c], [3.0, 1.0], Side::Left).unwrap();
+    let e = wheels.dyad("E", [b, d], [2.0, 1.0], Side::Left).unwrap();
+    // Of their circuits the first keeps the rods parallel.
+    let all = Travel { circuits: Circuits::All, ..Travel::default() };
+    let wheels = wheels.finish(vec![b, e], None, all).unwrap();
+    let mut trammel = Assembly::default();
+    let o = trammel.fixed("O", [0.0, 0.0].into());
+    let q = trammel.fixed("Q", [1.0, 0.0].into());
+    let pin = trammel.crank("A", o, 1.0).unwrap();
+    let slide = trammel.slide("B", (pin, 1.0), ([o, q], 0.0), Side::Right).unwrap();
+    let trammel = trammel.finish(vec![slide], None, Travel::default()).unwrap();
+    let mut flat = 0;
+    for (linkage, joints) in [(&wheels, vec![a, b, e]), (&trammel, vec![slide])] {
+        let motion = Motion::of(linkage, &Sampler::new(Sampling::Step(15.0)));
+        for i in 0..motion.circuits[0].len() {
+            let circuit = &motion.circuits[0];
+            let jets = circuit.jets(linkage, i);
+            let (cos, sin) = trig::cos_sin_deg(circuit.input[i]);
+            flat += usize::from(circuit.passes.iter().any(|pass| pass.to.stop.at == circuit.input[i]));
+            for &joint in &joints {
+                let found = [jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
+                let slides = joint == slide && linkage.joints.len() == 4;
+                // The trammel's slider stands still on one of its circuits' halves, and goes twice the cosine on the other.
+                let size = if slides { jets.place(joint).x / if cos.abs() > 1e-9 { cos } else { 1.0 } } else { 1.0 };
+                if slides && cos.abs() < 1e-9 {
+                    assert!(found[0].x.abs() < 1e-12 || (found[0].x.abs() - 2.0).abs() < 1e-12, "{}", found[0]);
+                    continue;
+                }
+                let expected = if slides {
+                    [-sin, -cos, sin].map(|rate| Vector::new(size * rate, 0.0))
+                } else {
+                    [Vector::new(-sin, cos), Vector::new(-cos, -sin), Vector::new(sin, -cos)]
+                };
+                for (found, expected) in found.iter().zip(expected) {
+                    assert!((found - expected).norm() < 1e-9, "at {}: {found} {expected}", circuit.input[i]);
+                }
+            }
+        }
+    }
+    assert!(flat >= 3, "change points were met: {flat}");
+}

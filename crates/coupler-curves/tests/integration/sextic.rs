@@ -1,0 +1,243 @@
+//! The coupler curve's own equation.
+
+use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::linkage::{Assembly, Circuits, FourBar, Linkage, Node, Sextic, Side, Travel};
+use coupler_curves::motion::{Motion, Sampler, Sampling};
+use proptest::prelude::*;
+
+fn linkage(four_bar: FourBar, point: Vector) -> Linkage {
+    let FourBar { frame, crank, coupler, rocker } = four_bar;
+    let mut assembly = Assembly::default();
+    let o = assembly.fixed("O", [0.0, 0.0].into());
+    let c = assembly.fixed("C", [frame, 0.0].into());
+    let a = assembly.crank("A", o, crank).unwrap();
+    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = assembly.point("M", [a, b], point.x, point.y).unwrap();
+    assembly.finish(vec![m], None, Travel { circuits: Circuits::All, ..Travel::default() }).unwrap()
+}
+
+/// Every sample of both circuits.
+fn curve(four_bar: FourBar, point: Vector, samples: usize) -> Vec<Point> {
+    let linkage = linkage(four_bar, point);
+    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+    motion.circuits.iter().flat_map(|circuit| circuit.points(linkage.traced[0]).collect::<Vec<_>>()).collect()
+}
+
+fn lengths() -> impl Strategy<Value = FourBar> {
+    prop::array::uniform4(0.3f64..3.0).prop_map(|[frame, crank, coupler, rocker]| FourBar {
+        frame,
+        crank,
+        coupler,
+        rocker,
+    })
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    #[test]
+    fn every_sample_satisfies_its_equation(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0), flat: bool) {
+        let point = Vector::new(along, if flat { 0.0 } else { across });
+        let Some(sextic) = Sextic::of(bar, point) else { return Ok(()) };
+        prop_assert_eq!(sextic.circularity(), 3);
+        for p in curve(bar, point, 40) {
+            let [value, terms] = sextic.at(p);
+            // Sixty-odd terms of the sixth degree, through coefficients that have lost a few digits themselves.
+            prop_assert!(value.abs() <= 1e-11 * terms, "{} at {}: {} of {}", along, p, value, terms);
+        }
+    }
+
+    /// A level through a sample meets the curve there, and nowhere off it.
+    #[test]
+    fn a_line_meets_the_curve_in_its_points(bar in lengths(), (along, across) in (-3.0f64..3.0, 0.2f64..3.0)) {
+        let point = Vector::new(along, across);
+        let Some(sextic) = Sextic::of(bar, point) else { return Ok(()) };
+        let direction = Vector::new(0.8, 0.6);
+        for p in curve(bar, point, 7) {
+            let found = sextic.on_line(p + direction * 0.37, direction);
+            prop_assert!(found.len() <= 6);
+            let near = found.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
+            // Where the line touches the curve the root is double, and known to half its digits.
+            let slope = sextic.gradient(p).dot(&direction).abs();
+            let scale = sextic.gradient(p).norm();
+            if slope > 1e-3 * scale && scale > 1e-3 {
+                prop_assert!(near < 1e-6, "{p}: {found:?}");
+            }
+            for q in found {
+                let [value, terms] = sextic.at(q);
+                prop_assert!(value.abs() <= 1e-9 * terms);
+            }
+        }
+    }
+
+    /// Through a double point the curve goes twice, or it stands alone there.
+    #[test]
+    fn double_points_are_singular(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0)) {
+        let point = Vector::new(along, across);
+        let Some(sextic) = Sextic::of(bar, point) else { return Ok(()) };
+        let found = sextic.double_points();
+        prop_assert!(found.len() <= 3);
+        for double in &found {
+            let beside = sextic.gradient(double.at + Vector::new(0.1, 0.1)).norm();
+            prop_assert!(sextic.gradient(double.at).norm() <= 1e-6 * beside.max(1.0), "{:?}", double);
+        }
+    }
+}
+
+/// Of the polynomials in the text, `[coefficient, a, p, r, x, y]`.
+type Term = [i32; 6];
+
+/// (8.1), for a = b = s and the coupler point at 2a, put right: `- 2 p r^4 x` for `- 2 p^4 x`.
+const EVANS: [Term; 42] = [
+    [16, 4, 2, 0, 0, 0],
+    [-8, 2, 2, 2, 0, 0],
+    [1, 0, 2, 4, 0, 0],
+    [-32, 4, 1, 0, 1, 0],
+    [16, 2, 3, 0, 1, 0],
+    [16, 2, 1, 2, 1, 0],
+    [-4, 0, 3, 2, 1, 0],
+    [-2, 0, 1, 4, 1, 0],
+    [16, 4, 0, 0, 2, 0],
+    [-40, 2, 2, 0, 2, 0],
+    [4, 0, 4, 0, 2, 0],
+    [-8, 2, 0, 2, 2, 0],
+    [10, 0, 2, 2, 2, 0],
+    [1, 0, 0, 4, 2, 0],
+    [32, 2, 1, 0, 3, 0],
+    [-12, 0, 3, 0, 3, 0],
+    [-8, 0, 1, 2, 3, 0],
+    [-8, 2, 0, 0, 4, 0],
+    [13, 0, 2, 0, 4, 0],
+    [2, 0, 0, 2, 4, 0],
+    [-6, 0, 1, 0, 5, 0],
+    [1, 0, 0, 0, 6, 0],
+    [16, 4, 0, 0, 0, 2],
+    [-24, 2, 2, 0, 0, 2],
+    [4, 0, 4, 0, 0, 2],
+    [-8, 2, 0, 2, 0, 2],
+    [2, 0, 2, 2, 0, 2],
+    [1, 0, 0, 4, 0, 2],
+    [32, 2, 1, 0, 1, 2],
+    [-12, 0, 3, 0, 1, 2],
+    [-8, 0, 1, 2, 1, 2],
+    [-16, 2, 0, 0, 2, 2],
+    [18, 0, 2, 0, 2, 2],
+    [4, 0, 0, 2, 2, 2],
+    [-12, 0, 1, 0, 3, 2],
+    [3, 0, 0, 0, 4, 2],
+    [-8, 2, 0, 0, 0, 4],
+    [5, 0, 2, 0, 0, 4],
+    [2, 0, 0, 2, 0, 4],
+    [-6, 0, 1, 0, 1, 4],
+    [3, 0, 0, 0, 2, 4],
+    [1, 0, 0, 0, 0, 6],
+];
+
+/// (8.11), for r = s and the coupler point in the middle of the coupler of length 2a.
+const CHEBYSHEV: [Term; 42] = [
+    [1, 4, 2, 0, 0, 0],
+    [-2, 2, 2, 2, 0, 0],
+    [1, 0, 2, 4, 0, 0],
+    [-4, 4, 1, 0, 1, 0],
+    [-2, 2, 3, 0, 1, 0],
+    [8, 2, 1, 2, 1, 0],
+    [2, 0, 3, 2, 1, 0],
+    [-4, 0, 1, 4, 1, 0],
+    [4, 4, 0, 0, 2, 0],
+    [10, 2, 2, 0, 2, 0],
+    [1, 0, 4, 0, 2, 0],
+    [-8, 2, 0, 2, 2, 0],
+    [-10, 0, 2, 2, 2, 0],
+    [4, 0, 0, 4, 2, 0],
+    [-16, 2, 1, 0, 3, 0],
+    [-6, 0, 3, 0, 3, 0],
+    [16, 0, 1, 2, 3, 0],
+    [8, 2, 0, 0, 4, 0],
+    [13, 0, 2, 0, 4, 0],
+    [-8, 0, 0, 2, 4, 0],
+    [-12, 0, 1, 0, 5, 0],
+    [4, 0, 0, 0, 6, 0],
+    [4, 4, 0, 0, 0, 2],
+    [2, 2, 2, 0, 0, 2],
+    [1, 0, 4, 0, 0, 2],
+    [-8, 2, 0, 2, 0, 2],
+    [-6, 0, 2, 2, 0, 2],
+    [4, 0, 0, 4, 0, 2],
+    [-16, 2, 1, 0, 1, 2],
+    [-6, 0, 3, 0, 1, 2],
+    [16, 0, 1, 2, 1, 2],
+    [16, 2, 0, 0, 2, 2],
+    [18, 0, 2, 0, 2, 2],
+    [-16, 0, 0, 2, 2, 2],
+    [-24, 0, 1, 0, 3, 2],
+    [12, 0, 0, 0, 4, 2],
+    [8, 2, 0, 0, 0, 4],
+    [5, 0, 2, 0, 0, 4],
+    [-8, 0, 0, 2, 0, 4],
+    [-12, 0, 1, 0, 1, 4],
+    [12, 0, 0, 0, 2, 4],
+    [4, 0, 0, 0, 0, 6],
+];
+
+/// The general equation's coefficients against a polynomial of the text.
+fn compare(sextic: &Sextic, terms: &[Term], [a, p, r]: [f64; 3]) {
+    let power = |x: f64, n: i32| (0..n).fold(1.0, |product, _| product * x);
+    for i in 0..=6 {
+        for j in 0..=6 - i {
+            let of = |term: &&Term| (term[4], term[5]) == (i as i32, j as i32);
+            let value = |t: &Term| f64::from(t[0]) * power(a, t[1]) * power(p, t[2]) * power(r, t[3]);
+            let expected: f64 = terms.iter().filter(of).map(value).sum();
+            let size: f64 = terms.iter().filter(of).map(|t| value(t).abs()).sum();
+            let lead: f64 = terms.iter().filter(|t| (t[4], t[5]) == (6, 0)).map(value).sum();
+            let found = sextic.coefficient(i, j) * lead;
+            assert!((found - expected).abs() <= 1e-12 * (size + 1.0), "x^{i} y^{j}: {found} {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_equations_of_evans_and_chebyshev_are_special_cases() {
+    for (a, p, r) in [(2.6, 2.0, 1.0), (4.0, 3.0, 1.2), (1.7, 0.8, 0.9)] {
+        let evans = FourBar { frame: p, crank: r, coupler: a, rocker: a };
+        compare(&Sextic::of(evans, Vector::new(2.0 * a, 0.0)).unwrap(), &EVANS, [a, p, r]);
+        let chebyshev = FourBar { frame: p, crank: r, coupler: 2.0 * a, rocker: r };
+        compare(&Sextic::of(chebyshev, Vector::new(a, 0.0)).unwrap(), &CHEBYSHEV, [a, p, r]);
+    }
+}
+
+#[test]
+fn a_lemniscate_crosses_itself_in_its_middle() {
+    // Watt's curve with frame 2c, cranks c sqrt 2 and coupler 2c is Bernoulli's lemniscate.
+    let c = 1.3;
+    let bar = FourBar { frame: 2.0 * c, crank: c * 2f64.sqrt(), coupler: 2.0 * c, rocker: c * 2f64.sqrt() };
+    let sextic = Sextic::of(bar, Vector::new(c, 0.0)).unwrap();
+    let middle = Point::new(c, 0.0);
+    let doubles = sextic.double_points();
+    assert!(doubles.iter().any(|d| (d.at - middle).norm() < 1e-9 && d.kind == Node::Crunode), "{doubles:?}");
+    // (x^2 + y^2)^2 = 2 c^2 (x^2 - y^2) about the middle, and a circle about it: along 45 degrees it goes off level.
+    for p in curve(bar, Vector::new(c, 0.0), 40) {
+        let q = p - middle;
+        let on_lemniscate = q.norm_squared() * q.norm_squared() - 2.0 * c * c * (q.x * q.x - q.y * q.y);
+        let on_circle = q.norm_squared() - 2.0 * c * c;
+        assert!((on_lemniscate * on_circle).abs() < 1e-9, "{p}");
+    }
+}
+
+/// Where all links lie on one line the linkage goes on in two ways, and the curve crosses itself.
+#[test]
+fn a_change_point_is_a_double_point() {
+    let bar = FourBar { frame: 4.0, crank: 1.5, coupler: 2.5, rocker: 3.0 };
+    let sextic = Sextic::of(bar, Vector::new(-1.0, 1.0)).unwrap();
+    let at = Point::new(-2.5, 1.0);
+    let doubles = sextic.double_points();
+    assert_eq!(doubles.len(), 4);
+    assert!(doubles.iter().any(|double| double.at == at && double.kind == Node::Crunode), "{doubles:?}");
+    // The terms of the gradient are of the size of 1e4 there.
+    assert!(sextic.gradient(at).norm() < 1e-9, "{}", sextic.gradient(at));
+}
+
+#[test]
+fn pins_have_no_sextic() {
+    let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
+    assert!(Sextic::of(bar, Vector::zeros()).is_none() && Sextic::of(bar, Vector::new(3.0, 0.0)).is_none());
+}

@@ -1,0 +1,58 @@
+//! The foot of a page: the ratios large, the facts and the folio; and the source in the column.
+
+use super::super::arrangement::Frame;
+use super::super::element::{Area, draw as put, size};
+use super::super::theme::Theme;
+use super::super::{GridSheet, Options, figure};
+use crate::scene::Anchor;
+use coupler_curves::geometry::Point;
+
+/// Draws it, and says how high it is, from the edge of the paper.
+pub(super) fn draw(area: &Area, sheet: &GridSheet, options: &Options, theme: &Theme) -> f64 {
+    let page = size(area);
+    let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
+    let half = 0.49 * (right - left);
+    let at = Point::new(left, page.y - theme.border - 0.65 * theme.margin);
+    // Of several spaces together, some programs that show an SVG keep one: a wide space they keep.
+    let ratios = sheet.panel.caption.replace("  ", "\u{2003}");
+    let ratios = theme.words(&ratios, at, Anchor::Start, theme.title, theme.ink);
+    put(area, &ratios.italic(sheet.heading.symbols).fitted(half));
+    let line = |text: &str, y: f64| theme.words(text, Point::new(right, y), Anchor::End, theme.source, theme.grey);
+    let titles = format!("{} · {}", sheet.heading.atlas, sheet.heading.title);
+    put(area, &line(&titles, at.y).fitted_before(&sheet.heading.folio(), half));
+    let facts = facts(sheet, options);
+    if !facts.is_empty() {
+        put(area, &line(&facts, at.y - 1.5 * theme.source).fitted(half));
+    }
+    theme.border + 0.65 * theme.margin + 1.5 * theme.title
+}
+
+/// Its class, the range of its transmission angle, and what a dash is where a curve is drawn.
+fn facts(sheet: &GridSheet, options: &Options) -> String {
+    let solved = sheet.panel.solved;
+    let dash = || {
+        let span = figure::dash(solved, options);
+        format!("one dash and its gap = {span}{} of input", super::input_unit(solved))
+    };
+    let dash = if sheet.shown.is_empty() { String::new() } else { dash() };
+    let parts = [sheet.panel.facts[0].as_str(), &sheet.panel.note, &dash];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
+}
+
+/// The source, if there is one, in as many lines as it takes, at the foot of the column.
+pub(super) fn source(area: &Area, side: Frame, sheet: &GridSheet, theme: &Theme) {
+    let symbols = sheet.heading.symbols;
+    if sheet.heading.source.is_empty() {
+        return;
+    }
+    let lines =
+        theme.words(&sheet.heading.source, Point::origin(), Anchor::End, theme.note, theme.grey).wrapped(side.size.x);
+    let right = side.corner.x + side.size.x;
+    let step = 1.45 * theme.note;
+    let first = side.corner.y + side.size.y - step * lines.len() as f64;
+    for (k, line) in lines.iter().enumerate() {
+        let at = Point::new(right, first + step * k as f64);
+        let line = theme.words(line, at, Anchor::End, theme.note, theme.grey);
+        put(area, &line.italic(symbols).fitted(side.size.x));
+    }
+}

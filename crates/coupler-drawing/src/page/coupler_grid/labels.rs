@@ -1,0 +1,191 @@
+//! The numbers of coupler points, each beside its point where it is furthest from all that is drawn.
+
+use super::super::arrangement::Frame;
+use super::super::theme::Theme;
+use crate::scene::{Item, Line, Text};
+use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
+
+/// What numbers keep clear of.
+#[derive(Default)]
+pub(super) struct Obstacles {
+    segments: Vec<Segment>,
+    circles: Vec<(Point, f64)>,
+}
+
+/// A piece of a line.
+#[derive(Clone, Copy)]
+struct Segment {
+    ends: [Point; 2],
+    /// Half its weight.
+    half: f64,
+    /// Whether a number may stand on it where it has no better place.
+    is_light: bool,
+}
+
+impl Obstacles {
+    /// Adds lines and circles.
+    pub fn add(&mut self, items: &[Item], is_light: bool) {
+        for item in items {
+            match item {
+                Item::Path(path) => {
+                    let weight = path.stroke.map_or(0.0, |stroke| stroke.width);
+                    path.lines.iter().for_each(|line| self.add_line(line, weight, is_light));
+                }
+                Item::Circle(circle) => {
+                    let half = circle.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+                    self.circles.push((circle.centre, circle.radius + half));
+                }
+                Item::Group(_) | Item::Text(_) | Item::Moving(_) => {}
+            }
+        }
+    }
+
+    fn add_line(&mut self, Line { points, closed }: &Line, weight: f64, is_light: bool) {
+        self.add_points(points, weight, is_light);
+        if let (Some(first), Some(last), true) = (points.first(), points.last(), closed) {
+            self.add_points(&[*last, *first], weight, is_light);
+        }
+    }
+
+    /// Adds a line of a weight by its points.
+    pub fn add_points(&mut self, points: &[Point], weight: f64, is_light: bool) {
+        let segment = |p: &[Point]| Segment { ends: [p[0], p[1]], half: weight / 2.0, is_light };
+        self.segments.extend(points.windows(2).map(segment));
+    }
+
+    /// Those that come as near to a point as `within`, or nearly so.
+    fn near(&self, centre: Point, within: f64) -> Obstacles {
+        let reach = Vector::repeat(within);
+        let segments = self.segments.iter().filter(|segment| segment.is_near(centre, reach)).copied().collect();
+        let circles = self.circles.iter().filter(|(at, radius)| (at - centre).norm() < 2.0 * within + radius);
+        Obstacles { segments, circles: circles.copied().collect() }
+    }
+
+    /// How clear a box stands, up to `enough` of what is heavy and a quarter of that of what is light.
+    pub fn clearance(&self, spot: Spot, enough: f64) -> f64 {
+        let circles = self.circles.iter().map(|(at, radius)| spot.distance(*at) - radius).fold(enough, f64::min);
+        let (mut heavy, mut light) = (circles, enough);
+        for segment in &self.segments {
+            let reach = spot.half + Vector::repeat(enough + segment.half);
+            if segment.is_near(spot.middle, reach) {
+                let least = if segment.is_light { &mut light } else { &mut heavy };
+                *least = least.min(spot.distance_to(segment.ends) - segment.half);
+            }
+        }
+        heavy + 0.25 * light
+    }
+}
+
+impl Segment {
+    /// Whether the box round it meets one about a point.
+    fn is_near(&self, middle: Point, half: Vector) -> bool {
+        let ([a, b], low, high) = (self.ends, middle - half, middle + half);
+        a.x.min(b.x) <= high.x && a.x.max(b.x) >= low.x && a.y.min(b.y) <= high.y && a.y.max(b.y) >= low.y
+    }
+}
+
+/// The box of a word or number, where it may stand.
+#[derive(Clone, Copy)]
+pub(super) struct Spot {
+    pub middle: Point,
+    /// Half its width and height.
+    pub half: Vector,
+}
+
+impl Spot {
+    fn corner(&self, x: f64, y: f64) -> Point {
+        self.middle + Vector::new(x * self.half.x, y * self.half.y)
+    }
+
+    /// How far a point is from it; 0 inside.
+    fn distance(&self, p: Point) -> f64 {
+        let off = p - self.middle;
+        Vector::new((off.x.abs() - self.half.x).max(0.0), (off.y.abs() - self.half.y).max(0.0)).norm()
+    }
+
+    /// How far a segment is from it; 0 where it passes through.
+    fn distance_to(&self, [a, b]: [Point; 2]) -> f64 {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| self.corner(x, y));
+        let crosses = |[c, d]: [Point; 2]| {
+            let sides = |o: Point, u: Vector, p: Point, q: Point| cross(u, p - o) * cross(u, q - o) <= 0.0;
+            sides(a, b - a, c, d) && sides(c, d - c, a, b)
+        };
+        // What passes through a box crosses a diagonal of it.
+        if crosses([corners[0], corners[2]]) || crosses([corners[1], corners[3]]) {
+            return 0.0;
+        }
+        let ends = self.distance(a).min(self.distance(b));
+        corners.iter().map(|corner| distance_to_segment(*corner, a, b)).fold(ends, f64::min)
+    }
+
+    fn is_in(&self, frame: Frame) -> bool {
+        let (low, high, far) = (self.corner(-1.0, -1.0), self.corner(1.0, 1.0), frame.corner + frame.size);
+        low.x >= frame.corner.x && low.y >= frame.corner.y && high.x <= far.x && high.y <= far.y
+    }
+
+    /// How far another box is from it; 0 where they meet.
+    pub fn apart(&self, other: &Spot) -> f64 {
+        Spot { half: self.half + other.half, ..*self }.distance(other.middle)
+    }
+}
+
+/// The numbers, each of a point on the page, in a frame. One that could only stand on another is left out.
+pub(super) fn place(numbers: Vec<(Point, Text)>, obstacles: &Obstacles, frame: Frame, theme: &Theme) -> Vec<Item> {
+    let mut placed: Vec<Spot> = Vec::new();
+    let mut items = Vec::new();
+    for (centre, text) in numbers {
+        let half = Vector::new(text.width() / 2.0, 0.37 * text.size);
+        // What is that far from everything is as good as what is further.
+        let enough = 0.6 * theme.joint;
+        let is_free = |spot: &Spot| spot.is_in(frame) && placed.iter().all(|other| spot.apart(other) > 0.0);
+        let within = |radii: f64| (radii + 1.0) * theme.joint + 2.0 * half.x;
+        let around = obstacles.near(centre, within(RINGS[RINGS.len() - 1]));
+        let ring = |radii: f64| {
+            // Most numbers stand near their points: no more is looked at than is near the ring.
+            let near = around.near(centre, within(radii));
+            let clearance = |spot: Spot| {
+                let others = placed.iter().map(|other| spot.apart(other)).fold(enough, f64::min);
+                near.clearance(spot, enough).min(1.25 * others)
+            };
+            clearest(round(centre, half, radii * theme.joint).filter(is_free), clearance)
+        };
+        let Some(spot) = best(ring, 1.25 * enough) else { continue };
+        placed.push(spot);
+        items.push(Item::Text(Text { at: spot.middle + Vector::new(0.0, half.y), ..text }));
+    }
+    items
+}
+
+/// The distances from a point at which its number may stand, in radii of a joint.
+const RINGS: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, 6.8];
+
+/// The clearest place of the nearest ring that has one that is clear enough; of all, where none has.
+fn best(ring: impl Fn(f64) -> Option<(f64, Spot)>, enough: f64) -> Option<Spot> {
+    let mut best: Option<(f64, Spot)> = None;
+    for radii in RINGS {
+        best = [best, ring(radii)].into_iter().flatten().reduce(clearer);
+        if best.is_some_and(|(clear, _)| clear >= enough * (1.0 - 1e-9)) {
+            break;
+        }
+    }
+    best.map(|(_, spot)| spot)
+}
+
+/// The first of the clearest places, and how clear it is.
+pub(super) fn clearest(places: impl IntoIterator<Item = Spot>, clearance: impl Fn(Spot) -> f64) -> Option<(f64, Spot)> {
+    places.into_iter().map(|place| (clearance(place), place)).reduce(clearer)
+}
+
+fn clearer(first: (f64, Spot), second: (f64, Spot)) -> (f64, Spot) {
+    if second.0 > first.0 { second } else { first }
+}
+
+/// The places round a point at a distance, beginning to the right of it.
+fn round(centre: Point, half: Vector, distance: f64) -> impl Iterator<Item = Spot> {
+    const DIRECTIONS: i32 = 16;
+    (0..DIRECTIONS).map(move |direction| {
+        let (cos, sin) = trig::cos_sin_deg(360.0 / f64::from(DIRECTIONS) * f64::from(direction));
+        let reach = half + Vector::repeat(distance);
+        Spot { middle: centre + Vector::new(cos * reach.x, -sin * reach.y), half }
+    })
+}

@@ -1,0 +1,249 @@
+//! The linkage of a figure: links as lines and plates, pivots, sliders with their guides, slots.
+
+use super::plot::Plot;
+use super::theme::Theme;
+use crate::scene::{Circle, Color, Item, Line, Path, Stroke};
+use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal, trig};
+use coupler_curves::linkage::{JointId, LinkOutline, Linkage, Step, is_plate};
+use coupler_curves::motion::Circuit;
+
+/// A linkage in a pose.
+pub(super) struct Mechanism<'a> {
+    linkage: &'a Linkage,
+    /// The places of all joints.
+    pub pose: Vec<Point>,
+    /// The guides of sliders that slide on the frame, each from end to end of what is used of it.
+    guides: Vec<[Point; 2]>,
+    slots: Vec<Slot>,
+    /// The links that have an ink of their own, and which.
+    inks: &'a [(usize, usize)],
+}
+
+/// A slot: what a joint uses of the line it slides along, on a link that moves.
+struct Slot {
+    /// From end to end.
+    ends: [Point; 2],
+    /// The foot of the line, or the joint of the yoke.
+    foot: Point,
+    /// The joint that slides in it.
+    block: Point,
+}
+
+impl<'a> Mechanism<'a> {
+    /// A linkage in one pose of a circuit, some of its links in inks of their own.
+    pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>, inks: &'a [(usize, usize)]) -> Mechanism<'a> {
+        let guides = (0..linkage.joints.len()).filter_map(|joint| guide(linkage, circuit, joint)).collect();
+        let slots = (0..linkage.joints.len()).filter_map(|joint| slot(linkage, circuit, &pose, joint)).collect();
+        Mechanism { linkage, pose, guides, slots, inks }
+    }
+
+    /// The ink of a link, if it has one of its own.
+    fn ink(&self, link: usize, theme: &Theme) -> Option<Color> {
+        self.inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
+    }
+
+    /// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
+    /// which is not drawn: they are kept apart.
+    fn pitch_circles(&self) -> Vec<(Point, f64)> {
+        let joints = &self.linkage.joints;
+        let crank = joints.iter().find_map(|joint| match joint.step {
+            Step::Crank { pivot, .. } => Some(pivot),
+            _ => None,
+        });
+        let mut circles = Vec::new();
+        for joint in joints {
+            if let (Step::Gear { pivot, ratio: [turns, of], .. }, Some(first)) = (joint.step, crank) {
+                let distance = (self.pose[pivot] - self.pose[first]).norm();
+                let apart = if turns < 0 { 1.0 } else { 0.8 };
+                // The slower wheel is the larger.
+                let [own, other] = [of.abs() as f64, turns.abs() as f64]
+                    .map(|n| apart * distance * n / (turns.abs() + of.abs()) as f64);
+                circles.extend([(self.pose[pivot], own), (self.pose[first], other)]);
+            }
+        }
+        circles
+    }
+
+    /// The box round all that is drawn of it.
+    pub fn bounds(&self) -> Bounds {
+        let wheels = self
+            .pitch_circles()
+            .into_iter()
+            .flat_map(|(centre, radius)| [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]);
+        let joints =
+            self.linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).chain(self.linkage.pivots());
+        let joints = joints.map(|joint| self.pose[joint]);
+        let slots = self.slots.iter().flat_map(|slot| slot.ends);
+        Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels).chain(slots))
+    }
+
+    /// What lies under the curves: the bodies of plates, the frame as a hairline, guides.
+    pub fn underlay(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
+        let at = |joint: &JointId| plot.page_from_plane.apply(self.pose[*joint]);
+        let mut items = Vec::new();
+        for LinkOutline { link, joints } in self.linkage.link_outlines() {
+            let points: Vec<Point> = joints.iter().map(at).collect();
+            if is_plate(&points) {
+                let body = self.ink(link, theme).map_or(theme.hairline, |ink| theme.faded(ink));
+                let fill = Some(theme.faded(theme.faded(body)));
+                items.push(Item::Path(Path { lines: vec![Line { points, closed: true }], stroke: None, fill }));
+            }
+        }
+        let points: Vec<Point> = self.linkage.pivots().iter().map(at).collect();
+        if points.len() > 1 {
+            let stroke = Some(theme.stroke(theme.hairline, theme.hair));
+            // Three pivots are on a frame that is a plate like any other.
+            let closed = is_plate(&points);
+            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
+        }
+        for (centre, radius) in self.pitch_circles() {
+            let (centre, radius) = (plot.page_from_plane.apply(centre), radius * plot.page_from_plane.scale);
+            let stroke = Some(theme.stroke(theme.grey, theme.hair));
+            items.push(Item::Circle(Circle { centre, radius, stroke, fill: None }));
+        }
+        for guide in &self.guides {
+            let [a, b] = guide.map(|p| plot.page_from_plane.apply(p));
+            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.4 * theme.joint);
+            items.push(Item::Path(Path::stroked(vec![a - over, b + over], theme.stroke(theme.ink, theme.fine))));
+        }
+        items
+    }
+
+    /// The linkage in ink; `ink` is the colour of a joint.
+    pub fn items(&self, plot: &Plot, theme: &Theme, ink: impl Fn(JointId) -> Color) -> Vec<Item> {
+        let page = |p: Point| plot.page_from_plane.apply(p);
+        let at = |joint: JointId| page(self.pose[joint]);
+        let ground = self.linkage.pivots();
+        let mut items = Vec::new();
+        let links = self.linkage.link_outlines();
+        let heavy = Stroke { round: true, ..theme.stroke(theme.ink, theme.link) };
+        let mut blocks = Vec::new();
+        for (id, joint) in self.linkage.joints.iter().enumerate() {
+            match joint.step {
+                Step::Slide { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
+                Step::Yoke { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
+                Step::Piston { base: [pivot, _], .. } => items.extend(actuator(at(pivot), at(id), theme)),
+                _ => {}
+            }
+        }
+        for LinkOutline { link, joints } in &links {
+            let points: Vec<Point> = joints.iter().map(|&joint| at(joint)).collect();
+            let closed = is_plate(&points);
+            let stroke = Some(Stroke { color: self.ink(*link, theme).unwrap_or(theme.ink), ..heavy });
+            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
+        }
+        for Slot { ends, foot, block } in &self.slots {
+            let ends = ends.map(page);
+            items.push(Item::Path(Path::stroked(vec![page(*foot), ends[0], ends[1]], heavy)));
+            items.push(slotted(ends, theme));
+            blocks.push((page(*block), ends[1] - ends[0]));
+        }
+        items.extend(blocks.into_iter().map(|(centre, along)| block(centre, along, theme)));
+        let mut joints: Vec<JointId> = links.iter().flat_map(|outline| outline.joints.iter().copied()).collect();
+        joints.extend(&ground);
+        joints.sort_unstable();
+        joints.dedup();
+        // The foot of a slot without offset is its pivot.
+        joints.retain(|&joint| !matches!(self.linkage.joints[joint].step, Step::Slot { offset: 0.0, .. }));
+        let circle = |centre, radius, color| {
+            let stroke = Some(theme.stroke(color, theme.fine));
+            Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
+        };
+        for joint in joints {
+            if ground.contains(&joint) {
+                items.push(circle(at(joint), 1.5 * theme.joint, ink(joint)));
+                items.push(circle(at(joint), 0.7 * theme.joint, ink(joint)));
+            } else {
+                items.push(circle(at(joint), theme.joint, ink(joint)));
+            }
+        }
+        items
+    }
+}
+
+/// The joints of the line of a slot or an actuator, if `joint` is placed by one.
+pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<[JointId; 2]> {
+    match linkage.joints[joint].step {
+        Step::Slot { base: [_, through], .. } => Some([joint, through]),
+        Step::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
+        Step::Yoke { from, .. } => Some([joint, from]),
+        _ => None,
+    }
+}
+
+/// A linear actuator: its rod, and its cylinder on the nearer half.
+fn actuator(from: Point, to: Point, theme: &Theme) -> [Item; 2] {
+    let along = to - from;
+    let across = left_normal(along).try_normalize(0.0).unwrap_or(Vector::zeros()) * (1.2 * theme.joint);
+    let (near, far) = (from + along * 0.1, from + along * 0.6);
+    let points = vec![near - across, far - across, far + across, near + across];
+    let stroke = Some(theme.stroke(theme.ink, theme.fine));
+    let rod = Path::stroked(vec![from, to], theme.stroke(theme.ink, theme.link));
+    let cylinder = Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) };
+    [Item::Path(rod), Item::Path(cylinder)]
+}
+
+/// A sliding block, along a direction.
+fn block(centre: Point, along: Vector, theme: &Theme) -> Item {
+    let u = along.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
+    let (u, n) = (u * (2.4 * theme.joint), left_normal(u) * (1.5 * theme.joint));
+    let points = vec![centre - u - n, centre + u - n, centre + u + n, centre - u + n];
+    let stroke = Some(theme.stroke(theme.ink, theme.fine));
+    Item::Path(Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) })
+}
+
+/// What a slider uses of a line on the frame.
+fn guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
+    let (Step::Slide { line, .. } | Step::Yoke { line, .. }) = linkage.joints[joint].step else { return None };
+    let along = fixed_direction(linkage, circuit, line)?;
+    let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
+    Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
+}
+
+/// The slot whose foot or yoke a joint is, in a pose.
+fn slot(linkage: &Linkage, circuit: &Circuit, pose: &[Point], joint: JointId) -> Option<Slot> {
+    // The line's direction follows the base: that of a slot its pivot and foot, that of a yoke its guide, that of a slot
+    // without offset the line itself.
+    let ([from, to], through) = match linkage.joints[joint].step {
+        Step::Slot { base: [pivot, through], offset: 0.0, .. } => ([pivot, through], through),
+        Step::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
+        Step::Yoke { from, line, .. } => (line, from),
+        _ => return None,
+    };
+    let turned = |base: Vector, arm: Vector| Vector::new(base.dot(&arm), cross(base, arm)) / base.norm();
+    let point = |joint, sample| circuit.places.point(joint, sample);
+    let arm = |i: usize| turned(point(to, i) - point(from, i), point(through, i) - point(joint, i));
+    let arms: Vec<Vector> = (0..circuit.len()).map(arm).filter(|arm| arm.x.is_finite() && arm.y.is_finite()).collect();
+    let longest = arms.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    let by = |a: &&Vector, b: &&Vector| longest.dot(a).total_cmp(&longest.dot(b));
+    let unit = (pose[to] - pose[from]).normalize();
+    let back = |arm: &Vector| pose[joint] + unit * arm.x + left_normal(unit) * arm.y;
+    let ends = [back(arms.iter().min_by(by)?), back(arms.iter().max_by(by)?)];
+    Some(Slot { ends, foot: pose[joint], block: pose[through] })
+}
+
+/// The hole of a slot, as wide as a block, with round ends.
+fn slotted([a, b]: [Point; 2], theme: &Theme) -> Item {
+    const TO_AN_END: usize = 12;
+    let radius = 1.5 * theme.joint;
+    let along = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
+    // The block has room for its own length at both ends.
+    let over = along * (2.4 * theme.joint - radius);
+    let round = |centre: Point, from: Vector| {
+        (0..=TO_AN_END).map(move |k| {
+            let (cos, sin) = trig::cos_sin_deg(180.0 * k as f64 / TO_AN_END as f64);
+            centre + (from * cos + left_normal(from) * sin) * radius
+        })
+    };
+    let normal = left_normal(along);
+    let points = round(b + over, -normal).chain(round(a - over, normal)).collect();
+    let stroke = Some(theme.stroke(theme.ink, theme.fine));
+    Item::Path(Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) })
+}
+
+/// The direction of a line on the frame.
+fn fixed_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 2]) -> Option<Vector> {
+    let ground = linkage.ground();
+    (ground.place(p).is_some() && ground.place(q).is_some()).then_some(())?;
+    Some(circuit.places.point(q, 0) - circuit.places.point(p, 0))
+}

@@ -1,0 +1,88 @@
+use super::arrangement::Frame;
+use super::element::{Area, Drawing, draw};
+use super::theme::Theme;
+use crate::scene::{Anchor, Item, Line, Path, Text};
+use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
+
+/// A frame in which something is drawn to scale, and its scale bar.
+pub(super) struct Plot {
+    frame: Frame,
+    /// From the plane to millimetres of the area.
+    pub page_from_plane: Similarity,
+}
+
+impl Plot {
+    /// A plot in a frame, with room for the scale bar at its foot.
+    pub fn new(frame: Frame, theme: &Theme) -> Plot {
+        let foot = 1.6 * theme.note;
+        // A frame that is all foot still has a positive size.
+        let inner = Frame { size: Vector::new(frame.size.x, (frame.size.y - foot).max(0.2 * frame.size.y)), ..frame };
+        Plot {
+            frame: inner.inset(2.0 * theme.joint),
+            page_from_plane: Similarity::page_from_plane(Bounds::EMPTY, frame.centre(), 1.0),
+        }
+    }
+
+    /// The plot with something in the middle of its frame.
+    pub fn of(self, bounds: Bounds) -> Plot {
+        let scale = self.frame.scale(bounds);
+        Plot { page_from_plane: Similarity::page_from_plane(bounds, self.frame.centre(), scale), ..self }
+    }
+
+    /// The frame less its foot, where the scale bar stands, and with what is kept free round the figure.
+    pub fn above_bar(&self, theme: &Theme) -> Frame {
+        let free = Vector::repeat(2.0 * theme.joint);
+        Frame { corner: self.frame.corner - free, size: self.frame.size + free * 2.0 }
+    }
+
+    /// A scale bar under the frame: a round number of units, about a fifth of the frame's width.
+    pub fn bar(&self, area: &Area, theme: &Theme) {
+        let scale = self.page_from_plane.scale;
+        let units = round_number(0.2 * self.frame.size.x / scale);
+        let length = units * scale;
+        let label = units.to_string();
+        let size = 0.75 * theme.note;
+        let at = Point::new(self.frame.centre().x, self.frame.corner.y + self.frame.size.y + 2.2 * theme.joint + size);
+        let words = theme.words(&label, Point::origin(), Anchor::Start, size, theme.grey);
+        let gap = 0.4 * size;
+        let left = at.x - (length + gap + words.text.width()) / 2.0;
+        let tick = 0.3 * size;
+        let y = at.y - 0.35 * size;
+        let line = |a: (f64, f64), b: (f64, f64)| Line {
+            points: vec![Point::new(a.0, a.1), Point::new(b.0, b.1)],
+            closed: false,
+        };
+        let lines = vec![
+            line((left, y), (left + length, y)),
+            line((left, y - tick), (left, y + tick)),
+            line((left + length, y - tick), (left + length, y + tick)),
+        ];
+        let stroke = Some(theme.stroke(theme.grey, theme.hair));
+        let bar = Item::Path(Path { lines, stroke, fill: None });
+        let text = Item::Text(Text { at: Point::new(left + length + gap, at.y), ..words.text });
+        draw(area, &Drawing { class: "scale", title: format!("a bar of {label}"), items: vec![bar, text] });
+    }
+}
+
+/// The nearest of 1, 2 and 5 with a power of ten, not above `x`; 1 where `x` is none to go by.
+pub(super) fn round_number(x: f64) -> f64 {
+    if !(1e-12..=1e12).contains(&x) {
+        return 1.0;
+    }
+    (-12..=12)
+        .flat_map(|power: i32| [1, 2, 5].map(|digit| format!("{digit}e{power}").parse().unwrap_or(1.0)))
+        .filter(|round: &f64| *round <= x)
+        .fold(1e-12, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scale_bars_are_round() {
+        for (x, round) in [(1.0, 1.0), (1.9, 1.0), (0.7, 0.5), (27.0, 20.0), (0.0, 1.0), (f64::NAN, 1.0)] {
+            assert_eq!(round_number(x), round);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The pose a linkage is drawn in: one in which it can be read.
+
+use super::mechanism::sliding_line;
+use coupler_curves::geometry::{Point, cross, distance_to_segment};
+use coupler_curves::linkage::{Linkage, Step};
+use coupler_curves::motion::Circuit;
+
+/// The places of all joints in the clearest pose of a circuit.
+///
+/// A pose is clear when no two joints, and no joint and link, come near each other, and when no two links that meet
+/// lie on one line: its clarity is the least of those distances, times the least sine of those angles. Poses within
+/// a hundredth of the clearest are as good; the first of them is taken.
+pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
+    /// More samples than this make no difference to the eye.
+    const CANDIDATES: usize = 360;
+    let stride = circuit.len().div_ceil(CANDIDATES).max(1);
+    // The frame is a link like the others here: a crank that lies on it cannot be seen.
+    let mut links: Vec<_> = linkage.link_outlines().into_iter().map(|outline| outline.joints).collect();
+    links.push(linkage.pivots());
+    for joint in 0..linkage.joints.len() {
+        let Some([foot, through]) = sliding_line(linkage, joint) else { continue };
+        // The link with a slot goes on to what slides in it; the line of an actuator is a link of its own.
+        let is_slot = matches!(linkage.joints[joint].step, Step::Slot { .. } | Step::Yoke { .. });
+        let carrier = links.iter_mut().filter(|_| is_slot);
+        match carrier.into_iter().find_map(|link| Some((link.iter().position(|joint| *joint == foot)?, link))) {
+            Some((at, carrier)) if !carrier.contains(&through) => carrier.insert(at + 1, through),
+            Some(_) => {}
+            None => links.push(vec![foot, through]),
+        }
+    }
+    joined(&mut links, circuit);
+    let pose = |sample: usize| -> Vec<Point> {
+        (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
+    };
+    let clarity = |at: &[Point]| {
+        let clarity = clearance(&links, at) * straightest(&links, at);
+        if clarity.is_finite() { clarity } else { 0.0 }
+    };
+    let all: Vec<(usize, f64)> =
+        (0..circuit.len()).step_by(stride).map(|sample| (sample, clarity(&pose(sample)))).collect();
+    let best = all.iter().map(|(_, clarity)| *clarity).fold(0.0, f64::max);
+    pose(all.iter().find(|(_, clarity)| *clarity >= 0.99 * best).map_or(0, |(sample, _)| *sample))
+}
+
+/// Gives joints that are one point all the way one number: their distance tells nothing of the pose.
+fn joined(links: &mut [Vec<usize>], circuit: &Circuit) {
+    let samples = [0, circuit.len() / 3, circuit.len() / 2];
+    let is_one = |a: usize, b: usize| {
+        samples.iter().all(|&sample| {
+            let (a, b) = (circuit.places.point(a, sample), circuit.places.point(b, sample));
+            (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
+        })
+    };
+    for joint in links.iter_mut().flatten() {
+        *joint = (0..*joint).find(|&earlier| is_one(earlier, *joint)).unwrap_or(*joint);
+    }
+    for link in links {
+        link.dedup();
+    }
+}
+
+/// The least distance of two joints on no common link, or of a joint and a link it is not on.
+fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
+    let mut joints: Vec<usize> = links.iter().flatten().copied().collect();
+    joints.sort_unstable();
+    joints.dedup();
+    let mut least = f64::INFINITY;
+    for (k, &joint) in joints.iter().enumerate() {
+        for &other in &joints[..k] {
+            // Joints of one link keep their distance, and some are one point: that tells nothing of the pose.
+            if !links.iter().any(|link| link.contains(&joint) && link.contains(&other)) {
+                least = least.min((at[joint] - at[other]).norm());
+            }
+        }
+        // The foot of a slot without offset is its pivot, and so on the frame.
+        let is_on = |link: &&Vec<usize>| link.iter().any(|&other| at[other] == at[joint]);
+        for link in links.iter().filter(|link| !is_on(link)) {
+            for pair in link.windows(2) {
+                least = least.min(distance_to_segment(at[joint], at[pair[0]], at[pair[1]]));
+            }
+        }
+    }
+    least
+}
+
+/// The least sine of the angles at which links meet.
+fn straightest(links: &[Vec<usize>], at: &[Point]) -> f64 {
+    let mut least: f64 = 1.0;
+    for (k, link) in links.iter().enumerate() {
+        for other in &links[..k] {
+            for pin in link.iter().filter(|joint| other.contains(joint)) {
+                let arms =
+                    |link: &[usize]| link.iter().filter(|j| *j != pin).map(|&j| at[j] - at[*pin]).collect::<Vec<_>>();
+                for a in arms(link) {
+                    for b in arms(other) {
+                        let lengths = a.norm() * b.norm();
+                        if lengths > 0.0 {
+                            least = least.min(cross(a, b).abs() / lengths);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    least
+}

@@ -1,0 +1,113 @@
+use std::fmt;
+
+use coupler_curves::geometry::trig;
+
+/// A colour, red, green and blue, in sRGB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Color(pub u8, pub u8, pub u8);
+
+impl Color {
+    /// Reads `#rrggbb` or `#rgb`, in capitals or not; none where a text is neither.
+    pub fn parse(text: &str) -> Option<Color> {
+        let digits = text.strip_prefix('#')?;
+        let digit = |k: usize| digits.as_bytes().get(k).and_then(|&byte| char::from(byte).to_digit(16));
+        let channel = |high: usize, low: usize| u8::try_from(16 * digit(high)? + digit(low)?).ok();
+        match digits.len() {
+            3 => Some(Color(channel(0, 0)?, channel(1, 1)?, channel(2, 2)?)),
+            6 => Some(Color(channel(0, 1)?, channel(2, 3)?, channel(4, 5)?)),
+            _ => None,
+        }
+    }
+
+    /// Red, green and blue as parts of the light of white.
+    fn linear(self) -> [f64; 3] {
+        [self.0, self.1, self.2].map(|channel| match f64::from(channel) / 255.0 {
+            c if c <= 0.04045 => c / 12.92,
+            c => trig::pow((c + 0.055) / 1.055, 2.4),
+        })
+    }
+
+    /// The relative luminance, 0 of black to 1 of white (WCAG 2.2).
+    pub fn luminance(self) -> f64 {
+        let [r, g, b] = self.linear();
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    /// The contrast with another colour, 1 of like ones to 21 of black and white (WCAG 2.2).
+    pub fn contrast(self, other: Color) -> f64 {
+        let (a, b) = (self.luminance(), other.luminance());
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// L*, a* and b* of CIELAB under daylight, D65.
+    fn lab(self) -> [f64; 3] {
+        let [r, g, b] = self.linear();
+        // X and Z over those of white.
+        let x = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505;
+        let z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089;
+        let [x, y, z] = [x, self.luminance(), z].map(|part| match part {
+            part if part <= 216.0 / 24389.0 => (part * 24389.0 / 27.0 + 16.0) / 116.0,
+            part => trig::pow(part, 1.0 / 3.0),
+        });
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    /// The lightness L* of CIELAB, 0 of black to 100 of white.
+    pub fn lightness(self) -> f64 {
+        self.lab()[0]
+    }
+
+    /// How far another colour is off in CIELAB: 2 can just be seen side by side, 100 is from black to white (CIE 1976).
+    pub fn difference(self, other: Color) -> f64 {
+        let [a, b] = [self.lab(), other.lab()];
+        (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
+    }
+
+    /// The grey nearest to a lightness.
+    pub fn of_lightness(lightness: f64) -> Color {
+        let off = |grey: &Color| (grey.lightness() - lightness).abs();
+        let greys = (0..=u8::MAX).map(|level| Color(level, level, level));
+        greys.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(Color(0, 0, 0))
+    }
+
+    /// The grey of the same lightness.
+    pub fn grey(self) -> Color {
+        Color::of_lightness(self.lightness())
+    }
+}
+
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Color(r, g, b) = self;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_written_as_they_are_read() {
+        assert_eq!(Color::parse("#Fff"), Some(Color(255, 255, 255)));
+        assert_eq!(Color::parse("#8c2d19").map(|color| color.to_string()).as_deref(), Some("#8c2d19"));
+        for text in ["", "#", "8c2d19", "#8c2d1", "#8c2d190", "#8c2dg9", "#+1+1+1", "red", "#éa", "#ééé"] {
+            assert_eq!(Color::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn contrast_and_lightness_are_those_of_their_definitions() {
+        let [black, white] = [Color(0, 0, 0), Color(255, 255, 255)];
+        assert!((black.contrast(white) - 21.0).abs() < 1e-12 && (white.contrast(white) - 1.0).abs() < 1e-12);
+        // #767676 is the lightest grey with 4.5:1 on white.
+        assert!(Color(0x76, 0x76, 0x76).contrast(white) >= 4.5 && Color(0x77, 0x77, 0x77).contrast(white) < 4.5);
+        assert!(black.lightness().abs() < 1e-9 && (white.lightness() - 100.0).abs() < 1e-9);
+        // L* of a luminance of 0.184187 is 50.
+        assert_eq!(Color::of_lightness(50.0), Color(0x77, 0x77, 0x77));
+        assert!((black.difference(white) - 100.0).abs() < 0.1);
+        // The L*, a* and b* of pure red are 53.2, 80.1 and 67.2: from black 117.3 in all.
+        assert!((Color(255, 0, 0).difference(black) - 117.3).abs() < 0.1);
+        assert_eq!(Color(12, 12, 12).grey(), Color(12, 12, 12));
+    }
+}

@@ -1,0 +1,135 @@
+//! The direction of imports inside each crate, and what the crates without files, threads and clocks must not use.
+//!
+//! Between crates the compiler keeps the direction; inside one, the modules of its `lib.rs` are in the order in which data flows,
+//! and none imports one that comes after it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The source folders of the crates.
+const CRATES: [&str; 3] = ["crates/coupler-curves/src", "crates/coupler-drawing/src", "src"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The Rust files of a folder, each with its code: without comments and without the unit tests at its end.
+fn code_files(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(code_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let text = fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
+            let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+            let code = code.map(|line| format!("{line}\n")).collect();
+            found.push((path, code));
+        }
+    }
+    found
+}
+
+/// The modules that a crate's `lib.rs` declares, in its order.
+fn modules(source: &Path) -> Vec<String> {
+    let text = fs::read_to_string(source.join("lib.rs")).unwrap();
+    let name = |line: &str| {
+        let name = line.strip_prefix("pub mod ").or_else(|| line.strip_prefix("mod "))?;
+        name.strip_suffix(';').map(str::to_owned)
+    };
+    text.lines().filter_map(name).collect()
+}
+
+/// The modules of the crate that some code imports: what follows `crate::`, alone or in braces.
+fn imports(code: &str) -> Vec<&str> {
+    let word = |text: &str| text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
+    let mut found = Vec::new();
+    for (at, prefix) in code.match_indices("crate::") {
+        let rest = &code[at + prefix.len()..];
+        match rest.strip_prefix('{') {
+            Some(list) => {
+                found.extend(list.split('}').next().unwrap().split(',').map(str::trim).map(|n| &n[..word(n)]))
+            }
+            None => found.push(&rest[..word(rest)]),
+        }
+    }
+    found
+}
+
+#[test]
+fn no_module_imports_one_that_comes_after_it() {
+    let mut seen = 0;
+    for source in CRATES.map(|source| root().join(source)) {
+        let order = modules(&source);
+        for (at, module) in order.iter().enumerate() {
+            let folder = source.join(module);
+            let files = if folder.is_dir() {
+                code_files(&folder)
+            } else {
+                let path = source.join(format!("{module}.rs"));
+                vec![(path.clone(), fs::read_to_string(path).unwrap())]
+            };
+            for (path, code) in files {
+                for import in imports(&code) {
+                    let Some(imported) = order.iter().position(|other| other == import) else { continue };
+                    seen += 1;
+                    assert!(imported <= at, "{} imports {import}, which comes after {module}", path.display());
+                }
+            }
+        }
+    }
+    assert!(seen > 100, "only {seen} imports were found");
+}
+
+#[test]
+fn only_the_program_uses_files_threads_clocks_and_the_terminal() {
+    let banned = [
+        "std::fs",
+        "std::io::std",
+        "std::thread",
+        "std::time",
+        "std::process",
+        "std::env",
+        "std::net",
+        "rayon",
+        "println!",
+        "eprintln!",
+    ];
+    for source in &CRATES[..2] {
+        for (path, code) in code_files(&root().join(source)) {
+            for word in banned {
+                assert!(!code.contains(word), "{} uses {word}", path.display());
+            }
+        }
+    }
+    for (path, code) in code_files(&root().join(CRATES[2])) {
+        // Output depends on no clock, and only the command line prints.
+        assert!(!code.contains("SystemTime") && !code.contains("Instant::now"), "{} uses a clock", path.display());
+        let prints = ["println!", "eprintln!", "stdout()", "stderr()"].iter().any(|word| code.contains(word));
+        assert!(!prints || path.starts_with(root().join("src/cli")), "{} prints", path.display());
+    }
+}
+
+/// How many crates a package is built from, itself included, for this machine.
+fn crate_count(package: &str) -> usize {
+    let tree = Command::new(env!("CARGO"))
+        .args(["tree", "--locked", "--offline", "--edges", "normal", "--prefix", "none", "--package", package])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
+    let tree = String::from_utf8(tree.stdout).unwrap();
+    let mut crates: Vec<&str> = tree.lines().map(|line| line.trim_end_matches(" (*)")).collect();
+    crates.sort_unstable();
+    crates.dedup();
+    crates.len()
+}
+
+#[test]
+fn the_core_is_built_from_few_crates() {
+    let count = crate_count("coupler-curves");
+    assert!((10..=50).contains(&count), "coupler-curves is built from {count} crates");
+    assert!(crate_count("coupler-atlas") > count);
+}
