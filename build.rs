@@ -17,10 +17,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let is = |path: &Path, name: &str| path.file_name().is_some_and(|file| file == name);
     styles.sort_by_key(|path| (!is(path, "base.css"), is(path, "print.css"), path.clone()));
     let list = |name: &str, files: &[PathBuf]| -> Result<String, Box<dyn std::error::Error>> {
-        let mut text = format!("/// The page's {name}, in order.\npub const {}: &[Part] = &[\n", name.to_uppercase());
+        let mut text = format!("/// The page's {name}, in order.\npub const {}: &[Asset] = &[\n", name.to_uppercase());
         for file in files {
             let parts: Vec<_> = file.strip_prefix(&root)?.iter().map(|part| part.to_string_lossy()).collect();
-            text.push_str(&format!("    Part {{ name: {:?}, text: include_str!({file:?}) }},\n", parts.join("/")));
+            text.push_str(&format!("    Asset {{ name: {:?}, text: include_str!({file:?}) }},\n", parts.join("/")));
         }
         Ok(text + "];\n")
     };

@@ -5,39 +5,41 @@
 
 use std::hint::black_box;
 
-use coupler_curves::linkage::{Assembly, Flat, Linkage, Side, Signs, Travel};
-use coupler_curves::measure::{self, Subject};
-use coupler_curves::motion::{Columns, Inputs, Modes, Motion, Sampler, Sampling, Stop, place};
+use coupler_curves::linkage::{AssemblyMode, DyadSet, Linkage, LinkageBuilder, MotionOptions, Side};
+use coupler_curves::measure::{self, TracedCurve};
+use coupler_curves::motion::{
+    DyadSigns, InputPosition, InputSlices, JointPositions, Motion, Sampler, Sampling, place_leading_joints,
+};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const SAMPLES: usize = 360;
 
 /// A crank-rocker with `points` coupler points.
 fn four_bar(points: usize) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [4.0, 0.0].into());
     let a = assembly.crank("A", o, 1.0).expect("a crank");
     let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left).expect("a dyad");
     let traced = (0..points).map(|k| assembly.point("M", [a, b], 0.4 * k as f64, 1.0).expect("a point")).collect();
-    assembly.finish(traced, None, Travel::default()).expect("a four-bar")
+    assembly.build(traced, None, MotionOptions::default()).expect("a four-bar")
 }
 
 fn kernel(criterion: &mut Criterion) {
     let sampler = Sampler::new(Sampling::Samples(SAMPLES));
-    let column = |pick: fn(&Stop) -> f64| sampler.turn().iter().map(pick).collect::<Vec<f64>>();
-    let (at, cos, sin) = (column(|stop| stop.at), column(|stop| stop.cos), column(|stop| stop.sin));
-    let inputs = Inputs { at: &at, cos: &cos, sin: &sin };
+    let column = |pick: fn(&InputPosition) -> f64| sampler.full_turn().iter().map(pick).collect::<Vec<f64>>();
+    let (at, cos, sin) = (column(|stop| stop.value), column(|stop| stop.cos), column(|stop| stop.sin));
+    let inputs = InputSlices { values: &at, cos: &cos, sin: &sin };
     let mut group = criterion.benchmark_group("kernel");
     for points in [1, 10] {
         let linkage = four_bar(points);
         let joints = linkage.joints.len();
-        let mut out = Columns::new(joints, SAMPLES);
-        let modes = Modes::new(Signs::default(), Flat::NONE);
+        let mut out = JointPositions::new(joints, SAMPLES);
+        let modes = DyadSigns::new(AssemblyMode::default(), DyadSet::EMPTY);
         group.throughput(Throughput::Elements((SAMPLES * points) as u64));
         group.bench_function(format!("{points} coupler points"), |bencher| {
             bencher.iter(|| {
-                place(black_box(&linkage), joints, inputs, &modes, &mut out, 0..SAMPLES);
+                place_leading_joints(black_box(&linkage), joints, inputs, &modes, &mut out, 0..SAMPLES);
                 black_box(&mut out);
             });
         });
@@ -45,17 +47,17 @@ fn kernel(criterion: &mut Criterion) {
     // A circuit that does not turn fully is sampled at angles of its own: their sines are reckoned for each.
     let linkage = four_bar(1);
     let joints = linkage.joints.len();
-    let mut out = Columns::new(joints, SAMPLES);
-    let modes = Modes::new(Signs::default(), Flat::NONE);
+    let mut out = JointPositions::new(joints, SAMPLES);
+    let modes = DyadSigns::new(AssemblyMode::default(), DyadSet::EMPTY);
     group.throughput(Throughput::Elements(SAMPLES as u64));
     group.bench_function("1 coupler points over a limited range", |bencher| {
         bencher.iter(|| {
-            let angle = |k: usize| Stop::angle(black_box(40.0) + 200.0 * k as f64 / SAMPLES as f64);
-            let stops: Vec<Stop> = (0..SAMPLES).map(angle).collect();
-            let column = |pick: fn(&Stop) -> f64| stops.iter().map(pick).collect::<Vec<f64>>();
-            let (at, cos, sin) = (column(|stop| stop.at), column(|stop| stop.cos), column(|stop| stop.sin));
-            let inputs = Inputs { at: &at, cos: &cos, sin: &sin };
-            place(black_box(&linkage), joints, inputs, &modes, &mut out, 0..SAMPLES);
+            let angle = |k: usize| InputPosition::from_degrees(black_box(40.0) + 200.0 * k as f64 / SAMPLES as f64);
+            let stops: Vec<InputPosition> = (0..SAMPLES).map(angle).collect();
+            let column = |pick: fn(&InputPosition) -> f64| stops.iter().map(pick).collect::<Vec<f64>>();
+            let (at, cos, sin) = (column(|stop| stop.value), column(|stop| stop.cos), column(|stop| stop.sin));
+            let inputs = InputSlices { values: &at, cos: &cos, sin: &sin };
+            place_leading_joints(black_box(&linkage), joints, inputs, &modes, &mut out, 0..SAMPLES);
             black_box(&mut out);
         });
     });
@@ -68,7 +70,7 @@ fn motion(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("motion");
     group.throughput(Throughput::Elements(SAMPLES as u64));
     group.bench_function("limits, circuits and samples of a crank-rocker", |bencher| {
-        bencher.iter(|| black_box(Motion::of(black_box(&linkage), &sampler)));
+        bencher.iter(|| black_box(Motion::solve(black_box(&linkage), &sampler)));
     });
     group.finish();
 }
@@ -83,14 +85,14 @@ fn measures(criterion: &mut Criterion) {
         from + (to - from) * ((state >> 11) as f64 / (1_u64 << 53) as f64)
     };
     let linkage = |random: &mut dyn FnMut(f64, f64) -> f64| {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", [0.0, 0.0].into());
         let c = assembly.fixed("C", [random(0.5, 4.0), 0.0].into());
         let a = assembly.crank("A", o, random(0.5, 3.0)).expect("a crank");
         let lengths = [random(0.5, 4.0), random(0.5, 4.0)];
         let b = assembly.dyad("B", [a, c], lengths, Side::Left).expect("a dyad");
         let m = assembly.point("M", [a, b], random(-2.0, 2.0), random(-2.0, 2.0)).expect("a point");
-        assembly.finish(vec![m], None, Travel::default()).expect("a four-bar")
+        assembly.build(vec![m], None, MotionOptions::default()).expect("a four-bar")
     };
     let linkages: Vec<Linkage> = (0..200).map(|_| linkage(&mut random)).collect();
     let mut group = criterion.benchmark_group("measures");
@@ -102,11 +104,11 @@ fn measures(criterion: &mut Criterion) {
         group.bench_function(title, |bencher| {
             bencher.iter(|| {
                 for linkage in &linkages {
-                    let motion = Motion::of(linkage, &sampler);
+                    let motion = Motion::solve(linkage, &sampler);
                     for circuit in &motion.circuits {
-                        let subject = Subject::new(linkage, &motion, circuit, linkage.traced[0]);
+                        let subject = TracedCurve::new(linkage, &motion, circuit, linkage.traced[0]);
                         for measure in &wanted {
-                            black_box((measure.take)(&subject));
+                            black_box((measure.compute)(&subject));
                         }
                     }
                 }

@@ -5,36 +5,44 @@ use std::hint::black_box;
 
 use coupler_atlas::manifest::{self, Plan};
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::Solved;
-use coupler_drawing::page::{self, GridSheet, Heading, Layout, Panel, View};
+use coupler_curves::solve::SolvedCell;
+use coupler_drawing::page::{self, CouplerGridPage, Heading, Layout, Panel, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 use coupler_drawing::scene::Scene;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// The pages of one cell of the atlas of Hrones and Nelson.
-fn compose(plan: &Plan, solved: &Solved) -> Vec<Scene> {
+fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
     let family = &plan.families[0].family;
-    let pages = solved.by_points(Layout::POINTS);
+    let pages = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
     let of = pages.len();
-    let view = page::clearest_pose(solved).map_or(View::Clearest, View::At);
+    let view = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
     let sheet = |(page, shown)| {
-        let [caption, note] = family.describe(&solved.cell, solved.measures());
-        let facts = page::facts(solved);
+        let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
+        let facts = page::cell_facts(solved);
         let (title, symbols) = (family.title.as_str(), family.names.as_slice());
         let source = plan.families[0].source.clone();
-        let heading = Heading { atlas: &plan.title, family: &family.id, title, source, symbols, page, of };
-        let panel = Panel { caption, note, facts, solved, view: view.clone(), inks: Vec::new() };
-        page::compose_grid(&GridSheet { heading, panel, shown, labels: &[] }, &plan.page)
+        let heading = Heading {
+            atlas_title: &plan.title,
+            family_id: &family.id,
+            family_title: title,
+            source,
+            symbols,
+            page,
+            page_count: of,
+        };
+        let panel = Panel { caption, note, facts, solved_cell: solved, pose: view.clone(), link_inks: Vec::new() };
+        page::compose_coupler_grid(&CouplerGridPage { heading, panel, curve_indices: shown, labels: &[] }, &plan.page)
     };
     (1..).zip(pages).map(sheet).collect()
 }
 
 fn pages(criterion: &mut Criterion) {
-    let plan = manifest::load(include_str!("../examples/hrones-nelson.toml")).plan.expect("a valid manifest");
+    let plan = manifest::parse(include_str!("../examples/hrones-nelson.toml")).plan.expect("a valid manifest");
     let family = &plan.families[0].family;
     let sampler = Sampler::new(family.sampling);
     // A = 2.5, B = 3.5, C = 3: its curves are neither small nor long.
-    let solved = solve::solve(family, &sampler, 87).expect("a cell");
+    let solved = solve::solve_cell(family, &sampler, 87).expect("a cell");
     let scenes = compose(&plan, &solved);
     let mut group = criterion.benchmark_group("pages");
     group.throughput(Throughput::Elements(scenes.len() as u64));

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The modules stand here in reading order; none imports one that comes after it. Each stage is one public function:
-//! [`manifest::load`], [`sweep::run`], [`design::straight_line`], [`page::compose`], [`render::svg`], [`render::png`], [`build::run`],
-//! [`check::run`].
+//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`], [`coupler_drawing::page::compose_panels`], [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`], [`output::write_atlas`],
+//! [`check::check_atlas`].
 //!
 
 pub mod sweep;
@@ -20,9 +20,9 @@ pub mod manifest;
 pub mod record;
 
 pub mod export;
-pub mod press;
+pub mod pipeline;
 
 pub mod gallery;
 
-pub mod build;
 pub mod check;
+pub mod output;

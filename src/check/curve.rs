@@ -1,63 +1,64 @@
 //! A recorded curve held against the one that comes out now.
 
-use super::apart::apart;
-use super::finding::{Change, Move, coordinates};
-use super::track::{Track, distance};
+use super::curve_samples::{CurveSamples, point_distance};
+use super::finding::{Change, Displacement, coordinates};
+use super::hausdorff::hausdorff_distance;
 use crate::manifest::Tolerances;
 use coupler_curves::geometry::Point;
 use coupler_curves::motion::Circuit;
-use coupler_curves::solve::{Curve, Solved};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// A curve as it comes out now.
 #[derive(Clone, Copy)]
-pub(super) struct Fresh<'a> {
-    pub track: &'a Track,
-    pub solved: &'a Solved,
-    pub curve: &'a Curve,
+pub(super) struct CurrentCurve<'a> {
+    pub samples: &'a CurveSamples,
+    pub solved: &'a SolvedCell,
+    pub curve: &'a MeasuredCurve,
 }
 
-impl Fresh<'_> {
+impl CurrentCurve<'_> {
     fn circuit(&self) -> &Circuit {
         self.solved.circuit(self.curve)
     }
 }
 
 /// In what a recorded curve differs; `missing` are the numbers of samples that its rows leave out.
-pub(super) fn compare(
-    was: &Track,
-    is: Fresh,
+pub(super) fn compare_curves(
+    was: &CurveSamples,
+    is: CurrentCurve,
     (missing, names): (Vec<usize>, &[(String, usize)]),
     tolerances: &Tolerances,
 ) -> Vec<Change> {
-    let size = is.track.size();
+    let size = is.samples.size();
     let allowed = tolerances.atol.max(tolerances.rtol * size);
     // Inputs are compared by their own size, and that of a degree, or of the unit.
     let is_same_input = |was: f64, is: f64| (was - is).abs() <= tolerances.rtol * was.abs().max(is.abs()).max(1.0);
-    let apart = || apart(was, is.track, (is.solved, is.curve.joint, is.circuit()));
-    let inputs = || was.input.iter().zip(&is.track.input);
-    if was.len() == is.track.len() && missing.is_empty() && inputs().all(|(was, is)| is_same_input(*was, *is)) {
-        return samples(was, is.track, (size, allowed), names, tolerances, apart);
+    let apart = || hausdorff_distance(was, is.samples, (is.solved, is.curve.joint, is.circuit()));
+    let inputs = || was.inputs.iter().zip(&is.samples.inputs);
+    if was.len() == is.samples.len() && missing.is_empty() && inputs().all(|(was, is)| is_same_input(*was, *is)) {
+        return compare_samples(was, is.samples, (size, allowed), names, tolerances, apart);
     }
-    let is_same = |was: Point, is: Point| distance(was, is) <= allowed.max(1e-9 * size);
-    if let Some(change) = turned(was, is.track, is.circuit().closed, is_same) {
+    let is_same = |was: Point, is: Point| point_distance(was, is) <= allowed.max(1e-9 * size);
+    if let Some(change) = find_reordering(was, is.samples, is.circuit().is_closed, is_same) {
         return vec![change];
     }
-    let mut changes = vec![Change::Samples { was: was.len(), is: is.track.len(), missing, apart: apart() }];
+    let mut changes =
+        vec![Change::Samples { recorded: was.len(), current: is.samples.len(), missing, hausdorff_distance: apart() }];
     // Those at the same input, one after the other, tell of the rest.
-    let pairs = common(was, is.track, is_same_input);
+    let pairs = match_inputs(was, is.samples, is_same_input);
     if !pairs.is_empty() {
-        let (mut ours, mut theirs) = (is.track.clone(), was.clone());
-        theirs.keep(&pairs.iter().map(|pair| pair.0).collect::<Vec<_>>());
-        ours.keep(&pairs.iter().map(|pair| pair.1).collect::<Vec<_>>());
-        changes.extend(samples(&theirs, &ours, (size, allowed), names, tolerances, apart));
+        let (mut ours, mut theirs) = (is.samples.clone(), was.clone());
+        theirs.select(&pairs.iter().map(|pair| pair.0).collect::<Vec<_>>());
+        ours.select(&pairs.iter().map(|pair| pair.1).collect::<Vec<_>>());
+        changes.extend(compare_samples(&theirs, &ours, (size, allowed), names, tolerances, apart));
     }
     changes
 }
 
 /// In what samples differ that stand against each other, one by one.
-fn samples(
-    was: &Track,
-    is: &Track,
+fn compare_samples(
+    was: &CurveSamples,
+    is: &CurveSamples,
     (size, allowed): (f64, f64),
     names: &[(String, usize)],
     tolerances: &Tolerances,
@@ -67,43 +68,48 @@ fn samples(
     for (was, now) in was.branches.iter().zip(&is.branches) {
         let differing: Vec<usize> = (0..now.len()).filter(|&k| was[k] != now[k]).collect();
         if let Some(&sample) = differing.first() {
-            let (samples, input) = (differing.len(), is.input[sample]);
+            let (samples, input) = (differing.len(), is.inputs[sample]);
             changes.push(Change::Branch {
-                sample: is.samples[sample],
+                sample: is.sample_numbers[sample],
                 input,
                 samples,
-                was: was[sample],
-                is: now[sample],
+                recorded: was[sample],
+                current: now[sample],
             });
         }
     }
-    let far: Vec<f64> = was.points.iter().zip(&is.points).map(|(was, is)| distance(*was, *is)).collect();
+    let far: Vec<f64> = was.points.iter().zip(&is.points).map(|(was, is)| point_distance(*was, *is)).collect();
     let moved = far.iter().filter(|&&far| far > allowed).count();
     if let Some(furthest) = (0..far.len()).max_by(|&a, &b| far[a].total_cmp(&far[b])).filter(|_| moved > 0) {
-        changes.push(Change::Moved(Move {
+        changes.push(Change::Moved(Displacement {
             distance: far[furthest],
             relative: far[furthest] / size,
-            sample: is.samples[furthest],
-            input: is.input[furthest],
-            was: coordinates(was.points[furthest]),
-            is: coordinates(is.points[furthest]),
-            moved,
-            of: far.len(),
-            apart: apart(),
+            sample: is.sample_numbers[furthest],
+            input: is.inputs[furthest],
+            recorded: coordinates(was.points[furthest]),
+            current: coordinates(is.points[furthest]),
+            moved_samples: moved,
+            total_samples: far.len(),
+            hausdorff_distance: apart(),
         }));
     }
-    for ((name, _), (was, now)) in names.iter().zip(was.further.iter().zip(&is.further)) {
-        let off = |k: usize| difference([was[k], now[k]], 1.0);
+    for ((name, _), (was, now)) in names.iter().zip(was.further_columns.iter().zip(&is.further_columns)) {
+        let off = |k: usize| relative_difference([was[k], now[k]], 1.0);
         let worst = (0..now.len()).max_by(|&a, &b| off(a).total_cmp(&off(b)));
         if let Some(k) = worst.filter(|&k| off(k) > tolerances.measure_rtol) {
-            changes.push(Change::Column { name: name.clone(), sample: is.samples[k], was: was[k], is: now[k] });
+            changes.push(Change::Column {
+                name: name.clone(),
+                sample: is.sample_numbers[k],
+                recorded: was[k],
+                current: now[k],
+            });
         }
     }
     changes
 }
 
 /// By how much two values differ, in parts of the greater, or of `least` if that is more; infinitely if one is missing.
-pub(super) fn difference([was, is]: [f64; 2], least: f64) -> f64 {
+pub(super) fn relative_difference([was, is]: [f64; 2], least: f64) -> f64 {
     match (was.is_nan(), is.is_nan()) {
         (true, true) => 0.0,
         (false, false) if was == is => 0.0,
@@ -116,7 +122,12 @@ pub(super) fn difference([was, is]: [f64; 2], least: f64) -> f64 {
 }
 
 /// Whether a curve has the same points in the other direction, or from another on.
-fn turned(was: &Track, is: &Track, closed: bool, is_same: impl Fn(Point, Point) -> bool) -> Option<Change> {
+fn find_reordering(
+    was: &CurveSamples,
+    is: &CurveSamples,
+    closed: bool,
+    is_same: impl Fn(Point, Point) -> bool,
+) -> Option<Change> {
     let n = is.len();
     if was.len() != n || n < 3 {
         return None;
@@ -133,14 +144,18 @@ fn turned(was: &Track, is: &Track, closed: bool, is_same: impl Fn(Point, Point) 
 }
 
 /// The places of samples that have one input, in order, in both curves.
-fn common(was: &Track, is: &Track, is_same_input: impl Fn(f64, f64) -> bool) -> Vec<(usize, usize)> {
+fn match_inputs(
+    was: &CurveSamples,
+    is: &CurveSamples,
+    is_same_input: impl Fn(f64, f64) -> bool,
+) -> Vec<(usize, usize)> {
     /// A sample that was put in or left out puts the others off by no more than this.
-    const FURTHEST: usize = 64;
+    const MAX_SHIFT: usize = 64;
     let mut pairs = Vec::new();
     let mut next = 0;
     for k in 0..was.len() {
-        let ahead = next..is.len().min(next + FURTHEST);
-        if let Some(at) = ahead.into_iter().find(|&at| is_same_input(was.input[k], is.input[at])) {
+        let ahead = next..is.len().min(next + MAX_SHIFT);
+        if let Some(at) = ahead.into_iter().find(|&at| is_same_input(was.inputs[k], is.inputs[at])) {
             pairs.push((k, at));
             next = at + 1;
         }

@@ -4,118 +4,119 @@ use coupler_curves::solve;
 use std::convert::Infallible;
 use std::path::Path;
 
-use super::cells::Pair;
-use super::circuits::matched;
-use super::curve::{Fresh, compare};
-use super::finding::{Change, Finding, Place};
-use super::numbering::{Numbering, Recorded};
-use super::pages::{Page, Pages};
+use super::cells::CurvePair;
+use super::curve::{CurrentCurve, compare_curves};
+use super::curve_samples::CurveSamples;
+use super::finding::{Change, Finding, Location};
+use super::matching::match_curves;
+use super::numbering::{CellNumbering, RecordedNumber};
+use super::pages::{PageFindings, RecordedPages};
 use super::tables::Tables;
-use super::track::Track;
 use crate::manifest::Tolerances;
-use crate::press::{Hand, Leaf, Press};
-use crate::record::{FamilyRecord, Flaw, rows};
+use crate::pipeline::{FamilyPipeline, PageJob, Sink};
+use crate::record::{FamilyRecord, TableError, parse_rows};
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{Curve, Solved};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// A family that is held against its record.
-pub(super) struct Checked<'a> {
-    press: &'a Press<'a>,
-    place: Place,
+pub(super) struct FamilyCheck<'a> {
+    pipeline: &'a FamilyPipeline<'a>,
+    location: Location,
     tolerances: Tolerances,
     tables: Tables<'a>,
-    pages: Pages<'a>,
-    numbering: Numbering,
+    pages: RecordedPages<'a>,
+    numbering: CellNumbering,
 }
 
 /// What is found of some cells.
 #[derive(Default)]
-pub(super) struct Held {
+pub(super) struct CellFindings {
     pub findings: Vec<Finding>,
     /// The cells that are not as they were.
-    pub changed: Vec<usize>,
+    pub changed_cells: Vec<usize>,
     /// How many curves were held against recorded ones.
-    pub curves: usize,
+    pub curve_count: usize,
 }
 
-impl<'a> Checked<'a> {
+impl<'a> FamilyCheck<'a> {
     /// Opens what is recorded of a family, and tells what is wrong with it as a whole.
     pub fn open(
-        press: &'a Press<'a>,
+        press: &'a FamilyPipeline<'a>,
         record: &'a FamilyRecord,
         output: &'a Path,
         tolerances: Tolerances,
         findings: &mut Vec<Finding>,
-    ) -> Checked<'a> {
+    ) -> FamilyCheck<'a> {
         let family = &press.composer.planned.family;
-        let place = Place::family(&family.id);
+        let place = Location::in_family(&family.id);
         if record.linkage != family.template.id {
             let (what, was, is) = ("the linkage".to_owned(), record.linkage.clone(), family.template.id.clone());
-            findings.push(place.has(Change::FamilyChanged { what, was, is }));
+            findings.push(place.finding(Change::FamilyChanged { what, recorded: was, current: is }));
         }
-        if record.pages != press.setting.pages {
-            findings.push(place.has(Change::Pages { was: record.pages, is: press.setting.pages }));
+        if record.pages != press.pagination.page_count {
+            findings
+                .push(place.finding(Change::Pages { recorded: record.pages, current: press.pagination.page_count }));
         }
         let tables = Tables::open(press, record, output, findings);
-        let numbering = Numbering::of(press, &tables, findings);
-        let pages = Pages::new(press, record, output);
-        Checked { press, place, tolerances, tables, pages, numbering }
+        let numbering = CellNumbering::from_tables(press, &tables, findings);
+        let pages = RecordedPages::new(press, record, output);
+        FamilyCheck { pipeline: press, location: place, tolerances, tables, pages, numbering }
     }
 
     /// Holds a cell against its recorded rows.
-    fn cell(&self, solved: &Solved, held: &mut Held) -> Result<(), Flaw> {
+    fn check_cell(&self, solved: &SolvedCell, held: &mut CellFindings) -> Result<(), TableError> {
         let number = solved.cell.number;
-        let place = self.place.cell(number);
-        let recorded = match self.numbering.recorded(number) {
-            Recorded::Unknown => return Ok(()),
-            Recorded::Nowhere => {
-                held.findings.push(place.has(Change::CellAdded));
+        let place = self.location.with_cell(number);
+        let recorded = match self.numbering.recorded_number(number) {
+            RecordedNumber::Unknown => return Ok(()),
+            RecordedNumber::Missing => {
+                held.findings.push(place.finding(Change::CellAdded));
                 return Ok(());
             }
-            Recorded::As(recorded) => recorded,
+            RecordedNumber::Known(recorded) => recorded,
         };
-        let [points, cells] = self.tables.fresh(solved);
-        let is_same = self.tables.is_same(recorded, [&points, &cells]);
+        let [points, cells] = self.tables.current_rows(solved);
+        let is_same = self.tables.rows_match(recorded, [&points, &cells]);
         if is_same == [true, true] {
-            held.curves += solved.curves.len();
+            held.curve_count += solved.curves.len();
             return Ok(());
         }
         if recorded != number {
-            held.findings.push(place.has(Change::CellRenumbered { was: recorded }));
+            held.findings.push(place.finding(Change::CellRenumbered { recorded }));
         }
         let curves = if is_same[0] {
-            let own = |curve: &Curve| {
+            let own = |curve: &MeasuredCurve| {
                 let key = (curve.trace, curve.circuit);
-                Pair { was: key, is: key, size: f64::NAN }
+                CurvePair { recorded: key, current: key, size: f64::NAN }
             };
             solved.curves.iter().map(own).collect()
         } else {
-            self.points(&place, (solved, &points), recorded, held)?
+            self.check_points(&place, (solved, &points), recorded, held)?
         };
-        held.curves += curves.len();
+        held.curve_count += curves.len();
         if is_same[1] {
             return Ok(());
         }
-        let Some((columns, was)) = self.tables.cells(recorded)? else { return Ok(()) };
-        let is = rows(&cells, 1, self.tables.width_of_cells())?;
-        columns.compare(&place, [&was, &is], &curves, &self.tolerances, &mut held.findings)
+        let Some((columns, was)) = self.tables.cell_rows(recorded)? else { return Ok(()) };
+        let is = parse_rows(&cells, 1, self.tables.cell_column_count())?;
+        columns.compare_rows(&place, [&was, &is], &curves, &self.tolerances, &mut held.findings)
     }
 
     /// Holds the curves of a cell against its recorded points, and tells which was held against which.
-    fn points(
+    fn check_points(
         &self,
-        place: &Place,
-        (solved, fresh): (&Solved, &[u8]),
+        place: &Location,
+        (solved, fresh): (&SolvedCell, &[u8]),
         recorded: usize,
-        held: &mut Held,
-    ) -> Result<Vec<Pair>, Flaw> {
-        let Some([mut was, is]) = self.tables.tracks(recorded, fresh)? else { return Ok(Vec::new()) };
+        held: &mut CellFindings,
+    ) -> Result<Vec<CurvePair>, TableError> {
+        let Some([mut was, is]) = self.tables.curves(recorded, fresh)? else { return Ok(Vec::new()) };
         let mut missing = Vec::new();
         for track in &mut was {
-            let disorder = track.put_in_order();
-            let of = place.curve(track.trace, track.circuit);
-            for wrong in disorder.wrongs() {
-                held.findings.push(of.has(Change::Damaged { wrong }));
+            let disorder = track.sort_samples();
+            let of = place.with_curve(track.trace, track.circuit);
+            for wrong in disorder.messages() {
+                held.findings.push(of.finding(Change::Damaged { message: wrong }));
             }
             missing.push(disorder.missing);
         }
@@ -124,72 +125,79 @@ impl<'a> Checked<'a> {
         traces.sort_unstable();
         traces.dedup();
         for trace in traces {
-            let of =
-                |tracks: &[Track]| -> Vec<usize> { (0..tracks.len()).filter(|&k| tracks[k].trace == trace).collect() };
+            let of = |tracks: &[CurveSamples]| -> Vec<usize> {
+                (0..tracks.len()).filter(|&k| tracks[k].trace == trace).collect()
+            };
             let (ours, theirs) = (of(&is), of(&was));
-            let tracks =
-                |all: &[Track], places: &[usize]| -> Vec<Track> { places.iter().map(|&k| all[k].clone()).collect() };
+            let tracks = |all: &[CurveSamples], places: &[usize]| -> Vec<CurveSamples> {
+                places.iter().map(|&k| all[k].clone()).collect()
+            };
             let (olds, news) = (tracks(&was, &theirs), tracks(&is, &ours));
-            let matching = matched(&olds, &news);
-            let lost = matching.lost.into_iter().map(|(a, change)| (olds[a].circuit, change));
-            let found = matching.found.into_iter().map(|(b, change)| (news[b].circuit, change));
-            held.findings.extend(lost.chain(found).map(|(circuit, change)| place.curve(trace, circuit).has(change)));
+            let matching = match_curves(&olds, &news);
+            let lost = matching.recorded_changes.into_iter().map(|(a, change)| (olds[a].circuit, change));
+            let found = matching.current_changes.into_iter().map(|(b, change)| (news[b].circuit, change));
+            held.findings
+                .extend(lost.chain(found).map(|(circuit, change)| place.with_curve(trace, circuit).finding(change)));
             for [a, b] in matching.pairs {
                 let (old, new) = (&olds[a], &news[b]);
-                pairs.push(Pair { was: (trace, old.circuit), is: (trace, new.circuit), size: new.size() });
-                let is_ours = |curve: &&Curve| curve.trace == trace && curve.circuit == new.circuit;
+                pairs.push(CurvePair {
+                    recorded: (trace, old.circuit),
+                    current: (trace, new.circuit),
+                    size: new.size(),
+                });
+                let is_ours = |curve: &&MeasuredCurve| curve.trace == trace && curve.circuit == new.circuit;
                 let Some(curve) = solved.curves.iter().find(is_ours) else { continue };
-                let fresh = Fresh { track: new, solved, curve };
+                let fresh = CurrentCurve { samples: new, solved, curve };
                 let left_out = missing[theirs[a]].clone();
-                let changes = compare(old, fresh, (left_out, self.tables.further()), &self.tolerances);
-                let curve = place.curve(trace, new.circuit);
-                held.findings.extend(changes.into_iter().map(|change| curve.has(change)));
+                let changes = compare_curves(old, fresh, (left_out, self.tables.further_columns()), &self.tolerances);
+                let curve = place.with_curve(trace, new.circuit);
+                held.findings.extend(changes.into_iter().map(|change| curve.finding(change)));
             }
         }
         Ok(pairs)
     }
 
     /// The recorded curves of a cell, by its present number, and that cell; nothing where they cannot be read.
-    pub fn both(&self, number: usize) -> Option<(Vec<Track>, Solved)> {
-        let Recorded::As(recorded) = self.numbering.recorded(number) else { return None };
-        let family = &self.press.composer.planned.family;
-        let solved = solve::solve(family, &Sampler::new(family.sampling), number.checked_sub(1)?)?;
-        Some((self.tables.recorded_tracks(recorded)?, solved))
+    pub fn recorded_and_current(&self, number: usize) -> Option<(Vec<CurveSamples>, SolvedCell)> {
+        let RecordedNumber::Known(recorded) = self.numbering.recorded_number(number) else { return None };
+        let family = &self.pipeline.composer.planned.family;
+        let solved = solve::solve_cell(family, &Sampler::new(family.sampling), number.checked_sub(1)?)?;
+        Some((self.tables.recorded_curves(recorded)?, solved))
     }
 
     /// The findings on pages, when it is known which cells have changed.
-    pub fn on_pages(&self, pages: Vec<Page>, changed: &[usize]) -> Vec<Finding> {
+    pub fn page_findings(&self, pages: Vec<PageFindings>, changed: &[usize]) -> Vec<Finding> {
         self.pages.findings(pages, changed)
     }
 }
 
-impl Hand for Checked<'_> {
-    type Cells = Held;
-    type Page = Page;
+impl Sink for FamilyCheck<'_> {
+    type CellsOutput = CellFindings;
+    type PageOutput = PageFindings;
     type Error = Infallible;
 
-    fn cells(&self, solved: &[Solved]) -> Result<Held, Infallible> {
-        let mut held = Held::default();
+    fn receive_cells(&self, solved: &[SolvedCell]) -> Result<CellFindings, Infallible> {
+        let mut held = CellFindings::default();
         for solved in solved.iter().filter(|solved| !solved.is_left_out()) {
             let before = held.findings.len();
-            if let Err(flaw) = self.cell(solved, &mut held) {
-                let place = self.place.cell(solved.cell.number);
-                held.findings.push(place.has(Change::Damaged { wrong: flaw.to_string() }));
+            if let Err(flaw) = self.check_cell(solved, &mut held) {
+                let place = self.location.with_cell(solved.cell.number);
+                held.findings.push(place.finding(Change::Damaged { message: flaw.to_string() }));
             }
             if held.findings.len() > before {
-                held.changed.push(solved.cell.number);
+                held.changed_cells.push(solved.cell.number);
             }
         }
         Ok(held)
     }
 
-    fn page(&self, leaf: Leaf) -> Result<Page, Infallible> {
+    fn receive_page(&self, leaf: PageJob) -> Result<PageFindings, Infallible> {
         // Pages tell of cells by the numbers under which they are recorded.
-        Ok(self.pages.check(leaf, |cell| self.tables.recorded_tracks(cell)))
+        Ok(self.pages.check_page(leaf, |cell| self.tables.recorded_curves(cell)))
     }
 
     /// Two pages of text, and the rows of the cells on them.
-    fn bytes(&self) -> usize {
+    fn bytes_per_page(&self) -> usize {
         4 << 20
     }
 }

@@ -9,7 +9,7 @@ use coupler_curves::geometry::Point;
 pub struct Finding {
     /// Where.
     #[serde(flatten)]
-    pub place: Place,
+    pub location: Location,
     /// What.
     #[serde(flatten)]
     pub change: Change,
@@ -17,7 +17,7 @@ pub struct Finding {
 
 /// Where something is not as it was recorded.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Place {
+pub struct Location {
     /// The family's id; empty for the atlas as a whole.
     pub family: String,
     /// A file, from the atlas's folder.
@@ -36,7 +36,7 @@ pub struct Place {
 
 /// How much a curve's points have moved.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Move {
+pub struct Displacement {
     /// How far the point has moved that has moved furthest, in the manifest's unit; infinite where it had no place, or
     /// has none now.
     pub distance: f64,
@@ -47,15 +47,20 @@ pub struct Move {
     /// The input there: degrees, or an actuator's length.
     pub input: f64,
     /// Where it was.
-    pub was: [f64; 2],
+    #[serde(rename = "was")]
+    pub recorded: [f64; 2],
     /// Where it is.
-    pub is: [f64; 2],
+    #[serde(rename = "is")]
+    pub current: [f64; 2],
     /// How many samples have moved by more than the tolerance.
-    pub moved: usize,
+    #[serde(rename = "moved")]
+    pub moved_samples: usize,
     /// Of how many.
-    pub of: usize,
+    #[serde(rename = "of")]
+    pub total_samples: usize,
     /// How far the two curves are apart as sets of points: near nothing where points have moved along the curve only.
-    pub apart: f64,
+    #[serde(rename = "apart")]
+    pub hausdorff_distance: f64,
 }
 
 /// What is not as it was recorded. `was` is what is recorded, `is` what comes out now.
@@ -65,7 +70,8 @@ pub enum Change {
     /// A file cannot be used, or not all of it.
     Damaged {
         /// What is wrong with it.
-        wrong: String,
+        #[serde(rename = "wrong")]
+        message: String,
     },
     /// A file is not the one that was recorded.
     Altered,
@@ -80,9 +86,11 @@ pub enum Change {
         /// What of it: its linkage, the names of its parameters, its columns.
         what: String,
         /// What is recorded.
-        was: String,
+        #[serde(rename = "was")]
+        recorded: String,
         /// What it is.
-        is: String,
+        #[serde(rename = "is")]
+        current: String,
     },
     /// A cell is not recorded.
     CellAdded,
@@ -91,30 +99,37 @@ pub enum Change {
     /// A cell is recorded under another number.
     CellRenumbered {
         /// Its recorded number.
-        was: usize,
+        #[serde(rename = "was")]
+        recorded: usize,
     },
     /// A cell has other parameters.
     Parameter {
         /// The parameter's name.
         name: String,
         /// What is recorded.
-        was: f64,
+        #[serde(rename = "was")]
+        recorded: f64,
         /// What it is.
-        is: f64,
+        #[serde(rename = "is")]
+        current: f64,
     },
     /// A cell is assembled over more or less than is recorded.
     Status {
         /// What is recorded.
-        was: String,
+        #[serde(rename = "was")]
+        recorded: String,
         /// What it is, with the reason.
-        is: String,
+        #[serde(rename = "is")]
+        current: String,
     },
     /// A linkage is of another class.
     Class {
         /// What is recorded.
-        was: String,
+        #[serde(rename = "was")]
+        recorded: String,
         /// What it is.
-        is: String,
+        #[serde(rename = "is")]
+        current: String,
     },
     /// One circuit has become several.
     CircuitSplit {
@@ -140,18 +155,22 @@ pub enum Change {
     /// A circuit is recorded under another number.
     CircuitRenumbered {
         /// Its recorded number.
-        was: usize,
+        #[serde(rename = "was")]
+        recorded: usize,
     },
     /// A curve is sampled more or less often, or at other inputs.
     Samples {
         /// How many are recorded.
-        was: usize,
+        #[serde(rename = "was")]
+        recorded: usize,
         /// How many there are.
-        is: usize,
+        #[serde(rename = "is")]
+        current: usize,
         /// The numbers that are missing in the record where the others are there, the first few.
         missing: Vec<usize>,
         /// How far the curves are apart as sets: near nothing where only the sampling has changed.
-        apart: f64,
+        #[serde(rename = "apart")]
+        hausdorff_distance: f64,
     },
     /// A sample is on the other side of a two-valued joint.
     Branch {
@@ -162,12 +181,14 @@ pub enum Change {
         /// How many such samples there are.
         samples: usize,
         /// What is recorded.
-        was: i64,
+        #[serde(rename = "was")]
+        recorded: i64,
         /// What it is.
-        is: i64,
+        #[serde(rename = "is")]
+        current: i64,
     },
     /// A curve has moved.
-    Moved(Move),
+    Moved(Displacement),
     /// A further column of `points.csv` has other values.
     Column {
         /// Its name.
@@ -175,18 +196,22 @@ pub enum Change {
         /// Where it differs most.
         sample: usize,
         /// What is recorded.
-        was: f64,
+        #[serde(rename = "was")]
+        recorded: f64,
         /// What it is.
-        is: f64,
+        #[serde(rename = "is")]
+        current: f64,
     },
     /// A measure is another one.
     Measure {
         /// Its name.
         name: String,
         /// What is recorded.
-        was: String,
+        #[serde(rename = "was")]
+        recorded: String,
         /// What it is.
-        is: String,
+        #[serde(rename = "is")]
+        current: String,
         /// By how much it differs, in parts of itself; infinite of words, and of what is missing.
         relative: f64,
     },
@@ -195,9 +220,11 @@ pub enum Change {
     /// A page is recorded that there is no more, or not recorded though there is one.
     Pages {
         /// How many are recorded.
-        was: usize,
+        #[serde(rename = "was")]
+        recorded: usize,
         /// How many there are.
-        is: usize,
+        #[serde(rename = "is")]
+        current: usize,
     },
     /// A page shows a curve where its recorded points are not.
     DrawnOff {
@@ -247,7 +274,7 @@ impl Change {
 
     /// What is told first, worst first: what keeps anything from being compared, what is there or not, what a linkage
     /// can do, where its points are, what is measured, what is drawn. Within one rank, by how much.
-    pub fn severity(&self) -> (usize, f64) {
+    pub fn sort_key(&self) -> (usize, f64) {
         const ORDER: [&[&str]; 9] = [
             &["damaged"],
             &["family-removed", "family-added", "family-changed"],
@@ -264,41 +291,41 @@ impl Change {
             Change::Moved(by) => by.relative,
             Change::Measure { relative, .. } => *relative,
             Change::DrawnOff { distance_mm } => *distance_mm,
-            Change::Samples { apart, .. } => *apart,
+            Change::Samples { hausdorff_distance: apart, .. } => *apart,
             _ => 0.0,
         };
         (rank, -size)
     }
 }
 
-impl Place {
+impl Location {
     /// A family.
-    pub fn family(id: &str) -> Place {
-        Place { family: id.to_owned(), ..Place::default() }
+    pub fn in_family(id: &str) -> Location {
+        Location { family: id.to_owned(), ..Location::default() }
     }
 
     /// A file of it.
-    pub fn file(&self, name: &str) -> Place {
-        Place { file: Some(name.to_owned()), ..self.clone() }
+    pub fn with_file(&self, name: &str) -> Location {
+        Location { file: Some(name.to_owned()), ..self.clone() }
     }
 
     /// A cell of it.
-    pub fn cell(&self, cell: usize) -> Place {
-        Place { cell: Some(cell), ..self.clone() }
+    pub fn with_cell(&self, cell: usize) -> Location {
+        Location { cell: Some(cell), ..self.clone() }
     }
 
     /// A curve of the cell.
-    pub fn curve(&self, trace: usize, circuit: usize) -> Place {
-        Place { trace: Some(trace), circuit: Some(circuit), ..self.clone() }
+    pub fn with_curve(&self, trace: usize, circuit: usize) -> Location {
+        Location { trace: Some(trace), circuit: Some(circuit), ..self.clone() }
     }
 
     /// Something that is not as it was recorded there.
-    pub fn has(&self, change: Change) -> Finding {
-        Finding { place: self.clone(), change }
+    pub fn finding(&self, change: Change) -> Finding {
+        Finding { location: self.clone(), change }
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let mut parts = Vec::new();
         match &self.file {
@@ -315,56 +342,56 @@ impl fmt::Display for Place {
 }
 
 /// "no points", "1 point", "2 points".
-fn count(n: usize, thing: &str) -> String {
+fn pluralize(n: usize, thing: &str) -> String {
     format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
 }
 
-fn list(numbers: &[usize]) -> String {
+fn comma_separated(numbers: &[usize]) -> String {
     numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// How far curves are apart, in a few digits.
-fn apart(distance: f64) -> String {
+fn format_distance(distance: f64) -> String {
     if distance == 0.0 { "not at all".to_owned() } else { format!("by {distance:.3e}") }
 }
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Change::Damaged { wrong } => write!(f, "{wrong}"),
+            Change::Damaged { message: wrong } => write!(f, "{wrong}"),
             Change::Altered => write!(f, "is not the file that was recorded"),
             Change::Rewritten => write!(f, "has other line ends or a byte order mark; nothing else has changed"),
             Change::FamilyAdded => write!(f, "the family is not recorded"),
             Change::FamilyRemoved => write!(f, "the family is recorded and no longer in the manifest"),
-            Change::FamilyChanged { what, was, is } => write!(f, "{what} was {was} and is {is}"),
+            Change::FamilyChanged { what, recorded: was, current: is } => write!(f, "{what} was {was} and is {is}"),
             Change::CellAdded => write!(f, "the cell is not recorded"),
             Change::CellRemoved => write!(f, "the cell is recorded and there no more"),
-            Change::CellRenumbered { was } => write!(f, "the cell is recorded as cell {was}"),
-            Change::Parameter { name, was, is } => write!(f, "{name} was {was} and is {is}"),
-            Change::Status { was, is } => write!(f, "status was {was} and is {is}"),
-            Change::Class { was, is } => write!(f, "the linkage was a {was} and is a {is}"),
-            Change::CircuitSplit { into } => write!(f, "the circuit has split into circuits {}", list(into)),
-            Change::CircuitJoined { from } => write!(f, "circuits {} have joined", list(from)),
+            Change::CellRenumbered { recorded: was } => write!(f, "the cell is recorded as cell {was}"),
+            Change::Parameter { name, recorded: was, current: is } => write!(f, "{name} was {was} and is {is}"),
+            Change::Status { recorded: was, current: is } => write!(f, "status was {was} and is {is}"),
+            Change::Class { recorded: was, current: is } => write!(f, "the linkage was a {was} and is a {is}"),
+            Change::CircuitSplit { into } => write!(f, "the circuit has split into circuits {}", comma_separated(into)),
+            Change::CircuitJoined { from } => write!(f, "circuits {} have joined", comma_separated(from)),
             Change::CircuitLost => write!(f, "the circuit is recorded and there no more"),
             Change::CircuitAdded => write!(f, "the circuit is not recorded"),
             Change::CircuitReversed => write!(f, "the circuit is recorded the other way round"),
-            Change::CircuitShifted { by } => write!(f, "the circuit is recorded from {} on", count(*by, "sample")),
-            Change::CircuitRenumbered { was } => write!(f, "the circuit is recorded as circuit {was}"),
-            Change::Samples { was, is, missing, apart: by } => {
+            Change::CircuitShifted { by } => write!(f, "the circuit is recorded from {} on", pluralize(*by, "sample")),
+            Change::CircuitRenumbered { recorded: was } => write!(f, "the circuit is recorded as circuit {was}"),
+            Change::Samples { recorded: was, current: is, missing, hausdorff_distance: by } => {
                 match was == is {
                     true => write!(f, "{is} samples at other inputs")?,
-                    false => write!(f, "{} recorded, and there are {is}", count(*was, "sample"))?,
+                    false => write!(f, "{} recorded, and there are {is}", pluralize(*was, "sample"))?,
                 }
                 if !missing.is_empty() {
-                    write!(f, " (missing: {})", list(missing))?;
+                    write!(f, " (missing: {})", comma_separated(missing))?;
                 }
-                write!(f, "; the curves are apart {}", apart(*by))
+                write!(f, "; the curves are apart {}", format_distance(*by))
             }
-            Change::Branch { sample, input, samples, was, is } => {
+            Change::Branch { sample, input, samples, recorded: was, current: is } => {
                 write!(
                     f,
                     "{} on branch {is} instead of {was}, from sample {sample} at input {input}",
-                    count(*samples, "sample")
+                    pluralize(*samples, "sample")
                 )
             }
             Change::Moved(by) => write!(
@@ -374,18 +401,22 @@ impl fmt::Display for Change {
                 by.relative,
                 by.sample,
                 by.input,
-                by.moved,
-                by.of,
-                apart(by.apart)
+                by.moved_samples,
+                by.total_samples,
+                format_distance(by.hausdorff_distance)
             ),
-            Change::Column { name, sample, was, is } => write!(f, "{name} was {was} and is {is} at sample {sample}"),
-            Change::Measure { name, was, is, relative } => {
+            Change::Column { name, sample, recorded: was, current: is } => {
+                write!(f, "{name} was {was} and is {is} at sample {sample}")
+            }
+            Change::Measure { name, recorded: was, current: is, relative } => {
                 let shown = |text: &str| if text.is_empty() { "missing".to_owned() } else { text.to_owned() };
                 write!(f, "{name} was {} and is {}", shown(was), shown(is))?;
                 if relative.is_finite() { write!(f, ", {relative:.1e} of it") } else { Ok(()) }
             }
             Change::Drawing => write!(f, "is drawn otherwise now; its curves are the same"),
-            Change::Pages { was, is } => write!(f, "{} recorded, and there are {is}", count(*was, "page")),
+            Change::Pages { recorded: was, current: is } => {
+                write!(f, "{} recorded, and there are {is}", pluralize(*was, "page"))
+            }
             Change::DrawnOff { distance_mm } => {
                 write!(f, "the curve is drawn {distance_mm:.3} mm from its recorded points")
             }

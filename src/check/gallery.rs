@@ -4,23 +4,23 @@
 use std::io;
 use std::path::Path;
 
-use super::finding::{Change, Finding, Place};
-use super::tables::altered;
-use crate::record::{FileRecord, Flaw, LineDigests, open_plain};
+use super::finding::{Change, Finding, Location};
+use super::tables::file_change;
+use crate::record::{FileRecord, TableError, TextDigests, open_regular_file};
 
 /// What has become of a file of the gallery, by its name within the atlas's folder.
-pub(super) fn differs(output: &Path, name: &str, record: &FileRecord) -> Option<Finding> {
+pub(super) fn check_file(output: &Path, name: &str, record: &FileRecord) -> Option<Finding> {
     let change = match digests(&output.join(name)) {
-        Ok(digests) => altered(Some(record), &digests),
-        Err(flaw) => Some(Change::Damaged { wrong: flaw.to_string() }),
+        Ok(digests) => file_change(Some(record), &digests),
+        Err(flaw) => Some(Change::Damaged { message: flaw.to_string() }),
     };
-    change.map(|change| Place::default().file(name).has(change))
+    change.map(|change| Location::default().with_file(name).finding(change))
 }
 
 /// The digests of a file.
-fn digests(path: &Path) -> Result<[String; 2], Flaw> {
-    let mut digests = LineDigests::default();
-    let read = io::copy(&mut open_plain(path, u64::MAX)?, &mut digests);
-    read.map_err(|error| Flaw::Unreadable(error.to_string()))?;
+fn digests(path: &Path) -> Result<[String; 2], TableError> {
+    let mut digests = TextDigests::default();
+    let read = io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digests);
+    read.map_err(|error| TableError::Unreadable(error.to_string()))?;
     Ok(digests.finish())
 }

@@ -4,21 +4,21 @@
 //! byte first, and what differs there by its numbers. A recorded atlas is input like any other: whatever is in it, there
 //! is a finding and no panic, and memory stays bounded.
 
-mod apart;
 mod cells;
-mod circuits;
 mod curve;
+mod curve_samples;
 mod family;
 mod finding;
 mod gallery;
+mod hausdorff;
+mod matching;
 mod numbering;
 mod overlays;
 mod pages;
 mod tables;
-mod track;
 
-pub use finding::{Change, Finding, Move, Place};
-pub use overlays::{Overlay, overlays};
+pub use finding::{Change, Displacement, Finding, Location};
+pub use overlays::{Overlay, draw_overlays};
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
@@ -28,11 +28,11 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
-use crate::gallery::{PAGE, SCRIPT};
-use crate::manifest::{GivenTolerances, Plan, PlannedFamily};
-use crate::press::{Off, Press};
-use crate::record::{FamilyRecord, LOCK, ReadError, Run};
-use family::Checked;
+use crate::gallery::{PAGE_FILE, SCRIPT_FILE};
+use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
+use crate::pipeline::{FamilyPipeline, Output};
+use crate::record::{FamilyRecord, LOCK_FILE_NAME, ReadError, RunRecord};
+use family::FamilyCheck;
 
 /// What is to be checked, and how strictly.
 #[derive(Clone, Debug, Default)]
@@ -40,7 +40,7 @@ pub struct Options {
     /// The families to check; all where empty.
     pub only: Vec<String>,
     /// Tolerances that count in place of the manifest's.
-    pub tolerances: GivenTolerances,
+    pub tolerances: PartialTolerances,
 }
 
 /// Something that happened while checking.
@@ -105,21 +105,21 @@ impl Report {
     }
 
     /// So many findings of a family are kept.
-    const KEPT: usize = 20_000;
+    const MAX_FINDINGS: usize = 20_000;
 
-    fn add(&mut self, mut findings: Vec<Finding>) {
+    fn add_findings(&mut self, mut findings: Vec<Finding>) {
         for finding in &findings {
             *self.counts.entry(finding.change.kind()).or_default() += 1;
         }
-        worst_first(&mut findings);
-        findings.truncate(Report::KEPT);
+        sort_worst_first(&mut findings);
+        findings.truncate(Report::MAX_FINDINGS);
         self.findings.extend(findings);
     }
 }
 
-fn worst_first(findings: &mut [Finding]) {
+fn sort_worst_first(findings: &mut [Finding]) {
     findings.sort_by(|a, b| {
-        let ((rank, size), (other_rank, other_size)) = (a.change.severity(), b.change.severity());
+        let ((rank, size), (other_rank, other_size)) = (a.change.sort_key(), b.change.sort_key());
         rank.cmp(&other_rank).then(size.total_cmp(&other_size))
     });
 }
@@ -128,42 +128,47 @@ fn worst_first(findings: &mut [Finding]) {
 ///
 /// # Errors
 /// A record of the atlas that cannot be read.
-pub fn run(plan: &Plan, recorded: &Path, options: &Options, tell: &mut dyn FnMut(Event)) -> Result<Report, Error> {
-    if is_written_to(recorded) {
+pub fn check_atlas(
+    plan: &Plan,
+    recorded: &Path,
+    options: &Options,
+    tell: &mut dyn FnMut(Event),
+) -> Result<Report, Error> {
+    if is_locked(recorded) {
         return Err(Error::Busy { folder: recorded.to_owned() });
     }
     let path = recorded.join("run.json");
-    let record = Run::read(&path).map_err(|source| Error::Record { path, source })?;
+    let record = RunRecord::read(&path).map_err(|source| Error::Record { path, source })?;
     let is_asked = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
     let mut report = Report::default();
     for family in record.families.iter().filter(|family| is_asked(&family.id)) {
         if plan.families.iter().all(|planned| planned.family.id != family.id) {
-            report.add(vec![Place::family(&family.id).has(Change::FamilyRemoved)]);
+            report.add_findings(vec![Location::in_family(&family.id).finding(Change::FamilyRemoved)]);
         }
     }
     if let Some(book) = record.book.as_ref().filter(|_| options.only.is_empty()) {
-        report.add(book.files.iter().filter_map(|file| pages::missing(recorded, &file.name)).collect());
+        report.add_findings(book.files.iter().filter_map(|file| pages::check_volume(recorded, &file.name)).collect());
     }
     if let Some(page) = record.gallery.as_ref().filter(|_| options.only.is_empty()) {
-        report.add(gallery::differs(recorded, PAGE, page).into_iter().collect());
+        report.add_findings(gallery::check_file(recorded, PAGE_FILE, page).into_iter().collect());
     }
     for planned in plan.families.iter().filter(|planned| is_asked(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {
-            Some(of) => family_of(plan, planned, of, recorded, options, &mut report, tell),
-            None => report.add(vec![Place::family(&planned.family.id).has(Change::FamilyAdded)]),
+            Some(of) => check_family(plan, planned, of, recorded, options, &mut report, tell),
+            None => report.add_findings(vec![Location::in_family(&planned.family.id).finding(Change::FamilyAdded)]),
         }
     }
-    worst_first(&mut report.findings);
+    sort_worst_first(&mut report.findings);
     Ok(report)
 }
 
 /// Whether a run has locked a folder; a lock that is left behind locks nothing.
-fn is_written_to(folder: &Path) -> bool {
-    let lock = File::open(folder.join(LOCK));
+fn is_locked(folder: &Path) -> bool {
+    let lock = File::open(folder.join(LOCK_FILE_NAME));
     lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
-fn family_of(
+fn check_family(
     plan: &Plan,
     planned: &PlannedFamily,
     record: &FamilyRecord,
@@ -173,20 +178,20 @@ fn family_of(
     tell: &mut dyn FnMut(Event),
 ) {
     // Nobody stops this.
-    let Some(press) = Press::new(plan, planned, &AtomicBool::new(false)) else { return };
-    tell(Event::Begin { family: &planned.family.id, pages: press.setting.pages });
-    let tolerances = options.tolerances.or(planned.tolerances).complete();
+    let Some(press) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { return };
+    tell(Event::Begin { family: &planned.family.id, pages: press.pagination.page_count });
+    let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
     let mut findings = Vec::new();
-    let checked = Checked::open(&press, record, recorded, tolerances, &mut findings);
+    let checked = FamilyCheck::open(&press, record, recorded, tolerances, &mut findings);
     let (mut changed, mut pages) = (Vec::new(), Vec::new());
     let result = press.run(&checked, |off| {
         match off {
-            Off::Cells(held) => {
+            Output::Cells(held) => {
                 findings.extend(held.findings);
-                changed.extend(held.changed);
-                report.curves += held.curves;
+                changed.extend(held.changed_cells);
+                report.curves += held.curve_count;
             }
-            Off::Page(page) => {
+            Output::Page(page) => {
                 pages.push(page);
                 tell(Event::Page);
             }
@@ -197,10 +202,10 @@ fn family_of(
     let Ok(()) = result;
     report.families += 1;
     report.pages += pages.len();
-    findings.extend(checked.on_pages(pages, &changed));
-    if let Some(script) = record.files.iter().find(|file| file.name == SCRIPT) {
-        findings.extend(gallery::differs(recorded, &format!("{}/{SCRIPT}", planned.family.id), script));
+    findings.extend(checked.page_findings(pages, &changed));
+    if let Some(script) = record.files.iter().find(|file| file.name == SCRIPT_FILE) {
+        findings.extend(gallery::check_file(recorded, &format!("{}/{SCRIPT_FILE}", planned.family.id), script));
     }
-    report.add(findings);
+    report.add_findings(findings);
     tell(Event::End);
 }

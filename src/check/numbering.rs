@@ -2,14 +2,14 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::finding::{Change, Finding, Place};
+use super::finding::{Change, Finding, Location};
 use super::tables::Tables;
-use crate::press::Press;
+use crate::pipeline::FamilyPipeline;
 
 /// The recorded numbers of cells.
-pub(super) struct Numbering {
+pub(super) struct CellNumbering {
     /// Those that are recorded under another number.
-    others: HashMap<usize, usize>,
+    renumbered: HashMap<usize, usize>,
     /// The recorded cells; `None` where nothing is known of them.
     recorded: Option<HashSet<usize>>,
     /// Cells under whose number another cell is recorded.
@@ -18,28 +18,28 @@ pub(super) struct Numbering {
 
 /// Where a cell is recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Recorded {
+pub(super) enum RecordedNumber {
     /// Under this number.
-    As(usize),
+    Known(usize),
     /// Not at all.
-    Nowhere,
+    Missing,
     /// Nobody knows: no table can be read.
     Unknown,
 }
 
-impl Numbering {
+impl CellNumbering {
     /// By parameters; a cell that is recorded under its own number with others has other parameters now, unless those it
     /// had are another cell's. Tells of cells that are no more.
-    pub fn of(press: &Press, tables: &Tables, findings: &mut Vec<Finding>) -> Numbering {
-        let mut numbering = Numbering { others: HashMap::new(), recorded: None, added: HashSet::new() };
-        let Some(numbers) = tables.numbers() else { return numbering };
+    pub fn from_tables(press: &FamilyPipeline, tables: &Tables, findings: &mut Vec<Finding>) -> CellNumbering {
+        let mut numbering = CellNumbering { renumbered: HashMap::new(), recorded: None, added: HashSet::new() };
+        let Some(numbers) = tables.cell_numbers() else { return numbering };
         let family = &press.composer.planned.family;
         let values = |number: usize| -> Option<Vec<u64>> {
-            let (columns, rows) = tables.cells(number).ok()??;
-            let values = columns.recorded(rows.first()?).ok()?;
+            let (columns, rows) = tables.cell_rows(number).ok()??;
+            let values = columns.recorded_parameters(rows.first()?).ok()?;
             Some(values.into_iter().map(f64::to_bits).collect())
         };
-        let names = tables.columns().map(|columns| &columns.parameters);
+        let names = tables.cell_columns().map(|columns| &columns.parameters);
         let slots: Vec<usize> = family
             .template
             .parameters
@@ -76,7 +76,7 @@ impl Numbering {
         for &number in present.iter().filter(|number| !recorded.contains(number) || differs.contains(number)) {
             match free.get_mut(&now(number)).filter(|_| !slots.is_empty()).and_then(Vec::pop) {
                 Some(was) => {
-                    numbering.others.insert(number, was);
+                    numbering.renumbered.insert(number, was);
                     taken.insert(was);
                 }
                 None => open.push(number),
@@ -88,21 +88,22 @@ impl Numbering {
             }
             numbering.added.insert(number);
         }
-        let place = Place::family(&family.id);
+        let place = Location::in_family(&family.id);
         let is_gone = |number: &&usize| !taken.contains(number) && (!kept.contains(number) || differs.contains(number));
-        findings.extend(numbers.iter().filter(is_gone).map(|&number| place.cell(number).has(Change::CellRemoved)));
+        findings
+            .extend(numbers.iter().filter(is_gone).map(|&number| place.with_cell(number).finding(Change::CellRemoved)));
         numbering.recorded = Some(recorded);
         numbering
     }
 
     /// Where a cell is recorded.
-    pub fn recorded(&self, number: usize) -> Recorded {
-        match (&self.recorded, self.others.get(&number)) {
-            (None, _) => Recorded::Unknown,
-            (_, Some(&other)) => Recorded::As(other),
-            (Some(_), None) if self.added.contains(&number) => Recorded::Nowhere,
-            (Some(recorded), None) if recorded.contains(&number) => Recorded::As(number),
-            _ => Recorded::Nowhere,
+    pub fn recorded_number(&self, number: usize) -> RecordedNumber {
+        match (&self.recorded, self.renumbered.get(&number)) {
+            (None, _) => RecordedNumber::Unknown,
+            (_, Some(&other)) => RecordedNumber::Known(other),
+            (Some(_), None) if self.added.contains(&number) => RecordedNumber::Missing,
+            (Some(recorded), None) if recorded.contains(&number) => RecordedNumber::Known(number),
+            _ => RecordedNumber::Missing,
         }
     }
 }

@@ -4,14 +4,14 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use super::family::Checked;
+use super::family::FamilyCheck;
 use super::{Change, Finding, Options, Report};
 use crate::manifest::Plan;
-use crate::press::Press;
-use crate::record::Run;
+use crate::pipeline::FamilyPipeline;
+use crate::record::RunRecord;
 use coupler_curves::geometry::Point;
-use coupler_curves::motion::{self, Dashes};
-use coupler_drawing::page::{self, OverlaySheet};
+use coupler_curves::motion::{self, DashPattern};
+use coupler_drawing::page::{self, OverlayPage};
 use coupler_drawing::render;
 
 /// A page that shows how a curve has moved.
@@ -26,7 +26,7 @@ pub struct Overlay<'r> {
 }
 
 /// Draws a page for each curve that has moved, or is sampled otherwise, in a report on an atlas: of the worst, so many.
-pub fn overlays<'r>(
+pub fn draw_overlays<'r>(
     plan: &Plan,
     recorded: &Path,
     (options, report): (&Options, &'r Report),
@@ -37,52 +37,52 @@ pub fn overlays<'r>(
     let mut wanted: Vec<&Finding> = report.findings.iter().filter(is_of_a_curve).collect();
     // A curve that is sampled otherwise and has moved is one.
     let mut seen = HashSet::new();
-    wanted.retain(|finding| seen.insert(finding.place.to_string()));
+    wanted.retain(|finding| seen.insert(finding.location.to_string()));
     wanted.truncate(most);
-    let Ok(run) = Run::read(&recorded.join("run.json")) else { return };
+    let Ok(run) = RunRecord::read(&recorded.join("run.json")) else { return };
     for planned in &plan.families {
-        let ours: Vec<&Finding> = wanted.iter().copied().filter(|f| f.place.family == planned.family.id).collect();
+        let ours: Vec<&Finding> = wanted.iter().copied().filter(|f| f.location.family == planned.family.id).collect();
         let record = run.families.iter().find(|record| record.id == planned.family.id);
         let (Some(record), false) = (record, ours.is_empty()) else { continue };
         // Nobody stops this.
-        let Some(press) = Press::new(plan, planned, &AtomicBool::new(false)) else { continue };
-        let tolerances = options.tolerances.or(planned.tolerances).complete();
-        let checked = Checked::open(&press, record, recorded, tolerances, &mut Vec::new());
+        let Some(press) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { continue };
+        let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
+        let checked = FamilyCheck::open(&press, record, recorded, tolerances, &mut Vec::new());
         for finding in ours {
-            if let Some(overlay) = overlay(plan, &checked, finding) {
+            if let Some(overlay) = draw_overlay(plan, &checked, finding) {
                 take(overlay);
             }
         }
     }
 }
 
-fn overlay<'r>(plan: &Plan, checked: &Checked, finding: &'r Finding) -> Option<Overlay<'r>> {
-    let place = &finding.place;
+fn draw_overlay<'r>(plan: &Plan, checked: &FamilyCheck, finding: &'r Finding) -> Option<Overlay<'r>> {
+    let place = &finding.location;
     let (cell, trace, circuit) = (place.cell?, place.trace?, place.circuit?);
-    let (tracks, solved) = checked.both(cell)?;
+    let (tracks, solved) = checked.recorded_and_current(cell)?;
     let was = tracks.into_iter().find(|track| track.trace == trace && track.circuit == circuit)?;
     let curve = solved.curves.iter().find(|curve| curve.trace == trace && curve.circuit == circuit)?;
     let sampled = solved.circuit(curve);
     let is: Vec<Point> = sampled.points(curve.joint).collect();
     let worst = match &finding.change {
-        Change::Moved(by) => vec![by.was.into(), by.is.into()],
+        Change::Moved(by) => vec![by.recorded.into(), by.current.into()],
         _ => Vec::new(),
     };
     // As fine as the paper shows it, as if the curve filled it.
     let size = was.size().max(f64::MIN_POSITIVE);
-    let dashes = Dashes { period: 360.0, drawn: 360.0 };
-    let path = motion::paths(&solved.linkage, sampled, &[curve.joint], dashes, 5e-5 * size).pop()?.whole;
+    let dashes = DashPattern { period: 360.0, dash_span: 360.0 };
+    let path = motion::joint_paths(&solved.linkage, sampled, &[curve.joint], dashes, 5e-5 * size).pop()?.points;
     let title = place.to_string();
-    let sheet = OverlaySheet {
+    let sheet = OverlayPage {
         title: &title,
-        lines: vec![finding.change.to_string()],
-        foot: &plan.title,
-        was: was.points,
-        is,
-        path,
-        closed: sampled.closed,
-        worst,
+        details: vec![finding.change.to_string()],
+        footer: &plan.title,
+        recorded: was.points,
+        current: is,
+        current_path: path,
+        is_closed: sampled.is_closed,
+        worst_points: worst,
     };
-    let svg = render::svg(&page::compose_overlay(&sheet, &plan.page), plan.text);
+    let svg = render::svg(&page::compose_overlay(&sheet, &plan.page), plan.text_mode);
     Some(Overlay { name: format!("{}-{cell}-{trace}-{circuit}.svg", place.family), svg, finding })
 }

@@ -2,9 +2,9 @@ use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use clap::Args;
-use coupler_atlas::build;
+use coupler_atlas::output;
 
-use super::{Outcome, WrongInput, print};
+use super::{InputError, Outcome, print};
 
 /// Write a commented manifest to start from.
 #[derive(Debug, Args)]
@@ -16,9 +16,9 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let file = arguments.file.display();
-    match build::write_new(&arguments.file, include_bytes!("starter.toml")) {
-        Err(build::Error::Write { source, .. }) if source.kind() == ErrorKind::AlreadyExists => {
-            Err(WrongInput(format!("{file} exists already; name another file, or remove it first")).into())
+    match output::write_new(&arguments.file, include_bytes!("starter.toml")) {
+        Err(output::Error::Write { source, .. }) if source.kind() == ErrorKind::AlreadyExists => {
+            Err(InputError(format!("{file} exists already; name another file, or remove it first")).into())
         }
         written => {
             written?;

@@ -9,11 +9,11 @@ use super::{Outcome, print, schema};
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to list [default: everything but the schema].
-    what: Option<What>,
+    what: Option<Topic>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum What {
+enum Topic {
     /// The catalogue, with parameters and sources.
     Linkages,
     /// The columns of `cells.csv` and names of `where`.
@@ -29,8 +29,8 @@ enum What {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    if arguments.what == Some(What::Schema) {
-        print(&schema::json())?;
+    if arguments.what == Some(Topic::Schema) {
+        print(&schema::schema_json())?;
         return Ok(Outcome::Done);
     }
     let wanted = |what| arguments.what.is_none_or(|given| given == what);
@@ -43,24 +43,24 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
             out.push_str(&rows);
         }
     };
-    section(What::Linkages, "linkages", catalogue::all().iter().map(|template| linkage(template)).collect());
+    section(Topic::Linkages, "linkages", catalogue::all().iter().map(|template| linkage_rows(template)).collect());
     let measures = measure::ALL.iter().map(|m| {
         let unit = if m.unit.is_empty() { "-" } else { m.unit };
         format!("{:<16} {unit:<4} {}\n", m.name, m.definition)
     });
-    let truths = measure::TRUTHS.iter().map(|(name, word)| format!("{name:<16} -    the class is {word}\n"));
-    section(What::Measures, "measures", measures.chain(truths).collect());
+    let truths = measure::BOOLEANS.iter().map(|(name, word)| format!("{name:<16} -    the class is {word}\n"));
+    section(Topic::Measures, "measures", measures.chain(truths).collect());
     let columns = measure::COLUMNS.iter().map(|column| format!("{:<16} {}\n", column.name, column.definition));
-    section(What::Columns, "columns", columns.collect());
+    section(Topic::Columns, "columns", columns.collect());
     let layouts = Layout::ALL.iter().map(|(name, shows)| format!("{name:<16} {shows}\n"));
-    section(What::Layouts, "layouts", layouts.collect());
-    let themes = Theme::NAMED.iter().map(|theme| format!("{:<16} {}\n", theme.name, theme.shows));
-    section(What::Themes, "themes", themes.collect());
+    section(Topic::Layouts, "layouts", layouts.collect());
+    let themes = Theme::NAMED.iter().map(|theme| format!("{:<16} {}\n", theme.name, theme.description));
+    section(Topic::Themes, "themes", themes.collect());
     print(&out)?;
     Ok(Outcome::Done)
 }
 
-fn linkage(template: &Template) -> String {
+fn linkage_rows(template: &Template) -> String {
     let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     format!(
         "{:<16} {}\n{:16} {}\n{:16} {}\n",

@@ -18,7 +18,7 @@ pub struct Completions {
 }
 
 /// The page of the program, and after it what each command takes.
-pub fn manual(_: &Manual) -> anyhow::Result<Outcome> {
+pub fn print_manual(_: &Manual) -> anyhow::Result<Outcome> {
     let mut command = super::Arguments::command();
     command.build();
     let mut page = Vec::new();
@@ -28,7 +28,7 @@ pub fn manual(_: &Manual) -> anyhow::Result<Outcome> {
     whole.render_synopsis_section(&mut page)?;
     whole.render_description_section(&mut page)?;
     for command in command.get_subcommands().filter(|command| !command.is_hide_set()) {
-        commanded(command, &mut page)?;
+        write_command_section(command, &mut page)?;
     }
     whole.render_extra_section(&mut page)?;
     whole.render_version_section(&mut page)?;
@@ -37,7 +37,7 @@ pub fn manual(_: &Manual) -> anyhow::Result<Outcome> {
 }
 
 /// What one command does and takes, under a heading of its own.
-fn commanded(command: &clap::Command, page: &mut Vec<u8>) -> io::Result<()> {
+fn write_command_section(command: &clap::Command, page: &mut Vec<u8>) -> io::Result<()> {
     use io::Write;
     let mut body = Vec::new();
     let man = Man::new(command.clone());
@@ -50,7 +50,7 @@ fn commanded(command: &clap::Command, page: &mut Vec<u8>) -> io::Result<()> {
     page.write_all(body.as_bytes())
 }
 
-pub fn completions(arguments: &Completions) -> anyhow::Result<Outcome> {
+pub fn print_completions(arguments: &Completions) -> anyhow::Result<Outcome> {
     let mut command = super::Arguments::command();
     let name = command.get_name().to_owned();
     let mut out = Vec::new();

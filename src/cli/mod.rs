@@ -8,16 +8,16 @@ mod inspect;
 mod linkage;
 mod list;
 mod manual;
-mod plan;
 mod render;
 mod schema;
+mod source;
 mod validate;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use coupler_atlas::build;
+use coupler_atlas::output;
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 1 the check found a difference, or with --strict a cell is not assembled; 2 the input was wrong; \
                           3 the machine failed, or another run is writing there; 130 interrupted.";
@@ -56,11 +56,11 @@ enum Outcome {
 /// The input was wrong; what is wrong has been said, or is this message.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-struct WrongInput(String);
+struct InputError(String);
 
-const WRONG_INPUT: u8 = 2;
-const MACHINE_FAILED: u8 = 3;
-const INTERRUPTED: u8 = 130;
+const EXIT_INPUT_ERROR: u8 = 2;
+const EXIT_SYSTEM_ERROR: u8 = 3;
+const EXIT_INTERRUPTED: u8 = 130;
 
 /// Runs the program.
 pub fn main() -> ExitCode {
@@ -73,18 +73,18 @@ pub fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
-        Command::Completions(arguments) => manual::completions(&arguments),
-        Command::Man(arguments) => manual::manual(&arguments),
+        Command::Completions(arguments) => manual::print_completions(&arguments),
+        Command::Man(arguments) => manual::print_manual(&arguments),
     };
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Difference) => ExitCode::from(1),
-        Err(error) => failure(&error),
+        Err(error) => report_failure(&error),
     }
 }
 
 /// Says what went wrong and finds the exit code for it.
-fn failure(error: &anyhow::Error) -> ExitCode {
+fn report_failure(error: &anyhow::Error) -> ExitCode {
     // Whoever reads our output has seen enough: no failure of ours, and nobody to tell.
     let is_pipe = |e: &io::Error| e.kind() == io::ErrorKind::BrokenPipe;
     if error.downcast_ref::<io::Error>().is_some_and(is_pipe) {
@@ -98,17 +98,17 @@ fn failure(error: &anyhow::Error) -> ExitCode {
     if !message.is_empty() {
         let _ = writeln!(io::stderr(), "error: {message}");
     }
-    let is_input = error.downcast_ref::<WrongInput>().is_some()
+    let is_input = error.downcast_ref::<InputError>().is_some()
         || matches!(
             error.downcast_ref(),
-            Some(build::Error::Read { .. } | build::Error::Record { .. } | build::Error::Format { .. })
+            Some(output::Error::Read { .. } | output::Error::Record { .. } | output::Error::Format { .. })
         )
         || matches!(error.downcast_ref(), Some(coupler_atlas::check::Error::Record { .. }));
-    let is_interrupted = matches!(error.downcast_ref(), Some(build::Error::Interrupted));
+    let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted));
     ExitCode::from(match () {
-        () if is_interrupted => INTERRUPTED,
-        () if is_input => WRONG_INPUT,
-        () => MACHINE_FAILED,
+        () if is_interrupted => EXIT_INTERRUPTED,
+        () if is_input => EXIT_INPUT_ERROR,
+        () => EXIT_SYSTEM_ERROR,
     })
 }
 
@@ -126,11 +126,11 @@ fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
 }
 
 /// Says something on standard error; nobody may be listening.
-fn say(text: &str) {
+fn print_stderr(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// "1 page", "2 pages".
-fn count(n: usize, thing: &str) -> String {
+fn pluralize(n: usize, thing: &str) -> String {
     if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }

@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use coupler_atlas::build;
+use coupler_atlas::output;
 
-use super::{Outcome, count, plan, print};
+use super::{Outcome, pluralize, print, source};
 
 /// Find every problem of a manifest, and write nothing.
 #[derive(Debug, Args)]
@@ -14,13 +14,13 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let source = plan::read(&arguments.manifest)?;
-    source.report(&build::empty_families(&source.plan, None));
-    let cells: usize = source.plan.families.iter().map(|planned| planned.family.cells()).sum();
+    let source = source::read(&arguments.manifest)?;
+    source.report_problems(&output::empty_family_warnings(&source.plan, None));
+    let cells: usize = source.plan.families.iter().map(|planned| planned.family.cell_count()).sum();
     let families = match source.plan.families.len() {
         1 => "1 family".to_owned(),
         n => format!("{n} families"),
     };
-    print(&format!("{}: {families}, {}\n", arguments.manifest.display(), count(cells, "cell")))?;
+    print(&format!("{}: {families}, {}\n", arguments.manifest.display(), pluralize(cells, "cell")))?;
     Ok(Outcome::Done)
 }

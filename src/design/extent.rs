@@ -4,7 +4,7 @@ use coupler_curves::geometry::{Point, Vector, trig};
 
 /// The greatest distance between any two of some points, by the pairs that are furthest apart in each of many directions,
 /// from the best of which on in the direction of the pair itself.
-pub(super) fn extent(points: &[Point]) -> f64 {
+pub(super) fn greatest_distance(points: &[Point]) -> f64 {
     const DIRECTIONS: usize = 60;
     let furthest = |along: Vector| {
         let mut low = (f64::INFINITY, Point::origin());
@@ -52,7 +52,11 @@ mod tests {
         for n in [1, 2, 5, 40, 300] {
             let points: Vec<Point> = (0..n).map(spiral).collect();
             let all = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
-            assert!((extent(&points) - all).abs() <= 1e-12 * all, "{n}: {} {all}", extent(&points));
+            assert!(
+                (greatest_distance(&points) - all).abs() <= 1e-12 * all,
+                "{n}: {} {all}",
+                greatest_distance(&points)
+            );
         }
     }
 }

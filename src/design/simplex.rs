@@ -2,15 +2,15 @@
 
 /// How far a search goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Effort {
+pub(super) struct Options {
     /// How far the first corners are from the start, in each coordinate.
-    pub reach: f64,
+    pub initial_step: f64,
     /// How often the function may be asked.
-    pub evaluations: usize,
+    pub max_evaluations: usize,
 }
 
 /// A place and what the function is there.
-type Corner<T> = (Vec<f64>, f64, T);
+type Vertex<T> = (Vec<f64>, f64, T);
 
 /// The least place found from a start, with its value and what came with it.
 ///
@@ -19,10 +19,10 @@ type Corner<T> = (Vec<f64>, f64, T);
 ///
 /// # Source
 /// Nelder and Mead, *A simplex method for function minimization*, Computer Journal 7 (1965).
-pub(super) fn least<T: Clone>(start: &[f64], effort: Effort, mut of: impl FnMut(&[f64]) -> (f64, T)) -> Corner<T> {
+pub(super) fn minimize<T: Clone>(start: &[f64], effort: Options, mut of: impl FnMut(&[f64]) -> (f64, T)) -> Vertex<T> {
     /// A simplex this small beside a step of 1 has arrived.
     const SMALL: f64 = 1e-4;
-    let mut ask = |place: Vec<f64>| -> Corner<T> {
+    let mut ask = |place: Vec<f64>| -> Vertex<T> {
         let (value, with) = of(&place);
         (place, if value.is_nan() { f64::INFINITY } else { value }, with)
     };
@@ -30,11 +30,11 @@ pub(super) fn least<T: Clone>(start: &[f64], effort: Effort, mut of: impl FnMut(
     let mut corners = vec![ask(start.to_vec())];
     for axis in 0..n {
         let mut place = start.to_vec();
-        place[axis] += effort.reach;
+        place[axis] += effort.initial_step;
         corners.push(ask(place));
     }
     let mut asked = n + 1;
-    while asked < effort.evaluations && n > 0 {
+    while asked < effort.max_evaluations && n > 0 {
         // The sort is stable: of equal corners the older stays before.
         corners.sort_by(|a, b| a.1.total_cmp(&b.1));
         let width = (0..n).map(|axis| (corners[n].0[axis] - corners[0].0[axis]).abs()).fold(0.0, f64::max);
@@ -84,7 +84,7 @@ mod tests {
             let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
             (a * a + 100.0 * b * b, ())
         };
-        let (place, value, ()) = least(&[-1.2, 1.0], Effort { reach: 0.5, evaluations: 400 }, valley);
+        let (place, value, ()) = minimize(&[-1.2, 1.0], Options { initial_step: 0.5, max_evaluations: 400 }, valley);
         // The valley is flat along its bottom: a place to 1e-2 there is a value to 1e-5.
         assert!(value < 1e-5 && place.iter().all(|x| (x - 1.0).abs() < 1e-2), "{place:?} {value}");
     }
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn what_is_no_number_is_kept_away_from() {
         let root = |x: &[f64]| (x[0].sqrt(), x[0]);
-        let (_, value, with) = least(&[1.0], Effort { reach: 0.3, evaluations: 200 }, root);
+        let (_, value, with) = minimize(&[1.0], Options { initial_step: 0.3, max_evaluations: 200 }, root);
         // The root of a place known to 1e-4.
         assert!((0.0..2e-2).contains(&value) && with >= 0.0, "{value}");
     }

@@ -4,13 +4,13 @@
 //! statements, written as its cells and pages come, so that memory stays flat. The page itself is joined from the small
 //! files beside this one.
 
-mod data;
+mod assets;
+mod family_script;
 mod index;
-mod packed;
-mod parts;
-mod template;
+mod template_json;
+mod typed_array;
 
-pub use data::{SCRIPT, Statements, sampling, straight};
-pub use index::{PAGE, Shown, index};
-pub use parts::{Part, SCRIPTS, STYLES, joined};
-pub use template::template;
+pub use assets::{Asset, SCRIPTS, STYLES, join_modules};
+pub use family_script::{FamilyScript, SCRIPT_FILE, sampling_json, straight_json};
+pub use index::{GalleryFamily, PAGE_FILE, index_html};
+pub use template_json::template_json;

@@ -1,39 +1,43 @@
 //! The `chart` of a family.
 
-use super::names::Names;
-use super::table::measures;
-use coupler_curves::expression::{Bound, Expression};
-use coupler_curves::family::{MAX_CELLS, Space};
-use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value};
-use coupler_curves::problem::{Problem, nearest_or_all};
+use super::names::FamilyNames;
+use super::schema::numeric_measures;
+use coupler_curves::expression::{CompiledExpression, Expression};
+use coupler_curves::family::{MAX_CELLS, ParameterSpace};
+use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
+use coupler_curves::problem::{Problem, suggestion};
 use coupler_curves::template::Template;
-use coupler_drawing::chart::{self, Chart, Over, Quantity};
+use coupler_drawing::chart::{self, Chart, PointSource, Quantity};
 
 /// The `chart` of a family.
-pub(super) static CHART: Table = Table::new(
+pub(super) static CHART: TableSchema = TableSchema::new(
     "`chart`",
     &[
-        Key::required(
+        KeySchema::required(
             "x",
-            QUANTITY,
+            QUANTITY_FORM,
             "What it is drawn over: an expression over the family's names and the measures, or input_deg or arc.",
         ),
-        Key::required("y", Form::OneOrMore(&QUANTITY, 1), "What is drawn: a chart for each expression."),
-        Key::new(
+        KeySchema::required(
+            "y",
+            ValueSchema::OneOrMore(&QUANTITY_FORM, 1),
+            "What is drawn: a chart for each expression.",
+        ),
+        KeySchema::new(
             "by",
-            Form::OneOrMore(&Form::Text, 0),
+            ValueSchema::OneOrMore(&ValueSchema::Text, 0),
             "The names that tell lines apart; the other axes of the grid where left out.",
         ),
-        Key::new("log", Form::OneOrMore(&Form::Text, 0), "Which of x and y have logarithmic axes."),
-        Key::new(
+        KeySchema::new("log", ValueSchema::OneOrMore(&ValueSchema::Text, 0), "Which of x and y have logarithmic axes."),
+        KeySchema::new(
             "range",
-            Form::Entries(&Form::List(&Form::Number, [2, 2])),
+            ValueSchema::Map(&ValueSchema::List(&ValueSchema::Number, [2, 2])),
             "How far axes go: of x or y, the least and the greatest value.",
         ),
     ],
 );
 
-const QUANTITY: Form = Form::Like(&Form::Text, measures);
+const QUANTITY_FORM: ValueSchema = ValueSchema::WithExamples(&ValueSchema::Text, numeric_measures);
 const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
 
 /// The names that a chart's expressions use, whatever else is wrong with it; `None` where one cannot be read.
@@ -50,15 +54,15 @@ pub(super) fn used_names(fields: &Fields) -> Option<Vec<String>> {
 }
 
 /// What can be said of a chart when the names it may use are not known: whether its expressions can be read.
-pub(super) fn read_expressions<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<'t>) {
-    let Some(fields) = fields.get("chart").and_then(|value| Fields::of(value, &CHART, reader)) else {
+pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, reader: &mut TomlParser<'t>) {
+    let Some(fields) = fields.get("chart").and_then(|value| Fields::from_value(value, &CHART, reader)) else {
         return;
     };
     for value in ["x", "y"].into_iter().filter_map(|key| fields.get(key)) {
         for item in one_or_more(value) {
             if let Some(text) = reader.text(item) {
                 let parsed = Expression::parse(&text);
-                reader.placed(item, parsed);
+                reader.ok_or_report(item, parsed);
             }
         }
     }
@@ -66,50 +70,50 @@ pub(super) fn read_expressions<'t>(fields: &Fields<'_, 't>, reader: &mut Reader<
 
 /// Reads the chart of a family.
 pub(super) fn read<'t>(
-    value: &Value<'t>,
+    value: &TomlValue<'t>,
     template: &Template,
-    names: &Names,
-    reader: &mut Reader<'t>,
+    names: &FamilyNames,
+    reader: &mut TomlParser<'t>,
 ) -> Option<Chart> {
-    let fields = Fields::of(value, &CHART, reader)?;
+    let fields = Fields::from_value(value, &CHART, reader)?;
     let x = fields.required("x", EXAMPLE, reader);
     let y = fields.required("y", EXAMPLE, reader);
     let x = x.and_then(|value| quantity(value, template, names, reader));
     let y = y.and_then(|value| quantities(value, template, names, reader));
     let by = match fields.get("by") {
         None => None,
-        Some(value) => Some(by(value, names, reader)?),
+        Some(value) => Some(series_slots(value, names, reader)?),
     };
     let (mut x, mut y) = (x?, y?);
-    let over = over(&x, &y, &fields, names, reader)?;
+    let over = sample_or_curve_points(&x, &y, &fields, names, reader)?;
     read_log(&fields, &mut x, &mut y, reader)?;
     read_ranges(&fields, &mut x, &mut y, reader)?;
     if names.space.count() > MAX_CELLS {
         let problem = Problem::error(value.span(), format!("a chart is drawn of {MAX_CELLS} cells at most"));
-        reader.note(problem.help("take fewer values, or leave the chart to a family of its own"));
+        reader.report(problem.with_help("take fewer values, or leave the chart to a family of its own"));
         return None;
     }
     let is_own = |slot: &usize| *slot < names.all.len();
-    let in_order_of_x = over == Over::Curves && x.value.slots().iter().all(is_own);
-    let by = by.unwrap_or_else(|| default_by(&x.value, over, names));
-    Some(Chart { over, x, y, by, in_order_of_x })
+    let in_order_of_x = over == PointSource::Curves && x.expression.slots().iter().all(is_own);
+    let by = by.unwrap_or_else(|| default_series_slots(&x.expression, over, names));
+    Some(Chart { point_source: over, x, y, group_by: by, is_ordered_by_x: in_order_of_x })
 }
 
 /// A list, or the one thing that is in its place.
-fn one_or_more<'v, 't>(value: &'v Value<'t>) -> &'v [Value<'t>] {
+fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
     value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
 }
 
 fn quantities<'t>(
-    value: &Value<'t>,
+    value: &TomlValue<'t>,
     template: &Template,
-    names: &Names,
-    reader: &mut Reader<'t>,
+    names: &FamilyNames,
+    reader: &mut TomlParser<'t>,
 ) -> Option<Vec<Quantity>> {
     let items = one_or_more(value);
     if items.is_empty() {
         let problem = Problem::error(value.span(), "there is nothing to draw");
-        reader.note(problem.help("name a measure, as in y = \"straight_length\""));
+        reader.report(problem.with_help("name a measure, as in y = \"straight_length\""));
         return None;
     }
     let mut found: Vec<Quantity> = Vec::new();
@@ -121,7 +125,7 @@ fn quantities<'t>(
         };
         if found.iter().any(|other| other.text == quantity.text) {
             let problem = Problem::error(item.span(), format!("`{}` is named twice", quantity.text.escape_debug()));
-            reader.note(problem.help("name it once"));
+            reader.report(problem.with_help("name it once"));
             all_read = false;
         }
         found.push(quantity);
@@ -129,26 +133,31 @@ fn quantities<'t>(
     all_read.then_some(found)
 }
 
-fn quantity<'t>(value: &Value<'t>, template: &Template, names: &Names, reader: &mut Reader<'t>) -> Option<Quantity> {
+fn quantity<'t>(
+    value: &TomlValue<'t>,
+    template: &Template,
+    names: &FamilyNames,
+    reader: &mut TomlParser<'t>,
+) -> Option<Quantity> {
     let text = reader.text(value)?.trim().to_owned();
     let is_driven_by_length = template.is_driven_by_length();
-    let value = reader.bound(value, &chart::scope(&names.all, is_driven_by_length))?;
+    let value = reader.numeric_expression(value, &chart::scope(&names.all, is_driven_by_length))?;
     let unit = chart::unit(&text, is_driven_by_length);
     let definition = chart::definition(&text, &names.all);
-    Some(Quantity { text, unit, definition, value, is_log: false, range: None })
+    Some(Quantity { text, unit, definition, expression: value, is_log: false, range: None })
 }
 
 /// What there is a point for.
-fn over<'t>(
+fn sample_or_curve_points<'t>(
     x: &Quantity,
     y: &[Quantity],
     fields: &Fields<'_, 't>,
-    names: &Names,
-    reader: &mut Reader<'t>,
-) -> Option<Over> {
-    let is_of_samples = |quantity: &Quantity| chart::is_of_samples(&quantity.value, &names.all);
+    names: &FamilyNames,
+    reader: &mut TomlParser<'t>,
+) -> Option<PointSource> {
+    let is_of_samples = |quantity: &Quantity| chart::is_per_sample(&quantity.expression, &names.all);
     if is_of_samples(x) {
-        return Some(Over::Samples);
+        return Some(PointSource::Samples);
     }
     let mut is_good = true;
     for (quantity, item) in y.iter().zip(fields.get("y").map_or(&[][..], one_or_more)) {
@@ -156,15 +165,15 @@ fn over<'t>(
             let (x, y) = (x.text.escape_debug(), quantity.text.escape_debug());
             let message = format!("`{y}` has a value for each sample, and `{x}` one for each curve");
             let help = "draw it over x = \"input_deg\" or x = \"arc\", or draw a measure of the curve";
-            reader.note(Problem::error(item.span(), message).help(help));
+            reader.report(Problem::error(item.span(), message).with_help(help));
             is_good = false;
         }
     }
-    is_good.then_some(Over::Curves)
+    is_good.then_some(PointSource::Curves)
 }
 
 /// The names that tell lines apart.
-fn by<'t>(value: &Value<'t>, names: &Names, reader: &mut Reader<'t>) -> Option<Vec<usize>> {
+fn series_slots<'t>(value: &TomlValue<'t>, names: &FamilyNames, reader: &mut TomlParser<'t>) -> Option<Vec<usize>> {
     let known: Vec<&str> = names.all.iter().map(String::as_str).collect();
     let mut found = Vec::new();
     let mut all_read = true;
@@ -174,7 +183,7 @@ fn by<'t>(value: &Value<'t>, names: &Names, reader: &mut Reader<'t>) -> Option<V
             Some((Some(slot), _)) => found.push(slot),
             Some((None, name)) => {
                 let problem = Problem::error(item.span(), format!("there is no `{}`", name.escape_debug()));
-                reader.note(problem.help(nearest_or_all(&name, &known)));
+                reader.report(problem.with_help(suggestion(&name, &known)));
                 all_read = false;
             }
             None => all_read = false,
@@ -185,29 +194,29 @@ fn by<'t>(value: &Value<'t>, names: &Names, reader: &mut Reader<'t>) -> Option<V
 
 /// Of a grid, the axes that x does not rest on; where it rests on none, all but the last. Of cases, what they give, for
 /// the lines of samples; their points make one line.
-fn default_by(x: &Bound, over: Over, names: &Names) -> Vec<usize> {
+fn default_series_slots(x: &CompiledExpression, over: PointSource, names: &FamilyNames) -> Vec<usize> {
     match &names.space {
-        Space::Grid(axes) => {
+        ParameterSpace::Grid(axes) => {
             let slots: Vec<usize> = axes.iter().map(|axis| axis.slot).collect();
-            if over == Over::Samples {
+            if over == PointSource::Samples {
                 return slots;
             }
-            let resting = rests_on(x, names);
+            let resting = dependencies(x, names);
             let others: Vec<usize> = slots.iter().copied().filter(|slot| !resting.contains(slot)).collect();
             if others.len() < slots.len() { others } else { slots[..slots.len() - 1].to_vec() }
         }
-        Space::Cases(cases) if over == Over::Samples => {
+        ParameterSpace::Cases(cases) if over == PointSource::Samples => {
             let mut slots: Vec<usize> = cases.iter().flatten().map(|(slot, _)| *slot).collect();
             slots.sort_unstable();
             slots.dedup();
             slots
         }
-        Space::Cases(_) => Vec::new(),
+        ParameterSpace::Cases(_) => Vec::new(),
     }
 }
 
 /// The names that an expression uses, and those they are derived from.
-fn rests_on(value: &Bound, names: &Names) -> Vec<usize> {
+fn dependencies(value: &CompiledExpression, names: &FamilyNames) -> Vec<usize> {
     let mut found: Vec<usize> = value.slots().to_vec();
     let mut next = 0;
     while let Some(&slot) = found.get(next) {
@@ -223,32 +232,37 @@ fn rests_on(value: &Bound, names: &Names) -> Vec<usize> {
 }
 
 /// The quantity of a chart that is written so.
-fn named<'q, 't>(
+fn find_quantity<'q, 't>(
     text: &str,
     place: std::ops::Range<usize>,
     (x, y): (&'q mut Quantity, &'q mut [Quantity]),
-    reader: &mut Reader<'t>,
+    reader: &mut TomlParser<'t>,
 ) -> Option<&'q mut Quantity> {
     let known: Vec<String> = std::iter::once(&*x).chain(&*y).map(|quantity| quantity.text.clone()).collect();
     let found = std::iter::once(x).chain(y).find(|quantity| quantity.text == text.trim());
     if found.is_none() {
         let known: Vec<&str> = known.iter().map(String::as_str).collect();
         let problem = Problem::error(place, format!("the chart draws no `{}`", text.escape_debug()));
-        reader.note(problem.help(nearest_or_all(text, &known)));
+        reader.report(problem.with_help(suggestion(text, &known)));
     }
     found
 }
 
 /// Which of its quantities are drawn by their logarithms.
-fn read_log<'t>(fields: &Fields<'_, 't>, x: &mut Quantity, y: &mut [Quantity], reader: &mut Reader<'t>) -> Option<()> {
-    let before = reader.noted();
+fn read_log<'t>(
+    fields: &Fields<'_, 't>,
+    x: &mut Quantity,
+    y: &mut [Quantity],
+    reader: &mut TomlParser<'t>,
+) -> Option<()> {
+    let before = reader.problem_count();
     for item in fields.get("log").map_or(&[][..], one_or_more) {
         let Some(text) = reader.text(item) else { continue };
-        if let Some(quantity) = named(&text, item.span(), (x, y), reader) {
+        if let Some(quantity) = find_quantity(&text, item.span(), (x, y), reader) {
             quantity.is_log = true;
         }
     }
-    (reader.noted() == before).then_some(())
+    (reader.problem_count() == before).then_some(())
 }
 
 /// How far its quantities are drawn.
@@ -256,13 +270,13 @@ fn read_ranges<'t>(
     fields: &Fields<'_, 't>,
     x: &mut Quantity,
     y: &mut [Quantity],
-    reader: &mut Reader<'t>,
+    reader: &mut TomlParser<'t>,
 ) -> Option<()> {
     let Some(value) = fields.get("range") else { return Some(()) };
-    let before = reader.noted();
-    for (text, span, value) in Fields::open(value, "`range`", reader)?.entries() {
+    let before = reader.problem_count();
+    for (text, span, value) in Fields::with_any_keys(value, "`range`", reader)?.entries() {
         let range = reader.pair(value).map(|pair| pair.map(|end| reader.constant(end)));
-        let (Some(quantity), Some([Some(low), Some(high)])) = (named(text, span, (x, y), reader), range) else {
+        let (Some(quantity), Some([Some(low), Some(high)])) = (find_quantity(text, span, (x, y), reader), range) else {
             continue;
         };
         let wrong = if !(low < high && high - low < f64::INFINITY) {
@@ -273,23 +287,23 @@ fn read_ranges<'t>(
             None
         };
         match wrong {
-            Some((message, help)) => reader.note(Problem::error(value.span(), message).help(help)),
+            Some((message, help)) => reader.report(Problem::error(value.span(), message).with_help(help)),
             None => quantity.range = Some([low, high]),
         }
     }
-    (reader.noted() == before).then_some(())
+    (reader.problem_count() == before).then_some(())
 }
 
 /// Checks that a family with a chart is laid out as one, and the other way round.
-pub(super) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, reader: &mut Reader<'t>) {
+pub(super) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, reader: &mut TomlParser<'t>) {
     match (is_chart, fields.get("chart"), fields.get("layout")) {
         (true, None, Some(layout)) => {
             let problem = Problem::error(layout.span(), "the layout is chart, and there is no `chart`");
-            reader.note(problem.help(format!("say what is drawn: {EXAMPLE}")));
+            reader.report(problem.with_help(format!("say what is drawn: {EXAMPLE}")));
         }
         (false, Some(chart), _) => {
             let problem = Problem::error(chart.span(), "there is a `chart`, and the layout is panels");
-            reader.note(problem.help("add layout = \"chart\", or leave `chart` out"));
+            reader.report(problem.with_help("add layout = \"chart\", or leave `chart` out"));
         }
         _ => {}
     }
@@ -303,9 +317,9 @@ mod tests {
     #[test]
     fn a_measure_is_no_name_of_the_familys_own() {
         let scope = chart::scope(&[], false);
-        let bound = Expression::parse("mu_deg + mu_min_deg").unwrap().bind(&scope, Kind::Number).unwrap();
-        assert!(chart::is_of_samples(&bound, &[]));
-        let bound = Expression::parse("mu_min_deg").unwrap().bind(&scope, Kind::Number).unwrap();
-        assert!(!chart::is_of_samples(&bound, &[]));
+        let bound = Expression::parse("mu_deg + mu_min_deg").unwrap().compile(&scope, Kind::Number).unwrap();
+        assert!(chart::is_per_sample(&bound, &[]));
+        let bound = Expression::parse("mu_min_deg").unwrap().compile(&scope, Kind::Number).unwrap();
+        assert!(!chart::is_per_sample(&bound, &[]));
     }
 }

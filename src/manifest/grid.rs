@@ -1,19 +1,22 @@
 //! The values of a grid: lists, ranges by step and ranges by count.
 
-use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value};
+use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 
 /// What a name of a grid may be given.
-pub(super) const VALUES: Form =
-    Form::Either(&[Form::List(&Form::Number, [1, usize::MAX]), Form::Table(&RANGE), Form::Number]);
+pub(super) const VALUES_FORM: ValueSchema = ValueSchema::AnyOf(&[
+    ValueSchema::List(&ValueSchema::Number, [1, usize::MAX]),
+    ValueSchema::Table(&RANGE),
+    ValueSchema::Number,
+]);
 
-static RANGE: Table = Table::new(
+static RANGE: TableSchema = TableSchema::new(
     "a range",
     &[
-        Key::required("from", Form::Number, "The first value."),
-        Key::required("to", Form::Number, "The last value; by steps, where a step comes to it."),
-        Key::new("step", Form::Number, "From a value to the next."),
-        Key::new("count", Form::Count([1, MAX_COUNT]), "How many values."),
+        KeySchema::required("from", ValueSchema::Number, "The first value."),
+        KeySchema::required("to", ValueSchema::Number, "The last value; by steps, where a step comes to it."),
+        KeySchema::new("step", ValueSchema::Number, "From a value to the next."),
+        KeySchema::new("count", ValueSchema::Integer([1, MAX_COUNT]), "How many values."),
     ],
 )
 .with_one_of(&["step", "count"]);
@@ -22,42 +25,42 @@ static RANGE: Table = Table::new(
 const MAX_COUNT: usize = usize::MAX >> 12;
 
 /// The values of one name before they are written out: their number is known first.
-pub(super) enum Values {
+pub(super) enum GridValues {
     List(Vec<f64>),
-    Range { from: f64, to: f64, count: f64, step: Option<Step> },
+    Range { from: f64, to: f64, count: f64, step: Option<RangeStep> },
 }
 
 /// A step, with its decimals where it has some.
-pub(super) struct Step {
+pub(super) struct RangeStep {
     value: f64,
-    decimals: Option<Decimals>,
+    decimals: Option<DecimalRange>,
 }
 
 /// `from` and `step` as whole numbers of units of `1 / scale`.
-struct Decimals {
+struct DecimalRange {
     from: f64,
     step: f64,
     scale: f64,
 }
 
-impl Values {
+impl GridValues {
     /// How many there are; as a float, for it may be beyond counting.
     pub fn count(&self) -> f64 {
         match self {
-            Values::List(list) => list.len() as f64,
-            Values::Range { count, .. } => *count,
+            GridValues::List(list) => list.len() as f64,
+            GridValues::Range { count, .. } => *count,
         }
     }
 
     /// Every value.
-    pub fn write_out(self) -> Vec<f64> {
+    pub fn into_vec(self) -> Vec<f64> {
         let (from, to, count, step) = match self {
-            Values::List(list) => return list,
-            Values::Range { from, to, count, step } => (from, to, count as usize, step),
+            GridValues::List(list) => return list,
+            GridValues::Range { from, to, count, step } => (from, to, count as usize, step),
         };
         let at = |k: usize| match &step {
             // One division of whole numbers: the value its decimals say, correctly rounded.
-            Some(Step { decimals: Some(d), .. }) => (d.from + d.step * k as f64) / d.scale,
+            Some(RangeStep { decimals: Some(d), .. }) => (d.from + d.step * k as f64) / d.scale,
             Some(step) => from + step.value * k as f64,
             None if k + 1 == count => to,
             None => from + (to - from) * (k as f64 / (count - 1) as f64),
@@ -67,24 +70,24 @@ impl Values {
 }
 
 /// Reads what one name of a grid ranges over.
-pub(super) fn values<'t>(name: &str, value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
+pub(super) fn read_values<'t>(name: &str, value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<GridValues> {
     if let Some(list) = value.get_ref().as_array() {
         if list.is_empty() {
             let problem = Problem::error(value.span(), format!("`{name}` ranges over nothing"));
-            reader.note(problem.help("give at least one value, as in [2, 3, 4]"));
+            reader.report(problem.with_help("give at least one value, as in [2, 3, 4]"));
             return None;
         }
         let read: Vec<Option<f64>> = list.iter().map(|item| reader.constant(item)).collect();
-        return read.into_iter().collect::<Option<_>>().map(Values::List);
+        return read.into_iter().collect::<Option<_>>().map(GridValues::List);
     }
     if value.get_ref().is_table() {
-        return range(value, reader);
+        return read_range(value, reader);
     }
-    reader.constant(value).map(|value| Values::List(vec![value]))
+    reader.constant(value).map(|value| GridValues::List(vec![value]))
 }
 
-fn range<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
-    let fields = Fields::of(value, &RANGE, reader)?;
+fn read_range<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<GridValues> {
+    let fields = Fields::from_value(value, &RANGE, reader)?;
     let mut end = |key: &str| {
         let value = fields.required(key, &format!("{key} = 2"), reader)?;
         Some((reader.constant(value)?, value))
@@ -95,24 +98,25 @@ fn range<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
             let step = reader.constant(step_value)?;
             let ((from, from_value), (to, _)) = (from?, to?);
             if step == 0.0 {
-                reader
-                    .note(Problem::error(step_value.span(), "a step of 0 never ends").help("give a step other than 0"));
+                reader.report(
+                    Problem::error(step_value.span(), "a step of 0 never ends").with_help("give a step other than 0"),
+                );
                 return None;
             }
             let steps = (to - from) / step;
             if steps < 0.0 {
                 let problem = Problem::error(value.span(), format!("from {from} by {step} never comes to {to}"));
-                reader.note(problem.help("change the sign of the step, or exchange `from` and `to`"));
+                reader.report(problem.with_help("change the sign of the step, or exchange `from` and `to`"));
                 return None;
             }
-            let decimals = decimals(reader.decimal(from_value), reader.decimal(step_value));
+            let decimals = decimal_range(reader.decimal_digits(from_value), reader.decimal_digits(step_value));
             let count = (steps + 1e-9).floor() + 1.0;
-            Some(Values::Range { from, to, count, step: Some(Step { value: step, decimals }) })
+            Some(GridValues::Range { from, to, count, step: Some(RangeStep { value: step, decimals }) })
         }
         (None, Some(count)) => {
-            let count = reader.count(count, 1, MAX_COUNT)?;
+            let count = reader.integer(count, 1, MAX_COUNT)?;
             let ((from, _), (to, _)) = (from?, to?);
-            Some(Values::Range { from, to, count: count as f64, step: None })
+            Some(GridValues::Range { from, to, count: count as f64, step: None })
         }
         (step, _) => {
             let message = if step.is_some() {
@@ -120,26 +124,26 @@ fn range<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Values> {
             } else {
                 "a range needs a step or a count"
             };
-            reader.note(
+            reader.report(
                 Problem::error(value.span(), message)
-                    .help("write { from = 2, to = 6, step = 0.5 } or { from = 2, to = 6, count = 9 }"),
+                    .with_help("write { from = 2, to = 6, step = 0.5 } or { from = 2, to = 6, count = 9 }"),
             );
             None
         }
     }
 }
 
-fn decimals(from: Option<&str>, step: Option<&str>) -> Option<Decimals> {
-    let (from, step) = (parts(from?)?, parts(step?)?);
+fn decimal_range(from: Option<&str>, step: Option<&str>) -> Option<DecimalRange> {
+    let (from, step) = (parse_decimal(from?)?, parse_decimal(step?)?);
     let places = from.1.max(step.1);
     // 10^15 and its multiples by whole numbers below 2^53 are exact.
     let scale = |places: u32| 10u64.checked_pow(places).filter(|_| places <= 15).map(|n| n as f64);
     let units = |(digits, own): (f64, u32)| Some(digits * scale(places - own)?).filter(|n| n.abs() < 9e15);
-    Some(Decimals { from: units(from)?, step: units(step)?, scale: scale(places)? })
+    Some(DecimalRange { from: units(from)?, step: units(step)?, scale: scale(places)? })
 }
 
 /// A plain decimal as a whole number and the number of its decimal places.
-fn parts(text: &str) -> Option<(f64, u32)> {
+fn parse_decimal(text: &str) -> Option<(f64, u32)> {
     let text = text.replace('_', "");
     let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
     let digits: f64 = format!("{whole}{fraction}").parse::<i64>().ok()? as f64;
@@ -152,12 +156,12 @@ mod tests {
 
     fn of(text: &str) -> Result<Vec<f64>, String> {
         let text = format!("p = {text}");
-        let mut reader = Reader::new(&text);
-        let document = reader.document();
-        let root = Fields::open(&document, "the file", &mut reader).unwrap();
-        let values = root.get("p").and_then(|value| values("p", value, &mut reader));
+        let mut reader = TomlParser::new(&text);
+        let document = reader.parse_document();
+        let root = Fields::with_any_keys(&document, "the file", &mut reader).unwrap();
+        let values = root.get("p").and_then(|value| read_values("p", value, &mut reader));
         match values {
-            Some(values) => Ok(values.write_out()),
+            Some(values) => Ok(values.into_vec()),
             None => Err(reader.into_problems().remove(0).message),
         }
     }

@@ -1,13 +1,13 @@
 //! The tables `[atlas]` and `[page]`.
 
-use super::{FORMAT, theme};
+use super::{FORMAT_VERSION, theme};
 use coupler_curves::expression::Dimension;
-use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value, words};
+use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::Problem;
 use coupler_drawing::page::{Options, Paper, Theme};
 use coupler_drawing::render::{Format, TextMode};
 
-pub(super) struct Atlas {
+pub(super) struct AtlasSettings {
     pub title: String,
     pub output: String,
     pub formats: Vec<Format>,
@@ -15,100 +15,125 @@ pub(super) struct Atlas {
 }
 
 /// The most pages a volume may have: readers and the memory of a run bear no more.
-const MAX_VOLUME: usize = 10_000;
+const MAX_VOLUME_PAGES: usize = 10_000;
 
-pub(super) struct Page {
+pub(super) struct PageSettings {
     pub options: Options,
     pub dpi: f64,
-    pub text: TextMode,
+    pub text_mode: TextMode,
 }
 
 /// The most pixels an image may have: 1.6 GB while it is drawn.
 const MAX_PIXELS: f64 = 4e8;
 
 /// The `[atlas]` table.
-pub(super) static ATLAS: Table = Table::new(
+pub(super) static ATLAS: TableSchema = TableSchema::new(
     "[atlas]",
     &[
-        Key::new("format", Form::Count([FORMAT, FORMAT]), "The version of the language of manifests.").or("1"),
-        Key::required("title", Form::Text, "The title of the atlas."),
-        Key::new(
+        KeySchema::new(
+            "format",
+            ValueSchema::Integer([FORMAT_VERSION, FORMAT_VERSION]),
+            "The version of the language of manifests.",
+        )
+        .with_default("1"),
+        KeySchema::required("title", ValueSchema::Text, "The title of the atlas."),
+        KeySchema::new(
             "output",
-            Form::Text,
+            ValueSchema::Text,
             "The folder results go to, relative to the manifest; / and \\ both part folders, on every system.",
         )
-        .or("\"output\""),
-        FORMATS.or("[\"svg\", \"png\"]"),
-        Key::new("volume_pages", Form::Count([1, MAX_VOLUME]), "The most pages of a volume of the book.").or("1000"),
+        .with_default("\"output\""),
+        FORMATS.with_default("[\"svg\", \"png\"]"),
+        KeySchema::new(
+            "volume_pages",
+            ValueSchema::Integer([1, MAX_VOLUME_PAGES]),
+            "The most pages of a volume of the book.",
+        )
+        .with_default("1000"),
     ],
 );
 
 /// The `formats` of an atlas or a family.
-pub(super) const FORMATS: Key = Key::new(
+pub(super) const FORMATS: KeySchema = KeySchema::new(
     "formats",
-    Form::List(&Form::Word(|| Format::ALL.map(Format::name).to_vec()), [1, usize::MAX]),
+    ValueSchema::List(&ValueSchema::Word(|| Format::ALL.map(Format::name).to_vec()), [1, usize::MAX]),
     "The formats of pages: svg and png, a file for each page, and pdf, one book of all of them.",
 );
 
 /// The `[page]` table.
-pub(super) static PAGE: Table = Table::new(
+pub(super) static PAGE: TableSchema = TableSchema::new(
     "[page]",
     &[
-        Key::new(
+        KeySchema::new(
             "paper",
-            Form::Either(&[Form::Word(|| words(&Paper::NAMED)), Form::Table(&PAPER)]),
+            ValueSchema::AnyOf(&[ValueSchema::Word(|| words(&Paper::NAMED)), ValueSchema::Table(&PAPER)]),
             "The paper, by its name or its sides.",
         )
-        .or("\"tabloid\""),
-        Key::new("dpi", Form::Within(DPI), "The resolution of PNG images, in pixels to the inch.").or("100"),
-        Key::new("dash", Form::Quantity(Dimension::Angle), "How much input a dash and its gap span.").or("\"5 deg\""),
-        Key::new("text", Form::Word(|| words(&TEXT)), "How text stands in SVG: as text, or as outlines.")
-            .or("\"text\""),
-        Key::new(
+        .with_default("\"tabloid\""),
+        KeySchema::new("dpi", ValueSchema::InRange(DPI_RANGE), "The resolution of PNG images, in pixels to the inch.")
+            .with_default("100"),
+        KeySchema::new("dash", ValueSchema::Quantity(Dimension::Angle), "How much input a dash and its gap span.")
+            .with_default("\"5 deg\""),
+        KeySchema::new(
+            "text",
+            ValueSchema::Word(|| words(&TEXT_MODES)),
+            "How text stands in SVG: as text, or as outlines.",
+        )
+        .with_default("\"text\""),
+        KeySchema::new(
             "theme",
-            Form::Either(&[theme::NAME, Form::Table(&theme::THEME)]),
+            ValueSchema::AnyOf(&[theme::NAME_FORM, ValueSchema::Table(&theme::THEME)]),
             "What pages look like: a theme by its name, or one changed.",
         )
-        .or("\"paper\""),
+        .with_default("\"paper\""),
     ],
 );
 
-static PAPER: Table = Table::new(
+static PAPER: TableSchema = TableSchema::new(
     "a paper",
     &[
-        Key::required("width", Form::Quantity(Dimension::Paper), "Its width, with a unit: mm, in or pt."),
-        Key::required("height", Form::Quantity(Dimension::Paper), "Its height, with a unit: mm, in or pt."),
+        KeySchema::required(
+            "width",
+            ValueSchema::Quantity(Dimension::PaperLength),
+            "Its width, with a unit: mm, in or pt.",
+        ),
+        KeySchema::required(
+            "height",
+            ValueSchema::Quantity(Dimension::PaperLength),
+            "Its height, with a unit: mm, in or pt.",
+        ),
     ],
 );
 
-const DPI: [f64; 2] = [10.0, 2400.0];
+const DPI_RANGE: [f64; 2] = [10.0, 2400.0];
 
 /// How text can stand in SVG.
-const TEXT: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
+const TEXT_MODES: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
 
-pub(super) fn atlas<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Atlas> {
-    let fields = Fields::of(value, &ATLAS, reader)?;
+pub(super) fn atlas<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<AtlasSettings> {
+    let fields = Fields::from_value(value, &ATLAS, reader)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", reader);
     let output = match fields.get("output") {
         None => Some("output".to_owned()),
         Some(value) => reader.text(value).and_then(|text| {
-            let folder = folder(&text, cfg!(windows));
-            folder.map_err(|message| reader.note(Problem::error(value.span(), message).help(FOLDER_HELP))).ok()
+            let folder = normalize_folder(&text, cfg!(windows));
+            folder.map_err(|message| reader.report(Problem::error(value.span(), message).with_help(FOLDER_HELP))).ok()
         }),
     };
     let formats = match fields.get("formats") {
         None => Some(vec![Format::Svg, Format::Png]),
         Some(value) => formats(value, reader),
     };
-    let volume_pages = fields.get("volume_pages").map_or(Some(1000), |value| reader.count(value, 1, MAX_VOLUME));
-    Some(Atlas { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
+    let volume_pages =
+        fields.get("volume_pages").map_or(Some(1000), |value| reader.integer(value, 1, MAX_VOLUME_PAGES));
+    Some(AtlasSettings { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
 }
 
 const FOLDER_HELP: &str = "write a folder relative to the manifest, as in output = \"output\"";
 
 /// The folder a manifest names, as this system writes it. Manifests go from system to system: `/` and `\` both part
 /// folders on all of them. What only Windows has, a drive or a share, cannot be had elsewhere.
-fn folder(text: &str, is_windows: bool) -> Result<String, &'static str> {
+fn normalize_folder(text: &str, is_windows: bool) -> Result<String, &'static str> {
     let has_drive = text.as_bytes().get(1) == Some(&b':') && text.as_bytes()[0].is_ascii_alphabetic();
     if text.is_empty() || text.contains('\0') {
         Err("this names no folder")
@@ -122,10 +147,11 @@ fn folder(text: &str, is_windows: bool) -> Result<String, &'static str> {
 }
 
 /// A list of formats, each once.
-pub(super) fn formats<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Vec<Format>> {
+pub(super) fn formats<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Vec<Format>> {
     let list = reader.list(value)?;
     if list.is_empty() {
-        reader.note(Problem::error(value.span(), "no format is named").help("write formats = [\"svg\", \"png\"]"));
+        reader
+            .report(Problem::error(value.span(), "no format is named").with_help("write formats = [\"svg\", \"png\"]"));
         return None;
     }
     let words = Format::ALL.map(|format| (format.name(), format));
@@ -141,61 +167,67 @@ pub(super) fn formats<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<
     all_read.then_some(out)
 }
 
-pub(super) fn page<'t>(value: Option<&Value<'t>>, reader: &mut Reader<'t>) -> Option<Page> {
+pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, reader: &mut TomlParser<'t>) -> Option<PageSettings> {
     let tabloid = Paper::NAMED[1].1;
-    let default = Page { options: Options::on(tabloid), dpi: 100.0, text: TextMode::default() };
+    let default = PageSettings { options: Options::for_paper(tabloid), dpi: 100.0, text_mode: TextMode::default() };
     let Some(value) = value else { return Some(default) };
-    let fields = Fields::of(value, &PAGE, reader)?;
+    let fields = Fields::from_value(value, &PAGE, reader)?;
     let paper = match fields.get("paper") {
         None => Some(tabloid),
         Some(value) => paper(value, reader),
     };
     let dpi = match fields.get("dpi") {
         None => Some(default.dpi),
-        Some(value) => within(value, reader, |value, reader| reader.constant(value), DPI, "pixels to the inch"),
+        Some(value) => {
+            read_within(value, reader, |value, reader| reader.constant(value), DPI_RANGE, "pixels to the inch")
+        }
     };
     if let (Some(paper), Some(dpi), Some(value)) = (paper, dpi, fields.get("dpi")) {
         let pixels = paper.width * paper.height * dpi * dpi / (25.4 * 25.4);
         if pixels > MAX_PIXELS {
             let problem = Problem::error(value.span(), "an image of this paper would have too many pixels");
-            reader
-                .note(problem.help(format!("{:.0} dpi is the most for it", dpi * (MAX_PIXELS / pixels).sqrt() - 0.5)));
+            reader.report(
+                problem.with_help(format!("{:.0} dpi is the most for it", dpi * (MAX_PIXELS / pixels).sqrt() - 0.5)),
+            );
         }
     }
     let dash_deg = match fields.get("dash") {
         None => Some(default.options.dash_deg),
         Some(value) => {
-            let read = |value: &Value<'t>, reader: &mut Reader<'t>| reader.measure(value, Dimension::Angle);
-            within(value, reader, read, [0.1, 360.0], "degrees of input")
+            let read =
+                |value: &TomlValue<'t>, reader: &mut TomlParser<'t>| reader.constant_quantity(value, Dimension::Angle);
+            read_within(value, reader, read, [0.1, 360.0], "degrees of input")
         }
     };
     let text = match fields.get("text") {
         None => Some(TextMode::default()),
-        Some(value) => reader.word(value, &TEXT),
+        Some(value) => reader.word(value, &TEXT_MODES),
     };
     let theme = fields.get("theme").map_or_else(Theme::default, |value| theme::read(value, reader));
-    Some(Page { options: Options { paper: paper?, dash_deg: dash_deg?, theme }, dpi: dpi?, text: text? })
+    Some(PageSettings { options: Options { paper: paper?, dash_deg: dash_deg?, theme }, dpi: dpi?, text_mode: text? })
 }
 
-fn paper<'t>(value: &Value<'t>, reader: &mut Reader<'t>) -> Option<Paper> {
+fn paper<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Paper> {
     if value.get_ref().is_str() {
         return reader.word(value, &Paper::NAMED);
     }
-    let fields = Fields::of(value, &PAPER, reader)?;
+    let fields = Fields::from_value(value, &PAPER, reader)?;
     let mut side = |key: &str| {
         let value = fields.required(key, &format!("{key} = \"279 mm\""), reader)?;
-        let read = |value: &Value<'t>, reader: &mut Reader<'t>| reader.measure(value, Dimension::Paper);
-        within(value, reader, read, Paper::SIDES, "mm")
+        let read = |value: &TomlValue<'t>, reader: &mut TomlParser<'t>| {
+            reader.constant_quantity(value, Dimension::PaperLength)
+        };
+        read_within(value, reader, read, Paper::SIDE_RANGE, "mm")
     };
     let (width, height) = (side("width"), side("height"));
     Some(Paper { width: width?, height: height? })
 }
 
 /// A value that must lie between two others.
-pub(super) fn within<'t>(
-    value: &Value<'t>,
-    reader: &mut Reader<'t>,
-    read: impl Fn(&Value<'t>, &mut Reader<'t>) -> Option<f64>,
+pub(super) fn read_within<'t>(
+    value: &TomlValue<'t>,
+    reader: &mut TomlParser<'t>,
+    read: impl Fn(&TomlValue<'t>, &mut TomlParser<'t>) -> Option<f64>,
     [least, most]: [f64; 2],
     what: &str,
 ) -> Option<f64> {
@@ -204,7 +236,7 @@ pub(super) fn within<'t>(
         return Some(number);
     }
     let problem = Problem::error(value.span(), format!("{number} {what} is out of range"));
-    reader.note(problem.help(format!("give {least} to {most} {what}")));
+    reader.report(problem.with_help(format!("give {least} to {most} {what}")));
     None
 }
 
@@ -225,8 +257,8 @@ mod tests {
             ("", Err("this names no folder")),
             ("a\0b", Err("this names no folder")),
         ] {
-            assert_eq!(folder(text, false).as_deref(), elsewhere.as_deref(), "{text}");
-            assert_eq!(folder(text, true).is_ok(), elsewhere != Err("this names no folder"), "{text}");
+            assert_eq!(normalize_folder(text, false).as_deref(), elsewhere.as_deref(), "{text}");
+            assert_eq!(normalize_folder(text, true).is_ok(), elsewhere != Err("this names no folder"), "{text}");
         }
     }
 }

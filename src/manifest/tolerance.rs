@@ -1,4 +1,4 @@
-use coupler_curves::notation::{Fields, Form, Key, Reader, Table, Value};
+use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 
 /// By how much a recorded value may differ from the one that comes out now.
@@ -25,7 +25,7 @@ impl Default for Tolerances {
 
 /// Tolerances of which some are given, and the others are those of somebody else.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GivenTolerances {
+pub struct PartialTolerances {
     /// [`Tolerances::atol`].
     pub atol: Option<f64>,
     /// [`Tolerances::rtol`].
@@ -34,10 +34,10 @@ pub struct GivenTolerances {
     pub measure_rtol: Option<f64>,
 }
 
-impl GivenTolerances {
+impl PartialTolerances {
     /// These, and for the others some more.
-    pub fn or(self, others: GivenTolerances) -> GivenTolerances {
-        GivenTolerances {
+    pub fn or(self, others: PartialTolerances) -> PartialTolerances {
+        PartialTolerances {
             atol: self.atol.or(others.atol),
             rtol: self.rtol.or(others.rtol),
             measure_rtol: self.measure_rtol.or(others.measure_rtol),
@@ -45,7 +45,7 @@ impl GivenTolerances {
     }
 
     /// These, and the defaults.
-    pub fn complete(self) -> Tolerances {
+    pub fn or_defaults(self) -> Tolerances {
         let Tolerances { atol, rtol, measure_rtol } = Tolerances::default();
         Tolerances {
             atol: self.atol.unwrap_or(atol),
@@ -56,22 +56,36 @@ impl GivenTolerances {
 }
 
 /// Tolerances for all families.
-pub(super) static CHECK: Table = Table::new("[check]", &KEYS);
+pub(super) static CHECK: TableSchema = TableSchema::new("[check]", &KEYS);
 
 /// Tolerances of a family.
-pub(super) static OWN_CHECK: Table = Table::new("`check`", &KEYS);
+pub(super) static FAMILY_CHECK: TableSchema = TableSchema::new("`check`", &KEYS);
 
-static KEYS: [Key; 3] = [
-    Key::new("atol", Form::Within([0.0, f64::MAX]), "How far a point may move, in units of length.").or("0"),
-    Key::new("rtol", Form::Within([0.0, f64::MAX]), "How far a point may move, by the size of its curve.").or("1e-12"),
-    Key::new("measure_rtol", Form::Within([0.0, f64::MAX]), "How much a measure may differ, by its own size.")
-        .or("1e-9"),
+static KEYS: [KeySchema; 3] = [
+    KeySchema::new("atol", ValueSchema::InRange([0.0, f64::MAX]), "How far a point may move, in units of length.")
+        .with_default("0"),
+    KeySchema::new(
+        "rtol",
+        ValueSchema::InRange([0.0, f64::MAX]),
+        "How far a point may move, by the size of its curve.",
+    )
+    .with_default("1e-12"),
+    KeySchema::new(
+        "measure_rtol",
+        ValueSchema::InRange([0.0, f64::MAX]),
+        "How much a measure may differ, by its own size.",
+    )
+    .with_default("1e-9"),
 ];
 
 /// The tolerances of a table.
-pub(super) fn read<'t>(value: Option<&Value<'t>>, table: &'static Table, reader: &mut Reader<'t>) -> GivenTolerances {
-    let fields = value.and_then(|value| Fields::of(value, table, reader));
-    let Some(fields) = fields else { return GivenTolerances::default() };
+pub(super) fn read<'t>(
+    value: Option<&TomlValue<'t>>,
+    table: &'static TableSchema,
+    reader: &mut TomlParser<'t>,
+) -> PartialTolerances {
+    let fields = value.and_then(|value| Fields::from_value(value, table, reader));
+    let Some(fields) = fields else { return PartialTolerances::default() };
     let mut tolerance = |key: &str| {
         let value = fields.get(key)?;
         let number = reader.constant(value)?;
@@ -79,8 +93,8 @@ pub(super) fn read<'t>(value: Option<&Value<'t>>, table: &'static Table, reader:
             return Some(number);
         }
         let problem = Problem::error(value.span(), format!("`{key}` is {number}, and less than nothing"));
-        reader.note(problem.help("give 0 or more"));
+        reader.report(problem.with_help("give 0 or more"));
         None
     };
-    GivenTolerances { atol: tolerance("atol"), rtol: tolerance("rtol"), measure_rtol: tolerance("measure_rtol") }
+    PartialTolerances { atol: tolerance("atol"), rtol: tolerance("rtol"), measure_rtol: tolerance("measure_rtol") }
 }

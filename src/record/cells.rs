@@ -1,67 +1,67 @@
-use coupler_curves::exchange::{shortest, whole};
+use coupler_curves::exchange::{append_integer, append_number};
 use coupler_curves::family::Family;
 use coupler_curves::measure::Value;
-use coupler_curves::solve::{Curve, Solved, Status};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell, Status};
 
 /// `cells.csv`: a row for each traced curve; a single one, without trace and circuit, for a cell that has no motion.
 #[derive(Clone, Copy, Debug)]
-pub struct Cells<'a> {
+pub struct CellTable<'a> {
     family: &'a Family,
 }
 
-impl<'a> Cells<'a> {
+impl<'a> CellTable<'a> {
     /// The table of a family.
-    pub fn new(family: &'a Family) -> Cells<'a> {
-        Cells { family }
+    pub fn new(family: &'a Family) -> CellTable<'a> {
+        CellTable { family }
     }
 
     /// The names of the columns.
     pub fn header(self) -> String {
         let parameters = self.family.template.parameters.iter().map(|parameter| parameter.name.as_str());
-        let measures = self.family.taken().map(|(_, measure)| measure.name);
+        let measures = self.family.computed_measures().map(|(_, measure)| measure.name);
         let all =
             ["cell", "trace", "circuit"].into_iter().chain(parameters).chain(["status", "reason"]).chain(measures);
-        let mut rows = Rows::onto(Vec::new());
+        let mut rows = CsvWriter::append_to(Vec::new());
         all.for_each(|name| rows.field(name.as_bytes()));
-        rows.end();
-        String::from_utf8(rows.finish()).unwrap_or_default()
+        rows.end_row();
+        String::from_utf8(rows.into_bytes()).unwrap_or_default()
     }
 
     /// The rows of a cell.
-    pub fn rows(self, solved: &Solved, out: &mut Vec<u8>) {
+    pub fn append_rows(self, solved: &SolvedCell, out: &mut Vec<u8>) {
         if solved.is_left_out() {
             return;
         }
-        let mut rows = Rows::onto(std::mem::take(out));
+        let mut rows = CsvWriter::append_to(std::mem::take(out));
         if solved.curves.is_empty() {
-            self.row(solved, None, &mut rows);
+            self.write_row(solved, None, &mut rows);
         }
         for curve in &solved.curves {
-            self.row(solved, Some(curve), &mut rows);
+            self.write_row(solved, Some(curve), &mut rows);
         }
-        *out = rows.finish();
+        *out = rows.into_bytes();
     }
 
-    fn row(self, solved: &Solved, curve: Option<&Curve>, rows: &mut Rows) {
-        rows.whole(Some(solved.cell.number));
-        rows.whole(curve.map(|curve| curve.trace));
-        rows.whole(curve.map(|curve| curve.circuit));
-        self.family.parameters(&solved.cell).iter().for_each(|&value| rows.number(value));
+    fn write_row(self, solved: &SolvedCell, curve: Option<&MeasuredCurve>, rows: &mut CsvWriter) {
+        rows.integer(Some(solved.cell.number));
+        rows.integer(curve.map(|curve| curve.trace));
+        rows.integer(curve.map(|curve| curve.circuit));
+        self.family.parameter_values(&solved.cell).iter().for_each(|&value| rows.number(value));
         rows.field(solved.status().name().as_bytes());
-        rows.field(solved.motion.shortfall.as_deref().unwrap_or_default().as_bytes());
-        for (k, _) in self.family.taken() {
-            match curve.map(|curve| curve.measures[k]) {
+        rows.field(solved.motion.incomplete_reason.as_deref().unwrap_or_default().as_bytes());
+        for (k, _) in self.family.computed_measures() {
+            match curve.map(|curve| curve.values[k]) {
                 Some(Value::Number(value)) => rows.number(value),
                 Some(Value::Word(word)) => rows.field(word.as_bytes()),
                 Some(Value::Missing) | None => rows.field(b""),
             }
         }
-        rows.end();
+        rows.end_row();
     }
 }
 
 /// The cells of a `cells.csv` that were not assembled, or not over the whole range asked for, and why.
-pub fn shortfalls(file: impl std::io::Read) -> Vec<(usize, String)> {
+pub fn read_unassembled_cells(file: impl std::io::Read) -> Vec<(usize, String)> {
     let mut reader = csv::Reader::from_reader(file);
     let headers = reader.headers().cloned().unwrap_or_default();
     let place = |name: &str| headers.iter().position(|header| header == name);
@@ -83,17 +83,17 @@ pub fn shortfalls(file: impl std::io::Read) -> Vec<(usize, String)> {
 }
 
 /// Lines of comma-separated values, quoted where they have to be.
-struct Rows {
+struct CsvWriter {
     writer: csv::Writer<Vec<u8>>,
     /// The digits of a number.
     digits: Vec<u8>,
 }
 
 // Writing to memory cannot fail.
-impl Rows {
+impl CsvWriter {
     /// Lines after those there are.
-    fn onto(out: Vec<u8>) -> Rows {
-        Rows { writer: csv::Writer::from_writer(out), digits: Vec::new() }
+    fn append_to(out: Vec<u8>) -> CsvWriter {
+        CsvWriter { writer: csv::Writer::from_writer(out), digits: Vec::new() }
     }
 
     fn field(&mut self, text: &[u8]) {
@@ -102,23 +102,23 @@ impl Rows {
 
     fn number(&mut self, value: f64) {
         self.digits.clear();
-        shortest(value, &mut self.digits);
+        append_number(value, &mut self.digits);
         let _ = self.writer.write_field(&self.digits);
     }
 
-    fn whole(&mut self, value: Option<usize>) {
+    fn integer(&mut self, value: Option<usize>) {
         self.digits.clear();
         if let Some(value) = value {
-            whole(value, &mut self.digits);
+            append_integer(value, &mut self.digits);
         }
         let _ = self.writer.write_field(&self.digits);
     }
 
-    fn end(&mut self) {
+    fn end_row(&mut self) {
         let _ = self.writer.write_record(None::<&[u8]>);
     }
 
-    fn finish(self) -> Vec<u8> {
+    fn into_bytes(self) -> Vec<u8> {
         self.writer.into_inner().unwrap_or_default()
     }
 }

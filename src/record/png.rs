@@ -1,8 +1,8 @@
 /// Whether every chunk of a PNG is there and has the checksum it was written with.
-pub fn is_whole_png(bytes: &[u8]) -> bool {
+pub fn is_intact_png(bytes: &[u8]) -> bool {
     let chunks = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n");
     let mut rest = chunks.unwrap_or_default();
-    while let Some((body, after)) = chunk(rest) {
+    while let Some((body, after)) = read_chunk(rest) {
         if body == b"IEND" {
             return after.is_empty();
         }
@@ -12,7 +12,7 @@ pub fn is_whole_png(bytes: &[u8]) -> bool {
 }
 
 /// The kind and contents of the first chunk, and what follows it; nothing where it is cut short or not as it was written.
-fn chunk(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+fn read_chunk(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first_chunk()?;
     let (body, rest) = rest.split_at_checked((u32::from_be_bytes(*length) as usize).checked_add(4)?)?;
     let (checksum, rest) = rest.split_first_chunk()?;

@@ -6,14 +6,14 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 /// The version of the format of `run.json`.
-pub const FORMAT: u32 = 1;
+pub const FORMAT_VERSION: u32 = 1;
 
 /// A record of more bytes, some millions of files, is none.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_BYTES: u64 = 1 << 30;
 
 /// `run.json`: what a run has written. No time, host, path or number of jobs, so that the same run has the same bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Run {
+pub struct RunRecord {
     /// The version of this format.
     pub format: u32,
     /// The program that wrote it.
@@ -93,20 +93,20 @@ pub struct FileRecord {
 pub enum ReadError {
     /// The file cannot be read.
     #[error(transparent)]
-    File(#[from] std::io::Error),
+    Io(#[from] std::io::Error),
     /// It is no file, or one that is larger than any record.
-    #[error("it is no record of a run: it is no file, or has more than {MOST_BYTES} bytes")]
-    NoRecord,
+    #[error("it is no record of a run: it is no file, or has more than {MAX_BYTES} bytes")]
+    NotARecord,
     /// It is not what this program writes.
     #[error("it is no record of a run: {0}")]
     Syntax(#[from] serde_json::Error),
     /// It is of another format.
     #[error(
-        "it has format {format} on line {line}, written by {writer}, and this is {} {}, which reads format {FORMAT}",
+        "it has format {format} on line {line}, written by {writer}, and this is {} {}, which reads format {FORMAT_VERSION}",
         env!("CARGO_PKG_NAME"),
         env!("CARGO_PKG_VERSION")
     )]
-    Format {
+    UnsupportedFormat {
         /// The format, as it is written.
         format: String,
         /// The line it stands on, from 1.
@@ -118,7 +118,7 @@ pub enum ReadError {
 
 /// What records of all formats say of themselves.
 #[derive(Deserialize)]
-struct Header {
+struct FormatHeader {
     format: Value,
     #[serde(default)]
     program: Value,
@@ -132,27 +132,27 @@ enum Never {}
 
 /// What cannot be read of any record, and no further than its format.
 #[derive(Deserialize)]
-struct UpToFormat {
+struct FormatLocator {
     #[serde(rename = "format")]
     _format: Never,
 }
 
-impl Header {
+impl FormatHeader {
     /// What is wrong with a format that is not this program's.
-    fn objection(&self, bytes: &[u8]) -> ReadError {
-        let line = serde_json::from_slice::<UpToFormat>(bytes).err().map_or(1, |error| error.line());
+    fn format_error(&self, bytes: &[u8]) -> ReadError {
+        let line = serde_json::from_slice::<FormatLocator>(bytes).err().map_or(1, |error| error.line());
         let words: Vec<&str> = [&self.program, &self.version].into_iter().filter_map(Value::as_str).collect();
         let writer = if words.is_empty() { "another program".to_owned() } else { words.join(" ") };
-        ReadError::Format { format: self.format.to_string(), line, writer }
+        ReadError::UnsupportedFormat { format: self.format.to_string(), line, writer }
     }
 }
 
-impl Run {
+impl RunRecord {
     /// An empty record of an atlas.
-    pub fn new(title: &str) -> Run {
+    pub fn new(title: &str) -> RunRecord {
         let (program, version) = (env!("CARGO_PKG_NAME").to_owned(), env!("CARGO_PKG_VERSION").to_owned());
-        Run {
-            format: FORMAT,
+        RunRecord {
+            format: FORMAT_VERSION,
             program,
             version,
             title: title.to_owned(),
@@ -166,18 +166,18 @@ impl Run {
     ///
     /// # Errors
     /// A file that cannot be read, or is no record of this format.
-    pub fn read(path: &Path) -> Result<Run, ReadError> {
+    pub fn read(path: &Path) -> Result<RunRecord, ReadError> {
         let metadata = std::fs::metadata(path)?;
-        if !metadata.is_file() || metadata.len() > MOST_BYTES {
-            return Err(ReadError::NoRecord);
+        if !metadata.is_file() || metadata.len() > MAX_BYTES {
+            return Err(ReadError::NotARecord);
         }
         let mut bytes = Vec::new();
-        std::fs::File::open(path)?.take(MOST_BYTES).read_to_end(&mut bytes)?;
+        std::fs::File::open(path)?.take(MAX_BYTES).read_to_end(&mut bytes)?;
         // An editor may have put a byte order mark before it.
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-        let header: Header = serde_json::from_slice(bytes)?;
-        if header.format != FORMAT {
-            return Err(header.objection(bytes));
+        let header: FormatHeader = serde_json::from_slice(bytes)?;
+        if header.format != FORMAT_VERSION {
+            return Err(header.format_error(bytes));
         }
         Ok(serde_json::from_slice(bytes)?)
     }
@@ -193,28 +193,28 @@ impl Run {
 
 impl FileRecord {
     /// The record of a file with these bytes.
-    pub fn of_bytes(name: impl Into<String>, bytes: &[u8]) -> FileRecord {
+    pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> FileRecord {
         let mut digest = RunningDigest::default();
-        digest.add(bytes);
-        digest.record(name)
+        digest.update(bytes);
+        digest.into_file_record(name)
     }
 
     /// The record of an image by what it is drawn from.
-    pub fn of_drawing(name: impl Into<String>, svg: &[u8], dpi: f64) -> FileRecord {
+    pub fn from_page_svg(name: impl Into<String>, svg: &[u8], dpi: f64) -> FileRecord {
         let mut digest = RunningDigest::default();
-        digest.add(svg);
-        digest.add(dpi.to_string().as_bytes());
+        digest.update(svg);
+        digest.update(dpi.to_string().as_bytes());
         let drawn_from_sha256 = Some(digest.finish());
-        FileRecord { drawn_from_sha256, ..FileRecord::of_name(name) }
+        FileRecord { drawn_from_sha256, ..FileRecord::from_name(name) }
     }
 
     /// The record of a file of which nothing but its name is known.
-    pub fn of_name(name: impl Into<String>) -> FileRecord {
+    pub fn from_name(name: impl Into<String>) -> FileRecord {
         FileRecord { name: name.into(), sha256: None, drawn_from_sha256: None, inputs_sha256: None }
     }
 
     /// The same, with what the file was made from.
-    pub fn made_from(self, inputs_sha256: &str) -> FileRecord {
+    pub fn with_inputs(self, inputs_sha256: &str) -> FileRecord {
         FileRecord { inputs_sha256: Some(inputs_sha256.to_owned()), ..self }
     }
 }
@@ -225,7 +225,7 @@ pub struct RunningDigest(Sha256);
 
 impl std::io::Write for RunningDigest {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.add(bytes);
+        self.update(bytes);
         Ok(bytes.len())
     }
 
@@ -236,13 +236,13 @@ impl std::io::Write for RunningDigest {
 
 impl RunningDigest {
     /// Takes in more bytes.
-    pub fn add(&mut self, bytes: &[u8]) {
+    pub fn update(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
     }
 
     /// The record of the file.
-    pub fn record(self, name: impl Into<String>) -> FileRecord {
-        FileRecord { sha256: Some(self.finish()), ..FileRecord::of_name(name) }
+    pub fn into_file_record(self, name: impl Into<String>) -> FileRecord {
+        FileRecord { sha256: Some(self.finish()), ..FileRecord::from_name(name) }
     }
 
     /// The digest, in hexadecimal digits.
@@ -253,19 +253,19 @@ impl RunningDigest {
 
 /// Two digests of a text: of its bytes as they are, and without carriage returns, as this program would have written it.
 #[derive(Clone, Default)]
-pub struct LineDigests([RunningDigest; 2]);
+pub struct TextDigests([RunningDigest; 2]);
 
-impl LineDigests {
+impl TextDigests {
     /// Both digests, in hexadecimal digits.
     pub fn finish(self) -> [String; 2] {
         self.0.map(RunningDigest::finish)
     }
 }
 
-impl std::io::Write for LineDigests {
+impl std::io::Write for TextDigests {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0[0].add(bytes);
-        bytes.split(|&byte| byte == b'\r').for_each(|part| self.0[1].add(part));
+        self.0[0].update(bytes);
+        bytes.split(|&byte| byte == b'\r').for_each(|part| self.0[1].update(part));
         Ok(bytes.len())
     }
 

@@ -9,7 +9,7 @@ use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::report;
-use coupler_drawing::chart::{Gathering, MOST_NUMBERS, Over, Series};
+use coupler_drawing::chart::{ChartBuilder, MAX_NUMBERS, PointSource, Series};
 use tempfile::TempDir;
 
 const GOOD: &str = r#"[atlas]
@@ -27,7 +27,7 @@ let = { a = "(1 + p)^1.5 / 2" }
 "#;
 
 fn plan(text: &str) -> Plan {
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
 }
 
@@ -36,16 +36,18 @@ fn series(text: &str) -> Vec<Series> {
     let plan = plan(text);
     let planned = &plan.families[0];
     let chart = planned.chart.as_ref().unwrap();
-    let mut gathering = Gathering::new(chart, &planned.family);
-    let kept = sweep::select(&planned.family);
-    let take = |_, solved: Vec<solve::Solved>| solved.iter().flat_map(|solved| chart.take(solved)).collect::<Vec<_>>();
-    let groups = sweep::Groups { cells: &kept, size: 4, bytes: 0, wanted: None };
-    sweep::run(&planned.family, groups, take, |taken| -> Result<(), ()> {
+    let mut gathering = ChartBuilder::new(chart, &planned.family);
+    let kept = sweep::kept_cells(&planned.family);
+    let take = |_, solved: Vec<solve::SolvedCell>| {
+        solved.iter().flat_map(|solved| chart.sample_cell(solved)).collect::<Vec<_>>()
+    };
+    let groups = sweep::CellGroups { cells: &kept, size: 4, work_bytes: 0, requested_measures: None };
+    sweep::process_groups(&planned.family, groups, take, |taken| -> Result<(), ()> {
         taken.into_iter().for_each(|taken| gathering.add(taken));
         Ok(())
     })
     .unwrap();
-    gathering.finish().series
+    gathering.build().series
 }
 
 /// A family's folder after `render`.
@@ -115,7 +117,7 @@ fn each_mistake_has_its_message() {
     for (from, to, message, place) in cases {
         let text = GOOD.replacen(from, &to, 1);
         assert_ne!(text, GOOD, "{from}");
-        let loaded = manifest::load(&text);
+        let loaded = manifest::parse(&text);
         let said = report(&loaded.problems, "atlas.toml", &text, false);
         assert!(loaded.plan.is_none() && loaded.problems.len() == 1, "{message}:\n{said}");
         assert!(
@@ -126,7 +128,7 @@ fn each_mistake_has_its_message() {
     }
     // Of a linkage that is not known, it is still seen that an expression cannot be read.
     let text = GOOD.replace("linkage = \"evans\"", "linkage = \"evens\"").replace("\"length\"", "\"length +\"");
-    assert!(report(&manifest::load(&text).problems, "m", &text, false).contains("ends too soon"));
+    assert!(report(&manifest::parse(&text).problems, "m", &text, false).contains("ends too soon"));
 }
 
 #[test]
@@ -159,7 +161,7 @@ fn lines_over_curves_are_the_rows_of_cells() {
 fn lines_over_samples_are_the_rows_of_points() {
     let chart = "chart = { x = \"arc\", y = [\"speed\", \"x + y\", \"input_deg\", \"length\"] }\ncolumns = [\"speed\"]";
     let text = GOOD.replace("chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }", chart);
-    assert_eq!(plan(&text).families[0].chart.as_ref().unwrap().over, Over::Samples);
+    assert_eq!(plan(&text).families[0].chart.as_ref().unwrap().point_source, PointSource::Samples);
     let found = series(&text);
     assert_eq!(found.len(), 6);
     assert_eq!(found[1].label, "p = 2, k = 2");
@@ -285,7 +287,7 @@ fn points_stand_at_their_places_on_the_page() {
 #[test]
 fn charts_have_ids_titles_and_escaped_names() {
     let text = GOOD.replace("\"length\"", "\"length * (p > 2 and p < 9)\"");
-    assert!(manifest::load(&text).plan.is_none(), "a truth is no number");
+    assert!(manifest::parse(&text).plan.is_none(), "a truth is no number");
     let text = GOOD.replace("title = \"T\"", "title = \"A & <B>\"").replace("\"length\"", "\"max(length, 1)\"");
     let svg = page(&rendered(&text), 1);
     for part in [
@@ -384,14 +386,14 @@ fn too_many_numbers_are_counted_and_not_kept() {
     let text = GOOD.replace("x = \"p\"", "x = \"input_deg\"").replace("\"length\"", "\"speed\"");
     let plan = plan(&text);
     let planned = &plan.families[0];
-    let mut gathering = Gathering::new(planned.chart.as_ref().unwrap(), &planned.family);
-    let numbers = vec![1.0; MOST_NUMBERS / 3];
+    let mut gathering = ChartBuilder::new(planned.chart.as_ref().unwrap(), &planned.family);
+    let numbers = vec![1.0; MAX_NUMBERS / 3];
     for cell in 1..=6 {
         let numbers = numbers.clone();
-        gathering.add(coupler_drawing::chart::Taken { cell, trace: 1, circuit: 1, numbers });
+        gathering.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers });
     }
-    let gathered = gathering.finish();
-    assert_eq!((gathered.series.len(), gathered.curves, gathered.left_out), (3, 6, 3));
+    let gathered = gathering.build();
+    assert_eq!((gathered.series.len(), gathered.curve_count, gathered.left_out_count), (3, 6, 3));
 }
 
 /// Chebyshev's curve is that of an Evans linkage at half size (Roberts and Chebyshev), for the thesis's proportions; and

@@ -11,8 +11,10 @@ use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, Vector, distance_to_segment};
 use coupler_curves::motion::{self, Sampler};
 use coupler_curves::problem::report;
-use coupler_curves::solve::Solved;
-use coupler_drawing::page::{self, GridSheet, Heading, Label, Layout, Options, Panel, Paper, Theme, View};
+use coupler_curves::solve::SolvedCell;
+use coupler_drawing::page::{
+    self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, Paper, PoseChoice, Theme,
+};
 use coupler_drawing::scene::{Circle, Color, Group, Item, Path, Scene, Text};
 use tempfile::TempDir;
 
@@ -55,7 +57,7 @@ const PAPERS: [(f64, f64); 9] = [
 ];
 
 fn plan(text: &str) -> Plan {
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
 }
 
@@ -64,47 +66,63 @@ fn example() -> Plan {
 }
 
 fn on((width, height): (f64, f64)) -> Options {
-    Options::on(Paper { width, height })
+    Options::for_paper(Paper { width, height })
 }
 
-fn labels(family: &Family, solved: &Solved) -> Vec<Label> {
+fn labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
     let joint = |name: &str| solved.linkage.joints.iter().position(|joint| joint.name == name);
-    let label = |(ends, text): ([&str; 2], String)| Some(Label { ends: [joint(ends[0])?, joint(ends[1])?], text });
-    family.template.lengths().into_iter().filter_map(label).collect()
+    let label =
+        |(ends, text): ([&str; 2], String)| Some(LinkLabel { joints: [joint(ends[0])?, joint(ends[1])?], text });
+    family.template.link_length_names().into_iter().filter_map(label).collect()
 }
 
 /// The pages of a cell, with the curves of each.
-fn pages(family: &Family, source: &str, solved: &Solved, options: &Options) -> Vec<(Scene, Vec<usize>)> {
-    let mut shown = solved.by_points(Layout::POINTS);
+fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) -> Vec<(Scene, Vec<usize>)> {
+    let mut shown = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
     if shown.is_empty() {
         shown.push(Vec::new());
     }
     let of = shown.len();
     let labels = labels(family, solved);
-    let view = page::clearest_pose(solved).map_or(View::Clearest, View::At);
+    let view = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
     let compose = |(page, shown): (usize, Vec<usize>)| {
-        let [caption, note] = family.describe(&solved.cell, solved.measures());
+        let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
         let (title, symbols, source) = (family.title.as_str(), family.names.as_slice(), source.to_owned());
-        let heading = Heading { atlas: "The atlas", family: &family.id, title, source, symbols, page, of };
-        let panel = Panel { caption, note, facts: page::facts(solved), solved, view: view.clone(), inks: Vec::new() };
-        let sheet = GridSheet { heading, panel, shown: shown.clone(), labels: &labels };
-        (page::compose_grid(&sheet, options), shown)
+        let heading = Heading {
+            atlas_title: "The atlas",
+            family_id: &family.id,
+            family_title: title,
+            source,
+            symbols,
+            page,
+            page_count: of,
+        };
+        let panel = Panel {
+            caption,
+            note,
+            facts: page::cell_facts(solved),
+            solved_cell: solved,
+            pose: view.clone(),
+            link_inks: Vec::new(),
+        };
+        let sheet = CouplerGridPage { heading, panel, curve_indices: shown.clone(), labels: &labels };
+        (page::compose_coupler_grid(&sheet, options), shown)
     };
     (1..).zip(shown).map(compose).collect()
 }
 
 /// The cells of the first family of a plan, of which every so many are taken.
-fn solved(plan: &Plan, every: usize) -> Vec<Solved> {
+fn solved(plan: &Plan, every: usize) -> Vec<SolvedCell> {
     let family = &plan.families[0].family;
     let sampler = Sampler::new(family.sampling);
-    let kept = sweep::select(family);
-    kept.iter().step_by(every).map(|&k| solve::solve(family, &sampler, k).unwrap()).collect()
+    let kept = sweep::kept_cells(family);
+    kept.iter().step_by(every).map(|&k| solve::solve_cell(family, &sampler, k).unwrap()).collect()
 }
 
 /// All pages of some cells.
 fn all_pages(plan: &Plan, every: usize, options: &Options) -> Vec<Scene> {
     let planned = &plan.families[0];
-    let scenes = |solved: &Solved| pages(&planned.family, &planned.source, solved, options);
+    let scenes = |solved: &SolvedCell| pages(&planned.family, &planned.source, solved, options);
     solved(plan, every).iter().flat_map(scenes).map(|(scene, _)| scene).collect()
 }
 
@@ -114,7 +132,7 @@ fn leaves(scene: &Scene) -> Vec<(&'static str, &Item)> {
         for item in items {
             match item {
                 Item::Group(group) => add(group.class, &group.items, out),
-                Item::Moving(_) => panic!("a page of a coupler grid stands still"),
+                Item::Animation(_) => panic!("a page of a coupler grid stands still"),
                 leaf => out.push((class, leaf)),
             }
         }
@@ -172,7 +190,7 @@ impl Rect {
 
     /// The box of all that any letter of its face may take.
     fn of_face(text: &Text) -> Rect {
-        let (above, below) = text.runs[0].face.extents();
+        let (above, below) = text.runs[0].face.ascent_and_descent();
         Rect::of(text, [above, below])
     }
 
@@ -211,7 +229,7 @@ impl Rect {
 /// The middle of the border's line; it is drawn first.
 fn border(scene: &Scene) -> Rect {
     let Some((_, Item::Path(path))) = leaves(scene).into_iter().next() else { panic!("a border comes first") };
-    let points = &path.lines[0].points;
+    let points = &path.polylines[0].points;
     let by = |pick: fn(&Point) -> f64| {
         points.iter().map(pick).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
     };
@@ -229,11 +247,11 @@ fn outside(scene: &Scene) -> Vec<String> {
         let is_in = match item {
             Item::Circle(circle) => around(circle.centre, circle.radius + half(circle.stroke)).is_in(&inner),
             Item::Text(text) => text.runs.is_empty() || Rect::of_face(text).is_in(&inner),
-            Item::Path(path) => path.lines.iter().flat_map(|line| &line.points).all(|p| {
+            Item::Path(path) => path.polylines.iter().flat_map(|line| &line.points).all(|p| {
                 assert!(p.x.is_finite() && p.y.is_finite(), "{class}");
                 around(*p, half(path.stroke)).is_in(&inner)
             }),
-            Item::Group(_) | Item::Moving(_) => unreachable!("leaves have none"),
+            Item::Group(_) | Item::Animation(_) => unreachable!("leaves have none"),
         };
         if !is_in {
             out.push(if let Item::Text(text) = item { format!("{class}: {}", words(text)) } else { class.to_owned() });
@@ -294,7 +312,7 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
         }
         let crosses = |path: &Path| {
             let half = path.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
-            path.lines.iter().any(|line| line.points.windows(2).any(|p| number.distance_to(p[0], p[1]) < half))
+            path.polylines.iter().any(|line| line.points.windows(2).any(|p| number.distance_to(p[0], p[1]) < half))
         };
         lines.iter().find(|(_, path)| crosses(path)).map(|(class, _)| *class)
     };
@@ -319,7 +337,7 @@ fn numbers_stand_clear_of_all_that_is_drawn() {
 fn no_type_is_too_small_to_read() {
     let plan = example();
     for (name, paper) in Paper::NAMED {
-        let scenes = all_pages(&plan, 40, &Options::on(paper));
+        let scenes = all_pages(&plan, 40, &Options::for_paper(paper));
         let sizes = scenes.iter().flat_map(texts).map(|(_, text)| text.size * 72.0 / 25.4);
         let least = sizes.fold(f64::INFINITY, f64::min);
         // Points, to rounding.
@@ -328,10 +346,10 @@ fn no_type_is_too_small_to_read() {
 }
 
 /// The pages of the first cell of a manifest, on A4.
-fn first(text: &str) -> (Solved, Vec<(Scene, Vec<usize>)>) {
+fn first(text: &str) -> (SolvedCell, Vec<(Scene, Vec<usize>)>) {
     let plan = plan(text);
     let planned = &plan.families[0];
-    let solved = solve::solve(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
+    let solved = solve::solve_cell(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
     let pages = pages(&planned.family, &planned.source, &solved, &on(PAPERS[0]));
     for (scene, _) in &pages {
         assert_eq!(outside(scene), [""; 0]);
@@ -363,7 +381,7 @@ fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
 /// The weight of the dashes in the table beside a point.
 fn swatch_weight(group: &Group) -> f64 {
     let dashes = group.items.iter().find_map(|item| match item {
-        Item::Path(path) if path.lines.len() == 2 => path.stroke,
+        Item::Path(path) if path.polylines.len() == 2 => path.stroke,
         _ => None,
     });
     dashes.unwrap().width
@@ -377,7 +395,7 @@ fn curves_of_one_ink_differ_in_every_theme() {
         let scene = all_pages(&plan, 1, &plan.page).remove(0);
         let theme = &plan.page.theme;
         let inks: Vec<Color> = paths(&scene, &["curve"]).into_iter().map(color).collect();
-        assert_eq!(inks, [theme.curves.clone(), theme.curves.clone()].concat(), "{}", named.name);
+        assert_eq!(inks, [theme.curve_inks.clone(), theme.curve_inks.clone()].concat(), "{}", named.name);
         // The table shows each in its weight, the second five with a line under the dashes as well.
         let weights = |class: &str| -> Vec<f64> {
             paths(&scene, &[class]).iter().map(|path| path.stroke.unwrap().width).collect()
@@ -387,13 +405,13 @@ fn curves_of_one_ink_differ_in_every_theme() {
         assert_eq!(weights("swatch").len(), 15);
         // The second five have a thin unbroken line under their dashes, and full points.
         let trails = paths(&scene, &["trail"]);
-        assert_eq!(trails.iter().map(|path| color(path)).collect::<Vec<_>>(), theme.curves, "{}", named.name);
+        assert_eq!(trails.iter().map(|path| color(path)).collect::<Vec<_>>(), theme.curve_inks, "{}", named.name);
         for (trail, curve) in trails.iter().zip(&paths(&scene, &["curve"])[5..]) {
-            assert_eq!((trail.lines.len(), curve.lines.len()), (1, 72));
+            assert_eq!((trail.polylines.len(), curve.polylines.len()), (1, 72));
             assert!(trail.stroke.unwrap().width < 0.6 * curve.stroke.unwrap().width);
         }
         let fills: Vec<Color> = circles(&scene, &["coupler-point"]).iter().map(|circle| circle.fill.unwrap()).collect();
-        assert_eq!(fills, [vec![theme.paper; 5], theme.curves.clone()].concat(), "{}", named.name);
+        assert_eq!(fills, [vec![theme.paper; 5], theme.curve_inks.clone()].concat(), "{}", named.name);
     }
 }
 
@@ -411,9 +429,9 @@ fn a_dash_begins_at_each_fifth_degree() {
         at[0] + Vector::new(off.x, -off.y)
     };
     for (curve, &k) in paths(scene, &["curve"]).iter().zip(shown) {
-        assert_eq!(curve.lines.len(), 72);
+        assert_eq!(curve.polylines.len(), 72);
         let pass = &solved.circuit(&solved.curves[k]).passes[0];
-        for (dash, line) in curve.lines.iter().enumerate() {
+        for (dash, line) in curve.polylines.iter().enumerate() {
             let point = |input: f64| on_page(motion::pose(&solved.linkage, pass, input)[solved.curves[k].joint]);
             let begins = 5.0 * dash as f64;
             let ends = [(begins, line.points[0]), (begins + 3.0, *line.points.last().unwrap())];
@@ -433,7 +451,7 @@ fn a_page_has_ten_of_the_points_that_are_kept() {
     );
     let (solved, pages) = first(&format!("{fifty}where = \"length > 5.5\"\n"));
     let kept = solved.curves.len();
-    assert!(kept > 10 && kept < 50 && solved.left_out == 50 - kept, "{kept}");
+    assert!(kept > 10 && kept < 50 && solved.left_out_count == 50 - kept, "{kept}");
     let sizes: Vec<usize> = pages.iter().map(|(_, shown)| shown.len()).collect();
     assert_eq!(sizes.iter().sum::<usize>(), kept);
     assert!(sizes.len() == kept.div_ceil(10) && sizes[..sizes.len() - 1].iter().all(|&size| size == 10), "{sizes:?}");
@@ -480,7 +498,8 @@ fn hairlines_lead_from_the_link_to_all_points() {
     let plan = example();
     for solved in solved(&plan, 40) {
         for (scene, _) in pages(&plan.families[0].family, "", &solved, &on(PAPERS[2])) {
-            let lines = |class| paths(&scene, &[class]).into_iter().flat_map(|path| &path.lines).collect::<Vec<_>>();
+            let lines =
+                |class| paths(&scene, &[class]).into_iter().flat_map(|path| &path.polylines).collect::<Vec<_>>();
             let hairs: Vec<[Point; 2]> = lines("grid").iter().map(|line| [line.points[0], line.points[1]]).collect();
             assert!(!hairs.is_empty() && hairs.iter().all(|[a, b]| (b - a).norm() > 0.1), "{hairs:?}");
             let links: Vec<[Point; 2]> =
@@ -535,9 +554,9 @@ fn every_linkage_of_the_catalogue_has_its_page() {
         slides += usize::from(template.is_driven_by_length());
         let given = GIVEN.iter().find(|(id, _)| *id == template.id).map_or(&[][..], |(_, given)| given);
         let given: Vec<(String, f64)> = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        let family = Family::single(template.clone(), &given, Sampling::Samples(72));
+        let family = Family::single_cell(template.clone(), &given, Sampling::Samples(72));
         let family = family.unwrap_or_else(|wrong| panic!("{}: {wrong:?}", template.id));
-        let solved = solve::solve(&family, &Sampler::new(family.sampling), 0).unwrap();
+        let solved = solve::solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
         for paper in [PAPERS[0], PAPERS[2], PAPERS[4], PAPERS[5]] {
             for (scene, shown) in pages(&family, template.source.as_str(), &solved, &on(paper)) {
                 let id = &template.id;
@@ -557,7 +576,7 @@ fn every_linkage_of_the_catalogue_has_its_page() {
 #[test]
 fn a_grid_has_no_panels() {
     let text = format!("{GOOD}panels = [2, 2]\n");
-    let loaded = manifest::load(&text);
+    let loaded = manifest::parse(&text);
     let said = report(&loaded.problems, "m", &text, false);
     assert!(loaded.plan.is_none() && said.contains("a page of a coupler grid has one cell, and no panels"), "{said}");
 }

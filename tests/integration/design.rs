@@ -3,20 +3,22 @@
 use std::path::Path;
 use std::process::Command;
 
-use coupler_atlas::design::{self, Design, Found, Input, Kind, Origin, Wish, Wishes};
+use coupler_atlas::design::{
+    self, Design, Driver, LinkageKind, ProportionOrigin, Requirement, Requirements, SynthesisResult,
+};
 use coupler_atlas::manifest;
-use coupler_curves::family::{Sampling, Straight};
+use coupler_curves::family::{Sampling, StraightCriterion};
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::measure::{self, Subject, Value};
+use coupler_curves::measure::{self, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler};
 use coupler_curves::problem::report;
 use proptest::prelude::*;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-fn number(subject: &Subject, name: &str) -> f64 {
+fn number(subject: &TracedCurve, name: &str) -> f64 {
     let measure = measure::ALL.iter().find(|measure| measure.name == name).unwrap();
-    match (measure.take)(subject) {
+    match (measure.compute)(subject) {
         Value::Number(number) => number,
         other => panic!("{name} is {other:?}"),
     }
@@ -26,32 +28,32 @@ fn number(subject: &Subject, name: &str) -> f64 {
 fn afresh(design: &Design) -> [f64; 4] {
     let Design { family, .. } = design;
     let linkage = family.linkage(&family.cell(0)).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(720)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(720)));
     let circuit = &motion.circuits[0];
     // A search ends where a wave of the curve just fits its strip; by twice the samples that wave is a little higher.
-    let straight = Straight::Tolerance(design.tolerance * 1.005);
-    let subject = Subject::new(&linkage, &motion, circuit, linkage.traced[0]).asking(straight);
+    let straight = StraightCriterion::Tolerance(design.tolerance * 1.005);
+    let subject = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(straight);
     let portion = subject.straight().unwrap();
     let joints = 0..linkage.joints.len();
     let far = |samples: &[usize]| {
         let at: Vec<Point> =
-            joints.clone().flat_map(|joint| samples.iter().map(move |&k| circuit.places.point(joint, k))).collect();
+            joints.clone().flat_map(|joint| samples.iter().map(move |&k| circuit.positions.point(joint, k))).collect();
         at.iter().flat_map(|a| at.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max)
     };
     let acute = |deg: f64| deg.min(180.0 - deg);
-    let (size, mu) = match design.arrangement.input {
-        Input::Motor => {
-            assert!(circuit.closed && circuit.passes.len() == 1, "a motor turns it fully");
+    let (size, mu) = match design.driven_linkage.input {
+        Driver::Motor => {
+            assert!(circuit.is_closed && circuit.passes.len() == 1, "a motor turns it fully");
             // Every fourth sample: the greatest distance is known to (pi / 180)^2 / 2.
             let samples: Vec<usize> = (0..circuit.len()).step_by(4).collect();
             (far(&samples), acute(number(&subject, "mu_min_deg")).min(acute(number(&subject, "mu_max_deg"))))
         }
-        Input::Rocker => {
+        Driver::Rocker => {
             // The samples that are on the portion: within its strip, between its ends.
             let [a, b] = [portion.points[0], portion.points[portion.points.len() - 1]];
             let along = (b - a) / (b - a).norm();
             let is_on = |k: &usize| {
-                let off = circuit.places.point(linkage.traced[0], *k) - a;
+                let off = circuit.positions.point(linkage.traced[0], *k) - a;
                 let (s, h) = (along.dot(&off), along.x * off.y - along.y * off.x);
                 (0.0..=portion.length).contains(&s) && h.abs() <= 2.01 * portion.deviation
             };
@@ -59,127 +61,135 @@ fn afresh(design: &Design) -> [f64; 4] {
             let named = |name: &str| linkage.joints.iter().position(|joint| joint.name == name).unwrap();
             let [o, a, b, c] = ["O", "A", "B", "C"].map(named);
             let angle = |k: usize, [p, q, r]: [usize; 3]| {
-                let at = |joint| circuit.places.point(joint, k);
+                let at = |joint| circuit.positions.point(joint, k);
                 acute((at(p) - at(q)).angle(&(at(r) - at(q))).to_degrees())
             };
             let least = |pins| samples.iter().map(|&k| angle(k, pins)).fold(90.0, f64::min);
             (far(&samples), least([a, b, c]).max(least([o, a, b])))
         }
     };
-    let asked = Straight::Length(design.straight.length * (1.0 - 1e-6));
-    let whole = Subject::new(&linkage, &motion, circuit, linkage.traced[0]).asking(asked);
+    let asked = StraightCriterion::Length(design.straight.length * (1.0 - 1e-6));
+    let whole = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(asked);
     [portion.length, whole.straight().unwrap().deviation, size, mu]
 }
 
 /// That all that was found has what was wished.
-fn check(wishes: &Wishes, found: &Found) {
+fn check(wishes: &Requirements, found: &SynthesisResult) {
     // What is measured by samples is known to a part in a thousand where they are twice as dense.
     const SAMPLED: f64 = 1e-3;
     // Ends are moved between samples one after the other: how long a portion can be is known to a hundredth. Whether there is
     // one of the wished length that is as straight as it should be is asked for itself.
     const LONGEST: f64 = 1e-2;
     for design in &found.designs {
-        let name = format!("{wishes:?}: {:?} {:?}", design.arrangement, design.solved.cell.values);
+        let name = format!("{wishes:?}: {:?} {:?}", design.driven_linkage, design.solved_cell.cell.values);
         let [length, deviation, size, mu] = afresh(design);
         assert!((length / design.straight.length - 1.0).abs() < LONGEST, "{name}: {length}");
         assert!(2.0 * deviation <= wishes.tolerance * design.straight.length * (1.0 + SAMPLED), "{name}: {deviation}");
-        assert!(mu >= wishes.mu_min - 0.05 && mu >= design.figures.mu_min - 0.5, "{name}: {mu}");
-        assert!(size <= design.figures.size * (1.0 + SAMPLED), "{name}: {size} {}", design.figures.size);
+        assert!(mu >= wishes.mu_min - 0.05 && mu >= design.performance.mu_min - 0.5, "{name}: {mu}");
+        assert!(size <= design.performance.size * (1.0 + SAMPLED), "{name}: {size} {}", design.performance.size);
         if let Some(wanted) = wishes.length {
             assert!((design.straight.length / wanted - 1.0).abs() < 1e-9, "{name}");
         }
         if let Some(most) = wishes.size {
-            assert!(design.figures.size <= most * (1.0 + 1e-9), "{name}");
+            assert!(design.performance.size <= most * (1.0 + 1e-9), "{name}");
         }
         if let Some(p) = wishes.p {
-            let unit = if matches!(design.arrangement.kind, Kind::Evans | Kind::Hoeken) { "r" } else { "a" };
-            assert!((design.value("p") / design.value(unit) - p).abs() < 1e-12 * p, "{name}");
+            let unit =
+                if matches!(design.driven_linkage.kind, LinkageKind::Evans | LinkageKind::Hoeken) { "r" } else { "a" };
+            assert!((design.parameter("p") / design.parameter(unit) - p).abs() < 1e-12 * p, "{name}");
         }
-        assert!(wishes.input.is_none_or(|input| input == design.arrangement.input), "{name}");
-        assert!(wishes.double_point.is_none_or(|wanted| wanted == (design.double_points > 0)), "{name}");
+        assert!(wishes.input.is_none_or(|input| input == design.driven_linkage.input), "{name}");
+        assert!(wishes.double_point.is_none_or(|wanted| wanted == (design.crunode_count > 0)), "{name}");
         assert!(!wishes.quick_return || design.time_ratio() > Some(1.0), "{name}");
         let class = design.class;
         assert!(
-            match design.arrangement.kind {
-                Kind::Evans | Kind::Hoeken => class == "crank-rocker",
-                Kind::Chebyshev => class == "double-rocker",
-                Kind::Watt => class == "triple-rocker",
-                Kind::Roberts => class == "double-rocker" || class == "triple-rocker",
+            match design.driven_linkage.kind {
+                LinkageKind::Evans | LinkageKind::Hoeken => class == "crank-rocker",
+                LinkageKind::Chebyshev => class == "double-rocker",
+                LinkageKind::Watt => class == "triple-rocker",
+                LinkageKind::Roberts => class == "double-rocker" || class == "triple-rocker",
             },
             "{name}: {class}"
         );
     }
 }
 
-fn hoeken() -> Wishes {
-    Wishes { kinds: vec![Kind::Hoeken], ..Wishes::default() }
+fn hoeken() -> Requirements {
+    Requirements { kinds: vec![LinkageKind::Hoeken], ..Requirements::default() }
 }
 
-fn watt_and_roberts() -> Wishes {
-    Wishes { kinds: vec![Kind::Watt, Kind::Roberts], ..Wishes::default() }
+fn watt_and_roberts() -> Requirements {
+    Requirements { kinds: vec![LinkageKind::Watt, LinkageKind::Roberts], ..Requirements::default() }
 }
 
-fn searched(found: &Found) -> &Design {
-    found.designs.iter().find(|design| design.origin == Origin::Search).unwrap()
+fn searched(found: &SynthesisResult) -> &Design {
+    found.designs.iter().find(|design| design.origin == ProportionOrigin::Search).unwrap()
 }
 
 #[test]
 fn the_closed_conditions_are_those_of_the_thesis() {
-    let all = Wishes { p: Some(2.0), mu_min: 0.0, best: 20, ..Wishes::default() };
+    let all = Requirements { p: Some(2.0), mu_min: 0.0, max_designs: 20, ..Requirements::default() };
     let found = design::straight_line(&all);
     check(&all, &found);
     let closed = |kind, input| {
-        let is_it =
-            |d: &&Design| d.origin == Origin::Condition && d.arrangement.kind == kind && d.arrangement.input == input;
+        let is_it = |d: &&Design| {
+            d.origin == ProportionOrigin::ClosedCondition
+                && d.driven_linkage.kind == kind
+                && d.driven_linkage.input == input
+        };
         found.designs.iter().find(is_it).unwrap_or_else(|| panic!("{kind:?}"))
     };
     // 3^1.5 / 2, by (8.10) and (8.19).
     let straight = 27.0f64.sqrt() / 2.0;
     for (kind, input, names) in [
-        (Kind::Evans, Input::Motor, ["a", "s"]),
-        (Kind::Chebyshev, Input::Motor, ["r", "s"]),
-        (Kind::Chebyshev, Input::Rocker, ["r", "s"]),
+        (LinkageKind::Evans, Driver::Motor, ["a", "s"]),
+        (LinkageKind::Chebyshev, Driver::Motor, ["r", "s"]),
+        (LinkageKind::Chebyshev, Driver::Rocker, ["r", "s"]),
     ] {
         let design = closed(kind, input);
         for name in names {
-            assert!((design.value(name) - straight).abs() < 1e-14, "{kind:?} {name}");
+            assert!((design.parameter(name) - straight).abs() < 1e-14, "{kind:?} {name}");
         }
     }
     // Hoeken's by (8.10) is Evans's, and is not shown twice.
-    assert!(found.left_out.iter().any(|one| one.is_closed && one.arrangement.kind == Kind::Hoeken));
+    assert!(found.rejected.iter().any(|one| one.is_closed_form && one.driven_linkage.kind == LinkageKind::Hoeken));
     // Evans's curve by (8.10) is Chebyshev's by (8.19) at twice the size: they are cognates.
-    let lengths = [Kind::Evans, Kind::Chebyshev].map(|kind| closed(kind, Input::Motor).straight.length);
+    let lengths = [LinkageKind::Evans, LinkageKind::Chebyshev].map(|kind| closed(kind, Driver::Motor).straight.length);
     assert!((lengths[0] / lengths[1] - 2.0).abs() < 0.01, "{lengths:?}");
-    let watt = closed(Kind::Watt, Input::Rocker);
-    assert!((watt.value("p") * watt.value("p") - 4.0 * watt.value("r") * watt.value("r") - 1.0).abs() < 1e-12);
-    let roberts = closed(Kind::Roberts, Input::Rocker);
-    assert!((roberts.value("r") - roberts.value("b")).abs() < 1e-12 && roberts.value("p") == 2.0);
+    let watt = closed(LinkageKind::Watt, Driver::Rocker);
+    assert!(
+        (watt.parameter("p") * watt.parameter("p") - 4.0 * watt.parameter("r") * watt.parameter("r") - 1.0).abs()
+            < 1e-12
+    );
+    let roberts = closed(LinkageKind::Roberts, Driver::Rocker);
+    assert!((roberts.parameter("r") - roberts.parameter("b")).abs() < 1e-12 && roberts.parameter("p") == 2.0);
     // What is searched is no worse than what is closed, arrangement by arrangement.
-    for closed in found.designs.iter().filter(|design| design.origin == Origin::Condition) {
-        let part = |design: &Design| design.straight.length / design.figures.size;
-        let best = found.designs.iter().filter(|d| d.arrangement == closed.arrangement).map(part).fold(0.0, f64::max);
-        assert!(best >= part(closed), "{:?}", closed.arrangement);
+    for closed in found.designs.iter().filter(|design| design.origin == ProportionOrigin::ClosedCondition) {
+        let part = |design: &Design| design.straight.length / design.performance.size;
+        let best =
+            found.designs.iter().filter(|d| d.driven_linkage == closed.driven_linkage).map(part).fold(0.0, f64::max);
+        assert!(best >= part(closed), "{:?}", closed.driven_linkage);
     }
 }
 
 #[test]
 fn what_is_found_has_what_was_wished() {
     let sets = [
-        Wishes {
-            input: Some(Input::Motor),
+        Requirements {
+            input: Some(Driver::Motor),
             length: Some(100.0),
             size: Some(400.0),
             mu_min: 25.0,
-            kinds: vec![Kind::Evans],
-            ..Wishes::default()
+            kinds: vec![LinkageKind::Evans],
+            ..Requirements::default()
         },
-        Wishes { input: Some(Input::Rocker), length: Some(2.0), mu_min: 45.0, ..watt_and_roberts() },
-        Wishes { quick_return: true, size: Some(1.0), tolerance: 0.002, ..hoeken() },
-        Wishes {
+        Requirements { input: Some(Driver::Rocker), length: Some(2.0), mu_min: 45.0, ..watt_and_roberts() },
+        Requirements { quick_return: true, size: Some(1.0), tolerance: 0.002, ..hoeken() },
+        Requirements {
             double_point: Some(true),
             size: Some(30.0),
-            kinds: vec![Kind::Watt, Kind::Roberts],
-            ..Wishes::default()
+            kinds: vec![LinkageKind::Watt, LinkageKind::Roberts],
+            ..Requirements::default()
         },
     ];
     for wishes in sets {
@@ -191,55 +201,55 @@ fn what_is_found_has_what_was_wished() {
 
 #[test]
 fn the_straightest_within_a_size_is_straighter_than_the_longest_for_it() {
-    let wishes = Wishes { length: Some(100.0), size: Some(300.0), ..hoeken() };
+    let wishes = Requirements { length: Some(100.0), size: Some(300.0), ..hoeken() };
     let found = design::straight_line(&wishes);
     check(&wishes, &found);
-    let longest = design::straight_line(&Wishes { size: None, ..wishes.clone() });
+    let longest = design::straight_line(&Requirements { size: None, ..wishes.clone() });
     let (straightest, longest) = (searched(&found), searched(&longest));
-    assert!(straightest.figures.size > longest.figures.size && longest.figures.size < 200.0);
+    assert!(straightest.performance.size > longest.performance.size && longest.performance.size < 200.0);
     // Of (8.10)'s kind a path bends as x^4: what uses half as much room again deviates far less.
     assert!(straightest.straight.deviation < 0.1 * longest.straight.deviation);
     // The room is used.
-    assert!(straightest.figures.size > 0.98 * 300.0, "{}", straightest.figures.size);
+    assert!(straightest.performance.size > 0.98 * 300.0, "{}", straightest.performance.size);
 }
 
 #[test]
 fn twice_the_size_is_twice_the_lengths_and_nothing_else() {
-    let small = Wishes { length: Some(50.0), size: Some(200.0), ..hoeken() };
-    let large = Wishes { length: Some(100.0), size: Some(400.0), ..small.clone() };
+    let small = Requirements { length: Some(50.0), size: Some(200.0), ..hoeken() };
+    let large = Requirements { length: Some(100.0), size: Some(400.0), ..small.clone() };
     let [small, large] = [small, large].map(|wishes| design::straight_line(&wishes));
     assert_eq!(small.designs.len(), large.designs.len());
     for (a, b) in small.designs.iter().zip(&large.designs) {
         for name in ["p", "r", "a"] {
-            assert_eq!(2.0 * a.value(name), b.value(name));
+            assert_eq!(2.0 * a.parameter(name), b.parameter(name));
         }
         assert_eq!(2.0 * a.straight.length, b.straight.length);
         assert_eq!(2.0 * a.straight.deviation, b.straight.deviation);
-        assert_eq!(2.0 * a.figures.size, b.figures.size);
-        assert_eq!((a.swing, a.unevenness, a.tolerance), (b.swing, b.unevenness, b.tolerance));
-        assert_eq!((a.figures.mu_min, a.time_ratio()), (b.figures.mu_min, b.time_ratio()));
+        assert_eq!(2.0 * a.performance.size, b.performance.size);
+        assert_eq!((a.swing, a.speed_ratio, a.tolerance), (b.swing, b.speed_ratio, b.tolerance));
+        assert_eq!((a.performance.mu_min, a.time_ratio()), (b.performance.mu_min, b.time_ratio()));
     }
 }
 
 #[test]
 fn what_is_said_to_be_enough_is_enough() {
-    let wishes = Wishes { length: Some(100.0), size: Some(160.0), mu_min: 20.0, ..hoeken() };
+    let wishes = Requirements { length: Some(100.0), size: Some(160.0), mu_min: 20.0, ..hoeken() };
     let found = design::straight_line(&wishes);
-    let wished: Vec<Wish> = found.relaxations.iter().map(|relaxation| relaxation.wish).collect();
-    for wish in [Wish::Size, Wish::Length, Wish::Tolerance] {
+    let wished: Vec<Requirement> = found.relaxations.iter().map(|relaxation| relaxation.requirement).collect();
+    for wish in [Requirement::Size, Requirement::Length, Requirement::Tolerance] {
         assert!(wished.contains(&wish), "{wished:?}");
     }
     for relaxation in &found.relaxations {
-        let changed = match (relaxation.wish, relaxation.to) {
-            (Wish::Size, Some(to)) => Wishes { size: Some(to), ..wishes.clone() },
-            (Wish::Length, Some(to)) => Wishes { length: Some(to), ..wishes.clone() },
-            (Wish::Tolerance, Some(to)) => Wishes { tolerance: to, ..wishes.clone() },
-            (Wish::MuMin, Some(to)) => Wishes { mu_min: to, ..wishes.clone() },
-            (Wish::Kinds, None) => continue,
+        let changed = match (relaxation.requirement, relaxation.value) {
+            (Requirement::Size, Some(to)) => Requirements { size: Some(to), ..wishes.clone() },
+            (Requirement::Length, Some(to)) => Requirements { length: Some(to), ..wishes.clone() },
+            (Requirement::Tolerance, Some(to)) => Requirements { tolerance: to, ..wishes.clone() },
+            (Requirement::MuMin, Some(to)) => Requirements { mu_min: to, ..wishes.clone() },
+            (Requirement::Kinds, None) => continue,
             other => panic!("{other:?}"),
         };
         let again = design::straight_line(&changed);
-        assert!(!again.designs.is_empty(), "{:?} {:?}", relaxation.wish, relaxation.to);
+        assert!(!again.designs.is_empty(), "{:?} {:?}", relaxation.requirement, relaxation.value);
         check(&changed, &again);
     }
 }
@@ -251,15 +261,15 @@ proptest! {
     fn whatever_is_wished_is_kept_or_explained(
         (p, tolerance) in (1.05..8.0f64, -4.0..-1.5f64),
         (mu_min, part) in (0.0..60.0f64, 0.1..0.9f64),
-        kind in prop::sample::select(vec![Kind::Hoeken, Kind::Chebyshev, Kind::Watt, Kind::Roberts]),
+        kind in prop::sample::select(vec![LinkageKind::Hoeken, LinkageKind::Chebyshev, LinkageKind::Watt, LinkageKind::Roberts]),
     ) {
         let tolerance = trig::pow(10.0, tolerance);
-        let wishes = Wishes {
-            p: Some(p), tolerance, mu_min, length: Some(part), size: Some(1.0), kinds: vec![kind], ..Wishes::default()
+        let wishes = Requirements {
+            p: Some(p), tolerance, mu_min, length: Some(part), size: Some(1.0), kinds: vec![kind], ..Requirements::default()
         };
         let found = design::straight_line(&wishes);
         check(&wishes, &found);
-        prop_assert!(!found.designs.is_empty() || !found.left_out.is_empty());
+        prop_assert!(!found.designs.is_empty() || !found.rejected.is_empty());
     }
 }
 
@@ -301,7 +311,7 @@ fn its_manifest_renders_the_same_numbers() {
     let wishes = ["--types", "hoeken,chebyshev", "--p", "2", "--length", "80", "--mu-min", "0"];
     let (code, text, err) = run(folder.path(), &[&wishes[..], &["--toml"]].concat());
     assert_eq!(code, 0, "{err}");
-    let loaded = manifest::load(&text);
+    let loaded = manifest::parse(&text);
     assert!(loaded.problems.is_empty(), "{}", report(&loaded.problems, "best.toml", &text, false));
     std::fs::write(folder.path().join("atlas.toml"), &text).unwrap();
     let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));

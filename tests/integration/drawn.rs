@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use coupler_atlas::record::{DrawnCurve, DrawnError, drawn_curves};
+use coupler_atlas::record::{DrawnCurve, DrawnCurveError, read_drawn_curves};
 use coupler_curves::geometry::{Point, Vector, left_normal};
 
 use super::folder::Atlas;
@@ -75,7 +75,7 @@ fn pages(manifest: &str) -> Vec<Page> {
         for file in files {
             let name = file.file_stem().unwrap().to_string_lossy().into_owned();
             let svg = fs::read(&file).unwrap();
-            let drawn = drawn_curves(&svg).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let drawn = read_drawn_curves(&svg).unwrap_or_else(|error| panic!("{name}: {error}"));
             let with_samples = |curve: DrawnCurve| {
                 let samples = samples.remove(&[curve.cell, curve.trace, curve.circuit]);
                 let samples = samples.unwrap_or_else(|| panic!("{name}: {} is drawn twice or not recorded", curve.id));
@@ -120,9 +120,9 @@ fn curves_are_drawn_where_their_samples_are() {
     assert!(atlas().len() > 20 && hrones_nelson().len() > 20);
     for page in atlas().iter().chain(hrones_nelson()) {
         for (curve, samples) in &page.curves {
-            let (sample, distance) = curve.furthest(samples.pairs(), samples.closed()).unwrap();
+            let (sample, distance) = curve.furthest_sample(samples.pairs(), samples.closed()).unwrap();
             assert!(distance <= TOLERANCE, "{}: {} is {distance} mm off at {sample}", page.name, curve.id);
-            assert_eq!(curve.strays(&samples.places, samples.closed()), None, "{}: {}", page.name, curve.id);
+            assert_eq!(curve.max_stray(&samples.places, samples.closed()), None, "{}: {}", page.name, curve.id);
         }
     }
 }
@@ -145,7 +145,7 @@ fn a_sample_that_is_moved_is_found() {
             let place = |(i, (input, at)): (usize, (f64, Point))| {
                 (input, if i == k { at + normal * (0.02 / curve.page_from_plane.scale) } else { at })
             };
-            let found = curve.furthest(samples.pairs().enumerate().map(place), samples.closed());
+            let found = curve.furthest_sample(samples.pairs().enumerate().map(place), samples.closed());
             let is_found = found.is_some_and(|(at, distance)| at == k && distance > TOLERANCE);
             assert!(is_found, "{}: sample {k}: {found:?}", curve.id);
             moved += 1;
@@ -167,13 +167,14 @@ fn is_fine(curve: &DrawnCurve, samples: &Samples) -> bool {
 fn a_vertex_that_is_moved_is_found() {
     let mut moved = 0;
     for (curve, samples) in curves().filter(|(curve, samples)| is_fine(curve, samples)) {
-        for (l, line) in curve.lines.iter().enumerate().step_by(5) {
+        for (l, line) in curve.polylines.iter().enumerate().step_by(5) {
             for k in 0..line.len() {
                 let Some(normal) = normal(line, k) else { continue };
                 let mut edited = curve.clone();
-                edited.lines[l][k] += normal * 0.05;
-                let is_off = edited.furthest(samples.pairs(), samples.closed()).is_some_and(|(_, d)| d > TOLERANCE);
-                let is_found = is_off || edited.strays(&samples.places, samples.closed()).is_some();
+                edited.polylines[l][k] += normal * 0.05;
+                let is_off =
+                    edited.furthest_sample(samples.pairs(), samples.closed()).is_some_and(|(_, d)| d > TOLERANCE);
+                let is_found = is_off || edited.max_stray(&samples.places, samples.closed()).is_some();
                 assert!(is_found, "{}: vertex {k} of line {l}", curve.id);
                 moved += 1;
             }
@@ -187,22 +188,22 @@ fn page() -> &'static Page {
     atlas().iter().find(|page| page.name == "evans-001").unwrap()
 }
 
-fn read(svg: &str) -> Result<Vec<DrawnCurve>, DrawnError> {
-    drawn_curves(svg.as_bytes())
+fn read(svg: &str) -> Result<Vec<DrawnCurve>, DrawnCurveError> {
+    read_drawn_curves(svg.as_bytes())
 }
 
 #[test]
 fn a_vertex_that_is_moved_in_the_file_is_found() {
     let text = std::str::from_utf8(&page().svg).unwrap();
     let (curve, samples) = &page().curves[2];
-    let mut lines = curve.lines.clone();
+    let mut lines = curve.polylines.clone();
     let (l, k) = (0..lines.len())
         .flat_map(|l| (1..lines[l].len()).map(move |k| (l, k)))
         .find(|&(l, k)| normal(&lines[l], k).is_some())
         .unwrap();
     let normal = normal(&lines[l], k).unwrap();
     for (by, is_right) in [(0.0, true), (0.05, false)] {
-        lines[l][k] = curve.lines[l][k] + normal * by;
+        lines[l][k] = curve.polylines[l][k] + normal * by;
         let mut data = String::new();
         for line in &lines {
             for (k, p) in line.iter().enumerate() {
@@ -214,8 +215,8 @@ fn a_vertex_that_is_moved_in_the_file_is_found() {
         let to = from + text[from..].find('"').unwrap();
         let edited = read(&format!("{}{data}{}", &text[..from], &text[to..])).unwrap();
         let edited = edited.iter().find(|edited| edited.id == curve.id).unwrap();
-        let (_, distance) = edited.furthest(samples.pairs(), true).unwrap();
-        let strays = edited.strays(&samples.places, true);
+        let (_, distance) = edited.furthest_sample(samples.pairs(), true).unwrap();
+        let strays = edited.max_stray(&samples.places, true);
         assert_eq!(distance <= TOLERANCE && strays.is_none(), is_right, "{by}: {distance}, {strays:?}");
     }
 }
@@ -310,7 +311,7 @@ fn a_page_that_is_edited_reads_the_same_or_says_what_is_wrong() {
             Err(error) => assert!(error.to_string().contains(message), "{error}\n{message}"),
         }
     }
-    assert_eq!(drawn_curves(b"\xff\xfe<\0s\0v\0g\0"), Err(DrawnError::NotText));
+    assert_eq!(read_drawn_curves(b"\xff\xfe<\0s\0v\0g\0"), Err(DrawnCurveError::NotUtf8));
 }
 
 #[test]
@@ -318,14 +319,14 @@ fn no_page_is_too_odd_to_be_refused() {
     let svg = &page().svg;
     // All but a last line break belongs to the page.
     for end in (0..svg.len() - 1).step_by(97).chain([svg.len() - 2]) {
-        assert!(drawn_curves(&svg[..end]).is_err(), "{end}");
+        assert!(read_drawn_curves(&svg[..end]).is_err(), "{end}");
     }
     for at in (0..svg.len()).step_by(89) {
         for flip in [1, 2, 0x10, 0x20, 0x80] {
             let mut flipped = svg.clone();
             flipped[at] ^= flip;
             // Many a letter may be another; what counts is that each is read or refused.
-            let _ = drawn_curves(&flipped);
+            let _ = read_drawn_curves(&flipped);
         }
     }
     let page = |inside: &str| read(&format!("<svg width=\"1mm\" height=\"1mm\" viewBox=\"0 0 1 1\">{inside}</svg>"));
@@ -340,11 +341,14 @@ fn no_page_is_too_odd_to_be_refused() {
         let facts = "data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\" data-scale=\"1\" data-origin=\"0 0\" data-dash=\"5 3\"";
         page(&format!("<g id=\"a\" class=\"curve\" {facts}><path d=\"{data}\"/></g>"))
     };
-    assert_eq!(curve("M0 0h1").unwrap()[0].lines, [[Point::new(0.0, 0.0), Point::new(1.0, 0.0)]]);
-    assert_eq!(curve(&long), Err(DrawnError::NotLines { curve: "a".to_owned() }));
-    assert_eq!(curve(&format!("M0 0h{long}")), Err(DrawnError::NotLines { curve: "a".to_owned() }));
-    assert_eq!(curve("M0 0A1e9 1 0 0 0 1 1"), Err(DrawnError::NotLines { curve: "a".to_owned() }));
-    assert_eq!(curve(&format!("M0 0{}", "h1".repeat(2_000_001))), Err(DrawnError::TooLarge { most: 2_000_000 }));
+    assert_eq!(curve("M0 0h1").unwrap()[0].polylines, [[Point::new(0.0, 0.0), Point::new(1.0, 0.0)]]);
+    assert_eq!(curve(&long), Err(DrawnCurveError::NotLines { curve: "a".to_owned() }));
+    assert_eq!(curve(&format!("M0 0h{long}")), Err(DrawnCurveError::NotLines { curve: "a".to_owned() }));
+    assert_eq!(curve("M0 0A1e9 1 0 0 0 1 1"), Err(DrawnCurveError::NotLines { curve: "a".to_owned() }));
+    assert_eq!(
+        curve(&format!("M0 0{}", "h1".repeat(2_000_001))),
+        Err(DrawnCurveError::TooManyPoints { max_points: 2_000_000 })
+    );
     let error = page(&format!("<g id=\"{long}\" class=\"curve\"/>")).unwrap_err().to_string();
     assert!(error.len() < 200, "{}", error.len());
 }

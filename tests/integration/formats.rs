@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use coupler_atlas::manifest;
-use coupler_atlas::record::{self, ReadError, Run};
+use coupler_atlas::record::{self, ReadError, RunRecord};
 use tempfile::TempDir;
 
 use crate::folder::Atlas;
@@ -57,7 +57,7 @@ fn a_manifest_of_another_format_is_refused_with_one_word() {
         assert!(!said.contains("has no key") && !said.contains("has no `"), "{said}");
     }
     for none in ["0", "-1", "1.5", "\"1\"", "true", "inf"] {
-        let loaded = manifest::load(&with_format(none));
+        let loaded = manifest::parse(&with_format(none));
         assert!(loaded.plan.is_none());
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
         assert_eq!(problem.message, "there is no such format", "{none}");
@@ -67,7 +67,7 @@ fn a_manifest_of_another_format_is_refused_with_one_word() {
 
 #[test]
 fn a_format_that_is_written_out_is_the_same_manifest() {
-    let inputs = |text: &str| manifest::load(text).plan.unwrap().families[0].inputs.clone();
+    let inputs = |text: &str| manifest::parse(text).plan.unwrap().families[0].manifest_inputs.clone();
     let without = inputs(MANIFEST);
     for one in ["1", "1.0"] {
         assert_eq!(inputs(&with_format(one)), without, "nothing is drawn again");
@@ -119,18 +119,18 @@ fn a_record_with_other_line_ends_is_read() {
     let text = fs::read_to_string(&path).unwrap();
     let as_on_windows = format!("\u{feff}{}", text.replace('\n', "\r\n"));
     fs::write(&path, &as_on_windows).unwrap();
-    assert_eq!(Run::read(&path).unwrap(), serde_json::from_str(&text).unwrap());
+    assert_eq!(RunRecord::read(&path).unwrap(), serde_json::from_str(&text).unwrap());
     let (code, out, err) = atlas.run(&[]);
     assert!(code == 0 && err.is_empty() && out.contains("(unchanged)"), "{out}{err}");
     assert_eq!(fs::read_to_string(&path).unwrap(), text, "it is written as it always is");
     fs::write(&path, "{\"format\": 1}").unwrap();
-    assert!(matches!(Run::read(&path), Err(ReadError::Syntax(_))));
+    assert!(matches!(RunRecord::read(&path), Err(ReadError::Syntax(_))));
     // The tables of cells are read back as well.
     let cells = "cell,status,reason\n1,ok,\n2,none,\"too long, by far\"\n";
     let as_on_windows = format!("\u{feff}{}", cells.replace('\n', "\r\n"));
     let expected = [(2, "too long, by far".to_owned())];
-    assert_eq!(record::shortfalls(cells.as_bytes()), expected);
-    assert_eq!(record::shortfalls(as_on_windows.as_bytes()), expected);
+    assert_eq!(record::read_unassembled_cells(cells.as_bytes()), expected);
+    assert_eq!(record::read_unassembled_cells(as_on_windows.as_bytes()), expected);
 }
 
 /// What is wrong stands at the same lines and columns, underlined alike, whatever ends the lines.
@@ -180,7 +180,7 @@ fn a_folder_may_be_written_as_on_windows() {
 #[test]
 fn a_drive_is_a_problem_where_there_are_none() {
     for output in ["'C:\\atlas'", "\"d:/atlas\"", "'\\\\server\\share'"] {
-        let loaded = manifest::load(&MANIFEST.replace("\"out\"", output));
+        let loaded = manifest::parse(&MANIFEST.replace("\"out\"", output));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
         assert_eq!(problem.message, "only Windows has such a folder", "{output}");
         assert!(problem.help.contains("relative to the manifest"), "{}", problem.help);
@@ -190,12 +190,12 @@ fn a_drive_is_a_problem_where_there_are_none() {
 #[test]
 fn ids_are_no_devices_of_windows() {
     for id in ["con", "prn", "aux", "nul", "com0", "com9", "lpt1"] {
-        let loaded = manifest::load(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\"")));
+        let loaded = manifest::parse(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\"")));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
         assert_eq!(problem.message, format!("Windows has no folder `{id}`, for it has a device of that name"));
         assert_eq!(problem.help, format!("an id names folders and files: take another, as in \"{id}-1\""));
     }
     for id in ["con-1", "cone", "com", "com10", "lpt", "lpta", "a-nul"] {
-        assert!(manifest::load(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\""))).plan.is_some(), "{id}");
+        assert!(manifest::parse(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\""))).plan.is_some(), "{id}");
     }
 }

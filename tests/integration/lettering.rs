@@ -173,7 +173,7 @@ fn every_character_there_is_makes_a_page() {
 #[test]
 fn control_characters_are_refused_at_their_place() {
     let good = saying("T", "text");
-    assert!(manifest::load(&good).plan.is_some());
+    assert!(manifest::parse(&good).plan.is_some());
     let word = toml("T");
     let places: Vec<usize> = good.match_indices(&word).map(|(at, _)| at).collect();
     assert!(places.len() >= 10);
@@ -181,7 +181,7 @@ fn control_characters_are_refused_at_their_place() {
         for &at in &places {
             let spoilt = toml(&format!("a{c}b"));
             let text = format!("{}{spoilt}{}", &good[..at], &good[at + word.len()..]);
-            let loaded = manifest::load(&text);
+            let loaded = manifest::parse(&text);
             assert!(loaded.plan.is_none(), "{c:?} in {}", &text[at - 10..]);
             let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
             let message = format!("a text cannot have the control character U+{:04X}", u32::from(c));
@@ -190,11 +190,11 @@ fn control_characters_are_refused_at_their_place() {
     }
     // Where it stands in the manifest itself, just there.
     let text = good.replacen(&word, "\"a\u{85}b\"", 1);
-    let span = manifest::load(&text).problems[0].span.clone();
+    let span = manifest::parse(&text).problems[0].span.clone();
     assert_eq!(&text[span], "\u{85}");
     // A line break and a tab are spaces, however lines end.
     for breaks in ["\"\"\"\none\n\ttwo\"\"\"", "\"\"\"\r\none\r\n\ttwo\"\"\"", "\"one\\n\\ttwo\"", "'one \ttwo'"] {
-        let loaded = manifest::load(&good.replacen(&word, breaks, 1));
+        let loaded = manifest::parse(&good.replacen(&word, breaks, 1));
         let plan = loaded.plan.unwrap_or_else(|| panic!("{breaks:?}: {:?}", loaded.problems));
         assert_eq!(plan.title.replace("   ", "  "), "one  two", "{breaks:?}");
     }
@@ -222,7 +222,7 @@ fn no_report_has_a_control_character() {
         good.replace("side = \"left\"", "side = \"\u{9b}2J\""),
     ] {
         assert_ne!(text, good);
-        let loaded = manifest::load(&text);
+        let loaded = manifest::parse(&text);
         assert!(loaded.plan.is_none(), "{text}");
         let said = report(&loaded.problems, "atlas.toml", &text, false);
         assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");

@@ -15,12 +15,12 @@ let = { a = "(1 + p)^1.5 / 2" }
 "#;
 
 fn plan(text: &str) -> Plan {
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
 }
 
 fn problems(text: &str) -> String {
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     assert!(loaded.plan.is_none(), "a plan came of it:\n{text}");
     for problem in &loaded.problems {
         assert!(!problem.help.is_empty(), "no help: {}", problem.message);
@@ -160,9 +160,9 @@ fn grids_keep_the_written_order_with_the_last_fastest() {
 #[test]
 fn helpers_are_for_use() {
     let text = GOOD.replace("p = [2, 3]", "q = [1, 2]").replace("a = \"(1 + p)^1.5 / 2\"", "p = \"q + 1\", a = 3");
-    assert_eq!(plan(&text).families[0].family.cells(), 2);
+    assert_eq!(plan(&text).families[0].family.cell_count(), 2);
     let in_where = GOOD.replace("p = [2, 3]", "p = [2, 3], q = [1, 2]") + "where = \"q > 1\"\n";
-    assert_eq!(plan(&in_where).families[0].family.cells(), 4);
+    assert_eq!(plan(&in_where).families[0].family.cell_count(), 4);
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn a_grid_of_points_traces_each_across_fastest() {
     let places: Vec<(f64, f64)> = linkage
         .traced
         .iter()
-        .map(|&joint| linkage.links.iter().find_map(|link| link.place(joint)).unwrap())
+        .map(|&joint| linkage.links.iter().find_map(|link| link.position(joint)).unwrap())
         .map(|place| (place.x, place.y))
         .collect();
     assert_eq!(places, [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 1.0)]);
@@ -344,7 +344,7 @@ fn points_of_one_link_carry_points() {
         let more = format!("N = {{ point = [\"A\", \"B\"], along = \"p\" }}\nX = {{ {third} }}\n[[family]]");
         let text = OWN.replace("[[family]]", &more).replace("trace = [\"M\"]", "trace = [\"X\"]");
         let family = &plan(&text).families[0].family;
-        assert_eq!(family.linkage(&family.cell(0)).unwrap().dyads(), 1);
+        assert_eq!(family.linkage(&family.cell(0)).unwrap().dyad_count(), 1);
     }
     let same = OWN.replace(
         "[[family]]",
@@ -368,15 +368,15 @@ fn an_actuators_input_is_a_length() {
 
 #[test]
 fn a_family_may_be_placed_mirrored_and_turned() {
-    use coupler_curves::geometry::{Placement, Point};
+    use coupler_curves::geometry::{Orientation, Point};
     let placed = |place: &str| {
         let text = OWN.replacen("sampling =", &format!("place = {place}\nsampling ="), 1);
-        plan(&text).families[0].family.template.placement
+        plan(&text).families[0].family.template.orientation
     };
     let p = Point::new(2.0, 1.0);
-    assert_eq!(placed("{ mirror = true, rotate = \"90 deg\" }").point(p), Point::new(1.0, 2.0));
-    assert_eq!(placed("{ rotate = \"-0.5 * 180 deg\" }").point(p), Point::new(1.0, -2.0));
-    assert_eq!(placed("{}"), Placement::default());
+    assert_eq!(placed("{ mirror = true, rotate = \"90 deg\" }").transform_point(p), Point::new(1.0, 2.0));
+    assert_eq!(placed("{ rotate = \"-0.5 * 180 deg\" }").transform_point(p), Point::new(1.0, -2.0));
+    assert_eq!(placed("{}"), Orientation::default());
     for (place, message) in [
         ("{ mirror = 1 }", "true or false"),
         ("{ rotate = 90 }", "the unit is missing"),
@@ -411,7 +411,7 @@ fn windows_line_ends_and_a_byte_order_mark_are_no_problem() {
 fn another_name_makes_the_same_linkages() {
     let linkages = |text: &str| {
         let family = plan(text).families.remove(0).family;
-        (0..family.cells()).map(|k| format!("{:?}", family.linkage(&family.cell(k)))).collect::<Vec<_>>()
+        (0..family.cell_count()).map(|k| format!("{:?}", family.linkage(&family.cell(k)))).collect::<Vec<_>>()
     };
     let text = OWN.replace("along = 1", "along = \"p / 2\"").replace("p = [4]", "p = [3, 4, 5]");
     for name in ["q", "_", "the_frame", "P2", "sqrt", "deg"] {
@@ -457,7 +457,7 @@ mod properties {
         /// No text makes the reader panic, and what it says can be drawn.
         #[test]
         fn nothing_panics(text in "\\PC{0,200}") {
-            let loaded = manifest::load(&text);
+            let loaded = manifest::parse(&text);
             report(&loaded.problems, "m", &text, true);
         }
 
@@ -466,7 +466,7 @@ mod properties {
         fn nor_does_a_spoilt_manifest(a in 0..OWN.len(), b in 0..OWN.len(), twice: bool) {
             let (a, b) = (a.min(b), a.max(b));
             let text = if twice { format!("{}{}", &OWN[..b], &OWN[a..]) } else { format!("{}{}", &OWN[..a], &OWN[b..]) };
-            let loaded = manifest::load(&text);
+            let loaded = manifest::parse(&text);
             report(&loaded.problems, "m", &text, false);
         }
 
@@ -490,12 +490,12 @@ mod properties {
                 let plan = plan(text);
                 let planned = &plan.families[0];
                 let family = &planned.family;
-                let cells: Vec<_> = (0..family.cells()).map(|k| family.cell(k)).collect();
+                let cells: Vec<_> = (0..family.cell_count()).map(|k| family.cell(k)).collect();
                 let values = |cell| ["p", "h", "g"].map(|name| family.value(name, cell).to_bits());
                 // Joints are numbered as they are written: the motion of the traced one tells that they are the same.
                 let sampler = coupler_curves::motion::Sampler::new(family.sampling);
                 let curves = |k| {
-                    let solved = coupler_curves::solve::solve(family, &sampler, k).unwrap();
+                    let solved = coupler_curves::solve::solve_cell(family, &sampler, k).unwrap();
                     let joint = solved.linkage.traced[0];
                     solved.motion.circuits.iter().map(|c| c.points(joint).map(|p| [p.x.to_bits(), p.y.to_bits()]).collect()).collect::<Vec<Vec<_>>>()
                 };
@@ -512,7 +512,7 @@ mod properties {
         fn every_problem_is_in_the_text(at in 0..OWN.len(), to in 0..OWN.len(), any: String, odd in "[é\u{0}\u{1b}\u{85}🦀\"'\\\\\r\n={}\\[\\]#]{0,6}") {
             let (at, to) = (at.min(to), at.max(to).min(at.min(to) + 20));
             for text in [any.clone(), format!("{}{any}{}", &OWN[..at], &OWN[to..]), format!("{}{odd}{}", &OWN[..at], &OWN[to..])] {
-                for problem in manifest::load(&text).problems {
+                for problem in manifest::parse(&text).problems {
                     prop_assert!(text.get(problem.span.clone()).is_some(), "{problem:?} in {text:?}");
                     prop_assert!(!problem.help.is_empty(), "{problem:?}");
                 }
@@ -522,7 +522,7 @@ mod properties {
         #[test]
         fn nor_does_an_odd_expression(inner in "[-+*/^()a-z0-9., <>=!]{0,40}") {
             let text = GOOD.replace("(1 + p)^1.5 / 2", &inner);
-            let loaded = manifest::load(&text);
+            let loaded = manifest::parse(&text);
             report(&loaded.problems, "m", &text, false);
         }
     }

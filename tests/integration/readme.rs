@@ -12,9 +12,9 @@ use coupler_drawing::page::Layout;
 fn the_readmes_manifest_is_one() {
     let readme = include_str!("../../README.md");
     let text = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "README.md", text, false)));
-    assert_eq!(plan.families[0].family.cells(), 18);
+    assert_eq!(plan.families[0].family.cell_count(), 18);
 }
 
 /// The manifest of the walk from a motion to a linkage, and what is said to come of it.
@@ -23,11 +23,11 @@ fn the_readmes_feeder_is_found() {
     let readme = include_str!("../../README.md");
     let text = readme.split("```toml\n").find(|part| part.contains("id = \"feeder\"")).unwrap();
     let text = text.split("```").next().unwrap();
-    let family = &manifest::load(text).plan.expect("a valid manifest").families[0].family;
-    let kept = sweep::select(family);
-    assert_eq!((family.cells(), kept.as_slice()), (1125, &[899][..]));
-    let solved = solve::solve(family, &coupler_curves::motion::Sampler::new(family.sampling), 899).unwrap();
-    let number = |name: &str| match solved.curves[0].measure(name) {
+    let family = &manifest::parse(text).plan.expect("a valid manifest").families[0].family;
+    let kept = sweep::kept_cells(family);
+    assert_eq!((family.cell_count(), kept.as_slice()), (1125, &[899][..]));
+    let solved = solve::solve_cell(family, &coupler_curves::motion::Sampler::new(family.sampling), 899).unwrap();
+    let number = |name: &str| match solved.curves[0].value(name) {
         coupler_curves::measure::Value::Number(number) => number,
         other => panic!("{name} is {other:?}"),
     };
@@ -62,7 +62,7 @@ fn the_readmes_further_joints_can_be_read() {
              {a}\nX = {joint}\n{}\n",
             rest.join("\n")
         );
-        let (own, problems) = manifest::linkages(&text);
+        let (own, problems) = manifest::parse_linkages(&text);
         assert!(own.len() == 1 && problems.is_empty(), "{}", report(&problems, "README.md", &text, false));
     }
 }
@@ -86,14 +86,17 @@ fn the_examples_are_what_the_readme_says() {
     ];
     for (text, said, curves, pages) in cases {
         assert!(readme.contains(said), "{said}");
-        let loaded = manifest::load(text);
+        let loaded = manifest::parse(text);
         let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "example", text, false)));
         let [planned] = &plan.families[..] else { panic!("one family") };
         assert_eq!(planned.layout, Layout::CouplerGrid);
         // Whether a linkage is a crank-rocker or a change point is told without any of its curves.
-        let kept = sweep::arrange(&planned.family, true, &AtomicBool::new(false)).unwrap();
-        assert_eq!(kept.points.iter().sum::<usize>(), curves);
-        assert_eq!(kept.points.iter().map(|points| points.div_ceil(Layout::POINTS)).sum::<usize>(), pages);
+        let kept = sweep::select_cells(&planned.family, true, &AtomicBool::new(false)).unwrap();
+        assert_eq!(kept.point_counts.iter().sum::<usize>(), curves);
+        assert_eq!(
+            kept.point_counts.iter().map(|points| points.div_ceil(Layout::POINTS_PER_PAGE)).sum::<usize>(),
+            pages
+        );
         assert!(planned.family.template.parameters.iter().map(|parameter| &*parameter.name).eq(["A", "B", "C"]));
     }
 }

@@ -55,7 +55,7 @@ fn with(theme: &str) -> String {
 
 fn plan(theme: &str) -> Plan {
     let text = with(theme);
-    let loaded = manifest::load(&text);
+    let loaded = manifest::parse(&text);
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", &text, false)))
 }
 
@@ -70,7 +70,7 @@ fn named(name: &str) -> Theme {
 /// What is said of a theme, and whether a plan comes of it.
 fn said(theme: &str) -> (String, bool) {
     let text = with(theme);
-    let loaded = manifest::load(&text);
+    let loaded = manifest::parse(&text);
     assert!(loaded.problems.iter().all(|problem| !problem.help.is_empty()));
     (report(&loaded.problems, "atlas.toml", &text, false), loaded.plan.is_some())
 }
@@ -159,7 +159,7 @@ fn a_table_changes_what_it_names_and_no_more() {
     }
     // What is monochrome stays so, unless it is said not to.
     let red = |monochrome: &str| theme(&format!("{{ base = \"monochrome\", ink = \"#700\"{monochrome} }}")).ink;
-    assert_eq!((red(""), red(", monochrome = false")), (Color(0x77, 0, 0).grey(), Color(0x77, 0, 0)));
+    assert_eq!((red(""), red(", monochrome = false")), (Color(0x77, 0, 0).to_grey(), Color(0x77, 0, 0)));
     let own = theme(
         "{ base = \"print\", ink = \"#123\", face = \"mono\", drawn = \"3 / 4\", weights = { link = \"0.05 in\" }, lettering = 1.5 }",
     );
@@ -167,12 +167,12 @@ fn a_table_changes_what_it_names_and_no_more() {
     let wanted = Theme {
         ink: Color(0x11, 0x22, 0x33),
         typeface: Typeface::Mono,
-        drawn: 0.75,
-        link: 0.05 * 25.4,
-        title: 1.5 * print.title,
-        source: 1.5 * print.source,
-        caption: 1.5 * print.caption,
-        note: 1.5 * print.note,
+        dash_fraction: 0.75,
+        link_width: 0.05 * 25.4,
+        title_size: 1.5 * print.title_size,
+        source_size: 1.5 * print.source_size,
+        caption_size: 1.5 * print.caption_size,
+        note_size: 1.5 * print.note_size,
         ..print
     };
     assert_eq!(own, wanted);
@@ -182,22 +182,26 @@ fn a_table_changes_what_it_names_and_no_more() {
 fn sizes_follow_the_paper() {
     let options = |theme: &str, paper: &str| {
         let text = with(theme).replace("[page]\n", &format!("[page]\npaper = \"{paper}\"\n"));
-        let page = manifest::load(&text).plan.unwrap().page;
+        let page = manifest::parse(&text).plan.unwrap().page;
         page.theme.for_paper(page.paper)
     };
     for (paper, part) in [("tabloid", 1.0), ("a4", f64::min(297.0 / 431.8, 210.0 / 279.4))] {
         let scaled = options("{ weights = { curve = \"0.8 mm\" }, lettering = { note = \"4 mm\" } }", paper);
-        assert!((scaled.curve - 0.8 * part.sqrt()).abs() < 1e-12 && (scaled.note - 4.0 * part).abs() < 1e-12);
+        assert!(
+            (scaled.curve_width - 0.8 * part.sqrt()).abs() < 1e-12 && (scaled.note_size - 4.0 * part).abs() < 1e-12
+        );
         let plain = options("\"paper\"", paper);
-        assert_eq!((scaled.link, scaled.title), (plain.link, plain.title));
+        assert_eq!((scaled.link_width, scaled.title_size), (plain.link_width, plain.title_size));
         let double = options("{ weights = 2 }", paper);
-        let weights = |theme: &Theme| [theme.link, theme.curve, theme.fine, theme.hair, theme.joint];
+        let weights = |theme: &Theme| {
+            [theme.link_width, theme.curve_width, theme.fine_width, theme.hair_width, theme.joint_radius]
+        };
         assert_eq!(weights(&double), weights(&plain).map(|weight| 2.0 * weight));
     }
     // Where lettering is larger there is room for fewer panels.
-    let large = Options { theme: theme("{ lettering = 2 }"), ..Options::on(Paper::NAMED[1].1) };
-    let plain = Options::on(Paper::NAMED[1].1);
-    let [fewer, more] = [&large, &plain].map(Layout::most_panels);
+    let large = Options { theme: theme("{ lettering = 2 }"), ..Options::for_paper(Paper::NAMED[1].1) };
+    let plain = Options::for_paper(Paper::NAMED[1].1);
+    let [fewer, more] = [&large, &plain].map(Layout::max_panels);
     assert!(fewer[0] < more[0] && fewer[1] < more[1], "{fewer:?} {more:?}");
 }
 
@@ -268,14 +272,14 @@ fn monochrome_pages_have_no_colour() {
 
 #[test]
 fn the_face_of_a_page_is_that_of_the_theme() {
-    let families: Vec<&str> = Typeface::NAMED.iter().map(|(_, face)| face.families()).collect();
+    let families: Vec<&str> = Typeface::NAMED.iter().map(|(_, face)| face.fallback_families()).collect();
     for (name, face) in Typeface::NAMED {
         let pages = pages(&format!("{{ face = \"{name}\" }}"));
         for (family, svg, _) in &pages {
             let named: Vec<&str> = svg.split("font-family=\"").skip(1).map(|s| s.split('"').next().unwrap()).collect();
-            assert_eq!(named, [face.families()], "{family}");
+            assert_eq!(named, [face.fallback_families()], "{family}");
         }
-        assert_eq!(families.iter().filter(|other| **other == face.families()).count(), 1);
+        assert_eq!(families.iter().filter(|other| **other == face.fallback_families()).count(), 1);
     }
     // Images are drawn from the face's own outlines.
     let [serif, mono] = ["serif", "mono"].map(|face| pages(&format!("{{ face = \"{face}\" }}")).remove(0).2);
@@ -346,7 +350,7 @@ fn inks_can_be_told_apart_by_all_readers() {
         ("dark", [32.0, 21.0, 22.0, 23.0, 8.4]),
     ];
     for (name, wanted) in cases {
-        let light: Vec<[f64; 3]> = named(name).curves.iter().map(|ink| linear(*ink)).collect();
+        let light: Vec<[f64; 3]> = named(name).curve_inks.iter().map(|ink| linear(*ink)).collect();
         let seen = |matrix: &[[f64; 3]; 3]| light.iter().map(|ink| lab(times(matrix, *ink))).collect::<Vec<_>>();
         let normal: Vec<[f64; 3]> = light.iter().map(|ink| lab(*ink)).collect();
         let mut found = vec![least(&normal, distance)];
@@ -356,7 +360,7 @@ fn inks_can_be_told_apart_by_all_readers() {
             assert!(found >= &wanted && *found < wanted + 1.0, "{name}: {found} for {wanted}");
         }
         // The difference manifests are checked by is the same one.
-        let inks = named(name).curves;
+        let inks = named(name).curve_inks;
         assert!((inks[0].difference(inks[1]) - distance(&normal[0], &normal[1])).abs() < 1e-9);
     }
 }
@@ -368,7 +372,7 @@ fn contrast_is_enough_to_read() {
         for (text, k) in [theme.ink, theme.grey, theme.curve_ink(0)].into_iter().zip(0..) {
             assert!(text.contrast(theme.paper) >= 4.5, "{name}: text {k}");
         }
-        for ink in &theme.curves {
+        for ink in &theme.curve_inks {
             assert!(ink.contrast(theme.paper) >= 3.0, "{name}: {ink}");
         }
         assert!(theme.hairline.contrast(theme.paper) >= 1.5, "{name}");

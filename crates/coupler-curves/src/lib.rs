@@ -38,7 +38,7 @@ pub mod motion;
 pub mod measure;
 pub mod template;
 
-pub mod notation;
+pub mod linkage_format;
 
 pub mod catalogue;
 pub mod family;

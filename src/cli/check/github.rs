@@ -1,39 +1,43 @@
 use coupler_atlas::check::Report;
 
-use super::super::plan::Source;
+use super::super::source::ManifestSource;
 
 /// GitHub shows no more annotations of one step than this.
-const SHOWN: usize = 10;
+const MAX_ANNOTATIONS: usize = 10;
 
 /// Annotations of a workflow, each at the family's table in the manifest.
-pub fn text(report: &Report, source: &Source) -> String {
+pub fn text(report: &Report, source: &ManifestSource) -> String {
     let file = source.path.display().to_string().replace('\\', "/");
     let line_of = |id: &str| {
         let planned = source.plan.families.iter().find(|planned| planned.family.id == id);
         planned.map_or(1, |planned| source.text[..planned.span.start].matches('\n').count() + 1)
     };
     let mut text = String::new();
-    for finding in report.findings.iter().take(SHOWN) {
+    for finding in report.findings.iter().take(MAX_ANNOTATIONS) {
         let level = if finding.change.is_difference() { "error" } else { "notice" };
-        let (line, title) = (line_of(&finding.place.family), format!("{}: {}", finding.change.kind(), finding.place));
-        let (file, title) = (property(&file), property(&title));
+        let (line, title) =
+            (line_of(&finding.location.family), format!("{}: {}", finding.change.kind(), finding.location));
+        let (file, title) = (escape_property(&file), escape_property(&title));
         text.push_str(&format!(
             "::{level} file={file},line={line},title={title}::{}\n",
-            data(&finding.change.to_string())
+            escape_data(&finding.change.to_string())
         ));
     }
-    let left = report.total().saturating_sub(SHOWN);
+    let left = report.total().saturating_sub(MAX_ANNOTATIONS);
     if left > 0 {
-        text.push_str(&format!("::error file={},line=1,title=and {left} more::see the report\n", property(&file)));
+        text.push_str(&format!(
+            "::error file={},line=1,title=and {left} more::see the report\n",
+            escape_property(&file)
+        ));
     }
     text
 }
 
 /// What stands in an annotation, so that it stays in it.
-fn data(text: &str) -> String {
+fn escape_data(text: &str) -> String {
     text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
-fn property(text: &str) -> String {
-    data(text).replace(':', "%3A").replace(',', "%2C")
+fn escape_property(text: &str) -> String {
+    escape_data(text).replace(':', "%3A").replace(',', "%2C")
 }

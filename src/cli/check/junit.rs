@@ -8,41 +8,41 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 pub fn text(report: &Report) -> anyhow::Result<String> {
     let mut families: BTreeMap<&str, BTreeMap<String, Vec<&Finding>>> = BTreeMap::new();
     for finding in &report.findings {
-        let cases = families.entry(&finding.place.family).or_default();
-        cases.entry(finding.place.to_string()).or_default().push(finding);
+        let cases = families.entry(&finding.location.family).or_default();
+        cases.entry(finding.location.to_string()).or_default().push(finding);
     }
     let differing = |findings: &Vec<&Finding>| findings.iter().any(|finding| finding.change.is_difference());
     let failures: usize = families.values().flat_map(BTreeMap::values).filter(|found| differing(found)).count();
     let cases: usize = families.values().map(BTreeMap::len).sum();
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let suites = counted(BytesStart::new("testsuites"), "coupler-atlas check", cases + 1, failures);
+    let suites = with_counts(BytesStart::new("testsuites"), "coupler-atlas check", cases + 1, failures);
     writer.write_event(Event::Start(suites))?;
     for (family, cases) in &families {
         let failed = cases.values().filter(|found| differing(found)).count();
         let name = if family.is_empty() { "atlas" } else { family };
-        writer.write_event(Event::Start(counted(BytesStart::new("testsuite"), name, cases.len(), failed)))?;
+        writer.write_event(Event::Start(with_counts(BytesStart::new("testsuite"), name, cases.len(), failed)))?;
         for (place, findings) in cases {
-            case(&mut writer, name, place, findings)?;
+            write_case(&mut writer, name, place, findings)?;
         }
         writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
     }
-    writer.write_event(Event::Start(counted(BytesStart::new("testsuite"), "all else", 1, 0)))?;
+    writer.write_event(Event::Start(with_counts(BytesStart::new("testsuite"), "all else", 1, 0)))?;
     let held = format!("{} curves on {} pages of {} families", report.curves, report.pages, report.families);
-    case(&mut writer, "all else", &held, &[])?;
+    write_case(&mut writer, "all else", &held, &[])?;
     writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
     writer.write_event(Event::End(BytesEnd::new("testsuites")))?;
     Ok(String::from_utf8(writer.into_inner())? + "\n")
 }
 
-fn counted<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures: usize) -> BytesStart<'a> {
+fn with_counts<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures: usize) -> BytesStart<'a> {
     start.push_attribute(("name", name));
     start.push_attribute(("tests", tests.to_string().as_str()));
     start.push_attribute(("failures", failures.to_string().as_str()));
     start
 }
 
-fn case(writer: &mut Writer<Vec<u8>>, family: &str, place: &str, findings: &[&Finding]) -> anyhow::Result<()> {
+fn write_case(writer: &mut Writer<Vec<u8>>, family: &str, place: &str, findings: &[&Finding]) -> anyhow::Result<()> {
     let mut start = BytesStart::new("testcase");
     start.push_attribute(("classname", family));
     start.push_attribute(("name", place));

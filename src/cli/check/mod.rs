@@ -9,14 +9,14 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use coupler_atlas::build;
 use coupler_atlas::check::{self, Event, Report};
-use coupler_atlas::manifest::GivenTolerances;
-use coupler_curves::problem::nearest_or_all;
+use coupler_atlas::manifest::PartialTolerances;
+use coupler_atlas::output;
+use coupler_curves::problem::suggestion;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::plan::{self, Source};
-use super::{Outcome, WrongInput, print, say};
+use super::source::{self, ManifestSource};
+use super::{InputError, Outcome, print, print_stderr};
 
 /// Run a manifest afresh, and tell what has changed since an atlas was recorded: which curve, where and by how much.
 ///
@@ -33,17 +33,17 @@ pub struct Arguments {
     #[arg(long, value_name = "FAMILY")]
     only: Vec<String>,
     /// How far a point may move, in units of length, in place of the manifest's [default: 0].
-    #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = parse_tolerance, allow_negative_numbers = true)]
     atol: Option<f64>,
     /// How far a point may move, in parts of its curve's size [default: 1e-12]. The greater of both counts.
-    #[arg(long, value_name = "PART", value_parser = tolerance, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PART", value_parser = parse_tolerance, allow_negative_numbers = true)]
     rtol: Option<f64>,
     /// How much a measure may change, in parts of itself [default: 1e-9].
-    #[arg(long, value_name = "PART", value_parser = tolerance, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PART", value_parser = parse_tolerance, allow_negative_numbers = true)]
     measure_rtol: Option<f64>,
     /// Report as json, junit or github (annotations), to a file, or instead of the table; may be given more than once.
-    #[arg(long, value_name = "FORMAT[=FILE]", value_parser = wanted)]
-    report: Vec<Wanted>,
+    #[arg(long, value_name = "FORMAT[=FILE]", value_parser = parse_report)]
+    report: Vec<ReportRequest>,
     /// Draw a page for each curve that has moved into this folder, old and new, and an index.html of them.
     #[arg(long, value_name = "DIR")]
     diff: Option<PathBuf>,
@@ -60,51 +60,52 @@ pub struct Arguments {
 
 /// A report that is asked for.
 #[derive(Clone, Debug)]
-struct Wanted {
-    format: Format,
+struct ReportRequest {
+    format: ReportFormat,
     /// Where it goes; to standard output, in place of the table, where it is not said.
     file: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
+enum ReportFormat {
     Json,
     Junit,
     Github,
 }
 
-fn wanted(text: &str) -> Result<Wanted, String> {
-    const KNOWN: [(&str, Format); 3] = [("json", Format::Json), ("junit", Format::Junit), ("github", Format::Github)];
+fn parse_report(text: &str) -> Result<ReportRequest, String> {
+    const KNOWN: [(&str, ReportFormat); 3] =
+        [("json", ReportFormat::Json), ("junit", ReportFormat::Junit), ("github", ReportFormat::Github)];
     let (name, file) = text.split_once('=').map_or((text, None), |(name, file)| (name, Some(file)));
     let names = KNOWN.map(|(name, _)| name);
     let format = KNOWN.into_iter().find(|(known, _)| *known == name).map(|(_, format)| format);
-    let format = format.ok_or_else(|| format!("there is no report `{name}`: {}", nearest_or_all(name, &names)))?;
+    let format = format.ok_or_else(|| format!("there is no report `{name}`: {}", suggestion(name, &names)))?;
     match file {
         Some("") => Err(format!("there is no file after `=`: write {name}=report.{name}")),
-        file => Ok(Wanted { format, file: file.map(PathBuf::from) }),
+        file => Ok(ReportRequest { format, file: file.map(PathBuf::from) }),
     }
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
+fn parse_tolerance(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "it is no number: give one such as 1e-9".to_owned())?;
     if value >= 0.0 { Ok(value) } else { Err("a tolerance is 0 or more".to_owned()) }
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let source = plan::read(&arguments.manifest)?;
-    source.has_families(&arguments.only)?;
+    let source = source::read(&arguments.manifest)?;
+    source.require_families(&arguments.only)?;
     if arguments.bless && !arguments.only.is_empty() {
         let words = "--bless records all families: leave out --only, or `render --force --only` one of them";
-        return Err(WrongInput(words.to_owned()).into());
+        return Err(InputError(words.to_owned()).into());
     }
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
     let Arguments { atol, rtol, measure_rtol, .. } = *arguments;
-    let tolerances = GivenTolerances { atol, rtol, measure_rtol };
+    let tolerances = PartialTolerances { atol, rtol, measure_rtol };
     let options = check::Options { only: arguments.only.clone(), tolerances };
     let mut bar = ProgressBar::hidden();
-    let report = check::run(&source.plan, &arguments.against, &options, &mut |event| match event {
+    let report = check::check_atlas(&source.plan, &arguments.against, &options, &mut |event| match event {
         Event::Begin { family, pages } if !arguments.quiet => {
             let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
             bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
@@ -115,7 +116,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Event::Page => bar.inc(1),
         Event::End => bar.finish_and_clear(),
     })?;
-    tell(arguments, &source, &report)?;
+    write_reports(arguments, &source, &report)?;
     if let Some(folder) = &arguments.diff {
         overlays::write(folder, &source.plan, &arguments.against, (&options, &report))?;
     }
@@ -126,16 +127,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// Writes the reports that are asked for, and the table unless another takes its place.
-fn tell(arguments: &Arguments, source: &Source, report: &Report) -> anyhow::Result<()> {
+fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<()> {
     let mut has_table = true;
     for wanted in &arguments.report {
         let text = match wanted.format {
-            Format::Json => json::text(report)?,
-            Format::Junit => junit::text(report)?,
-            Format::Github => github::text(report, source),
+            ReportFormat::Json => json::text(report)?,
+            ReportFormat::Junit => junit::text(report)?,
+            ReportFormat::Github => github::text(report, source),
         };
         match &wanted.file {
-            Some(file) => build::write_file(file, text.as_bytes())?,
+            Some(file) => output::write_file(file, text.as_bytes())?,
             None => {
                 has_table = false;
                 print(&text)?;
@@ -149,14 +150,14 @@ fn tell(arguments: &Arguments, source: &Source, report: &Report) -> anyhow::Resu
 }
 
 /// Records what comes out now.
-fn bless(arguments: &Arguments, source: &Source, report: &Report) -> anyhow::Result<Outcome> {
+fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<Outcome> {
     if report.findings.is_empty() {
-        say("nothing has changed: the recorded atlas stays as it is\n");
+        print_stderr("nothing has changed: the recorded atlas stays as it is\n");
         return Ok(Outcome::Done);
     }
     let folder: &Path = &arguments.against;
-    say(&format!("recording the new state in {}\n", folder.display()));
-    let options = build::Options { force: true, ..build::Options::default() };
-    build::run(&source.plan, folder, &options, &mut |_| {})?;
+    print_stderr(&format!("recording the new state in {}\n", folder.display()));
+    let options = output::Options { force: true, ..output::Options::default() };
+    output::write_atlas(&source.plan, folder, &options, &mut |_| {})?;
     Ok(Outcome::Done)
 }

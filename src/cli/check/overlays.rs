@@ -1,30 +1,30 @@
 use std::path::Path;
 
-use coupler_atlas::build;
 use coupler_atlas::check::{self, Options, Report};
 use coupler_atlas::manifest::Plan;
+use coupler_atlas::output;
 use quick_xml::escape::escape;
 
-use super::super::{count, say};
+use super::super::{pluralize, print_stderr};
 
 /// So many curves are drawn, the worst of them: nobody looks at more.
-const MOST: usize = 500;
+const MAX_CURVES: usize = 500;
 
 const STYLE: &str = "body{font:16px/1.5 'DejaVu Serif Condensed',Georgia,serif;color:#111;background:#fffdf8;\
                      margin:2rem auto;max-width:70rem;padding:0 1rem}figure{margin:2rem 0}img{width:100%}";
 
 /// Draws a page for each curve that has moved, and an index of them.
 pub fn write(folder: &Path, plan: &Plan, recorded: &Path, found: (&Options, &Report)) -> anyhow::Result<()> {
-    build::create_folder(folder)?;
+    output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
-    check::overlays(plan, recorded, found, MOST, |overlay| {
-        let (name, place) = (&overlay.name, escape(overlay.finding.place.to_string()));
+    check::draw_overlays(plan, recorded, found, MAX_CURVES, |overlay| {
+        let (name, place) = (&overlay.name, escape(overlay.finding.location.to_string()));
         figures.push_str(&format!(
             "<figure id=\"{name}\"><figcaption><b>{place}</b>: {}</figcaption>\
              <a href=\"{name}\"><img src=\"{name}\" alt=\"{place}, old and new\" loading=\"lazy\"></a></figure>\n",
             escape(overlay.finding.change.to_string()),
         ));
-        match build::write_file(&folder.join(name), &overlay.svg) {
+        match output::write_file(&folder.join(name), &overlay.svg) {
             Ok(()) => written += 1,
             Err(error) => failed = failed.take().or(Some(error)),
         }
@@ -35,14 +35,14 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, found: (&Options, &Rep
     let title = escape(&plan.title);
     let told = match written {
         0 => "No curve has moved.".to_owned(),
-        n => format!("{}, the worst first.", count(n, "curve")),
+        n => format!("{}, the worst first.", pluralize(n, "curve")),
     };
     let page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}: what has moved</title>\n\
          <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head>\n\
          <body><h1>{title}: what has moved</h1>\n<p>{told}</p>\n{figures}</body></html>\n"
     );
-    build::write_file(&folder.join("index.html"), page.as_bytes())?;
-    say(&format!("{} drawn in {}\n", count(written, "curve"), folder.display()));
+    output::write_file(&folder.join("index.html"), page.as_bytes())?;
+    print_stderr(&format!("{} drawn in {}\n", pluralize(written, "curve"), folder.display()));
     Ok(())
 }

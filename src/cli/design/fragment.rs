@@ -13,7 +13,7 @@ pub(super) fn manifest(report: &Report) -> String {
                    [atlas]\ntitle = \"Straight-line linkages\"\nformats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n"
             .to_owned();
     let mut families: Vec<(String, Vec<&Design>)> = Vec::new();
-    for design in &report.found.designs {
+    for design in &report.results.designs {
         let is_same = |other: &Design| other.family.id == design.family.id && other.tolerance == design.tolerance;
         match families.iter_mut().find(|(_, designs)| is_same(designs[0])) {
             Some((_, designs)) => designs.push(design),
@@ -45,7 +45,7 @@ fn family(id: &str, designs: &[&Design], out: &mut String) {
     );
     for design in designs {
         let names = template.parameters.iter().map(|parameter| &parameter.name);
-        let values: Vec<String> = names.map(|name| format!("{name} = {}", design.value(name))).collect();
+        let values: Vec<String> = names.map(|name| format!("{name} = {}", design.parameter(name))).collect();
         let _ = writeln!(out, "    {{ {} }},", values.join(", "));
     }
     out.push_str("]\n");

@@ -1,15 +1,15 @@
-use coupler_atlas::design::{Arrangement, Design, Input, Origin};
+use coupler_atlas::design::{Design, DrivenLinkage, Driver, ProportionOrigin};
 use serde_json::{Map, Value, json};
 
-use super::compared::trade_offs;
-use super::{Report, option};
+use super::trade_offs::trade_offs;
+use super::{Report, option_name};
 
 /// The version of the format.
 const FORMAT: u32 = 1;
 
 /// For programs.
 pub(super) fn json(report: &Report) -> String {
-    let Report { wishes, found, .. } = report;
+    let Report { requirements: wishes, results: found, .. } = report;
     let designs: Vec<Value> = (0..found.designs.len())
         .map(|k| {
             let mut value = design(&found.designs[k]);
@@ -17,18 +17,18 @@ pub(super) fn json(report: &Report) -> String {
             value
         })
         .collect();
-    let left_out = found.left_out.iter().map(|one| {
-        let closed = one.is_closed.then(|| one.arrangement.kind.condition());
-        json!({ "linkage": one.arrangement.kind.id(), "input": input(one.arrangement), "condition": closed, "why": one.why })
+    let left_out = found.rejected.iter().map(|one| {
+        let closed = one.is_closed_form.then(|| one.driven_linkage.kind.closed_condition());
+        json!({ "linkage": one.driven_linkage.kind.id(), "input": arrangement_input(one.driven_linkage), "condition": closed, "why": one.reason })
     });
     let relaxations = found.relaxations.iter().map(|relaxation| {
         let design = design(&relaxation.design);
-        json!({ "wish": option(relaxation.wish), "to": relaxation.to, "design": design })
+        json!({ "wish": option_name(relaxation.requirement), "to": relaxation.value, "design": design })
     });
     let whole = json!({
         "format": FORMAT,
         "wishes": {
-            "input": wishes.input.map(word),
+            "input": wishes.input.map(input_name),
             "double_point": wishes.double_point,
             "quick_return": wishes.quick_return,
             "p": wishes.p,
@@ -45,38 +45,38 @@ pub(super) fn json(report: &Report) -> String {
     format!("{whole:#}\n")
 }
 
-fn word(input: Input) -> &'static str {
+fn input_name(input: Driver) -> &'static str {
     match input {
-        Input::Motor => "motor",
-        Input::Rocker => "rocker",
+        Driver::Motor => "motor",
+        Driver::Rocker => "rocker",
     }
 }
 
-fn input(arrangement: Arrangement) -> &'static str {
-    word(arrangement.input)
+fn arrangement_input(arrangement: DrivenLinkage) -> &'static str {
+    input_name(arrangement.input)
 }
 
 fn design(design: &Design) -> Value {
     let names = design.family.template.parameters.iter().map(|parameter| parameter.name.clone());
-    let parameters: Map<String, Value> = names.map(|name| (name.clone(), json!(design.value(&name)))).collect();
+    let parameters: Map<String, Value> = names.map(|name| (name.clone(), json!(design.parameter(&name)))).collect();
     json!({
-        "linkage": design.arrangement.kind.id(),
-        "input": input(design.arrangement),
-        "driven": design.figures.driven.name(),
-        "condition": (design.origin == Origin::Condition).then(|| design.arrangement.kind.condition()),
+        "linkage": design.driven_linkage.kind.id(),
+        "input": arrangement_input(design.driven_linkage),
+        "driven": design.performance.input_link.name(),
+        "condition": (design.origin == ProportionOrigin::ClosedCondition).then(|| design.driven_linkage.kind.closed_condition()),
         "parameters": parameters,
         "class": design.class,
         "tolerance": design.tolerance,
         "straight_length": design.straight.length,
         "straight_deviation": design.straight.deviation,
-        "straight_start_deg": design.straight.start,
-        "straight_input_deg": design.straight.input,
+        "straight_start_deg": design.straight.start_input,
+        "straight_input_deg": design.straight.input_span,
         "swing_deg": design.swing,
-        "mu_min_deg": design.figures.mu_min,
-        "size": design.figures.size,
+        "mu_min_deg": design.performance.mu_min,
+        "size": design.performance.size,
         "time_ratio": design.time_ratio(),
         // Unbounded where the driven link or the point stands still; JSON has no infinity.
-        "speed_ratio": Some(design.unevenness).filter(|ratio| ratio.is_finite()),
-        "double_points": design.double_points,
+        "speed_ratio": Some(design.speed_ratio).filter(|ratio| ratio.is_finite()),
+        "double_points": design.crunode_count,
     })
 }

@@ -1,20 +1,20 @@
 //! Chapter 10 of the thesis as a command: what is wished, what is found, and what would have to give.
 
-mod compared;
 mod fragment;
 mod json;
 mod plate;
 mod text;
+mod trade_offs;
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use coupler_atlas::build;
-use coupler_atlas::design::{self, Found, Input, Kind, Wish, Wishes};
+use coupler_atlas::design::{self, Driver, LinkageKind, Requirement, Requirements, SynthesisResult};
+use coupler_atlas::output;
 use coupler_curves::expression::Expression;
-use coupler_curves::problem::nearest_or_all;
+use coupler_curves::problem::suggestion;
 
-use super::{Outcome, WrongInput, print};
+use super::{InputError, Outcome, print};
 
 /// Find the linkages that meet a designer's wishes, ranked, with their trade-offs (Natesan, chapter 10).
 ///
@@ -25,16 +25,16 @@ use super::{Outcome, WrongInput, print};
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to design.
-    what: What,
+    what: Task,
     /// What moves it: a motor wants a link that turns fully, a rocker goes there and back over the straight stroke.
-    #[arg(long, value_enum, default_value_t = Moved::Any)]
-    input: Moved,
+    #[arg(long, value_enum, default_value_t = InputChoice::Any)]
+    input: InputChoice,
     /// The way back: quick takes less of the turn than the straight stroke.
-    #[arg(long = "return", value_enum, default_value_t = Return::Any)]
-    back: Return,
+    #[arg(long = "return", value_enum, default_value_t = ReturnChoice::Any)]
+    back: ReturnChoice,
     /// Whether the curve is to cross itself, as Watt's does, which the thesis would use to return by.
-    #[arg(long, value_enum, default_value_t = DoublePoint::Any)]
-    double_point: DoublePoint,
+    #[arg(long, value_enum, default_value_t = DoublePointChoice::Any)]
+    double_point: DoublePointChoice,
     /// The frame to the crank of Evans's and Hoeken's linkages, to the coupler of the others; what (8.10) and (8.19) give
     /// for it is shown beside what is found.
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
@@ -74,26 +74,26 @@ pub struct Arguments {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum What {
+enum Task {
     /// A linkage with a straight line.
     StraightLine,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Moved {
+enum InputChoice {
     Motor,
     Rocker,
     Any,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Return {
+enum ReturnChoice {
     Quick,
     Any,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum DoublePoint {
+enum DoublePointChoice {
     Yes,
     No,
     Any,
@@ -101,26 +101,26 @@ enum DoublePoint {
 
 /// What was wished, as it was given, and what came of it.
 struct Report {
-    wishes: Wishes,
+    requirements: Requirements,
     /// Whether a deviation was given in place of a tolerance.
-    by_deviation: bool,
-    found: Found,
+    is_deviation_given: bool,
+    results: SynthesisResult,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let What::StraightLine = arguments.what;
-    let wishes = wishes(arguments).map_err(|wrong| WrongInput(wrong.join("\nerror: ")))?;
+    let Task::StraightLine = arguments.what;
+    let wishes = parse_requirements(arguments).map_err(|wrong| InputError(wrong.join("\nerror: ")))?;
     let found = design::straight_line(&wishes);
-    let report = Report { wishes, by_deviation: arguments.deviation.is_some(), found };
-    if report.found.designs.is_empty() {
+    let report = Report { requirements: wishes, is_deviation_given: arguments.deviation.is_some(), results: found };
+    if report.results.designs.is_empty() {
         // Programs are told as JSON too, and by the exit code as everyone.
         if arguments.json {
             print(&json::json(&report))?;
         }
-        return Err(WrongInput(text::nothing(&report)).into());
+        return Err(InputError(text::no_design_message(&report)).into());
     }
     if let Some(path) = &arguments.svg {
-        build::write_file(path, &plate::plate(&report))?;
+        output::write_file(path, &plate::plate(&report))?;
     }
     let out = match (arguments.json, arguments.toml) {
         (true, _) => json::json(&report),
@@ -132,13 +132,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// The wishes, or everything that is wrong with them.
-fn wishes(arguments: &Arguments) -> Result<Wishes, Vec<String>> {
+fn parse_requirements(arguments: &Arguments) -> Result<Requirements, Vec<String>> {
     let mut wrong = Vec::new();
     let mut read = |text: &Option<String>, name: &str, example: &str| {
         let text = text.as_deref()?;
-        number(text, &format!("--{name} {example}")).map_err(|why| wrong.push(format!("--{name}: {why}"))).ok()
+        parse_number(text, &format!("--{name} {example}")).map_err(|why| wrong.push(format!("--{name}: {why}"))).ok()
     };
-    let default = Wishes::default();
+    let default = Requirements::default();
     let (p, length) = (read(&arguments.p, "p", "2"), read(&arguments.length, "length", "100"));
     let deviation = read(&arguments.deviation, "deviation", "0.05");
     let tolerance = read(&arguments.tolerance, "tolerance", "0.001");
@@ -149,54 +149,54 @@ fn wishes(arguments: &Arguments) -> Result<Wishes, Vec<String>> {
     }
     let kinds = match &arguments.types {
         None => default.kinds,
-        Some(names) => kinds(names, &mut wrong),
+        Some(names) => parse_kinds(names, &mut wrong),
     };
     let by_deviation = deviation.zip(length).map(|(deviation, length)| 2.0 * deviation / length);
-    let wishes = Wishes {
+    let wishes = Requirements {
         input: match arguments.input {
-            Moved::Motor => Some(Input::Motor),
-            Moved::Rocker => Some(Input::Rocker),
-            Moved::Any => None,
+            InputChoice::Motor => Some(Driver::Motor),
+            InputChoice::Rocker => Some(Driver::Rocker),
+            InputChoice::Any => None,
         },
         double_point: match arguments.double_point {
-            DoublePoint::Yes => Some(true),
-            DoublePoint::No => Some(false),
-            DoublePoint::Any => None,
+            DoublePointChoice::Yes => Some(true),
+            DoublePointChoice::No => Some(false),
+            DoublePointChoice::Any => None,
         },
-        quick_return: arguments.back == Return::Quick,
+        quick_return: arguments.back == ReturnChoice::Quick,
         p,
         length,
         tolerance: by_deviation.or(tolerance).unwrap_or(default.tolerance),
         size,
         mu_min: mu_min.unwrap_or(default.mu_min),
         kinds,
-        best: best as usize,
+        max_designs: best as usize,
     };
-    let named = |(wish, why): (Wish, String)| match wish {
-        Wish::Tolerance if deviation.is_some() => format!("--deviation: twice it over the length is {why}"),
-        _ => format!("{}: {why}", option(wish)),
+    let named = |(wish, why): (Requirement, String)| match wish {
+        Requirement::Tolerance if deviation.is_some() => format!("--deviation: twice it over the length is {why}"),
+        _ => format!("{}: {why}", option_name(wish)),
     };
     // No linkage is left where the names given are wrong: that has been said.
-    let is_new = |(wish, _): &(Wish, String)| *wish != Wish::Kinds || wrong.is_empty();
-    let objections: Vec<String> = wishes.objections().into_iter().filter(is_new).map(named).collect();
+    let is_new = |(wish, _): &(Requirement, String)| *wish != Requirement::Kinds || wrong.is_empty();
+    let objections: Vec<String> = wishes.errors().into_iter().filter(is_new).map(named).collect();
     wrong.extend(objections);
     if wrong.is_empty() { Ok(wishes) } else { Err(wrong) }
 }
 
-fn kinds(names: &[String], wrong: &mut Vec<String>) -> Vec<Kind> {
-    let known = Kind::ALL.map(Kind::id);
+fn parse_kinds(names: &[String], wrong: &mut Vec<String>) -> Vec<LinkageKind> {
+    let known = LinkageKind::ALL.map(LinkageKind::id);
     let mut kinds = Vec::new();
     for name in names {
-        match Kind::ALL.into_iter().find(|kind| kind.id() == name.trim()) {
+        match LinkageKind::ALL.into_iter().find(|kind| kind.id() == name.trim()) {
             Some(kind) => kinds.push(kind),
-            None => wrong.push(format!("--types: there is no `{name}` here: {}", nearest_or_all(name, &known))),
+            None => wrong.push(format!("--types: there is no `{name}` here: {}", suggestion(name, &known))),
         }
     }
     kinds
 }
 
 /// A finite number, or an expression without names that is one.
-fn number(text: &str, example: &str) -> Result<f64, String> {
+fn parse_number(text: &str, example: &str) -> Result<f64, String> {
     let expression =
         Expression::parse(text).map_err(|error| format!("`{text}`: {}; write it like {example}", error.message))?;
     if let Some(name) = expression.names().first() {
@@ -209,16 +209,16 @@ fn number(text: &str, example: &str) -> Result<f64, String> {
 }
 
 /// The option a wish is given by.
-fn option(wish: Wish) -> &'static str {
+fn option_name(wish: Requirement) -> &'static str {
     match wish {
-        Wish::Input => "--input",
-        Wish::DoublePoint => "--double-point",
-        Wish::QuickReturn => "--return",
-        Wish::P => "--p",
-        Wish::Length => "--length",
-        Wish::Tolerance => "--tolerance",
-        Wish::Size => "--size",
-        Wish::MuMin => "--mu-min",
-        Wish::Kinds => "--types",
+        Requirement::Input => "--input",
+        Requirement::DoublePoint => "--double-point",
+        Requirement::QuickReturn => "--return",
+        Requirement::P => "--p",
+        Requirement::Length => "--length",
+        Requirement::Tolerance => "--tolerance",
+        Requirement::Size => "--size",
+        Requirement::MuMin => "--mu-min",
+        Requirement::Kinds => "--types",
     }
 }

@@ -1,12 +1,14 @@
 use std::fmt::Write;
 
-use coupler_atlas::design::{Arrangement, Design, Input, Kind, LeftOut, Origin, Relaxation, Wish};
+use coupler_atlas::design::{
+    Design, DrivenLinkage, Driver, LinkageKind, ProportionOrigin, RejectedLinkage, Relaxation, Requirement,
+};
 
-use super::compared::{ratio, trade_offs};
-use super::{Report, option};
+use super::trade_offs::{format_ratio, trade_offs};
+use super::{Report, option_name};
 
 /// A number to read, with so many significant digits.
-pub(super) fn short(value: f64, digits: usize) -> String {
+pub(super) fn format_significant(value: f64, digits: usize) -> String {
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     match rounded {
         0.0 => "0".to_owned(),
@@ -19,7 +21,7 @@ pub(super) fn short(value: f64, digits: usize) -> String {
 pub(super) fn text(report: &Report) -> String {
     const HEAD: [&str; 10] =
         ["linkage", "straight", "deviation", "input", "mu min", "size", "out:back", "speed", "class", "driven by"];
-    let designs = &report.found.designs;
+    let designs = &report.results.designs;
     let rows: Vec<[String; 10]> = designs.iter().map(row).collect();
     let widths: Vec<usize> = (0..HEAD.len())
         .map(|k| rows.iter().map(|row| row[k].chars().count()).chain([HEAD[k].len()]).max().unwrap_or(0))
@@ -40,75 +42,81 @@ pub(super) fn text(report: &Report) -> String {
         let _ = writeln!(out, "    {} ({})", proportions(design), origin(design));
         let _ = writeln!(out, "    {}", trade_offs(designs, k));
     }
-    out + &left_out(&report.found.left_out)
+    out + &left_out(&report.results.rejected)
 }
 
 fn row(design: &Design) -> [String; 10] {
-    let figures = &design.figures;
+    let figures = &design.performance;
     [
-        design.arrangement.kind.id().to_owned(),
-        short(design.straight.length, 5),
-        short(design.straight.deviation, 3),
+        design.driven_linkage.kind.id().to_owned(),
+        format_significant(design.straight.length, 5),
+        format_significant(design.straight.deviation, 3),
         format!("{:.1}°", design.swing),
         format!("{:.1}°", figures.mu_min),
-        short(figures.size, 5),
-        design.time_ratio().map_or("1:1".to_owned(), |time| format!("1:{}", ratio(1.0 / time))),
-        ratio(design.unevenness),
+        format_significant(figures.size, 5),
+        design.time_ratio().map_or("1:1".to_owned(), |time| format!("1:{}", format_ratio(1.0 / time))),
+        format_ratio(design.speed_ratio),
         design.class.to_owned(),
         driver(design),
     ]
 }
 
 fn driver(design: &Design) -> String {
-    let by = match design.arrangement.input {
-        Input::Motor => "motor on the ",
-        Input::Rocker => "",
+    let by = match design.driven_linkage.input {
+        Driver::Motor => "motor on the ",
+        Driver::Rocker => "",
     };
-    format!("{by}{}", design.figures.driven.name())
+    format!("{by}{}", design.performance.input_link.name())
 }
 
 /// The parameters of a design, those that follow from others too.
 pub(super) fn proportions(design: &Design) -> String {
     let parameters = design.family.template.parameters.iter();
-    let values =
-        parameters.map(|parameter| format!("{} = {}", parameter.name, short(design.value(&parameter.name), 6)));
+    let values = parameters
+        .map(|parameter| format!("{} = {}", parameter.name, format_significant(design.parameter(&parameter.name), 6)));
     values.collect::<Vec<_>>().join(", ")
 }
 
 fn origin(design: &Design) -> String {
     match design.origin {
-        Origin::Search => "searched".to_owned(),
-        Origin::Condition => format!("by {}", design.arrangement.kind.condition()),
+        ProportionOrigin::Search => "searched".to_owned(),
+        ProportionOrigin::ClosedCondition => format!("by {}", design.driven_linkage.kind.closed_condition()),
     }
 }
 
-fn name(arrangement: Arrangement) -> String {
+fn arrangement_name(arrangement: DrivenLinkage) -> String {
     match arrangement {
-        Arrangement { kind: Kind::Chebyshev, input: Input::Motor } => "chebyshev by a motor on its coupler".to_owned(),
-        Arrangement { kind: Kind::Chebyshev, input: Input::Rocker } => "chebyshev by a rocker".to_owned(),
-        Arrangement { kind, .. } => kind.id().to_owned(),
+        DrivenLinkage { kind: LinkageKind::Chebyshev, input: Driver::Motor } => {
+            "chebyshev by a motor on its coupler".to_owned()
+        }
+        DrivenLinkage { kind: LinkageKind::Chebyshev, input: Driver::Rocker } => "chebyshev by a rocker".to_owned(),
+        DrivenLinkage { kind, .. } => kind.id().to_owned(),
     }
 }
 
 /// A sentence for each that is left out; those left out for one reason together.
-fn left_out(all: &[LeftOut]) -> String {
+fn left_out(all: &[RejectedLinkage]) -> String {
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
     for one in all {
-        let condition = if one.is_closed { format!(" by {}", one.arrangement.kind.condition()) } else { String::new() };
-        let name = format!("{}{condition}", name(one.arrangement));
-        match reasons.iter_mut().find(|(why, _)| *why == one.why) {
+        let condition = if one.is_closed_form {
+            format!(" by {}", one.driven_linkage.kind.closed_condition())
+        } else {
+            String::new()
+        };
+        let name = format!("{}{condition}", arrangement_name(one.driven_linkage));
+        match reasons.iter_mut().find(|(why, _)| *why == one.reason) {
             Some((_, names)) => names.push(name),
-            None => reasons.push((&one.why, vec![name])),
+            None => reasons.push((&one.reason, vec![name])),
         }
     }
     reasons.iter().map(|(why, names)| format!("left out: {}: {why}\n", names.join(", "))).collect()
 }
 
 /// Where nothing meets the wishes: what is left out, and what each wish would have to be.
-pub(super) fn nothing(report: &Report) -> String {
-    let found = &report.found;
+pub(super) fn no_design_message(report: &Report) -> String {
+    let found = &report.results;
     let mut out = "nothing meets these wishes\n".to_owned();
-    out += &left_out(&found.left_out);
+    out += &left_out(&found.rejected);
     for relaxation in &found.relaxations {
         out += &format!("hint: {}\n", hint(report, relaxation));
     }
@@ -120,24 +128,28 @@ pub(super) fn nothing(report: &Report) -> String {
 
 /// "with --mu-min 38.2 instead of 45, evans meets the rest: p = …".
 fn hint(report: &Report, relaxation: &Relaxation) -> String {
-    let Relaxation { wish, to, design } = relaxation;
-    let wishes = &report.wishes;
-    let by_deviation = *wish == Wish::Tolerance && report.by_deviation;
+    let Relaxation { requirement: wish, value: to, design } = relaxation;
+    let wishes = &report.requirements;
+    let by_deviation = *wish == Requirement::Tolerance && report.is_deviation_given;
     let half = wishes.length.unwrap_or(1.0) / 2.0;
-    let (option, unit) = if by_deviation { ("--deviation", half) } else { (option(*wish), 1.0) };
+    let (option, unit) = if by_deviation { ("--deviation", half) } else { (option_name(*wish), 1.0) };
     let asked = match wish {
-        Wish::P => wishes.p,
-        Wish::Length => wishes.length,
-        Wish::Tolerance => Some(wishes.tolerance),
-        Wish::Size => wishes.size,
-        Wish::MuMin => Some(wishes.mu_min),
-        Wish::Input | Wish::DoublePoint | Wish::QuickReturn | Wish::Kinds => None,
+        Requirement::P => wishes.p,
+        Requirement::Length => wishes.length,
+        Requirement::Tolerance => Some(wishes.tolerance),
+        Requirement::Size => wishes.size,
+        Requirement::MuMin => Some(wishes.mu_min),
+        Requirement::Input | Requirement::DoublePoint | Requirement::QuickReturn | Requirement::Kinds => None,
     };
     let change = match (to, asked) {
         (Some(to), Some(asked)) => {
-            format!("with {option} {} instead of {}", short(to * unit, 6), short(asked * unit, 6))
+            format!(
+                "with {option} {} instead of {}",
+                format_significant(to * unit, 6),
+                format_significant(asked * unit, 6)
+            )
         }
         _ => format!("without {option}"),
     };
-    format!("{change}, {} meets the rest: {}", name(design.arrangement), proportions(design))
+    format!("{change}, {} meets the rest: {}", arrangement_name(design.driven_linkage), proportions(design))
 }

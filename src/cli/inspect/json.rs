@@ -1,12 +1,12 @@
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::{Bar, FourBar, Input, Linkage, PlacedFourBar};
+use coupler_curves::linkage::{FourBar, Input, Linkage, MovingLink, PlacedFourBar};
 use coupler_curves::measure;
-use coupler_curves::motion::{Circuit, End, Pass};
+use coupler_curves::motion::{Circuit, Pass, PassEnd};
 use serde_json::{Map, Value, json};
 
-use super::cognates::{Found, Member};
+use super::cognates::{CognateMember, CognateSet};
 use super::equation;
-use super::{Pose, Report, flat_joints, instants, turnings};
+use super::{Pose, Report, flat_joints, instant_geometries, link_rotations};
 
 /// The version of the format; docs/inspect.md describes it.
 const FORMAT: u32 = 1;
@@ -19,16 +19,16 @@ pub(super) fn json(report: &Report) -> String {
     let curves: Vec<Value> = solved
         .curves
         .iter()
-        .map(|curve| json!({ "trace": curve.trace, "circuit": curve.circuit, "measures": measures(&curve.measures) }))
+        .map(|curve| json!({ "trace": curve.trace, "circuit": curve.circuit, "measures": measures(&curve.values) }))
         .collect();
     let whole = json!({
         "format": FORMAT,
         "linkage": family.id,
         "parameters": parameters,
-        "class": FourBar::of(&solved.linkage).map(|four_bar| four_bar.class().name()),
+        "class": FourBar::from_linkage(&solved.linkage).map(|four_bar| four_bar.class().name()),
         "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
         "status": solved.status().name(),
-        "reason": solved.motion.shortfall,
+        "reason": solved.motion.incomplete_reason,
         "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect::<Vec<_>>(),
         "curves": curves,
         "equations": equation::json(&report.equations.0),
@@ -52,18 +52,18 @@ fn point(p: Point) -> Value {
 }
 
 fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
-    let end = |end: End| json!({ "input": end.stop.at, "flat": flat_joints(linkage, end.flat) });
+    let end = |end: PassEnd| json!({ "input": end.input.value, "flat": flat_joints(linkage, end.flat_dyads) });
     let pass = |(k, pass): (usize, &Pass)| {
-        let signs: Vec<i8> = (0..linkage.dyads()).map(|dyad| pass.signs.get(dyad)).collect();
-        json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.turns_after(k) })
+        let signs: Vec<i8> = (0..linkage.dyad_count()).map(|dyad| pass.mode.sign(dyad)).collect();
+        json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.reverses_after(k) })
     };
     let passes: Vec<Value> = circuit.passes.iter().enumerate().map(pass).collect();
-    json!({ "closed": circuit.closed, "passes": passes })
+    json!({ "closed": circuit.is_closed, "passes": passes })
 }
 
-fn cognates(found: &Found) -> Value {
-    let member = |Member { cognate, class, linkage, motion, .. }: &Member| {
-        let PlacedFourBar { pivots, lengths, point: coupler_point } = cognate.four_bar;
+fn cognates(found: &CognateSet) -> Value {
+    let member = |CognateMember { cognate, class, linkage, motion, .. }: &CognateMember| {
+        let PlacedFourBar { pivots, lengths, coupler_point } = cognate.four_bar;
         let circuits: Vec<Value> = motion.circuits.iter().map(|circuit| self::circuit(linkage, circuit)).collect();
         json!({
             "class": class.name(),
@@ -74,9 +74,9 @@ fn cognates(found: &Found) -> Value {
             "rocker": number(lengths.rocker),
             "along": number(coupler_point.x),
             "across": number(coupler_point.y),
-            "turns_as": cognate.turns_as.map(Bar::name),
-            "start": linkage.travel.start,
-            "side": linkage.travel.signs.get(0),
+            "turns_as": cognate.counterparts.map(MovingLink::name),
+            "start": linkage.motion_options.start,
+            "side": linkage.motion_options.mode.sign(0),
             "circuits": circuits,
         })
     };
@@ -102,34 +102,34 @@ fn pose(report: &Report, pose: &Pose) -> Value {
     let joint = |joint: usize| {
         json!({
             "name": solved.linkage.joints[joint].name,
-            "place": point(jets.place(joint)),
+            "place": point(jets.position(joint)),
             "velocity": pair(jets.velocity(joint)),
             "acceleration": pair(jets.acceleration(joint)),
             "jerk": pair(jets.jerk(joint)),
         })
     };
     let joints: Vec<Value> = (0..solved.linkage.joints.len()).map(joint).collect();
-    let links: Vec<Value> = turnings(solved, pose)
+    let links: Vec<Value> = link_rotations(solved, pose)
         .into_iter()
         .map(|turning| {
             json!({
                 "joints": turning.joints,
-                "angular_velocity": number(turning.velocity),
-                "angular_acceleration": number(turning.acceleration),
+                "angular_velocity": number(turning.angular_velocity),
+                "angular_acceleration": number(turning.angular_acceleration),
             })
         })
         .collect();
-    let instants: Vec<Value> = instants(solved, pose)
+    let instants: Vec<Value> = instant_geometries(solved, pose)
         .filter_map(|(joint, instant)| {
             let instant = instant?;
-            let place = jets.place(joint);
+            let place = jets.position(joint);
             Some(json!({
                 "joint": solved.linkage.joints[joint].name,
                 "pole": point(instant.pole),
                 "moving_pole": pair(instant.moving_pole),
                 "inflection_pole": point(instant.inflection_pole()),
                 "ball_point": instant.ball_point().map(point),
-                "cubic": instant.cubic().map(|cubic| cubic.map(number)),
+                "cubic": instant.cubic_parameters().map(|cubic| cubic.map(number)),
                 "curvature": number(instant.curvature(place)),
                 "curvature_rate": number(instant.curvature_rate(place)),
             }))
@@ -138,7 +138,7 @@ fn pose(report: &Report, pose: &Pose) -> Value {
     json!({
         "input": pose.input,
         "circuit": pose.circuit,
-        "branch": pose.pass.signs.get(0),
+        "branch": pose.pass.mode.sign(0),
         "joints": joints,
         "links": links,
         "instants": instants,

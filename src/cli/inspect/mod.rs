@@ -10,14 +10,14 @@ use coupler_curves::solve;
 use std::path::PathBuf;
 
 use clap::Args;
-use coupler_atlas::build;
+use coupler_atlas::output;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Vector, cross};
-use coupler_curves::linkage::{Flat, Input, JointId, Linkage};
-use coupler_curves::motion::{Instant, Jets, Pass, Sampler};
-use coupler_curves::solve::Solved;
+use coupler_curves::linkage::{DyadSet, Input, JointId, Linkage};
+use coupler_curves::motion::{InstantaneousMotion, JointDerivatives, Pass, Sampler};
+use coupler_curves::solve::SolvedCell;
 
-use super::{Outcome, WrongInput, linkage, print};
+use super::{InputError, Outcome, linkage, print};
 
 /// Look at one linkage: its class, its circuits and their limits, where its joints are and how fast they move.
 ///
@@ -66,36 +66,38 @@ pub struct Arguments {
 /// What is told of a linkage.
 struct Report<'a> {
     family: &'a Family,
-    solved: &'a Solved,
+    solved: &'a SolvedCell,
     /// The input asked for.
-    at: Option<f64>,
+    input: Option<f64>,
     /// Its poses there.
     poses: Vec<Pose<'a>>,
     /// The equations of its coupler curves, and whether they are wanted in full.
     equations: (Vec<equation::Equation>, bool),
     /// The cognates, if they are asked for.
-    cognates: Option<cognates::Found>,
+    cognates: Option<cognates::CognateSet>,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let template = linkage::template(&arguments.linkage, arguments.manifest.as_deref())?;
-    let given = arguments.parameters.iter().map(|text| linkage::parameter(text)).collect::<Result<Vec<_>, _>>()?;
-    let at = arguments.at.as_deref().map(|text| linkage::number(text, "--at 30")).transpose()?;
+    let template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
+    let given =
+        arguments.parameters.iter().map(|text| linkage::parse_parameter(text)).collect::<Result<Vec<_>, _>>()?;
+    let at = arguments.at.as_deref().map(|text| linkage::parse_number(text, "--at 30")).transpose()?;
     if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
-        return Err(WrongInput(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
+        return Err(InputError(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
     }
     let branch = arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 });
-    let family = Family::single(template, &given, Sampling::Samples(360))
-        .map_err(|wrong| WrongInput(format!("{}: {}", arguments.linkage, wrong.join("; "))))?;
-    let Some(solved) = solve::solve(&family, &Sampler::new(family.sampling), 0) else {
-        return Err(WrongInput(format!("{}: its values make no linkage", arguments.linkage)).into());
+    let family = Family::single_cell(template, &given, Sampling::Samples(360))
+        .map_err(|wrong| InputError(format!("{}: {}", arguments.linkage, wrong.join("; "))))?;
+    let Some(solved) = solve::solve_cell(&family, &Sampler::new(family.sampling), 0) else {
+        return Err(InputError(format!("{}: its values make no linkage", arguments.linkage)).into());
     };
     let poses: Vec<Pose> = at.map(|at| poses(&solved, at, branch)).unwrap_or_default();
-    let cognates = arguments.cognates.then(|| cognates::find(&family.id, &solved, arguments.trace)).transpose()?;
-    let equations = (equation::all(&solved), arguments.sextic);
-    let report = Report { family: &family, solved: &solved, at, poses, equations, cognates };
+    let cognates =
+        arguments.cognates.then(|| cognates::find_cognates(&family.id, &solved, arguments.trace)).transpose()?;
+    let equations = (equation::coupler_equations(&solved), arguments.sextic);
+    let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates };
     if let Some(path) = &arguments.svg {
-        build::write_file(path, &plate::plate(&report, arguments.animate))?;
+        output::write_file(path, &plate::plate(&report, arguments.animate))?;
     }
     let told = match &report.cognates {
         Some(found) if arguments.toml => cognates::manifest(&report, found),
@@ -111,24 +113,24 @@ struct Pose<'a> {
     circuit: usize,
     pass: &'a Pass,
     input: f64,
-    jets: Jets,
+    jets: JointDerivatives,
 }
 
 /// Every pose at an input, circuit by circuit.
-fn poses(solved: &Solved, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
+fn poses(solved: &SolvedCell, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
     let input = solved.linkage.input();
     let mut found = Vec::new();
     for (circuit, motion) in (1..).zip(&solved.motion.circuits) {
         for pass in &motion.passes {
-            let (from, to) = (pass.from.stop.at, pass.to.stop.at);
+            let (from, to) = (pass.from.input.value, pass.to.input.value);
             let [low, high] = [from.min(to), from.max(to)];
             // The input may have been given a few turns off.
             let over = (at - low).rem_euclid(input.period());
-            let is_branch = branch.is_none_or(|branch| pass.signs.get(0) == branch);
+            let is_branch = branch.is_none_or(|branch| pass.mode.sign(0) == branch);
             // The end of a whole turn is its beginning.
-            let is_seam = motion.closed && motion.passes.len() == 1 && low + over == high;
+            let is_seam = motion.is_closed && motion.passes.len() == 1 && low + over == high;
             if low + over <= high && is_branch && !is_seam {
-                let jets = Jets::on(&solved.linkage, pass, low + over);
+                let jets = JointDerivatives::on_pass(&solved.linkage, pass, low + over);
                 found.push(Pose { circuit, pass, input: low + over, jets });
             }
         }
@@ -137,46 +139,50 @@ fn poses(solved: &Solved, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
 }
 
 /// A moving link: its joints, and how fast it turns.
-struct Turning<'a> {
+struct LinkRotation<'a> {
     joints: Vec<&'a str>,
     /// To a radian, or a unit, of input.
-    velocity: f64,
+    angular_velocity: f64,
     /// The derivative of that by the input.
-    acceleration: f64,
+    angular_acceleration: f64,
 }
 
 /// The moving links of a pose that have two joints to tell their direction by.
-fn turnings<'a>(solved: &'a Solved, pose: &Pose) -> Vec<Turning<'a>> {
+fn link_rotations<'a>(solved: &'a SolvedCell, pose: &Pose) -> Vec<LinkRotation<'a>> {
     let linkage = &solved.linkage;
     let jets = &pose.jets;
     let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, linkage.ground()));
     let turning = |link: &'a coupler_curves::linkage::Link| {
         let (first, place) = *link.joints.first()?;
         let (second, _) = *link.joints.iter().find(|(_, other)| *other != place)?;
-        let between = |of: fn(&Jets, JointId) -> Vector| of(jets, second) - of(jets, first);
-        let arm = jets.place(second) - jets.place(first);
+        let between = |of: fn(&JointDerivatives, JointId) -> Vector| of(jets, second) - of(jets, first);
+        let arm = jets.position(second) - jets.position(first);
         let along = |rate: Vector| cross(arm, rate) / arm.norm_squared();
-        Some(Turning {
+        Some(LinkRotation {
             joints: link.joints.iter().map(|(joint, _)| linkage.joints[*joint].name.as_str()).collect(),
-            velocity: along(between(Jets::velocity)),
-            acceleration: along(between(Jets::acceleration)),
+            angular_velocity: along(between(JointDerivatives::velocity)),
+            angular_acceleration: along(between(JointDerivatives::acceleration)),
         })
     };
     moving.filter_map(turning).collect()
 }
 
 /// The instant geometry of each traced joint's link.
-fn instants<'a>(solved: &'a Solved, pose: &'a Pose) -> impl Iterator<Item = (JointId, Option<Instant>)> + use<'a> {
+fn instant_geometries<'a>(
+    solved: &'a SolvedCell,
+    pose: &'a Pose,
+) -> impl Iterator<Item = (JointId, Option<InstantaneousMotion>)> + use<'a> {
     let linkage = &solved.linkage;
-    linkage.traced.iter().map(move |&joint| (joint, Instant::of_joint(linkage, &pose.jets, joint)))
+    linkage.traced.iter().map(move |&joint| (joint, InstantaneousMotion::from_joint(linkage, &pose.jets, joint)))
 }
 
 /// The names of the joints whose dyads lie flat at an end.
-fn flat_joints(linkage: &Linkage, flat: Flat) -> Vec<&str> {
-    let is_flat = |joint: &&coupler_curves::linkage::Joint| joint.step.index().is_some_and(|index| flat.has(index));
+fn flat_joints(linkage: &Linkage, flat: DyadSet) -> Vec<&str> {
+    let is_flat =
+        |joint: &&coupler_curves::linkage::Joint| joint.kind.dyad_index().is_some_and(|index| flat.contains(index));
     linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
 }
 
-fn unit(linkage: &Linkage) -> &'static str {
+fn input_unit(linkage: &Linkage) -> &'static str {
     if linkage.input() == Input::Length { "" } else { "°" }
 }

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
-use coupler_curves::solve::Solved;
-use coupler_drawing::page::book::{self, Atlas, Cell, Chapter, Geometry, Volume};
-use coupler_drawing::page::{self, Heading, Options, Panel, Paper, Sheet, View};
+use coupler_curves::solve::SolvedCell;
+use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, Volume};
+use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, Paper, PoseChoice};
 use coupler_drawing::render::pdf::Book;
-use coupler_drawing::scene::{Item, Label, Scene};
+use coupler_drawing::scene::{Item, PageNumber, Scene};
 
 use super::reader::{Contents, Pdf};
 
@@ -33,41 +33,41 @@ cases = [ { p = 2.00, s = 2.50, a = 2.50 }, { p = 3.00, s = 4.00, a = 4.00 } ]
 "#;
 
 fn plan() -> Plan {
-    let loaded = manifest::load(MANIFEST);
+    let loaded = manifest::parse(MANIFEST);
     assert!(loaded.problems.is_empty(), "{:?}", loaded.problems);
     loaded.plan.unwrap()
 }
 
 /// The solved cells of every family of a plan.
-fn solved(plan: &Plan) -> Vec<Vec<Solved>> {
+fn solved(plan: &Plan) -> Vec<Vec<SolvedCell>> {
     let all = |planned: &manifest::PlannedFamily| {
         let mut found = Vec::new();
-        let kept = sweep::select(&planned.family);
-        let take = |mut solved: Vec<Solved>| -> Result<(), ()> {
+        let kept = sweep::kept_cells(&planned.family);
+        let take = |mut solved: Vec<SolvedCell>| -> Result<(), ()> {
             found.append(&mut solved);
             Ok(())
         };
-        let groups = sweep::Groups { cells: &kept, size: 1, bytes: 0, wanted: None };
-        sweep::run(&planned.family, groups, |_, solved| solved, take).unwrap();
+        let groups = sweep::CellGroups { cells: &kept, size: 1, work_bytes: 0, requested_measures: None };
+        sweep::process_groups(&planned.family, groups, |_, solved| solved, take).unwrap();
         found
     };
     plan.families.iter().map(all).collect()
 }
 
-fn caption(plan: &Plan, family: usize, solved: &Solved) -> String {
-    let [caption, _] = plan.families[family].family.describe(&solved.cell, solved.measures());
+fn caption(plan: &Plan, family: usize, solved: &SolvedCell) -> String {
+    let [caption, _] = plan.families[family].family.format_captions(&solved.cell, solved.first_curve_values());
     caption
 }
 
-fn atlas<'p>(plan: &'p Plan, solved: &[Vec<Solved>]) -> Atlas<'p> {
+fn atlas<'p>(plan: &'p Plan, solved: &[Vec<SolvedCell>]) -> Atlas<'p> {
     let chapter = |(k, planned): (usize, &'p manifest::PlannedFamily)| {
-        let to_a_page = planned.layout.cells();
-        let cell = |(at, solved)| Cell { caption: caption(plan, k, solved), page: at / to_a_page + 1 };
+        let to_a_page = planned.layout.cells_per_page();
+        let cell = |(at, solved)| CellEntry { caption: caption(plan, k, solved), page: at / to_a_page + 1 };
         Chapter {
             title: &planned.family.title,
             symbols: &planned.family.names,
-            curves: Some(solved[k].iter().map(|solved| solved.curves.len()).sum()),
-            pages: solved[k].len().div_ceil(to_a_page),
+            curve_count: Some(solved[k].iter().map(|solved| solved.curves.len()).sum()),
+            page_count: solved[k].len().div_ceil(to_a_page),
             cells: solved[k].iter().enumerate().map(cell).collect(),
         }
     };
@@ -76,35 +76,45 @@ fn atlas<'p>(plan: &'p Plan, solved: &[Vec<Solved>]) -> Atlas<'p> {
 }
 
 /// The pages of all families, and what the index says of their cells.
-fn pages(plan: &Plan, solved: &[Vec<Solved>]) -> (Vec<Scene>, Vec<Geometry>) {
+fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec<IndexEntry>) {
     let (mut scenes, mut found) = (Vec::new(), Vec::new());
     for (k, planned) in plan.families.iter().enumerate() {
-        for (at, group) in solved[k].chunks(planned.layout.cells()).enumerate() {
+        for (at, group) in solved[k].chunks(planned.layout.cells_per_page()).enumerate() {
             let number = scenes.len() + 1;
-            let panel = |solved: &'_ Solved| caption(plan, k, solved);
+            let panel = |solved: &'_ SolvedCell| caption(plan, k, solved);
             let captions: Vec<String> = group.iter().map(panel).collect();
-            found.extend(group.iter().zip(&captions).map(|(s, caption)| Geometry::of(s, k, caption, |_| number)));
-            let mut scene = page::compose(&sheet(plan, k, at + 1, group), &plan.page);
-            book::number(&mut scene, Label::Arabic(number as u32), &plan.page);
+            found.extend(
+                group.iter().zip(&captions).map(|(s, caption)| IndexEntry::from_solved_cell(s, k, caption, |_| number)),
+            );
+            let mut scene = page::compose_panels(&sheet(plan, k, at + 1, group), &plan.page);
+            book::draw_page_number(&mut scene, PageNumber::Arabic(number as u32), &plan.page);
             scenes.push(scene);
         }
     }
     (scenes, found)
 }
 
-fn sheet<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [Solved]) -> Sheet<'p> {
+fn sheet<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [SolvedCell]) -> PanelPage<'p> {
     let planned = &plan.families[family];
-    let panel = |solved: &'p Solved| Panel {
+    let panel = |solved: &'p SolvedCell| Panel {
         caption: caption(plan, family, solved),
         note: String::new(),
-        facts: page::facts(solved),
-        solved,
-        view: View::Clearest,
-        inks: Vec::new(),
+        facts: page::cell_facts(solved),
+        solved_cell: solved,
+        pose: PoseChoice::Clearest,
+        link_inks: Vec::new(),
     };
     let (id, title, symbols) = (&planned.family.id, &planned.family.title, &planned.family.names);
-    let heading = Heading { atlas: &plan.title, family: id, title, source: String::new(), symbols, page, of: 9 };
-    Sheet { heading, layout: planned.layout, panels: group.iter().map(panel).collect() }
+    let heading = Heading {
+        atlas_title: &plan.title,
+        family_id: id,
+        family_title: title,
+        source: String::new(),
+        symbols,
+        page,
+        page_count: 9,
+    };
+    PanelPage { heading, layout: planned.layout, panels: group.iter().map(panel).collect() }
 }
 
 /// The volumes of an atlas, with how many pages stand before and after their own.
@@ -113,12 +123,12 @@ fn bound(plan: &Plan, most: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
     let (scenes, found) = pages(plan, &solved);
     let atlas = atlas(plan, &solved);
     let bind = |volume: Volume| {
-        let front = book::front(&atlas, &volume, Some(&sheet(plan, 0, 1, &solved[0])), &plan.page);
-        let index = book::index(&atlas, &volume, front.len(), &found, &plan.page);
-        let own = &scenes[volume.first - 1..volume.first - 1 + volume.pages];
+        let front = book::compose_front_matter(&atlas, &volume, Some(&sheet(plan, 0, 1, &solved[0])), &plan.page);
+        let index = book::compose_index(&atlas, &volume, front.len(), &found, &plan.page);
+        let own = &scenes[volume.first_page - 1..volume.first_page - 1 + volume.page_count];
         let mut book = Book::new(atlas.title, atlas.program);
         for scene in front.iter().chain(own).chain(&index) {
-            book.add(scene, book::label(&volume, front.len(), book.pages())).unwrap();
+            book.add_page(scene, book::page_number(&volume, front.len(), book.page_count())).unwrap();
         }
         let around = [front.len(), index.len()];
         (volume, around, book.finish(&book::outline(&atlas, &volume, around)).unwrap())
@@ -142,14 +152,14 @@ fn what_contents_and_index_say_leads_to_the_page_with_the_number_they_say() {
         let mut led = 0;
         for (volume, [front, index], bytes) in bound(&plan, most) {
             let pdf = Pdf::read(&bytes);
-            assert_eq!(pdf.pages().len(), front + volume.pages + index);
+            assert_eq!(pdf.pages().len(), front + volume.page_count + index);
             let labels = pdf.labels();
-            for page in (0..front).chain(front + volume.pages..pdf.pages().len()) {
+            for page in (0..front).chain(front + volume.page_count..pdf.pages().len()) {
                 let contents = pdf.contents(page);
                 for (corners, to) in pdf.links(page) {
                     let says = in_box(&contents, corners, 792.0);
                     let number = says.iter().rev().find_map(|word| word.parse::<usize>().ok()).unwrap();
-                    assert_eq!(to, number - volume.first + front, "{says:?}");
+                    assert_eq!(to, number - volume.first_page + front, "{says:?}");
                     assert_eq!(labels[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
                     // The page has its number under its border, and what was said of it.
                     let there = pdf.contents(to);
@@ -168,7 +178,7 @@ fn what_contents_and_index_say_leads_to_the_page_with_the_number_they_say() {
 fn volumes_part_the_pages_and_number_them_through() {
     let plan = plan();
     let volumes = bound(&plan, 3);
-    let ranges: Vec<Range<usize>> = volumes.iter().map(|(volume, ..)| volume.range()).collect();
+    let ranges: Vec<Range<usize>> = volumes.iter().map(|(volume, ..)| volume.page_range()).collect();
     assert_eq!(ranges, [1..4, 4..5]);
     let labels = |k: usize| Pdf::read(&volumes[k].2).labels();
     let label = |label: &str| format!("<</Type/PageLabel/S/{}>>", label.replace(' ', "/St"));
@@ -191,18 +201,23 @@ fn every_page_of_an_atlas_is_in_one_volume() {
         let chapters = vec![chapter("A", pages, Vec::new())];
         let atlas = Atlas { title: "T", program: "p", chapters };
         let volumes = atlas.volumes(most);
-        let all: Vec<usize> = volumes.iter().flat_map(Volume::range).collect();
+        let all: Vec<usize> = volumes.iter().flat_map(Volume::page_range).collect();
         assert_eq!(all, (1..=pages).collect::<Vec<_>>());
-        assert!(volumes.iter().zip(1..).all(|(v, k)| v.number == k && v.of == volumes.len() && v.pages <= most.max(1)));
+        assert!(
+            volumes
+                .iter()
+                .zip(1..)
+                .all(|(v, k)| v.number == k && v.volume_count == volumes.len() && v.page_count <= most.max(1))
+        );
     }
 }
 
-fn chapter(title: &str, pages: usize, cells: Vec<Cell>) -> Chapter<'_> {
-    Chapter { title, symbols: &[], curves: None, pages, cells }
+fn chapter(title: &str, pages: usize, cells: Vec<CellEntry>) -> Chapter<'_> {
+    Chapter { title, symbols: &[], curve_count: None, page_count: pages, cells }
 }
 
 fn options(paper: Paper) -> Options {
-    Options::on(paper)
+    Options::for_paper(paper)
 }
 
 /// All that a page says, in order.
@@ -228,15 +243,15 @@ fn the_index_has_the_best_first() {
     let (_, found) = pages(&plan, &solved);
     let atlas = atlas(&plan, &solved);
     let [volume] = atlas.volumes(1000).try_into().unwrap();
-    let says: Vec<String> = book::index(&atlas, &volume, 2, &found, &plan.page).iter().flat_map(says).collect();
+    let says: Vec<String> = book::compose_index(&atlas, &volume, 2, &found, &plan.page).iter().flat_map(says).collect();
     let section = |from: &str, to: &str, unit: &str| -> Vec<f64> {
         let begin = says.iter().position(|line| line == from).unwrap();
         let end = says.iter().position(|line| line == to).unwrap_or(says.len());
         says[begin..end].iter().filter_map(|line| line.strip_suffix(unit)?.parse().ok()).collect()
     };
     let angles = section("By transmission angle", "By symmetry", "°");
-    let least = |solved: &Solved| {
-        let number = |name| match solved.curves[0].measure(name) {
+    let least = |solved: &SolvedCell| {
+        let number = |name| match solved.curves[0].value(name) {
             coupler_curves::measure::Value::Number(value) => value,
             other => panic!("{name}: {other:?}"),
         };
@@ -258,10 +273,10 @@ fn the_index_has_the_best_first() {
 fn long_titles_have_as_many_lines_as_they_take() {
     let title = "An atlas of the straight-line and dwell linkages that are driven by cranks, with all their cognates and limits";
     let family = "Linkages that are driven by cranks, with their limits, cognates and a longer title than most";
-    let cell = Cell { caption: "p = 1".to_owned(), page: 1 };
+    let cell = CellEntry { caption: "p = 1".to_owned(), page: 1 };
     let atlas = Atlas { title, program: "p", chapters: vec![chapter(family, 1, vec![cell])] };
     for (_, paper) in Paper::NAMED {
-        let front = book::front(&atlas, &atlas.volumes(9)[0], None, &options(paper));
+        let front = book::compose_front_matter(&atlas, &atlas.volumes(9)[0], None, &options(paper));
         for (scene, whole) in front.iter().zip([title, family]) {
             let says: Vec<String> = says(scene).into_iter().filter(|line| line != "1").collect();
             assert!(!says.contains(&whole.to_owned()) && says.join(" ").contains(whole), "{says:?}");
@@ -273,21 +288,21 @@ fn long_titles_have_as_many_lines_as_they_take() {
 
 #[test]
 fn an_atlas_of_many_cells_names_some_of_them_and_says_so() {
-    let cell = |k: usize| Cell { caption: format!("p = {k}"), page: k / 15 + 1 };
+    let cell = |k: usize| CellEntry { caption: format!("p = {k}"), page: k / 15 + 1 };
     let atlas =
         Atlas { title: "T", program: "p", chapters: vec![chapter("Many", 2000, (0..30_000).map(cell).collect())] };
     let volume = atlas.volumes(5000)[0];
-    let front = book::front(&atlas, &volume, None, &options(Paper::NAMED[1].1));
+    let front = book::compose_front_matter(&atlas, &volume, None, &options(Paper::NAMED[1].1));
     assert!(front.len() < 9, "{}", front.len());
     let says: Vec<String> = front.iter().flat_map(says).collect();
     // The first of every second page.
     assert!(says.iter().any(|line| line == "1000 of 30000 are named"));
     let children = &book::outline(&atlas, &volume, [front.len(), 0])[2].children;
     assert_eq!(children.len(), 1000);
-    assert_eq!((children[1].title.as_str(), children[1].page), ("p = 30", front.len() + 2));
-    let links: Vec<usize> = front.iter().flat_map(|scene| &scene.links).map(|link| link.page).collect();
+    assert_eq!((children[1].title.as_str(), children[1].page_index), ("p = 30", front.len() + 2));
+    let links: Vec<usize> = front.iter().flat_map(|scene| &scene.links).map(|link| link.page_index).collect();
     assert_eq!(links.len(), 1001);
-    assert!(links[1..].iter().zip(children).all(|(link, child)| *link == child.page));
+    assert!(links[1..].iter().zip(children).all(|(link, child)| *link == child.page_index));
 }
 
 #[test]
@@ -296,26 +311,26 @@ fn no_words_and_no_paper_stop_the_pages_of_a_book() {
     for paper in [Paper { width: 50.0, height: 50.0 }, Paper { width: 50.0, height: 2000.0 }, Paper::NAMED[2].1] {
         let options = options(paper);
         for says in odd {
-            let cell = Cell { caption: says.to_owned(), page: 1 };
+            let cell = CellEntry { caption: says.to_owned(), page: 1 };
             let empty = chapter(says, 0, Vec::new());
             let chapters = vec![chapter(says, 1, vec![cell; 40]), empty, chapter(says, 1, Vec::new())];
             let atlas = Atlas { title: says, program: says, chapters };
             for volume in atlas.volumes(1) {
-                let front = book::front(&atlas, &volume, None, &options);
-                let index = book::index(&atlas, &volume, front.len(), &[], &options);
+                let front = book::compose_front_matter(&atlas, &volume, None, &options);
+                let index = book::compose_index(&atlas, &volume, front.len(), &[], &options);
                 assert!(index.is_empty(), "nothing was measured");
                 let mut book = Book::new(says, says);
                 for scene in &front {
-                    assert!(scene.links.iter().all(|link| link.page < front.len() + volume.pages));
-                    book.add(scene, book::label(&volume, front.len(), book.pages())).unwrap();
+                    assert!(scene.links.iter().all(|link| link.page_index < front.len() + volume.page_count));
+                    book.add_page(scene, book::page_number(&volume, front.len(), book.page_count())).unwrap();
                 }
                 let blank = Scene { items: Vec::new(), links: Vec::new(), ..front[0].clone() };
-                book.add(&blank, book::label(&volume, front.len(), book.pages())).unwrap();
+                book.add_page(&blank, book::page_number(&volume, front.len(), book.page_count())).unwrap();
                 book.finish(&book::outline(&atlas, &volume, [front.len(), 0])).unwrap();
             }
         }
     }
     let none = Atlas { title: "T", program: "p", chapters: Vec::new() };
-    let front = book::front(&none, &none.volumes(10)[0], None, &options(Paper::NAMED[0].1));
+    let front = book::compose_front_matter(&none, &none.volumes(10)[0], None, &options(Paper::NAMED[0].1));
     assert_eq!(front.len(), 1, "there is nothing to be contained");
 }

@@ -6,8 +6,8 @@ pub mod reader;
 use coupler_curves::geometry::{Point, Vector};
 use coupler_drawing::render::pdf::{Book, Error};
 use coupler_drawing::scene::{
-    Anchor, Circle, Color, Entry, Face, Group, Item, Label, Line, Link, Moving, Path, Run, Scene, Stroke, Text,
-    Typeface,
+    Anchor, Animation, Circle, Color, Face, Group, Item, OutlineEntry, PageLink, PageNumber, Path, Polyline, Scene,
+    Stroke, Text, TextRun, Typeface,
 };
 use reader::Pdf;
 
@@ -29,25 +29,25 @@ fn scene(items: Vec<Item>) -> Scene {
     }
 }
 
-fn line(points: &[(f64, f64)]) -> Line {
-    Line { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect(), closed: false }
+fn line(points: &[(f64, f64)]) -> Polyline {
+    Polyline { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect(), is_closed: false }
 }
 
-fn path(lines: Vec<Line>) -> Item {
-    let stroke = Some(Stroke { color: INK, width: 0.35, round: false });
-    Item::Path(Path { lines, stroke, fill: None })
+fn path(lines: Vec<Polyline>) -> Item {
+    let stroke = Some(Stroke { color: INK, width: 0.35, has_round_ends: false });
+    Item::Path(Path { polylines: lines, stroke, fill: None })
 }
 
 fn text(words: &[(&str, Face)], anchor: Anchor, quarter_turns: u8) -> Text {
-    let runs = words.iter().map(|&(text, face)| Run { text: text.to_owned(), face }).collect();
-    Text { at: Point::new(123.456, 78.9), anchor, size: 3.7, color: INK, runs, quarter_turns }
+    let runs = words.iter().map(|&(text, face)| TextRun { text: text.to_owned(), face }).collect();
+    Text { position: Point::new(123.456, 78.9), anchor, size: 3.7, color: INK, runs, quarter_turns }
 }
 
 /// A book of one page after another.
-fn book(scenes: &[Scene], outline: &[Entry]) -> Result<Vec<u8>, Error> {
+fn book(scenes: &[Scene], outline: &[OutlineEntry]) -> Result<Vec<u8>, Error> {
     let mut book = Book::new("An <atlas> & \"more\"", "coupler-atlas 1.0");
     for (scene, number) in scenes.iter().zip(1..) {
-        book.add(scene, Label::Arabic(number))?;
+        book.add_page(scene, PageNumber::Arabic(number))?;
     }
     book.finish(outline)
 }
@@ -102,7 +102,7 @@ fn circles_are_round() {
 #[test]
 fn groups_are_opened_and_what_moves_stands_in_its_first_frame() {
     let frame = |x: f64| vec![path(vec![line(&[(x, 1.0), (x + 5.0, 1.0)])])];
-    let moving = Item::Moving(Moving { frames: vec![frame(10.0), frame(90.0)], seconds: 4.0 });
+    let moving = Item::Animation(Animation { frames: vec![frame(10.0), frame(90.0)], seconds: 4.0 });
     let group =
         Item::Group(Group { items: vec![moving, path(vec![line(&[(3.0, 3.0), (4.0, 4.0)])])], ..Group::default() });
     let contents = written(&[scene(vec![group])]).contents(0);
@@ -123,9 +123,9 @@ fn text_can_be_read_and_stands_where_the_other_formats_have_it() {
             words.map(|(says, _)| says)
         );
         let (_, start, along) = &contents.texts[0];
-        let shift = text.at.x - text.start().x;
+        let shift = text.position.x - text.start().x;
         let (cos, sin) = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][usize::from(turns)];
-        let wanted = [text.at.x - shift * cos, text.at.y - shift * sin];
+        let wanted = [text.position.x - shift * cos, text.position.y - shift * sin];
         assert!((start[0] - wanted[0]).abs() < 2e-3 && (start[1] - wanted[1]).abs() < 2e-3, "{start:?} {wanted:?}");
         assert!((along[0] - 3.7 * cos).abs() < 1e-3 && (along[1] - 3.7 * sin).abs() < 1e-3, "{along:?}");
         let (_, next, _) = &contents.texts[1];
@@ -153,17 +153,21 @@ fn no_more_of_a_face_is_embedded_than_is_used() {
 #[test]
 fn labels_links_and_the_outline_lead_where_they_should() {
     let mut first = scene(Vec::new());
-    first.links.push(Link { corner: Point::new(25.4, 50.8), size: Vector::new(12.7, 5.08), page: 2 });
-    first.links.push(Link { corner: Point::new(f64::NAN, 1.0), size: Vector::new(1.0, 1.0), page: 1 });
+    first.links.push(PageLink { corner: Point::new(25.4, 50.8), size: Vector::new(12.7, 5.08), page_index: 2 });
+    first.links.push(PageLink { corner: Point::new(f64::NAN, 1.0), size: Vector::new(1.0, 1.0), page_index: 1 });
     let mut book = Book::new("A book", "a program");
-    let pages =
-        [(first, Label::Roman(1)), (scene(Vec::new()), Label::Arabic(7)), (scene(Vec::new()), Label::Arabic(8))];
+    let pages = [
+        (first, PageNumber::Roman(1)),
+        (scene(Vec::new()), PageNumber::Arabic(7)),
+        (scene(Vec::new()), PageNumber::Arabic(8)),
+    ];
     for (scene, label) in &pages {
-        book.add(scene, *label).unwrap();
+        book.add_page(scene, *label).unwrap();
     }
-    let leaf = |title: &str, page| Entry { title: title.into(), page, children: Vec::new() };
+    let leaf = |title: &str, page| OutlineEntry { title: title.into(), page_index: page, children: Vec::new() };
     let children = vec![leaf("p = 2 (5°)", 1), leaf("p) = \\3", 2)];
-    let outline = [leaf("Contents", 0), Entry { title: "Evans’s".into(), page: 1, children }, leaf("Index", 2)];
+    let outline =
+        [leaf("Contents", 0), OutlineEntry { title: "Evans’s".into(), page_index: 1, children }, leaf("Index", 2)];
     let bytes = book.finish(&outline).unwrap();
     let pdf = Pdf::read(&bytes);
     let label = |style: &str| format!("<</Type/PageLabel/S/{style}>>");
@@ -190,14 +194,14 @@ fn labels_links_and_the_outline_lead_where_they_should() {
 #[test]
 fn what_leads_nowhere_is_an_error_and_so_is_a_page_without_area() {
     let mut leading = scene(Vec::new());
-    leading.links.push(Link { corner: Point::new(1.0, 1.0), size: Vector::new(1.0, 1.0), page: 1 });
-    assert_eq!(book(&[leading], &[]), Err(Error::NoPage { to: 2, pages: 1 }));
-    let child = Entry { title: "there".into(), page: 5, children: Vec::new() };
-    let entry = Entry { title: "here".into(), page: 0, children: vec![child] };
-    assert_eq!(book(&[scene(Vec::new())], &[entry]), Err(Error::NoPage { to: 6, pages: 1 }));
+    leading.links.push(PageLink { corner: Point::new(1.0, 1.0), size: Vector::new(1.0, 1.0), page_index: 1 });
+    assert_eq!(book(&[leading], &[]), Err(Error::MissingPage { page: 2, page_count: 1 }));
+    let child = OutlineEntry { title: "there".into(), page_index: 5, children: Vec::new() };
+    let entry = OutlineEntry { title: "here".into(), page_index: 0, children: vec![child] };
+    assert_eq!(book(&[scene(Vec::new())], &[entry]), Err(Error::MissingPage { page: 6, page_count: 1 }));
     for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = book(&[Scene { width, ..scene(Vec::new()) }], &[]).unwrap_err();
-        assert!(matches!(error, Error::Size { .. }), "{error}");
+        assert!(matches!(error, Error::InvalidSize { .. }), "{error}");
     }
 }
 
@@ -225,13 +229,13 @@ fn nothing_that_a_page_says_or_draws_stops_the_book() {
         items.push(path(vec![line(&[(odd, 1.0), (2.0, odd), (3.0, 4.0)]), line(&[(odd, odd)]), line(&[])]));
         let circle = Circle { centre: Point::new(odd, 3.0), radius: odd, stroke: None, fill: Some(INK) };
         items.push(Item::Circle(circle));
-        items.push(Item::Text(Text { at: Point::new(odd, odd), ..text(&[("x", REGULAR)], Anchor::End, 1) }));
+        items.push(Item::Text(Text { position: Point::new(odd, odd), ..text(&[("x", REGULAR)], Anchor::End, 1) }));
     }
     let scene = scene(items);
     for says in says {
         let mut book = Book::new(says, says);
-        book.add(&scene, Label::Arabic(0)).unwrap();
-        let outline = [Entry { title: says.to_owned(), page: 0, children: Vec::new() }];
+        book.add_page(&scene, PageNumber::Arabic(0)).unwrap();
+        let outline = [OutlineEntry { title: says.to_owned(), page_index: 0, children: Vec::new() }];
         let bytes = book.finish(&outline).unwrap();
         let pdf = Pdf::read(&bytes);
         assert_eq!(pdf.outline().len(), 1);

@@ -4,9 +4,9 @@ use coupler_curves::solve;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use coupler_atlas::build;
 use coupler_atlas::check::{self, Report};
 use coupler_atlas::manifest;
+use coupler_atlas::output;
 use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity};
 use coupler_curves::family::Family;
 use coupler_curves::motion::{Sampler, Sampling};
@@ -20,7 +20,7 @@ pub fn manifest(text: &str) {
     if text.contains("limit") {
         return;
     }
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     for problem in &loaded.problems {
         assert!(text.get(problem.span.clone()).is_some(), "{problem:?} is not in the text");
         assert!(!problem.message.is_empty() && !problem.help.is_empty(), "{problem:?}");
@@ -35,12 +35,12 @@ pub fn manifest(text: &str) {
 
 /// Its last cell, coarsely, if few enough points are traced.
 fn solve(family: &Family) {
-    let Some(last) = family.cells().checked_sub(1) else { return };
+    let Some(last) = family.cell_count().checked_sub(1) else { return };
     let few = family.linkage(&family.cell(last)).is_ok_and(|linkage| linkage.traced.len() <= 20);
-    if few && let Some(solved) = solve::solve(family, &Sampler::new(Sampling::Samples(12)), last) {
+    if few && let Some(solved) = solve::solve_cell(family, &Sampler::new(Sampling::Samples(12)), last) {
         let circuits = &solved.motion.circuits;
-        assert!(circuits.iter().all(|circuit| circuit.input.iter().all(|input| input.is_finite())));
-        family.describe(&solved.cell, solved.measures());
+        assert!(circuits.iter().all(|circuit| circuit.inputs.iter().all(|input| input.is_finite())));
+        family.format_captions(&solved.cell, solved.first_curve_values());
     }
 }
 
@@ -53,7 +53,7 @@ pub fn expression(text: &str) {
     }
     is_placed(read, text);
     is_placed(Quantity::parse(text, Dimension::Angle), text);
-    is_placed(Quantity::parse(text, Dimension::Paper), text);
+    is_placed(Quantity::parse(text, Dimension::PaperLength), text);
     match Caption::parse(text) {
         Ok(caption) => drop(caption.format(|_| 2.5, |_| None)),
         error => is_placed(error, text),
@@ -90,16 +90,16 @@ fn recorded(name: &str, text: &str) {
     // One atlas, and one check of it at a time.
     static ATLAS: Mutex<Option<PathBuf>> = Mutex::new(None);
     let mut atlas = ATLAS.lock().unwrap_or_else(PoisonError::into_inner);
-    let plan = manifest::load(SMALL).plan.expect("a plan");
+    let plan = manifest::parse(SMALL).plan.expect("a plan");
     let folder = atlas.get_or_insert_with(|| {
         let folder = std::env::temp_dir().join(format!("coupler-atlas-corpus-{}", std::process::id()));
-        build::run(&plan, &folder, &build::Options::default(), &mut |_| {}).expect("an atlas");
+        output::write_atlas(&plan, &folder, &output::Options::default(), &mut |_| {}).expect("an atlas");
         folder
     });
     let path: &Path = &folder.join(name);
     let original = std::fs::read(path).expect("a file of the atlas");
     std::fs::write(path, text).expect("a file of the atlas");
-    let report = check::run(&plan, folder, &check::Options::default(), &mut |_| {});
+    let report = check::check_atlas(&plan, folder, &check::Options::default(), &mut |_| {});
     std::fs::write(path, &original).expect("a file of the atlas");
     let Ok(report) = report else {
         assert_eq!(name, "run.json", "a table or a page keeps nothing from being checked");
@@ -107,7 +107,9 @@ fn recorded(name: &str, text: &str) {
     };
     let Report { findings, .. } = &report;
     assert!(
-        findings.iter().all(|finding| !finding.place.to_string().is_empty() && !finding.change.to_string().is_empty())
+        findings
+            .iter()
+            .all(|finding| !finding.location.to_string().is_empty() && !finding.change.to_string().is_empty())
     );
     // What a record says of itself, its program for one, is nothing that a check looks at.
     assert!(text.as_bytes() == original || name == "run.json" || !findings.is_empty(), "{name} has been changed");

@@ -5,7 +5,7 @@ use std::fs;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use coupler_atlas::record::drawn_curves;
+use coupler_atlas::record::read_drawn_curves;
 use serde_json::Value;
 
 use crate::folder::Atlas;
@@ -186,7 +186,7 @@ fn pages_say_where_their_curves_are() {
         for (page, told) in (1..).zip(&pages) {
             assert_eq!(told["page"], page);
             let svg = fs::read(family.atlas.out().join(family.id).join(format!("{id}-{page:03}.svg"))).unwrap();
-            let mut drawn = drawn_curves(&svg).unwrap().into_iter();
+            let mut drawn = read_drawn_curves(&svg).unwrap().into_iter();
             for view in told["views"].as_array().unwrap() {
                 for curve in view["curves"].as_array().unwrap() {
                     let is = drawn.next().unwrap();

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use coupler_atlas::gallery::{Part, SCRIPTS, STYLES, joined};
+use coupler_atlas::gallery::{Asset, SCRIPTS, STYLES, join_modules};
 
 /// The names that a module imports, with the file each comes from.
-fn imports(part: &Part) -> Vec<(String, String)> {
+fn imports(part: &Asset) -> Vec<(String, String)> {
     let mut found = Vec::new();
     for statement in part.text.split("import ").skip(1) {
         let Some((names, rest)) = statement.strip_prefix('{').and_then(|rest| rest.split_once("} from \"")) else {
@@ -32,7 +32,7 @@ fn imports(part: &Part) -> Vec<(String, String)> {
 }
 
 /// The names that a module defines at its top level, and whether it exports them.
-fn definitions(part: &Part) -> Vec<(String, bool)> {
+fn definitions(part: &Asset) -> Vec<(String, bool)> {
     let definition = |line: &str| {
         let (line, is_exported) = line.strip_prefix("export ").map_or((line, false), |line| (line, true));
         let kinds = ["async function* ", "async function ", "function* ", "function ", "class ", "const ", "let "];
@@ -95,11 +95,11 @@ fn no_name_is_used_twice() {
 #[test]
 fn joined_modules_import_and_export_nothing() {
     let parts = [
-        Part { name: "a.js", text: "export const A = 1;\n" },
-        Part { name: "b.js", text: "import {\n  A,\n} from \"./a.js\";\n\nexport function b() {\n  return A;\n}\n" },
+        Asset { name: "a.js", text: "export const A = 1;\n" },
+        Asset { name: "b.js", text: "import {\n  A,\n} from \"./a.js\";\n\nexport function b() {\n  return A;\n}\n" },
     ];
-    assert_eq!(joined(&parts), "// a.js\nconst A = 1;\n// b.js\n\nfunction b() {\n  return A;\n}\n");
-    let all = joined(SCRIPTS);
+    assert_eq!(join_modules(&parts), "// a.js\nconst A = 1;\n// b.js\n\nfunction b() {\n  return A;\n}\n");
+    let all = join_modules(SCRIPTS);
     assert!(all.lines().all(|line| !line.starts_with("import ") && !line.starts_with("export ")));
 }
 

@@ -9,8 +9,8 @@ use coupler_atlas::gallery;
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::family::Family;
-use coupler_curves::linkage::{Circuits, Continuation, Linkage};
-use coupler_curves::measure::{self, COLUMNS, Subject, Value as Measured, take_columns};
+use coupler_curves::linkage::{CircuitSelection, Continuation, Linkage};
+use coupler_curves::measure::{self, COLUMNS, TracedCurve, Value as Measured, compute_columns};
 use coupler_curves::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -23,15 +23,16 @@ fn number(value: f64) -> Value {
 fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
     let rows = |of: &dyn Fn(usize) -> Vec<Value>| (0..linkage.joints.len()).map(of).collect::<Vec<_>>();
     let column = |values: &[f64]| values.iter().map(|value| json!(value)).collect::<Vec<_>>();
-    let sides =
-        |signs: coupler_curves::linkage::Signs| (0..linkage.dyads()).map(|dyad| signs.get(dyad)).collect::<Vec<_>>();
-    let pass = |pass: &coupler_curves::motion::Pass| json!({ "from": pass.from.stop.at, "to": pass.to.stop.at, "signs": sides(pass.signs) });
+    let sides = |signs: coupler_curves::linkage::AssemblyMode| {
+        (0..linkage.dyad_count()).map(|dyad| signs.sign(dyad)).collect::<Vec<_>>()
+    };
+    let pass = |pass: &coupler_curves::motion::Pass| json!({ "from": pass.from.input.value, "to": pass.to.input.value, "signs": sides(pass.mode) });
     json!({
-        "closed": circuit.closed,
-        "input": circuit.input,
-        "branch": (0..circuit.len()).map(|sample| sides(circuit.signs(sample))).collect::<Vec<_>>(),
-        "x": rows(&|joint| column(circuit.places.x(joint))),
-        "y": rows(&|joint| column(circuit.places.y(joint))),
+        "closed": circuit.is_closed,
+        "input": circuit.inputs,
+        "branch": (0..circuit.len()).map(|sample| sides(circuit.mode_at(sample))).collect::<Vec<_>>(),
+        "x": rows(&|joint| column(circuit.positions.x(joint))),
+        "y": rows(&|joint| column(circuit.positions.y(joint))),
         "passes": circuit.passes.iter().map(pass).collect::<Vec<_>>(),
     })
 }
@@ -40,7 +41,7 @@ fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
     let mut told = Vec::new();
     for (trace, &joint) in (1..).zip(&linkage.traced) {
         for (number_of_circuit, circuit) in (1..).zip(&motion.circuits) {
-            let subject = Subject::new(linkage, motion, circuit, joint).asking(family.straight);
+            let subject = TracedCurve::new(linkage, motion, circuit, joint).with_straight_criterion(family.straight);
             let value = |value: Measured| match value {
                 Measured::Number(value) => number(value),
                 Measured::Word(word) => json!(word),
@@ -48,7 +49,7 @@ fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
             };
             let values: serde_json::Map<String, Value> = measure::ALL
                 .iter()
-                .zip(measure::take(&subject))
+                .zip(measure::compute_all(&subject))
                 .map(|(measure, taken)| (measure.name.to_owned(), value(taken)))
                 .collect();
             told.push(json!({ "trace": trace, "circuit": number_of_circuit, "values": values }));
@@ -61,7 +62,7 @@ fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
 fn rates(linkage: &Linkage, motion: &Motion) -> Vec<Value> {
     let of_circuit = |(number_of_circuit, circuit): (usize, &Circuit)| {
         let taken: Vec<Vec<f64>> = (0..circuit.len())
-            .map(|sample| take_columns(&COLUMNS, linkage, (circuit, linkage.traced[0]), sample))
+            .map(|sample| compute_columns(&COLUMNS, linkage, (circuit, linkage.traced[0]), sample))
             .collect();
         let values: serde_json::Map<String, Value> = COLUMNS
             .iter()
@@ -77,15 +78,15 @@ fn rates(linkage: &Linkage, motion: &Motion) -> Vec<Value> {
 fn case(family: &Family, cell: usize, name: &str) -> Value {
     let cell = family.cell(cell);
     let linkage = family.linkage(&cell).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(family.sampling));
+    let motion = Motion::solve(&linkage, &Sampler::new(family.sampling));
     json!({
         "name": format!("{name}, cell {}", cell.number),
-        "template": gallery::template(&family.template),
+        "template": gallery::template_json(&family.template),
         "values": cell.values,
-        "sampling": gallery::sampling(family.sampling),
-        "straight": gallery::straight(family.straight),
+        "sampling": gallery::sampling_json(family.sampling),
+        "straight": gallery::straight_json(family.straight),
         "motion": {
-            "shortfall": motion.shortfall,
+            "shortfall": motion.incomplete_reason,
             "circuits": motion.circuits.iter().map(|c| circuit(&linkage, c)).collect::<Vec<_>>(),
         },
         "measures": measures(family, &linkage, &motion),
@@ -94,7 +95,7 @@ fn case(family: &Family, cell: usize, name: &str) -> Value {
 }
 
 /// A family with other ways to travel.
-fn travelling(family: &Family, circuits: Circuits, continuation: Continuation) -> Family {
+fn travelling(family: &Family, circuits: CircuitSelection, continuation: Continuation) -> Family {
     let template = coupler_curves::template::Template { circuits, continuation, ..(*family.template).clone() };
     Family { template: template.into(), ..family.clone() }
 }
@@ -106,19 +107,21 @@ fn some(count: usize, of: usize) -> impl Iterator<Item = usize> {
 }
 
 fn cases() -> Vec<Value> {
-    let atlas = manifest::load(include_str!("../../../atlas.toml")).plan.unwrap();
+    let atlas = manifest::parse(include_str!("../../../atlas.toml")).plan.unwrap();
     let mut cases = Vec::new();
     let mut linkages = BTreeSet::new();
     for planned in &atlas.families {
         let family = &planned.family;
         linkages.insert(family.template.id.clone());
-        for cell in some(6, family.cells()) {
+        for cell in some(6, family.cell_count()) {
             cases.push(case(family, cell, &family.id));
         }
-        for (circuits, continuation) in [(Circuits::All, Continuation::Smooth), (Circuits::All, Continuation::Branch)] {
+        for (circuits, continuation) in
+            [(CircuitSelection::All, Continuation::Smooth), (CircuitSelection::All, Continuation::Branch)]
+        {
             let other = travelling(family, circuits, continuation);
             let name = format!("{}, all circuits, {continuation:?}", family.id);
-            cases.extend(some(2, family.cells()).map(|cell| case(&other, cell, &name)));
+            cases.extend(some(2, family.cell_count()).map(|cell| case(&other, cell, &name)));
         }
     }
     for template in catalogue::all() {

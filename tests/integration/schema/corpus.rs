@@ -30,7 +30,7 @@ fn between<'a>(text: &'a str, from: &str, to: &str) -> Vec<&'a str> {
 
 /// Checks the manifest, if the reader takes it for one.
 fn satisfies(text: &str, name: &str) -> bool {
-    let is_manifest = manifest::load(text).plan.is_some();
+    let is_manifest = manifest::parse(text).plan.is_some();
     if is_manifest {
         let objections = objections(&json(text));
         assert!(objections.is_empty(), "{name}: {objections}");

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use coupler_atlas::manifest::{self, Form, MANIFEST, PlannedFamily, Table};
+use coupler_atlas::manifest::{self, MANIFEST, PlannedFamily, TableSchema, ValueSchema};
 use coupler_curves::template::Template;
 use serde_json::Value;
 
@@ -76,53 +76,66 @@ fn each_table_has_the_keys_that_the_reader_knows() {
 }
 
 /// The keys that a manifest gives in the tables of its form, each by its table and its name.
-fn given(form: &Form, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
+fn given(form: &ValueSchema, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
     match (form, value) {
-        (Form::Table(table), Value::Object(_)) => given_in(table, value, found),
-        (Form::List(of, _) | Form::Set(of, _) | Form::OneOrMore(of, _), Value::Array(items)) => {
+        (ValueSchema::Table(table), Value::Object(_)) => given_in(table, value, found),
+        (ValueSchema::List(of, _) | ValueSchema::Set(of, _) | ValueSchema::OneOrMore(of, _), Value::Array(items)) => {
             items.iter().for_each(|item| given(of, item, found));
         }
-        (Form::OneOrMore(of, _) | Form::Like(of, _), value) => given(of, value, found),
-        (Form::Names(of) | Form::Entries(of), Value::Object(entries)) => {
+        (ValueSchema::OneOrMore(of, _) | ValueSchema::WithExamples(of, _), value) => given(of, value, found),
+        (ValueSchema::IdentifierMap(of) | ValueSchema::Map(of), Value::Object(entries)) => {
             entries.values().for_each(|value| given(of, value, found));
         }
-        (Form::Kinds(kinds), Value::Object(entries)) => {
+        (ValueSchema::Variants(kinds), Value::Object(entries)) => {
             let kind = kinds.iter().find(|(key, _)| entries.contains_key(*key)).unwrap();
             given_in(&kind.1, value, found);
         }
-        (Form::Either(forms), value) => forms.iter().for_each(|form| given(form, value, found)),
+        (ValueSchema::AnyOf(forms), value) => forms.iter().for_each(|form| given(form, value, found)),
         _ => {}
     }
 }
 
-fn given_in(table: &Table, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
+fn given_in(table: &TableSchema, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
     for key in table.keys {
         if let Some(value) = value.get(key.name) {
-            found.insert((table.what, key.name));
-            given(&key.form, value, found);
+            found.insert((table.display_name, key.name));
+            given(&key.value, value, found);
         }
     }
 }
 
 /// Every table of a form, with its keys.
-fn known(form: &Form, found: &mut BTreeSet<(&'static str, &'static str)>) {
+fn known(form: &ValueSchema, found: &mut BTreeSet<(&'static str, &'static str)>) {
     match form {
-        Form::Table(table) => known_in(table, found),
-        Form::List(of, _) | Form::Set(of, _) | Form::OneOrMore(of, _) | Form::Like(of, _) => known(of, found),
-        Form::Names(of) | Form::Entries(of) => known(of, found),
-        Form::Kinds(kinds) => kinds.iter().for_each(|(_, table)| known_in(table, found)),
-        Form::Either(forms) => forms.iter().for_each(|form| known(form, found)),
+        ValueSchema::Table(table) => known_in(table, found),
+        ValueSchema::List(of, _)
+        | ValueSchema::Set(of, _)
+        | ValueSchema::OneOrMore(of, _)
+        | ValueSchema::WithExamples(of, _) => known(of, found),
+        ValueSchema::IdentifierMap(of) | ValueSchema::Map(of) => known(of, found),
+        ValueSchema::Variants(kinds) => kinds.iter().for_each(|(_, table)| known_in(table, found)),
+        ValueSchema::AnyOf(forms) => forms.iter().for_each(|form| known(form, found)),
         _ => {}
     }
 }
 
-fn known_in(table: &Table, found: &mut BTreeSet<(&'static str, &'static str)>) {
+fn known_in(table: &TableSchema, found: &mut BTreeSet<(&'static str, &'static str)>) {
     for key in table.keys {
-        assert!(key.about.ends_with(['.']) && key.about.len() > 8, "{} of {} is described", key.name, table.what);
+        assert!(
+            key.description.ends_with(['.']) && key.description.len() > 8,
+            "{} of {} is described",
+            key.name,
+            table.display_name
+        );
         let default: Option<Value> = serde_json::from_str(key.default).ok();
-        assert!(default.is_some() || key.default.is_empty(), "the default of {} of {} is JSON", key.name, table.what);
-        found.insert((table.what, key.name));
-        known(&key.form, found);
+        assert!(
+            default.is_some() || key.default.is_empty(),
+            "the default of {} of {} is JSON",
+            key.name,
+            table.display_name
+        );
+        found.insert((table.display_name, key.name));
+        known(&key.value, found);
     }
 }
 
@@ -147,13 +160,20 @@ fn defaults_are_what_holds_without_them() {
                  N = { dyad = [\"G\", \"M\"], lengths = [9, 9], side = \"left\" }\n";
     let least = least.replace("trace = [\"M\"]", "trace = [\"M\", \"N\"]");
     let plan = |manifest: &Value| {
-        let plan = manifest::load(&toml(manifest)).plan.unwrap_or_else(|| panic!("{}", toml(manifest)));
+        let plan = manifest::parse(&toml(manifest)).plan.unwrap_or_else(|| panic!("{}", toml(manifest)));
         let PlannedFamily { family, layout, chart, formats, source, .. } = &plan.families[0];
-        let Template { circuits, continuation, coincident, placement, .. } = &*family.template;
+        let Template { circuits, continuation, coincident, orientation: placement, .. } = &*family.template;
         let linkage = family.linkage(&family.cell(0)).unwrap();
-        let asked =
-            (&family.sampling, &family.columns, &family.measures, &family.straight, circuits, continuation, coincident);
-        let whole = (&plan.title, &plan.output, plan.volume_pages, &plan.page, plan.dpi, plan.text);
+        let asked = (
+            &family.sampling,
+            &family.columns,
+            &family.is_computed,
+            &family.straight,
+            circuits,
+            continuation,
+            coincident,
+        );
+        let whole = (&plan.title, &plan.output, plan.volume_pages, &plan.page, plan.dpi, plan.text_mode);
         format!("{whole:?} {layout:?} {chart:?} {formats:?} {source} {asked:?} {placement:?} {linkage:?}")
     };
     let (whole, mut seen) = (json(&least), 0);

@@ -37,7 +37,7 @@ fn objections(manifest: &Value) -> String {
 
 /// What the reader has against a manifest; none where it makes a plan of it.
 fn complaints(text: &str) -> Option<Vec<(String, String)>> {
-    let loaded = manifest::load(text);
+    let loaded = manifest::parse(text);
     let said = loaded.problems.into_iter().filter(|problem| problem.is_error());
     loaded.plan.is_none().then(|| said.map(|problem| (problem.message, problem.help)).collect())
 }

@@ -4,7 +4,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use crate::notation;
+use crate::linkage_format;
 use crate::template::Template;
 
 const FILES: [&str; 20] = [
@@ -31,7 +31,8 @@ const FILES: [&str; 20] = [
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {
-    let read = |text: &&str| notation::templates(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
+    let read =
+        |text: &&str| linkage_format::parse_templates(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
     FILES.iter().flat_map(read).map(Arc::new).collect()
 });
 

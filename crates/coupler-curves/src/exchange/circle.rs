@@ -10,24 +10,24 @@ pub(super) struct Circle {
 }
 
 /// How far a point of a circle may be from it, in parts of its radius.
-const OFF: f64 = 1e-9;
+const RELATIVE_TOLERANCE: f64 = 1e-9;
 
 /// A part of a circle larger than this, in parts of the path's extent, is drawn as a line.
-const LARGEST: f64 = 1e4;
+const MAX_RELATIVE_RADIUS: f64 = 1e4;
 
 /// Through fewer points than this there may be a circle by chance.
-const FEWEST: usize = 12;
+const MIN_POINTS: usize = 12;
 
 /// The circle on which all points of a path are, where there is one; the path may go over it to and fro.
-pub(super) fn circle_of(path: &[Point], further: &[Point]) -> Option<Circle> {
+pub(super) fn fit_circle(path: &[Point], further: &[Point]) -> Option<Circle> {
     let all = || path.iter().chain(further);
-    if path.len() + further.len() < FEWEST {
+    if path.len() + further.len() < MIN_POINTS {
         return None;
     }
-    let (centre, radius) = through(path)?;
-    let is_on = |p: &Point| ((p - centre).norm() - radius).abs() <= OFF * radius;
-    let extent = Bounds::of(path.iter().copied()).size().max();
-    if radius > LARGEST * extent || !all().all(is_on) {
+    let (centre, radius) = circumcircle(path)?;
+    let is_on = |p: &Point| ((p - centre).norm() - radius).abs() <= RELATIVE_TOLERANCE * radius;
+    let extent = Bounds::from_points(path.iter().copied()).size().max();
+    if radius > MAX_RELATIVE_RADIUS * extent || !all().all(is_on) {
         return None;
     }
     // How far it goes round, with its sign, from where it begins.
@@ -43,15 +43,15 @@ pub(super) fn circle_of(path: &[Point], further: &[Point]) -> Option<Circle> {
             most = (angle, pair[1]);
         }
     }
-    let is_whole = trig::degrees(most.0 - least.0) >= 360.0 * (1.0 - OFF);
+    let is_whole = trig::degrees(most.0 - least.0) >= 360.0 * (1.0 - RELATIVE_TOLERANCE);
     let arc_deg = (!is_whole).then(|| [least, most].map(|(_, p)| direction_deg(p, centre)));
     // Digits beyond what the points are good for say nothing.
     let place = 12 - trig::log10(radius).ceil() as i32;
-    Some(Circle { centre: centre.map(|c| to_places(c, place)), radius: to_places(radius, place), arc_deg })
+    Some(Circle { centre: centre.map(|c| round_to_places(c, place)), radius: round_to_places(radius, place), arc_deg })
 }
 
 /// The circle through the first point, the one furthest from it, and the one furthest from their line.
-fn through(path: &[Point]) -> Option<(Point, f64)> {
+fn circumcircle(path: &[Point]) -> Option<(Point, f64)> {
     let a = *path.first()?;
     let by = |value: &dyn Fn(&Point) -> f64| path.iter().copied().max_by(|p, q| value(p).total_cmp(&value(q)));
     let b = by(&|p| (p - a).norm_squared())?;
@@ -66,13 +66,13 @@ fn through(path: &[Point]) -> Option<(Point, f64)> {
 
 /// The direction of a point from another, in degrees from 0 up to 360, to nine places.
 fn direction_deg(p: Point, from: Point) -> f64 {
-    let deg = to_places(trig::degrees(trig::atan2(p.y - from.y, p.x - from.x)), 9);
+    let deg = round_to_places(trig::degrees(trig::atan2(p.y - from.y, p.x - from.x)), 9);
     let deg = if deg < 0.0 { deg + 360.0 } else { deg };
-    to_places(deg, 9)
+    round_to_places(deg, 9)
 }
 
 /// A number to so many decimal places, none where that is negative.
-fn to_places(value: f64, places: i32) -> f64 {
+fn round_to_places(value: f64, places: i32) -> f64 {
     let places = usize::try_from(places).unwrap_or(0).min(100);
     // What was written as a number can be read as one; zero has no sign.
     format!("{value:.places$}").parse::<f64>().unwrap_or(value) + 0.0
@@ -92,18 +92,18 @@ mod tests {
 
     #[test]
     fn circles_and_arcs_are_told_from_what_is_none() {
-        let whole = circle_of(&arc(0, 360, 5), &[]).unwrap();
+        let whole = fit_circle(&arc(0, 360, 5), &[]).unwrap();
         assert_eq!(whole, Circle { centre: Point::new(3.0, -1.0), radius: 2.0, arc_deg: None });
         let mut there_and_back = arc(-30, 50, 4);
         there_and_back.extend(arc(-30, 50, 4).into_iter().rev());
-        let part = circle_of(&there_and_back, &[]).unwrap();
+        let part = fit_circle(&there_and_back, &[]).unwrap();
         assert_eq!(part.arc_deg, Some([330.0, 50.0]));
         let mut dented = arc(0, 360, 5);
         dented[20].x += 1e-7;
-        assert_eq!(circle_of(&dented, &[]), None);
+        assert_eq!(fit_circle(&dented, &[]), None);
         let line: Vec<Point> = (0..20).map(|k| Point::new(f64::from(k), 2.0)).collect();
-        assert_eq!(circle_of(&line, &[]), None);
-        assert_eq!(circle_of(&arc(0, 8, 4), &[]), None, "three points are on some circle always");
-        assert_eq!(circle_of(&[Point::origin(); 20], &[]), None);
+        assert_eq!(fit_circle(&line, &[]), None);
+        assert_eq!(fit_circle(&arc(0, 8, 4), &[]), None, "three points are on some circle always");
+        assert_eq!(fit_circle(&[Point::origin(); 20], &[]), None);
     }
 }

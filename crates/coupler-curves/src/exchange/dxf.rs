@@ -8,11 +8,11 @@
 
 use std::fmt::{Display, Write};
 
-use super::Chosen;
-use super::circle::{Circle, circle_of};
+use super::SelectedCurve;
+use super::circle::{Circle, fit_circle};
 use crate::geometry::{Bounds, Point};
-use crate::linkage::{JointId, LinkOutline, Linkage, Travel, is_plate};
-use crate::motion::{self, Dashes};
+use crate::linkage::{JointId, LinkOutline, Linkage, MotionOptions, is_plate};
+use crate::motion::{self, DashPattern};
 
 const CURVE: &str = "CURVE";
 const LINKAGE: &str = "LINKAGE";
@@ -23,48 +23,48 @@ const PIVOTS: &str = "PIVOTS";
 const LAYERS: [(&str, u8); 5] = [("0", 7), (CURVE, 1), (LINKAGE, 7), (JOINTS, 5), (PIVOTS, 7)];
 
 /// The whole drawing; no chord of a polyline is further from the curve than `chord` parts of its extent.
-pub(super) fn document(chosen: &Chosen, chord: f64) -> String {
-    let (path, closed) = outline(chosen, chord);
+pub(super) fn document(chosen: &SelectedCurve, chord: f64) -> String {
+    let (path, closed) = curve_path(chosen, chord);
     let pose = chosen.pose();
     let linkage = &chosen.solved.linkage;
     let joints = shown_joints(chosen);
-    let mut out = Groups(String::new());
+    let mut out = DxfWriter(String::new());
     out.group(999, concat!("coupler-atlas ", env!("CARGO_PKG_VERSION")));
     out.group(999, chosen.name());
     out.group(999, "lengths are in the unit of the manifest");
-    header(Bounds::of(path.iter().chain(joints.iter().map(|&joint| &pose[joint])).copied()), &mut out);
-    tables(&mut out);
+    write_header(Bounds::from_points(path.iter().chain(joints.iter().map(|&joint| &pose[joint])).copied()), &mut out);
+    write_tables(&mut out);
     out.section("BLOCKS");
-    out.end("ENDSEC");
+    out.end_marker("ENDSEC");
     out.section("ENTITIES");
     let samples: Vec<Point> = chosen.circuit().points(chosen.curve().joint).filter(is_finite).collect();
-    match circle_of(&path, &samples) {
+    match fit_circle(&path, &samples) {
         Some(circle) => out.circle(&circle),
         None => out.polyline(&path, closed),
     }
-    for [from, to] in bars(linkage, &pose) {
+    for [from, to] in link_segments(linkage, &pose) {
         out.line(pose[from], pose[to]);
     }
     let pivots = linkage.pivots();
     for joint in joints {
         out.point(if pivots.contains(&joint) { PIVOTS } else { JOINTS }, pose[joint]);
     }
-    out.end("ENDSEC");
-    out.end("EOF");
+    out.end_marker("ENDSEC");
+    out.end_marker("EOF");
     out.0
 }
 
 /// The curve's path, and whether it is closed; its beginning does not stand at its end once more then.
-fn outline(chosen: &Chosen, chord: f64) -> (Vec<Point>, bool) {
+fn curve_path(chosen: &SelectedCurve, chord: f64) -> (Vec<Point>, bool) {
     let (circuit, joint) = (chosen.circuit(), chosen.curve().joint);
-    let extent = Bounds::of(circuit.points(joint)).size().max();
+    let extent = Bounds::from_points(circuit.points(joint)).size().max();
     // The arc that a source shows parts a path of pages, and none of this drawing's.
-    let travel = Travel { arc: None, ..chosen.solved.linkage.travel.clone() };
-    let (alone, joint) = Linkage { travel, ..chosen.solved.linkage.clone() }.with_one_point(joint);
-    let unbroken = Dashes { period: f64::INFINITY, drawn: f64::INFINITY };
-    let paths = motion::paths(&alone, circuit, &[joint], unbroken, chord * extent);
-    let whole = paths.into_iter().flat_map(|path| path.whole);
-    (whole.filter(is_finite).collect(), circuit.closed)
+    let travel = MotionOptions { figure_arc: None, ..chosen.solved.linkage.motion_options.clone() };
+    let (alone, joint) = Linkage { motion_options: travel, ..chosen.solved.linkage.clone() }.with_one_point(joint);
+    let unbroken = DashPattern { period: f64::INFINITY, dash_span: f64::INFINITY };
+    let paths = motion::joint_paths(&alone, circuit, &[joint], unbroken, chord * extent);
+    let whole = paths.into_iter().flat_map(|path| path.points);
+    (whole.filter(is_finite).collect(), circuit.is_closed)
 }
 
 fn is_finite(p: &Point) -> bool {
@@ -72,7 +72,7 @@ fn is_finite(p: &Point) -> bool {
 }
 
 /// The lines of the moving links, each from joint to joint.
-fn bars(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
+fn link_segments(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
     let mut bars = Vec::new();
     for LinkOutline { joints, .. } in linkage.link_outlines() {
         bars.extend(joints.windows(2).map(|pair| [pair[0], pair[1]]));
@@ -86,7 +86,7 @@ fn bars(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
 }
 
 /// The joints that are shown: those of links and of the frame, and the one that draws the curve.
-fn shown_joints(chosen: &Chosen) -> Vec<JointId> {
+fn shown_joints(chosen: &SelectedCurve) -> Vec<JointId> {
     let linkage = &chosen.solved.linkage;
     let mut joints: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
     joints.extend(linkage.pivots());
@@ -98,9 +98,9 @@ fn shown_joints(chosen: &Chosen) -> Vec<JointId> {
     joints
 }
 
-fn header(bounds: Bounds, out: &mut Groups) {
+fn write_header(bounds: Bounds, out: &mut DxfWriter) {
     out.section("HEADER");
-    let corner = |out: &mut Groups, name: &str, p: Point, dimensions: usize| {
+    let corner = |out: &mut DxfWriter, name: &str, p: Point, dimensions: usize| {
         out.group(9, name);
         for (code, value) in [(10, p.x), (20, p.y), (30, 0.0)].into_iter().take(dimensions) {
             out.number(code, value);
@@ -125,10 +125,10 @@ fn header(bounds: Bounds, out: &mut Groups) {
     out.group(70, 34);
     out.group(9, "$PDSIZE");
     out.number(40, bounds.size().max() / 100.0);
-    out.end("ENDSEC");
+    out.end_marker("ENDSEC");
 }
 
-fn tables(out: &mut Groups) {
+fn write_tables(out: &mut DxfWriter) {
     out.section("TABLES");
     out.table("LTYPE", 1);
     out.group(0, "LTYPE");
@@ -138,7 +138,7 @@ fn tables(out: &mut Groups) {
     out.group(72, 65);
     out.group(73, 0);
     out.number(40, 0.0);
-    out.end("ENDTAB");
+    out.end_marker("ENDTAB");
     out.table("LAYER", LAYERS.len());
     for (name, color) in LAYERS {
         out.group(0, "LAYER");
@@ -147,14 +147,14 @@ fn tables(out: &mut Groups) {
         out.group(62, color);
         out.group(6, "CONTINUOUS");
     }
-    out.end("ENDTAB");
-    out.end("ENDSEC");
+    out.end_marker("ENDTAB");
+    out.end_marker("ENDSEC");
 }
 
 /// Groups of a code and a value, each on a line of its own.
-struct Groups(String);
+struct DxfWriter(String);
 
-impl Groups {
+impl DxfWriter {
     fn group(&mut self, code: u16, value: impl Display) {
         // Writing to a string cannot fail.
         let _ = write!(self.0, "{code:3}\n{value}\n");
@@ -178,7 +178,7 @@ impl Groups {
         self.group(70, entries);
     }
 
-    fn end(&mut self, word: &str) {
+    fn end_marker(&mut self, word: &str) {
         self.group(0, word);
     }
 
@@ -187,7 +187,7 @@ impl Groups {
         self.group(8, layer);
     }
 
-    fn place(&mut self, first: u16, p: Point) {
+    fn coordinates(&mut self, first: u16, p: Point) {
         self.number(first, p.x);
         self.number(first + 10, p.y);
         self.number(first + 20, 0.0);
@@ -195,18 +195,18 @@ impl Groups {
 
     fn point(&mut self, layer: &str, p: Point) {
         self.entity("POINT", layer);
-        self.place(10, p);
+        self.coordinates(10, p);
     }
 
     fn line(&mut self, from: Point, to: Point) {
         self.entity("LINE", LINKAGE);
-        self.place(10, from);
-        self.place(11, to);
+        self.coordinates(10, from);
+        self.coordinates(11, to);
     }
 
     fn circle(&mut self, circle: &Circle) {
         self.entity(if circle.arc_deg.is_some() { "ARC" } else { "CIRCLE" }, CURVE);
-        self.place(10, circle.centre);
+        self.coordinates(10, circle.centre);
         self.number(40, circle.radius);
         for (code, deg) in [50, 51].into_iter().zip(circle.arc_deg.iter().flatten()) {
             self.number(code, *deg);
@@ -219,11 +219,11 @@ impl Groups {
         self.entity("POLYLINE", CURVE);
         // Vertices follow; the place is a dummy, but for its height.
         self.group(66, 1);
-        self.place(10, Point::origin());
+        self.coordinates(10, Point::origin());
         self.group(70, u8::from(closed));
         for vertex in vertices {
             self.entity("VERTEX", CURVE);
-            self.place(10, *vertex);
+            self.coordinates(10, *vertex);
         }
         self.entity("SEQEND", CURVE);
     }

@@ -2,18 +2,18 @@
 
 use std::fmt::Write;
 
-use super::{Case, digits, sampled};
+use super::{ParameterSet, format_number, sampling_fields};
 use crate::catalogue;
-use crate::family::{Family, Straight};
+use crate::family::{Family, StraightCriterion};
 use crate::geometry::{Vector, trig};
-use crate::template::{Circuits, Coincident, Continuation, Placement, Template};
+use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
 /// The families of some parameter sets, in their order; to be put into a manifest that has an `[atlas]`, and the linkages of
 /// one's own that they name. A cell that several curves are taken of stands once.
-pub fn fragment(cases: &[Case]) -> String {
-    let mut families: Vec<(String, Vec<&Case>)> = Vec::new();
+pub fn manifest_fragment(cases: &[ParameterSet]) -> String {
+    let mut families: Vec<(String, Vec<&ParameterSet>)> = Vec::new();
     for case in cases {
-        let settings = settings(case.family);
+        let settings = family_settings(case.family);
         match families
             .iter_mut()
             .find(|(known, others)| *known == settings && others[0].family.title == case.family.title)
@@ -26,7 +26,7 @@ pub fn fragment(cases: &[Case]) -> String {
     for (k, (settings, cases)) in families.iter().enumerate() {
         let id = &cases[0].family.template.id;
         let earlier = families[..k].iter().filter(|(_, others)| others[0].family.template.id == *id).count();
-        family(&family_id(id, earlier + 1), settings, cases, &mut out);
+        write_family(&family_id(id, earlier + 1), settings, cases, &mut out);
     }
     out
 }
@@ -38,16 +38,16 @@ fn family_id(linkage: &str, number: usize) -> String {
     if number == 1 { format!("{stem}-taken") } else { format!("{stem}-taken-{number}") }
 }
 
-fn family(id: &str, settings: &str, cases: &[&Case], out: &mut String) {
+fn write_family(id: &str, settings: &str, cases: &[&ParameterSet], out: &mut String) {
     let template = &cases[0].family.template;
     let mut rows: Vec<(String, Vec<&str>)> = Vec::new();
     for case in cases {
-        let value = |(k, value): (usize, &f64)| format!("{} = {}", template.parameters[k].name, digits(*value));
+        let value = |(k, value): (usize, &f64)| format!("{} = {}", template.parameters[k].name, format_number(*value));
         let values: Vec<String> = case.values.iter().enumerate().map(value).collect();
         let row = if values.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", values.join(", ")) };
         match rows.iter_mut().find(|(known, _)| *known == row) {
-            Some((_, names)) => names.push(&case.name),
-            None => rows.push((row, vec![&case.name])),
+            Some((_, names)) => names.push(&case.curve_name),
+            None => rows.push((row, vec![&case.curve_name])),
         }
     }
     let columns = rows.len().min(3);
@@ -75,19 +75,19 @@ fn is_built_in(template: &Template) -> bool {
 }
 
 /// What a family says beside its cells: by it families of one linkage are told apart.
-fn settings(family: &Family) -> String {
+fn family_settings(family: &Family) -> String {
     let template = &family.template;
     let is_length = template.is_driven_by_length();
-    let input = |value: f64| if is_length { digits(value) } else { format!("\"{} deg\"", digits(value)) };
-    let sampling = match sampled(family.sampling) {
+    let input = |value: f64| if is_length { format_number(value) } else { format!("\"{} deg\"", format_number(value)) };
+    let sampling = match sampling_fields(family.sampling) {
         ("step", step, _) => format!("step = {}", input(step)),
-        (key, number, None) => format!("{key} = {}", digits(number)),
-        (key, number, Some(spacing)) => format!("{key} = {}, spacing = \"{spacing}\"", digits(number)),
+        (key, number, None) => format!("{key} = {}", format_number(number)),
+        (key, number, Some(spacing)) => format!("{key} = {}, spacing = \"{spacing}\"", format_number(number)),
     };
     let mut out = format!("sampling = {{ {sampling} }}\n");
     let circuits = match template.circuits {
-        Circuits::Start => "start",
-        Circuits::All => "all",
+        CircuitSelection::Start => "start",
+        CircuitSelection::All => "all",
     };
     let continuation = match template.continuation {
         Continuation::Smooth => "smooth",
@@ -95,22 +95,22 @@ fn settings(family: &Family) -> String {
     };
     let _ = write!(out, "circuits = \"{circuits}\"\ncontinuation = \"{continuation}\"\n");
     let coincident = match template.coincident {
-        Coincident::Together => "together",
-        Coincident::First => "first",
-        Coincident::Last => "last",
+        CoincidentDyads::Together => "together",
+        CoincidentDyads::First => "first",
+        CoincidentDyads::Last => "last",
     };
     // No linkage of the catalogue says otherwise than `together`.
-    if template.coincident != Coincident::Together || !is_built_in(template) {
+    if template.coincident != CoincidentDyads::Together || !is_built_in(template) {
         let _ = writeln!(out, "coincident = \"{coincident}\"");
     }
-    if template.placement != Placement::default() {
-        let _ = writeln!(out, "place = {}", place(&template.placement));
+    if template.orientation != Orientation::default() {
+        let _ = writeln!(out, "place = {}", placement_to_toml(&template.orientation));
     }
-    if family.straight != Straight::default() {
+    if family.straight != StraightCriterion::default() {
         let straight = match family.straight {
-            Straight::Tolerance(tolerance) => format!("tolerance = {}", digits(tolerance)),
-            Straight::Input(value) => format!("input = {}", input(value)),
-            Straight::Length(length) => format!("length = {}", digits(length)),
+            StraightCriterion::Tolerance(tolerance) => format!("tolerance = {}", format_number(tolerance)),
+            StraightCriterion::Input(value) => format!("input = {}", input(value)),
+            StraightCriterion::Length(length) => format!("length = {}", format_number(length)),
         };
         let _ = writeln!(out, "straight = {{ {straight} }}");
     }
@@ -122,13 +122,13 @@ fn settings(family: &Family) -> String {
 }
 
 /// Mirrored or not, and turned by so many degrees: to nine places, the digits a manifest will have had.
-fn place(placement: &Placement) -> String {
-    let axis = placement.vector(Vector::new(1.0, 0.0));
+fn placement_to_toml(placement: &Orientation) -> String {
+    let axis = placement.transform_vector(Vector::new(1.0, 0.0));
     let deg = trig::degrees(trig::atan2(axis.y, axis.x));
     let rounded = (deg * 1e9).round() / 1e9 + 0.0;
     let is_mirrored = placement.handedness() < 0.0;
-    let deg = if Placement::new(is_mirrored, rounded) == *placement { rounded } else { deg };
-    format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", digits(deg))
+    let deg = if Orientation::new(is_mirrored, rounded) == *placement { rounded } else { deg };
+    format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(deg))
 }
 
 /// A text in TOML.

@@ -1,17 +1,17 @@
 //! Everything that is known of a curve, for programs; docs/export.md describes it.
 
-use super::Points;
-use super::layout::Json;
-use super::{Chosen, sampled};
+use super::PointTable;
+use super::pretty_json::Json;
+use super::{SelectedCurve, sampling_fields};
 use crate::linkage::Linkage;
-use crate::measure::{self, Value, take_columns};
-use crate::motion::{Circuit, End, Pass};
+use crate::measure::{self, Value, compute_columns};
+use crate::motion::{Circuit, Pass, PassEnd};
 
 /// The version of the format.
-const FORMAT: usize = 1;
+const FORMAT_VERSION: usize = 1;
 
-pub(super) fn document(chosen: &Chosen) -> String {
-    let Chosen { family, solved, .. } = chosen;
+pub(super) fn document(chosen: &SelectedCurve) -> String {
+    let SelectedCurve { family, solved, .. } = chosen;
     let linkage = &solved.linkage;
     let curve = chosen.curve();
     let named = |names: &[String], values: &[f64]| {
@@ -19,10 +19,10 @@ pub(super) fn document(chosen: &Chosen) -> String {
     };
     let parameters = family.template.parameters.len();
     let (names, values) = (&family.names, &solved.cell.values);
-    let (columns, points) = points(chosen);
-    let [cell, trace, circuit] = chosen.numbers().map(Json::whole);
+    let (columns, points) = columns_and_points(chosen);
+    let [cell, trace, circuit] = chosen.cell_trace_circuit().map(Json::integer);
     Json::object([
-        ("format", Json::whole(FORMAT)),
+        ("format", Json::integer(FORMAT_VERSION)),
         ("curve", Json::text(chosen.name())),
         ("family", Json::text(&family.id)),
         ("linkage", Json::text(&family.template.id)),
@@ -34,53 +34,59 @@ pub(super) fn document(chosen: &Chosen) -> String {
         ("helpers", named(&names[parameters..], &values[parameters..])),
         ("sampling", sampling(chosen)),
         ("status", Json::text(solved.status().name())),
-        ("reason", solved.motion.shortfall.as_ref().map_or(Json::Null, Json::text)),
-        ("circuits", Json::List(solved.motion.circuits.iter().map(|circuit| of_circuit(linkage, circuit)).collect())),
+        ("reason", solved.motion.incomplete_reason.as_ref().map_or(Json::Null, Json::text)),
+        (
+            "circuits",
+            Json::List(solved.motion.circuits.iter().map(|circuit| circuit_to_json(linkage, circuit)).collect()),
+        ),
         ("columns", columns),
         ("points", points),
-        ("measures", measures(&curve.measures)),
+        ("measures", measures(&curve.values)),
     ])
-    .document()
+    .to_pretty_string()
 }
 
-fn sampling(chosen: &Chosen) -> Json {
-    let (key, number, spacing) = sampled(chosen.family.sampling);
+fn sampling(chosen: &SelectedCurve) -> Json {
+    let (key, number, spacing) = sampling_fields(chosen.family.sampling);
     let spacing = spacing.map(|spacing| ("spacing".to_owned(), Json::text(spacing)));
     Json::Object([(key.to_owned(), Json::Number(number))].into_iter().chain(spacing).collect())
 }
 
 /// Of every pass its ends, with the joints whose dyads lie flat there, and the sides of all two-valued joints.
-fn of_circuit(linkage: &Linkage, circuit: &Circuit) -> Json {
-    let end = |end: End| {
-        let flat = linkage.joints.iter().filter(|joint| joint.step.index().is_some_and(|index| end.flat.has(index)));
+fn circuit_to_json(linkage: &Linkage, circuit: &Circuit) -> Json {
+    let end = |end: PassEnd| {
+        let flat = linkage
+            .joints
+            .iter()
+            .filter(|joint| joint.kind.dyad_index().is_some_and(|index| end.flat_dyads.contains(index)));
         let flat = flat.map(|joint| Json::text(&joint.name)).collect();
-        Json::object([("input", Json::Number(end.stop.at)), ("flat", Json::List(flat))])
+        Json::object([("input", Json::Number(end.input.value)), ("flat", Json::List(flat))])
     };
     let pass = |(k, pass): (usize, &Pass)| {
-        let branches = (0..linkage.dyads()).map(|dyad| Json::Number(f64::from(pass.signs.get(dyad))));
+        let branches = (0..linkage.dyad_count()).map(|dyad| Json::Number(f64::from(pass.mode.sign(dyad))));
         Json::object([
             ("from", end(pass.from)),
             ("to", end(pass.to)),
             ("branches", Json::List(branches.collect())),
-            ("turns", Json::Truth(circuit.turns_after(k))),
+            ("turns", Json::Bool(circuit.reverses_after(k))),
         ])
     };
     let passes = circuit.passes.iter().enumerate().map(pass).collect();
-    Json::object([("closed", Json::Truth(circuit.closed)), ("passes", Json::List(passes))])
+    Json::object([("closed", Json::Bool(circuit.is_closed)), ("passes", Json::List(passes))])
 }
 
 /// The columns of `points.csv` behind the numbers of the curve, and a row for each sample.
-fn points(chosen: &Chosen) -> (Json, Json) {
+fn columns_and_points(chosen: &SelectedCurve) -> (Json, Json) {
     let (circuit, joint) = (chosen.circuit(), chosen.curve().joint);
     let linkage = &chosen.solved.linkage;
-    let header = Points::new(chosen.family).header();
+    let header = PointTable::new(chosen.family).header();
     let columns = header.trim_end().split(',').skip(3).map(Json::text).collect();
     let row = |sample: usize| {
-        let signs = circuit.signs(sample);
-        let branches = (0..linkage.dyads().max(1)).map(|dyad| f64::from(signs.get(dyad)));
-        let at = circuit.places.point(joint, sample);
-        let further = take_columns(&chosen.family.columns, linkage, (circuit, joint), sample);
-        let values = branches.chain([sample as f64, circuit.input[sample], at.x, at.y]).chain(further);
+        let signs = circuit.mode_at(sample);
+        let branches = (0..linkage.dyad_count().max(1)).map(|dyad| f64::from(signs.sign(dyad)));
+        let at = circuit.positions.point(joint, sample);
+        let further = compute_columns(&chosen.family.columns, linkage, (circuit, joint), sample);
+        let values = branches.chain([sample as f64, circuit.inputs[sample], at.x, at.y]).chain(further);
         Json::List(values.map(Json::Number).collect())
     };
     (Json::List(columns), Json::List((0..circuit.len()).map(row).collect()))

@@ -1,50 +1,59 @@
 //! The exchange formats of a curve: CSV, JSON, DXF and a fragment of a manifest.
 //!
-//! Each format is a file here and makes text of a [`Chosen`] curve; none of them decides which curves are exported or where the
+//! Each format is a file here and makes text of a [`SelectedCurve`] curve; none of them decides which curves are exported or where the
 //! text goes.
 
 mod circle;
 mod dxf;
 mod fragment;
 mod json;
-mod layout;
 mod number;
 mod points;
+mod pretty_json;
 mod table;
 
-pub use fragment::fragment;
-pub use number::{shortest, whole};
-pub use table::Points;
+pub use fragment::manifest_fragment;
+pub use number::{append_integer, append_number};
+pub use table::PointTable;
 
 use crate::family::{Family, Sampling};
 use crate::geometry::Point;
 use crate::motion::Circuit;
-use crate::solve::{Curve, Solved};
+use crate::solve::{MeasuredCurve, SolvedCell};
 
 /// One curve that is taken away.
 #[derive(Clone, Debug)]
-pub struct Chosen<'a> {
+pub struct SelectedCurve<'a> {
     /// Its family.
     pub family: &'a Family,
     /// What stands under the title of its plate.
     pub source: &'a str,
     /// Its cell, solved, with this one curve left of it.
-    pub solved: Solved,
+    pub solved: SolvedCell,
     /// The parameters it has in place of its cell's.
-    changed: &'a [(String, f64)],
+    overrides: &'a [(String, f64)],
 }
 
-impl<'a> Chosen<'a> {
+impl<'a> SelectedCurve<'a> {
     /// Each curve of a solved cell by itself; `changed` are the parameters it has in place of those of the cell of its
     /// number.
-    pub fn each(family: &'a Family, source: &'a str, changed: &'a [(String, f64)], solved: &Solved) -> Vec<Chosen<'a>> {
-        let alone = |curve: &Curve| Solved { curves: vec![curve.clone()], ..solved.clone() };
-        solved.curves.iter().map(|curve| Chosen { family, source, solved: alone(curve), changed }).collect()
+    pub fn all_from_cell(
+        family: &'a Family,
+        source: &'a str,
+        changed: &'a [(String, f64)],
+        solved: &SolvedCell,
+    ) -> Vec<SelectedCurve<'a>> {
+        let alone = |curve: &MeasuredCurve| SolvedCell { curves: vec![curve.clone()], ..solved.clone() };
+        solved
+            .curves
+            .iter()
+            .map(|curve| SelectedCurve { family, source, solved: alone(curve), overrides: changed })
+            .collect()
     }
 
     /// The curve's rows of `points.csv`, under its header.
     pub fn to_csv(&self) -> Vec<u8> {
-        points::table(self)
+        points::document(self)
     }
 
     /// A drawing in DXF; no chord of its polyline is further from the curve than `chord` times the curve's extent, the longer
@@ -60,36 +69,36 @@ impl<'a> Chosen<'a> {
 
     /// A family of a manifest that has this one curve's cell.
     pub fn to_toml(&self) -> String {
-        fragment(&[Case::of(self)])
+        manifest_fragment(&[ParameterSet::from_curve(self)])
     }
 
     /// What it is called: `evans:12.1.1`, with the parameters that are not its cell's, `evans:12.1.1?p=2.5&k=2`.
     pub fn name(&self) -> String {
-        let [cell, trace, circuit] = self.numbers();
-        let changed = self.changed(|name, value| format!("{name}={value}"));
+        let [cell, trace, circuit] = self.cell_trace_circuit();
+        let changed = self.format_overrides(|name, value| format!("{name}={value}"));
         let query = if changed.is_empty() { String::new() } else { format!("?{}", changed.join("&")) };
         format!("{}:{cell}.{trace}.{circuit}{query}", self.family.id)
     }
 
     /// The name of its files, without an extension: `evans-12-1-1`, `evans-12-1-1-p-2.5`.
     pub fn file_stem(&self) -> String {
-        let [cell, trace, circuit] = self.numbers();
-        let changed = self.changed(|name, value| format!("-{name}-{value}")).concat();
+        let [cell, trace, circuit] = self.cell_trace_circuit();
+        let changed = self.format_overrides(|name, value| format!("-{name}-{value}")).concat();
         format!("{}-{cell}-{trace}-{circuit}{changed}", self.family.id)
     }
 
     /// The numbers of its cell, its trace and its circuit.
-    fn numbers(&self) -> [usize; 3] {
+    fn cell_trace_circuit(&self) -> [usize; 3] {
         let curve = self.curve();
         [self.solved.cell.number, curve.trace, curve.circuit]
     }
 
-    fn changed(&self, written: impl Fn(&str, String) -> String) -> Vec<String> {
-        self.changed.iter().map(|(name, value)| written(name, digits(*value))).collect()
+    fn format_overrides(&self, written: impl Fn(&str, String) -> String) -> Vec<String> {
+        self.overrides.iter().map(|(name, value)| written(name, format_number(*value))).collect()
     }
 
     /// The curve in its cell.
-    pub fn curve(&self) -> &Curve {
+    pub fn curve(&self) -> &MeasuredCurve {
         &self.solved.curves[0]
     }
 
@@ -103,42 +112,42 @@ impl<'a> Chosen<'a> {
     fn pose(&self) -> Vec<Point> {
         let circuit = self.circuit();
         let sample = circuit.len() / 3;
-        (0..self.solved.linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
+        (0..self.solved.linkage.joints.len()).map(|joint| circuit.positions.point(joint, sample)).collect()
     }
 }
 
 /// A parameter set that is taken away.
 #[derive(Clone, Debug)]
-pub struct Case<'a> {
+pub struct ParameterSet<'a> {
     /// Its family.
     pub family: &'a Family,
     /// The values of its template's parameters.
     pub values: Vec<f64>,
     /// The name of the curve it is taken for.
-    pub name: String,
+    pub curve_name: String,
 }
 
-impl<'a> Case<'a> {
+impl<'a> ParameterSet<'a> {
     /// That of a curve.
-    pub fn of(chosen: &Chosen<'a>) -> Case<'a> {
-        let values = chosen.family.parameters(&chosen.solved.cell).to_vec();
-        Case { family: chosen.family, values, name: chosen.name() }
+    pub fn from_curve(chosen: &SelectedCurve<'a>) -> ParameterSet<'a> {
+        let values = chosen.family.parameter_values(&chosen.solved.cell).to_vec();
+        ParameterSet { family: chosen.family, values, curve_name: chosen.name() }
     }
 }
 
 /// A number in the fewest digits that read back to it.
-fn digits(value: f64) -> String {
+fn format_number(value: f64) -> String {
     let mut out = Vec::new();
-    shortest(value, &mut out);
+    append_number(value, &mut out);
     String::from_utf8(out).unwrap_or_default()
 }
 
 /// How circuits are sampled: the key, its number, and the spacing where it is not even.
-fn sampled(sampling: Sampling) -> (&'static str, f64, Option<&'static str>) {
+fn sampling_fields(sampling: Sampling) -> (&'static str, f64, Option<&'static str>) {
     match sampling {
         Sampling::Step(step) => ("step", step, None),
         Sampling::Samples(samples) => ("samples", samples as f64, None),
-        Sampling::Smooth(samples) => ("samples", samples as f64, Some("smooth")),
-        Sampling::Arc(samples) => ("samples", samples as f64, Some("arc")),
+        Sampling::DenseAtLimits(samples) => ("samples", samples as f64, Some("smooth")),
+        Sampling::ArcLength(samples) => ("samples", samples as f64, Some("arc")),
     }
 }

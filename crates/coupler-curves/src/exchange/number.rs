@@ -3,7 +3,7 @@ use std::io::Write;
 /// Appends a number in the fewest digits that read back to the same f64; zero is `0` whatever its sign.
 ///
 /// From 1e-5 up to 1e16 it is written out, beyond with an exponent. Infinity is `inf`; not a number is an empty field.
-pub fn shortest(value: f64, out: &mut Vec<u8>) {
+pub fn append_number(value: f64, out: &mut Vec<u8>) {
     if value == 0.0 {
         out.push(b'0');
     } else if (1e-5..1e16).contains(&value.abs()) {
@@ -19,7 +19,7 @@ pub fn shortest(value: f64, out: &mut Vec<u8>) {
 }
 
 /// Appends a whole number.
-pub fn whole(value: usize, out: &mut Vec<u8>) {
+pub fn append_integer(value: usize, out: &mut Vec<u8>) {
     out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());
 }
 
@@ -31,7 +31,7 @@ mod tests {
     fn numbers_are_short_and_read_back() {
         let written = |value| {
             let mut out = Vec::new();
-            shortest(value, &mut out);
+            append_number(value, &mut out);
             String::from_utf8(out).unwrap()
         };
         for (value, expected) in [

@@ -1,10 +1,10 @@
-use super::Chosen;
-use super::Points;
+use super::PointTable;
+use super::SelectedCurve;
 
 /// The curve's rows of `points.csv`, under its header.
-pub(super) fn table(chosen: &Chosen) -> Vec<u8> {
-    let points = Points::new(chosen.family);
+pub(super) fn document(chosen: &SelectedCurve) -> Vec<u8> {
+    let points = PointTable::new(chosen.family);
     let mut out = points.header().into_bytes();
-    points.rows(&chosen.solved, &mut out);
+    points.append_rows(&chosen.solved, &mut out);
     out
 }

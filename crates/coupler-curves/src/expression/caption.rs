@@ -40,7 +40,7 @@ impl Caption {
                         )
                     })?;
                 pieces.push(Piece::Text(std::mem::take(&mut plain)));
-                pieces.push(value(text, at + 1, end)?);
+                pieces.push(parse_value(text, at + 1, end)?);
                 at = end + 1;
             } else if c == '}' {
                 return Err(Error::new(at..at + 1, "a closing brace without its partner", "write `}}` for a brace"));
@@ -86,7 +86,7 @@ impl Caption {
                         _ if value.is_nan() => out.push('–'),
                         _ if value.is_infinite() => out.push_str(if value > 0.0 { "∞" } else { "−∞" }),
                         Some(n) => out.push_str(&format!("{value:.n$}")),
-                        None => out.push_str(&six_digits(value).to_string()),
+                        None => out.push_str(&round_to_six_digits(value).to_string()),
                     }
                 }
             }
@@ -96,11 +96,11 @@ impl Caption {
 }
 
 /// The value rounded to six significant digits.
-fn six_digits(value: f64) -> f64 {
+fn round_to_six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-fn value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
+fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let inner = &text[start..end];
     let (source, decimals) = match inner.rfind(':') {
         None => (inner, None),

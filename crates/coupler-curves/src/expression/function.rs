@@ -50,7 +50,7 @@ impl Function {
     ];
 
     /// The function of that name.
-    pub fn named(name: &str) -> Option<Function> {
+    pub fn from_name(name: &str) -> Option<Function> {
         Function::ALL.iter().find(|(n, _)| *n == name).map(|&(_, f)| f)
     }
 
@@ -80,8 +80,8 @@ impl Function {
             Function::Acos => trig::acos(x),
             Function::Atan2 => trig::atan2(x, arguments[1]),
             Function::Abs => x.abs(),
-            Function::Min => arguments.iter().copied().fold(f64::INFINITY, least),
-            Function::Max => -arguments.iter().map(|x| -x).fold(f64::INFINITY, least),
+            Function::Min => arguments.iter().copied().fold(f64::INFINITY, min_or_nan),
+            Function::Max => -arguments.iter().map(|x| -x).fold(f64::INFINITY, min_or_nan),
             Function::Hypot => trig::hypot(x, arguments[1]),
             Function::Deg => trig::degrees(x),
             Function::Rad => trig::radians(x),
@@ -90,6 +90,6 @@ impl Function {
 }
 
 /// The lesser of two; missing where either is (`f64::min` would pass over it).
-fn least(a: f64, b: f64) -> f64 {
+fn min_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
 }

@@ -26,7 +26,7 @@ pub(super) enum Token<'a> {
 }
 
 /// The tokens of a text with their places; the last is [`Token::End`].
-pub(super) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
+pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
     let mut out = Vec::new();
     let mut at = 0;
     while let Some(c) = text[at..].chars().next() {

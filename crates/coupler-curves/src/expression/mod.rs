@@ -17,7 +17,7 @@ mod quantity;
 
 pub use caption::Caption;
 pub use function::Function;
-pub use program::{Bound, Expression, Kind, Postfix};
+pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
 pub use quantity::{Dimension, Quantity, Unit};
 
 use crate::problem::{Problem, Span};
@@ -46,7 +46,7 @@ impl Error {
     }
 
     /// The error as a problem of the text that `place` maps this expression's spans into.
-    pub fn problem(self, place: impl FnOnce(Span) -> Span) -> Problem {
-        Problem::error(place(self.span), self.message).help(self.help)
+    pub fn into_problem(self, place: impl FnOnce(Span) -> Span) -> Problem {
+        Problem::error(place(self.span), self.message).with_help(self.help)
     }
 }

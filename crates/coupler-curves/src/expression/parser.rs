@@ -1,31 +1,31 @@
-use super::lexer::{Token, tokens};
+use super::lexer::{Token, tokenize};
 use super::program::{Expression, Instruction, Operator};
 use super::{CONSTANTS, Error, Function, MAX_DEPTH};
-use crate::problem::{Span, nearest};
+use crate::problem::{Span, nearest_word};
 
 /// Reads a whole text as an expression.
-pub(super) fn expression(text: &str) -> Result<Expression, Error> {
+pub(super) fn parse_expression(text: &str) -> Result<Expression, Error> {
     let mut parser = Parser::new(text)?;
-    parser.binary(0)?;
+    parser.parse_binary(0)?;
     match parser.peek() {
-        (Token::End, _) => Ok(parser.out),
+        (Token::End, _) => Ok(parser.expression),
         (_, span) => Err(parser.unexpected(span)),
     }
 }
 
 /// Reads an expression and the word after it, if any: `360/7 deg`.
-pub(super) fn expression_and_word(text: &str) -> Result<(Expression, Option<(String, Span)>), Error> {
+pub(super) fn parse_expression_and_word(text: &str) -> Result<(Expression, Option<(String, Span)>), Error> {
     let mut parser = Parser::new(text)?;
-    parser.binary(0)?;
+    parser.parse_binary(0)?;
     let word = match parser.peek() {
         (Token::Name(word), span) => {
-            parser.at += 1;
+            parser.position += 1;
             Some((word.to_owned(), span))
         }
         _ => None,
     };
     match parser.peek() {
-        (Token::End, _) => Ok((parser.out, word)),
+        (Token::End, _) => Ok((parser.expression, word)),
         (_, span) => Err(parser.unexpected(span)),
     }
 }
@@ -33,15 +33,15 @@ pub(super) fn expression_and_word(text: &str) -> Result<(Expression, Option<(Str
 struct Parser<'a> {
     text: &'a str,
     tokens: Vec<(Token<'a>, Span)>,
-    at: usize,
+    position: usize,
     depth: usize,
-    out: Expression,
+    expression: Expression,
 }
 
 impl<'a> Parser<'a> {
     fn new(text: &'a str) -> Result<Parser<'a>, Error> {
         let out = Expression { program: Vec::new(), names: Vec::new() };
-        let parser = Parser { text, tokens: tokens(text)?, at: 0, depth: 0, out };
+        let parser = Parser { text, tokens: tokenize(text)?, position: 0, depth: 0, expression: out };
         match parser.peek() {
             (Token::End, span) => Err(Error::new(span, "an empty expression", "give a number or an expression")),
             _ => Ok(parser),
@@ -49,11 +49,11 @@ impl<'a> Parser<'a> {
     }
 
     fn peek(&self) -> (Token<'a>, Span) {
-        self.tokens[self.at].clone()
+        self.tokens[self.position].clone()
     }
 
     fn emit(&mut self, instruction: Instruction, span: Span) {
-        self.out.program.push((instruction, span));
+        self.expression.program.push((instruction, span));
     }
 
     fn unexpected(&self, span: Span) -> Error {
@@ -83,14 +83,14 @@ impl<'a> Parser<'a> {
     }
 
     /// Operators at least as tight as `floor`; `not` stands between `and` and the comparisons.
-    fn binary(&mut self, floor: u8) -> Result<(), Error> {
+    fn parse_binary(&mut self, floor: u8) -> Result<(), Error> {
         let (token, span) = self.peek();
         if token == Token::Not && floor <= 3 {
-            self.at += 1;
-            self.nested(span.clone(), |p| p.binary(3))?;
+            self.position += 1;
+            self.nested(span.clone(), |p| p.parse_binary(3))?;
             self.emit(Instruction::Not, span);
         } else {
-            self.unary()?;
+            self.parse_unary()?;
         }
         loop {
             let (token, span) = self.peek();
@@ -112,69 +112,69 @@ impl<'a> Parser<'a> {
             if tightness < floor {
                 return Ok(());
             }
-            self.at += 1;
+            self.position += 1;
             // One tighter on the right: all of these are left-associative. At most one level for each tightness.
-            self.binary(tightness + 1)?;
+            self.parse_binary(tightness + 1)?;
             self.emit(Instruction::Binary(operator), span);
         }
     }
 
-    fn unary(&mut self) -> Result<(), Error> {
+    fn parse_unary(&mut self) -> Result<(), Error> {
         match self.peek() {
             (Token::Minus, span) => {
-                self.at += 1;
-                self.nested(span.clone(), Self::unary)?;
+                self.position += 1;
+                self.nested(span.clone(), Self::parse_unary)?;
                 self.emit(Instruction::Negate, span);
                 Ok(())
             }
             (Token::Plus, span) => {
-                self.at += 1;
-                self.nested(span, Self::unary)
+                self.position += 1;
+                self.nested(span, Self::parse_unary)
             }
-            _ => self.power(),
+            _ => self.parse_power(),
         }
     }
 
-    fn power(&mut self) -> Result<(), Error> {
-        self.primary()?;
+    fn parse_power(&mut self) -> Result<(), Error> {
+        self.parse_primary()?;
         if let (Token::Caret, span) = self.peek() {
-            self.at += 1;
+            self.position += 1;
             // The exponent may have a sign and its own power: both associate to the right.
-            self.nested(span.clone(), Self::unary)?;
+            self.nested(span.clone(), Self::parse_unary)?;
             self.emit(Instruction::Binary(Operator::Power), span);
         }
         Ok(())
     }
 
-    fn primary(&mut self) -> Result<(), Error> {
+    fn parse_primary(&mut self) -> Result<(), Error> {
         let (token, span) = self.peek();
         match token {
             Token::Number(value) if value.is_finite() => {
-                self.at += 1;
+                self.position += 1;
                 self.emit(Instruction::Push(value), span);
                 Ok(())
             }
             Token::Number(_) => Err(Error::new(span, "the number is too large", "the largest is about 1.8e308")),
             Token::Open => {
-                self.at += 1;
-                self.nested(span.clone(), |p| p.binary(0))?;
-                self.close(span)
+                self.position += 1;
+                self.nested(span.clone(), |p| p.parse_binary(0))?;
+                self.expect_close(span)
             }
             Token::Name(name) => {
-                self.at += 1;
+                self.position += 1;
                 match self.peek() {
-                    (Token::Open, open) => self.call(name, span, open),
-                    _ => self.name(name, span),
+                    (Token::Open, open) => self.parse_call(name, span, open),
+                    _ => self.parse_name(name, span),
                 }
             }
             _ => Err(self.unexpected(span)),
         }
     }
 
-    fn close(&mut self, open: Span) -> Result<(), Error> {
+    fn expect_close(&mut self, open: Span) -> Result<(), Error> {
         match self.peek() {
             (Token::Close, _) => {
-                self.at += 1;
+                self.position += 1;
                 Ok(())
             }
             (Token::End, _) => Err(Error::new(open, "this parenthesis is never closed", "add `)`")),
@@ -182,41 +182,41 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn name(&mut self, name: &str, span: Span) -> Result<(), Error> {
+    fn parse_name(&mut self, name: &str, span: Span) -> Result<(), Error> {
         if let Some((_, value)) = CONSTANTS.iter().find(|(n, _)| *n == name) {
             self.emit(Instruction::Push(*value), span);
             return Ok(());
         }
-        let index = self.out.names.iter().position(|n| n == name).unwrap_or_else(|| {
-            self.out.names.push(name.to_owned());
-            self.out.names.len() - 1
+        let index = self.expression.names.iter().position(|n| n == name).unwrap_or_else(|| {
+            self.expression.names.push(name.to_owned());
+            self.expression.names.len() - 1
         });
         self.emit(Instruction::Load(index), span);
         Ok(())
     }
 
-    fn call(&mut self, name: &str, span: Span, open: Span) -> Result<(), Error> {
+    fn parse_call(&mut self, name: &str, span: Span, open: Span) -> Result<(), Error> {
         let names = Function::ALL.map(|(n, _)| n);
-        let function = Function::named(name).ok_or_else(|| {
-            let help = match nearest(name, names) {
+        let function = Function::from_name(name).ok_or_else(|| {
+            let help = match nearest_word(name, names) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the functions are {}", names.join(", ")),
             };
             Error::new(span.clone(), format!("there is no function `{name}`"), help)
         })?;
-        self.at += 1;
+        self.position += 1;
         let mut given = 0;
         if !matches!(self.peek().0, Token::Close) {
             loop {
-                self.nested(open.clone(), |p| p.binary(0))?;
+                self.nested(open.clone(), |p| p.parse_binary(0))?;
                 given += 1;
                 match self.peek() {
-                    (Token::Comma, _) => self.at += 1,
+                    (Token::Comma, _) => self.position += 1,
                     _ => break,
                 }
             }
         }
-        self.close(open)?;
+        self.expect_close(open)?;
         let (least, most) = function.arity();
         if given < least || given > most {
             let wanted =
@@ -318,13 +318,13 @@ mod tests {
         let kind = |text: &str| {
             let known = |name: &str| match name {
                 "a" => Some(super::super::Kind::Number),
-                "is_open" => Some(super::super::Kind::Truth),
+                "is_open" => Some(super::super::Kind::Boolean),
                 _ => None,
             };
             Expression::parse(text).unwrap().check(&["a", "is_open"], known)
         };
         assert_eq!(kind("a + 1").unwrap(), super::super::Kind::Number);
-        assert_eq!(kind("is_open and a > 1").unwrap(), super::super::Kind::Truth);
+        assert_eq!(kind("is_open and a > 1").unwrap(), super::super::Kind::Boolean);
         assert_eq!(kind("1 < a < 2").unwrap_err().message, "a truth where a number is wanted");
         assert_eq!(kind("a and 1").unwrap_err().message, "a number where a truth is wanted");
         assert_eq!(kind("b + 1").unwrap_err().help, "did you mean `a`?");

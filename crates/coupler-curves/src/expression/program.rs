@@ -1,6 +1,6 @@
 use super::{Error, Function, parser};
 use crate::geometry::trig;
-use crate::problem::{Span, nearest_or_all};
+use crate::problem::{Span, suggestion};
 
 /// What an expression's value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,7 +8,7 @@ pub enum Kind {
     /// A number.
     Number,
     /// True or false.
-    Truth,
+    Boolean,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ impl Expression {
     /// # Errors
     /// What is wrong with the text and where in it. Whether its names exist is asked by [`Expression::check`].
     pub fn parse(text: &str) -> Result<Expression, Error> {
-        parser::expression(text)
+        parser::parse_expression(text)
     }
 
     /// The expression that is always `value`.
@@ -91,21 +91,21 @@ impl Expression {
                     let name = &self.names[*name];
                     let unknown = || {
                         let number = || "write a number: there are no names here".to_owned();
-                        let help = if known.is_empty() { number() } else { nearest_or_all(name, known) };
+                        let help = if known.is_empty() { number() } else { suggestion(name, known) };
                         Error::new(span.clone(), format!("there is no `{name}`"), help)
                     };
                     (Kind::Number, kind_of(name).ok_or_else(unknown)?)
                 }
                 Instruction::Push(_) | Instruction::Negate | Instruction::Call(..) => (Kind::Number, Kind::Number),
-                Instruction::Not => (Kind::Truth, Kind::Truth),
-                Instruction::Binary(op) => op.kinds(),
+                Instruction::Not => (Kind::Boolean, Kind::Boolean),
+                Instruction::Binary(op) => op.signature(),
             };
             if let Some((_, at)) = operands.iter().find(|(kind, _)| *kind != wanted) {
                 let (message, help) = match wanted {
                     Kind::Number => {
                         ("a truth where a number is wanted", "join comparisons with `and`: `1 < x and x < 2`")
                     }
-                    Kind::Truth => ("a number where a truth is wanted", "compare it: `x > 0`"),
+                    Kind::Boolean => ("a number where a truth is wanted", "compare it: `x > 0`"),
                 };
                 return Err(Error::new(at.clone(), message, help));
             }
@@ -120,7 +120,7 @@ impl Expression {
     ///
     /// # Errors
     /// As [`Expression::check`], and a value that is not of the `wanted` kind.
-    pub fn bind(&self, scope: &[(&str, Kind)], wanted: Kind) -> Result<Bound, Error> {
+    pub fn compile(&self, scope: &[(&str, Kind)], wanted: Kind) -> Result<CompiledExpression, Error> {
         let known: Vec<&str> = scope.iter().map(|(name, _)| *name).collect();
         let slot = |name: &str| known.iter().position(|n| *n == name);
         let given = self.check(&known, |name| slot(name).map(|k| scope[k].1))?;
@@ -128,11 +128,11 @@ impl Expression {
             let span = self.program.first().map_or(0, |p| p.1.start)..self.program.last().map_or(0, |p| p.1.end);
             return Err(match wanted {
                 Kind::Number => Error::new(span, "a truth where a number is wanted", "give a number"),
-                Kind::Truth => Error::new(span, "a number where a truth is wanted", "compare it: `x > 0`"),
+                Kind::Boolean => Error::new(span, "a number where a truth is wanted", "compare it: `x > 0`"),
             });
         }
         let slots = self.names.iter().filter_map(|name| slot(name)).collect();
-        Ok(Bound { expression: self.clone(), slots })
+        Ok(CompiledExpression { expression: self.clone(), slots })
     }
 
     /// The value, where `load(i)` is the value of the i-th of [`Expression::names`] (not a number where missing).
@@ -144,11 +144,11 @@ impl Expression {
             let value = match *instruction {
                 Instruction::Push(value) => value,
                 Instruction::Load(name) => load(name),
-                Instruction::Negate => -pop(&mut stack),
-                Instruction::Not => f64::from(u8::from(pop(&mut stack) == 0.0)),
+                Instruction::Negate => -pop_or_nan(&mut stack),
+                Instruction::Not => f64::from(u8::from(pop_or_nan(&mut stack) == 0.0)),
                 Instruction::Binary(op) => {
-                    let right = pop(&mut stack);
-                    op.apply(pop(&mut stack), right)
+                    let right = pop_or_nan(&mut stack);
+                    op.apply(pop_or_nan(&mut stack), right)
                 }
                 Instruction::Call(function, n) => {
                     let value = function.call(&stack[stack.len() - n..]);
@@ -158,13 +158,13 @@ impl Expression {
             };
             stack.push(value);
         }
-        pop(&mut stack)
+        pop_or_nan(&mut stack)
     }
 }
 
 /// A step of an expression's program, as other programs may run it on a stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Postfix {
+pub enum PostfixToken {
     /// A number is pushed.
     Number(f64),
     /// The value of the name at a place of the scope is pushed.
@@ -177,15 +177,15 @@ pub enum Postfix {
 
 /// An expression whose names are places in a scope.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bound {
+pub struct CompiledExpression {
     expression: Expression,
     slots: Vec<usize>,
 }
 
-impl Bound {
+impl CompiledExpression {
     /// The expression that is always `value`.
-    pub fn constant(value: f64) -> Bound {
-        Bound { expression: Expression::constant(value), slots: Vec::new() }
+    pub fn constant(value: f64) -> CompiledExpression {
+        CompiledExpression { expression: Expression::constant(value), slots: Vec::new() }
     }
 
     /// The value, where `load(slot)` is the value of the name at a place of the scope.
@@ -194,7 +194,7 @@ impl Bound {
     }
 
     /// The name or the number it is, if it is nothing else.
-    pub fn word(&self) -> Option<String> {
+    pub fn name_or_number(&self) -> Option<String> {
         match (self.expression.as_name(), &self.expression.program[..]) {
             (Some(name), _) => Some(name.to_owned()),
             (None, [(Instruction::Push(value), _)]) => Some(value.to_string()),
@@ -203,14 +203,14 @@ impl Bound {
     }
 
     /// Its program, step by step.
-    pub fn postfix(&self) -> impl Iterator<Item = Postfix> {
+    pub fn postfix(&self) -> impl Iterator<Item = PostfixToken> {
         self.expression.program.iter().map(|(instruction, _)| match *instruction {
-            Instruction::Push(value) => Postfix::Number(value),
-            Instruction::Load(name) => Postfix::Name(self.slots[name]),
-            Instruction::Negate => Postfix::Operator("neg"),
-            Instruction::Not => Postfix::Operator("not"),
-            Instruction::Binary(operator) => Postfix::Operator(operator.symbol()),
-            Instruction::Call(function, arguments) => Postfix::Call(function.name(), arguments),
+            Instruction::Push(value) => PostfixToken::Number(value),
+            Instruction::Load(name) => PostfixToken::Name(self.slots[name]),
+            Instruction::Negate => PostfixToken::Operator("neg"),
+            Instruction::Not => PostfixToken::Operator("not"),
+            Instruction::Binary(operator) => PostfixToken::Operator(operator.symbol()),
+            Instruction::Call(function, arguments) => PostfixToken::Call(function.name(), arguments),
         })
     }
 
@@ -221,18 +221,18 @@ impl Bound {
 }
 
 /// The parser leaves every operator its operands; a program that lost one would give what a missing value gives.
-fn pop(stack: &mut Vec<f64>) -> f64 {
+fn pop_or_nan(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(f64::NAN)
 }
 
 impl Operator {
     /// What it takes and what it gives.
-    fn kinds(self) -> (Kind, Kind) {
+    fn signature(self) -> (Kind, Kind) {
         use Operator::{Add, And, Divide, Multiply, Or, Power, Subtract};
         match self {
             Add | Subtract | Multiply | Divide | Power => (Kind::Number, Kind::Number),
-            And | Or => (Kind::Truth, Kind::Truth),
-            _ => (Kind::Number, Kind::Truth),
+            And | Or => (Kind::Boolean, Kind::Boolean),
+            _ => (Kind::Number, Kind::Boolean),
         }
     }
 

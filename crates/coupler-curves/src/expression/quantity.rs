@@ -22,7 +22,7 @@ pub enum Dimension {
     /// An angle, evaluated in degrees: an angle in a manifest is a stated one, and 2 deg must stay 2.
     Angle,
     /// A length on paper, evaluated in millimetres.
-    Paper,
+    PaperLength,
 }
 
 impl Dimension {
@@ -30,14 +30,14 @@ impl Dimension {
     pub fn units(self) -> &'static [(&'static str, Unit)] {
         match self {
             Dimension::Angle => &[("deg", Unit::Deg), ("rad", Unit::Rad)],
-            Dimension::Paper => &[("mm", Unit::Mm), ("in", Unit::In), ("pt", Unit::Pt)],
+            Dimension::PaperLength => &[("mm", Unit::Mm), ("in", Unit::In), ("pt", Unit::Pt)],
         }
     }
 
     fn example(self) -> &'static str {
         match self {
             Dimension::Angle => "an angle is written like \"2 deg\" or \"pi / 90 rad\"",
-            Dimension::Paper => "a length on paper is written like \"432 mm\", \"17 in\" or \"1224 pt\"",
+            Dimension::PaperLength => "a length on paper is written like \"432 mm\", \"17 in\" or \"1224 pt\"",
         }
     }
 }
@@ -57,7 +57,7 @@ impl Quantity {
     /// # Errors
     /// What is wrong with the expression; a unit that is missing, or of another dimension.
     pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, Error> {
-        let (expression, word) = parser::expression_and_word(text)?;
+        let (expression, word) = parser::parse_expression_and_word(text)?;
         let Some((word, span)) = word else {
             return Err(Error::new(0..text.len(), "the unit is missing", dimension.example()));
         };
@@ -69,13 +69,13 @@ impl Quantity {
 
     /// The value in degrees or millimetres; names are loaded as in [`Expression::evaluate`].
     pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
-        self.unit.convert(self.expression.evaluate(load))
+        self.unit.to_base_unit(self.expression.evaluate(load))
     }
 }
 
 impl Unit {
     /// A number of this unit in degrees or millimetres.
-    pub fn convert(self, value: f64) -> f64 {
+    pub fn to_base_unit(self, value: f64) -> f64 {
         match self {
             Unit::Deg | Unit::Mm => value,
             Unit::Rad => trig::degrees(value),
@@ -96,8 +96,8 @@ mod tests {
         assert_eq!(value("2 deg", Dimension::Angle), Ok(2.0));
         assert_eq!(value("pi rad", Dimension::Angle), Ok(180.0));
         assert_eq!(value("deg(pi) deg", Dimension::Angle), Ok(180.0));
-        assert_eq!(value("17 in", Dimension::Paper), Ok(431.8));
-        assert_eq!(value("72 pt", Dimension::Paper), Ok(25.4));
+        assert_eq!(value("17 in", Dimension::PaperLength), Ok(431.8));
+        assert_eq!(value("72 pt", Dimension::PaperLength), Ok(25.4));
         assert_eq!(value("2", Dimension::Angle).unwrap_err().message, "the unit is missing");
         assert_eq!(value("2 mm", Dimension::Angle).unwrap_err().message, "`mm` is not a unit here");
     }

@@ -15,7 +15,7 @@ impl Bounds {
         Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
 
     /// The box round all finite points of `points`.
-    pub fn of(points: impl IntoIterator<Item = Point>) -> Bounds {
+    pub fn from_points(points: impl IntoIterator<Item = Point>) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for p in points {
             bounds.include(p);

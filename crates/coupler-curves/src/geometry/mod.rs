@@ -5,17 +5,17 @@
 //! machine; `+ - * / sqrt` are exact everywhere by IEEE 754.
 
 mod bounds;
-mod placement;
+mod capsule_tree;
+mod orientation;
 mod polyline;
 mod similarity;
 pub mod trig;
-mod tubes;
 
 pub use bounds::Bounds;
-pub use placement::Placement;
-pub use polyline::thinned;
+pub use capsule_tree::{Capsule, CapsuleTree};
+pub use orientation::Orientation;
+pub use polyline::simplify_polyline;
 pub use similarity::Similarity;
-pub use tubes::{Tube, Tubes};
 
 /// A point of the plane.
 pub type Point = nalgebra::Point2<f64>;
@@ -29,7 +29,7 @@ pub fn left_normal(v: Vector) -> Vector {
 }
 
 /// The product of two vectors as complex numbers: `b` turned by the angle of `a`, and longer by its length.
-pub fn times(a: Vector, b: Vector) -> Vector {
+pub fn complex_product(a: Vector, b: Vector) -> Vector {
     Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 

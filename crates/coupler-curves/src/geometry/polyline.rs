@@ -8,16 +8,16 @@ use super::{Point, Vector, cross};
 ///
 /// # Source
 /// Zhao and Saalfeld, *Linear-time sleeve-fitting polyline simplification algorithms*, Auto-Carto 13, 1997.
-pub fn thinned(points: &[Point], tolerance: f64) -> Vec<Point> {
+pub fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
     let Some((&first, rest)) = points.split_first() else { return Vec::new() };
     let mut out = vec![first];
     let mut sleeve = Sleeve::new(first);
     let mut last = first;
     for &point in rest {
-        if !sleeve.takes(point, tolerance) {
+        if !sleeve.try_extend(point, tolerance) {
             out.push(last);
             sleeve = Sleeve::new(last);
-            sleeve.takes(point, tolerance);
+            sleeve.try_extend(point, tolerance);
         }
         last = point;
     }
@@ -33,24 +33,24 @@ struct Sleeve {
     /// The rightmost and the leftmost direction; all where there are none yet.
     sides: Option<[Vector; 2]>,
     /// How far the furthest point is, of those that are no longer at the anchor.
-    reach: f64,
+    max_distance: f64,
 }
 
 impl Sleeve {
     fn new(anchor: Point) -> Sleeve {
-        Sleeve { anchor, sides: None, reach: 0.0 }
+        Sleeve { anchor, sides: None, max_distance: 0.0 }
     }
 
     /// Narrows the sleeve by a point, if the line may end there.
-    fn takes(&mut self, point: Point, tolerance: f64) -> bool {
+    fn try_extend(&mut self, point: Point, tolerance: f64) -> bool {
         let to = point - self.anchor;
         let distance = to.norm();
         let is_within = self.sides.is_none_or(|[right, left]| cross(right, to) >= 0.0 && cross(to, left) >= 0.0);
-        if !is_within || distance < self.reach {
+        if !is_within || distance < self.max_distance {
             return false;
         }
         if distance > tolerance {
-            self.reach = distance;
+            self.max_distance = distance;
             // The tangents from the anchor to the circle of the tolerance about the point.
             let along = to * (((distance - tolerance) * (distance + tolerance)).sqrt() / (distance * distance));
             let across = Vector::new(-to.y, to.x) * (tolerance / (distance * distance));
@@ -81,7 +81,7 @@ mod tests {
         };
         let points: Vec<Point> = (0..=1440).map(at).collect();
         for tolerance in [1e-1, 1e-2, 1e-3, 1e-4] {
-            let kept = thinned(&points, tolerance);
+            let kept = simplify_polyline(&points, tolerance);
             assert!(kept.len() < points.len(), "{tolerance}");
             assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[1440]));
             for point in &points {
@@ -97,16 +97,16 @@ mod tests {
                 Point::new(cos, sin)
             })
             .collect();
-        assert!(thinned(&circle, 1e-3).len() < 2 * 71);
+        assert!(simplify_polyline(&circle, 1e-3).len() < 2 * 71);
     }
 
     #[test]
     fn a_line_is_its_ends_and_a_turn_back_is_kept() {
         let line: Vec<Point> = (0..5).map(|k| Point::new(f64::from(k), 0.0)).collect();
-        assert_eq!(thinned(&line, 1e-9), [line[0], line[4]]);
+        assert_eq!(simplify_polyline(&line, 1e-9), [line[0], line[4]]);
         let back = [line[0], line[3], line[1]];
-        assert_eq!(thinned(&back, 0.1), back);
-        assert!(thinned(&[], 0.1).is_empty());
-        assert_eq!(thinned(&line[..1], 0.1), line[..1]);
+        assert_eq!(simplify_polyline(&back, 0.1), back);
+        assert!(simplify_polyline(&[], 0.1).is_empty());
+        assert_eq!(simplify_polyline(&line[..1], 0.1), line[..1]);
     }
 }

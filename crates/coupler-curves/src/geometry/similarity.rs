@@ -34,7 +34,7 @@ mod tests {
 
     #[test]
     fn the_page_has_y_down_and_keeps_the_centre() {
-        let plane = Bounds::of([Point::new(1.0, 1.0), Point::new(3.0, 5.0)]);
+        let plane = Bounds::from_points([Point::new(1.0, 1.0), Point::new(3.0, 5.0)]);
         let page_from_plane = Similarity::page_from_plane(plane, Point::new(100.0, 50.0), 10.0);
         assert_eq!(page_from_plane.apply(Point::new(2.0, 3.0)), Point::new(100.0, 50.0));
         assert_eq!(page_from_plane.apply(Point::new(3.0, 5.0)), Point::new(110.0, 30.0));

@@ -1,10 +1,10 @@
 //! The three four-bars that draw one coupler curve.
 
 use super::{
-    Assembly, Circuits, Class, Continuation, Error, FourBar, JointId, Link, Linkage, Side, Step, Travel,
-    four_bar_tolerance,
+    CircuitSelection, Continuation, Error, FourBar, FourBarClass, JointId, JointKind, Link, Linkage, LinkageBuilder,
+    MotionOptions, Side, length_tolerance,
 };
-use crate::geometry::{Point, Vector, cross, times, trig};
+use crate::geometry::{Point, Vector, complex_product, cross, trig};
 
 /// A four-bar where it stands in the plane, and a point of its coupler.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +14,12 @@ pub struct PlacedFourBar {
     /// The lengths; the frame's is the distance of the pivots.
     pub lengths: FourBar,
     /// The coupler point: along the coupler from the crank pin towards the rocker pin, and to the left of it.
-    pub point: Vector,
+    pub coupler_point: Vector,
 }
 
 /// A link of a four-bar that moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bar {
+pub enum MovingLink {
     /// The one on the first pivot.
     Crank,
     /// The one between the pins.
@@ -28,13 +28,13 @@ pub enum Bar {
     Rocker,
 }
 
-impl Bar {
+impl MovingLink {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
-            Bar::Crank => "crank",
-            Bar::Coupler => "coupler",
-            Bar::Rocker => "rocker",
+            MovingLink::Crank => "crank",
+            MovingLink::Coupler => "coupler",
+            MovingLink::Rocker => "rocker",
         }
     }
 }
@@ -45,10 +45,10 @@ pub struct Cognate {
     /// The four-bar. Its crank is the link on a pivot that is the shortest of all, where one is: then it turns fully.
     pub four_bar: PlacedFourBar,
     /// Which links of the original its crank, coupler and rocker turn as: each keeps its angle to that one.
-    pub turns_as: [Bar; 3],
+    pub counterparts: [MovingLink; 3],
     /// Where its crank pin is from its crank's pivot, and its rocker pin from its rocker's: so many times a vector of the
     /// original, as a complex number.
-    arms: [Vector; 2],
+    arm_factors: [Vector; 2],
 }
 
 /// The two cognates of a four-bar and the pivot they share.
@@ -80,10 +80,10 @@ pub struct Cognates {
 
 /// Why a linkage has no cognates.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoCognates {
+pub enum CognateError {
     /// It is no four-bar.
     #[error("it is no four-bar: cognates are known of a crank and one dyad, with points on their links")]
-    NoFourBar,
+    NotFourBar,
     /// The traced joint is on another link.
     #[error("`{joint}` is no point of its coupler")]
     NotOnCoupler {
@@ -92,19 +92,19 @@ pub enum NoCognates {
     },
     /// The coupler point is a pin.
     #[error("its coupler point is the {pin} pin, which goes on a circle: one cognate would have links of no length")]
-    OnPin {
+    CouplerPointOnPin {
         /// Which pin: the crank's or the rocker's.
         pin: &'static str,
     },
 }
 
-impl NoCognates {
+impl CognateError {
     /// The remedy.
     pub fn help(&self) -> &'static str {
         match self {
-            NoCognates::NoFourBar => "name a linkage whose class `inspect` tells",
-            NoCognates::NotOnCoupler { .. } => "trace a point of the link with the crank pin and the rocker pin",
-            NoCognates::OnPin { .. } => "take a coupler point off the pins",
+            CognateError::NotFourBar => "name a linkage whose class `inspect` tells",
+            CognateError::NotOnCoupler { .. } => "trace a point of the link with the crank pin and the rocker pin",
+            CognateError::CouplerPointOnPin { .. } => "take a coupler point off the pins",
         }
     }
 }
@@ -115,25 +115,29 @@ impl PlacedFourBar {
     ///
     /// # Errors
     /// It is no four-bar, or the joint is not on its coupler.
-    pub fn of(linkage: &Linkage, joint: JointId) -> Result<PlacedFourBar, NoCognates> {
-        let (Some(pins), Some(lengths)) = (FourBar::pins(linkage), FourBar::of(linkage)) else {
-            return Err(NoCognates::NoFourBar);
+    pub fn from_linkage(linkage: &Linkage, joint: JointId) -> Result<PlacedFourBar, CognateError> {
+        let (Some(pins), Some(lengths)) = (FourBar::pins(linkage), FourBar::from_linkage(linkage)) else {
+            return Err(CognateError::NotFourBar);
         };
         let [o, a, b, c] = pins;
-        let (Some(from), Some(to), Some(place)) = on_link(linkage, [a, b], joint) else {
+        let (Some(from), Some(to), Some(place)) = positions_on_link(linkage, [a, b], joint) else {
             let joint = linkage.joints.get(joint).map_or(String::new(), |joint| joint.name.clone());
-            return Err(NoCognates::NotOnCoupler { joint });
+            return Err(CognateError::NotOnCoupler { joint });
         };
         let along = (to - from) / lengths.coupler;
         let (m, handedness) = (place - from, linkage.placement.handedness());
         let point = Vector::new(along.dot(&m), cross(along, m) * handedness);
-        let place = |joint| linkage.links[0].place(joint).map(Point::from);
+        let place = |joint| linkage.links[0].position(joint).map(Point::from);
         let pivots = match (linkage.seen_from, place(o), place(c)) {
             (None, Some(o), Some(c)) => [o, c],
             // The view has the crank's pivot at its origin and the rocker's on its x-axis.
             _ => [Point::origin(), Point::new(lengths.frame, 0.0)],
         };
-        Ok(PlacedFourBar { pivots: pivots.map(|p| linkage.placement.point(p)), lengths, point })
+        Ok(PlacedFourBar {
+            pivots: pivots.map(|p| linkage.placement.transform_point(p)),
+            lengths,
+            coupler_point: point,
+        })
     }
 
     /// It as a linkage of joints O, C, A, B and M, traced, with the rocker pin on a side of the ray from the crank pin to the
@@ -141,14 +145,14 @@ impl PlacedFourBar {
     ///
     /// # Errors
     /// A length that is not positive.
-    pub fn linkage(&self, side: Side, travel: Travel) -> Result<Linkage, Error> {
+    pub fn to_linkage(&self, side: Side, travel: MotionOptions) -> Result<Linkage, Error> {
         let FourBar { crank, coupler, rocker, .. } = self.lengths;
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let [o, c] = [("O", self.pivots[0]), ("C", self.pivots[1])].map(|(name, at)| assembly.fixed(name, at));
         let a = assembly.crank("A", o, crank)?;
         let b = assembly.dyad("B", [a, c], [coupler, rocker], side)?;
-        let m = assembly.point("M", [a, b], self.point.x, self.point.y)?;
-        assembly.finish(vec![m], None, travel)
+        let m = assembly.point("M", [a, b], self.coupler_point.x, self.coupler_point.y)?;
+        assembly.build(vec![m], None, travel)
     }
 
     /// The same, driven from its other pivot.
@@ -157,7 +161,7 @@ impl PlacedFourBar {
         PlacedFourBar {
             pivots: [self.pivots[1], self.pivots[0]],
             lengths: FourBar { frame, crank: rocker, coupler, rocker: crank },
-            point: Vector::new(coupler - self.point.x, -self.point.y),
+            coupler_point: Vector::new(coupler - self.coupler_point.x, -self.coupler_point.y),
         }
     }
 }
@@ -167,18 +171,18 @@ impl Cognates {
     ///
     /// # Errors
     /// The coupler point is within 1e-12 of the coupler's length of a pin.
-    pub fn of(original: PlacedFourBar) -> Result<Cognates, NoCognates> {
+    pub fn from_four_bar(original: PlacedFourBar) -> Result<Cognates, CognateError> {
         let FourBar { frame: g, crank: r, coupler: h, rocker: s } = original.lengths;
         // From the pins to the coupler point.
-        let (u, w) = (original.point, original.point - Vector::new(h, 0.0));
+        let (u, w) = (original.coupler_point, original.coupler_point - Vector::new(h, 0.0));
         let (near, far) = (u.norm(), w.norm());
         for (pin, distance) in [("crank", near), ("rocker", far)] {
             if distance <= 1e-12 * h {
-                return Err(NoCognates::OnPin { pin });
+                return Err(CognateError::CouplerPointOnPin { pin });
             }
         }
         let [o, c] = original.pivots;
-        let third_pivot = o + times(u / h, c - o);
+        let third_pivot = o + complex_product(u / h, c - o);
         let scaled = |by: f64, [crank, coupler, rocker]: [f64; 3]| FourBar {
             frame: by * g,
             crank,
@@ -191,28 +195,28 @@ impl Cognates {
             four_bar: PlacedFourBar {
                 pivots: [o, third_pivot],
                 lengths: scaled(near / h, [near, r, s]),
-                point: conjugate(u) * (r / near),
+                coupler_point: conjugate(u) * (r / near),
             },
-            turns_as: [Bar::Coupler, Bar::Crank, Bar::Rocker],
-            arms: [lambda, lambda],
+            counterparts: [MovingLink::Coupler, MovingLink::Crank, MovingLink::Rocker],
+            arm_factors: [lambda, lambda],
         };
         let second = Cognate {
             four_bar: PlacedFourBar {
                 pivots: [c, third_pivot],
                 lengths: scaled(far / h, [far, s, r]),
-                point: conjugate(-w) * (s / far),
+                coupler_point: conjugate(-w) * (s / far),
             },
-            turns_as: [Bar::Coupler, Bar::Rocker, Bar::Crank],
-            arms: [-rest, rest],
+            counterparts: [MovingLink::Coupler, MovingLink::Rocker, MovingLink::Crank],
+            arm_factors: [-rest, rest],
         };
-        let others = [first, second].map(Cognate::driven);
+        let others = [first, second].map(Cognate::with_best_crank);
         Ok(Cognates { original, third_pivot, others })
     }
 
     /// All three, the original first.
     pub fn all(&self) -> [Cognate; 3] {
         let [first, second] = self.others;
-        [Cognate::itself(self.original), first, second]
+        [Cognate::from_original(self.original), first, second]
     }
 
     /// A linkage with its cognates hung on, by parallelograms and by triangles similar to the coupler's: it moves as
@@ -222,37 +226,38 @@ impl Cognates {
     /// Returns it with the links of the two cognates.
     ///
     /// # Errors
-    /// As [`PlacedFourBar::of`] and [`Cognates::of`].
-    pub fn hung(linkage: &Linkage, joint: JointId) -> Result<(Linkage, [Vec<usize>; 2]), NoCognates> {
+    /// As [`PlacedFourBar::from_linkage`] and [`Cognates::from_four_bar`].
+    pub fn assemble(linkage: &Linkage, joint: JointId) -> Result<(Linkage, [Vec<usize>; 2]), CognateError> {
         let mut drawn = linkage.clone();
-        let mut placed = PlacedFourBar::of(linkage, joint)?;
+        let mut placed = PlacedFourBar::from_linkage(linkage, joint)?;
         // In the plane of the joints themselves, before the linkage is mirrored.
-        placed.point.y *= linkage.placement.handedness();
-        Cognates::of(placed)?;
-        let (Some([o, a, b, c]), lambda) = (FourBar::pins(linkage), placed.point / placed.lengths.coupler) else {
-            return Err(NoCognates::NoFourBar);
+        placed.coupler_point.y *= linkage.placement.handedness();
+        Cognates::from_four_bar(placed)?;
+        let (Some([o, a, b, c]), lambda) = (FourBar::pins(linkage), placed.coupler_point / placed.lengths.coupler)
+        else {
+            return Err(CognateError::NotFourBar);
         };
         let rest = Vector::new(1.0, 0.0) - lambda;
-        alone(&mut drawn, joint);
+        isolate_from_grid(&mut drawn, joint);
         let mut add = |name: &str, step| {
-            drawn.joints.push(super::Joint { name: name.to_owned(), step });
+            drawn.joints.push(super::Joint { name: name.to_owned(), kind: step });
             drawn.joints.len() - 1
         };
-        let rigid = |base, by: Vector| Step::Rigid { base, along: by.x, across: by.y };
+        let rigid = |base, by: Vector| JointKind::Rigid { base, along: by.x, across: by.y };
         let q = add("Q", rigid([o, c], lambda));
-        let d = add("D", Step::Parallelogram { corners: [o, a, joint] });
+        let d = add("D", JointKind::Parallelogram { corners: [o, a, joint] });
         let e = add("E", rigid([d, joint], lambda));
-        let f = add("F", Step::Parallelogram { corners: [c, b, joint] });
+        let f = add("F", JointKind::Parallelogram { corners: [c, b, joint] });
         let g = add("G", rigid([f, joint], rest));
         let on_frame = drawn.links.iter_mut().find_map(|link| {
-            let (from, to) = (link.place(o)?, link.place(c)?);
-            Some((from + times(lambda, to - from), link))
+            let (from, to) = (link.position(o)?, link.position(c)?);
+            Some((from + complex_product(lambda, to - from), link))
         });
         if let Some((place, link)) = on_frame {
             link.joints.push((q, place));
         }
         let FourBar { crank, rocker, coupler, .. } = placed.lengths;
-        let (near, far) = (placed.point.norm(), (rest * coupler).norm());
+        let (near, far) = (placed.coupler_point.norm(), (rest * coupler).norm());
         let mut link = |joints: &[(JointId, Vector)]| {
             drawn.links.push(Link { joints: joints.to_vec() });
             drawn.links.len() - 1
@@ -275,16 +280,20 @@ impl Cognates {
 
 impl Cognate {
     /// A four-bar as a cognate of its own.
-    fn itself(four_bar: PlacedFourBar) -> Cognate {
+    fn from_original(four_bar: PlacedFourBar) -> Cognate {
         let one = Vector::new(1.0, 0.0);
-        Cognate { four_bar, turns_as: [Bar::Crank, Bar::Coupler, Bar::Rocker], arms: [one, one] }
+        Cognate {
+            four_bar,
+            counterparts: [MovingLink::Crank, MovingLink::Coupler, MovingLink::Rocker],
+            arm_factors: [one, one],
+        }
     }
 
     /// Driven by the shortest link, if that is on a pivot, or, of a kite, by the one that never rests; else by the one that turns as the original's crank; else by that
     /// on the original's pivot.
-    fn driven(self) -> Cognate {
+    fn with_best_crank(self) -> Cognate {
         let FourBar { crank, coupler, rocker, frame } = self.four_bar.lengths;
-        let tolerance = four_bar_tolerance(crank + coupler + rocker + frame);
+        let tolerance = length_tolerance(crank + coupler + rocker + frame);
         let least = frame.min(coupler) + tolerance;
         // A link as long as the frame rests while the other two, of one length, turn about its pin.
         let rests = |link: f64, other: f64| (link - frame).abs() <= tolerance && (other - coupler).abs() <= tolerance;
@@ -293,26 +302,33 @@ impl Cognate {
         } else if (rocker - crank).abs() > tolerance && rocker.min(crank) <= least {
             rocker < crank
         } else {
-            self.turns_as[2] == Bar::Crank
+            self.counterparts[2] == MovingLink::Crank
         };
         if !is_better {
             return self;
         }
-        let ([first, coupler, last], [crank_arm, rocker_arm]) = (self.turns_as, self.arms);
-        Cognate { four_bar: self.four_bar.reversed(), turns_as: [last, coupler, first], arms: [rocker_arm, crank_arm] }
+        let ([first, coupler, last], [crank_arm, rocker_arm]) = (self.counterparts, self.arm_factors);
+        Cognate {
+            four_bar: self.four_bar.reversed(),
+            counterparts: [last, coupler, first],
+            arm_factors: [rocker_arm, crank_arm],
+        }
     }
 
     /// Its crank pin and its rocker pin in a pose of the original, whose crank pivot, crank pin, rocker pin and rocker pivot
     /// are given.
     pub fn pins(&self, [o, a, b, c]: [Point; 4]) -> [Point; 2] {
         let arm = |bar| match bar {
-            Bar::Crank => a - o,
-            Bar::Coupler => b - a,
-            Bar::Rocker => b - c,
+            MovingLink::Crank => a - o,
+            MovingLink::Coupler => b - a,
+            MovingLink::Rocker => b - c,
         };
         let [first, second] = self.four_bar.pivots;
-        let [crank, _, rocker] = self.turns_as;
-        [first + times(self.arms[0], arm(crank)), second + times(self.arms[1], arm(rocker))]
+        let [crank, _, rocker] = self.counterparts;
+        [
+            first + complex_product(self.arm_factors[0], arm(crank)),
+            second + complex_product(self.arm_factors[1], arm(rocker)),
+        ]
     }
 
     /// It as a linkage that draws the curve the original draws, of which poses on its first circuit are given as for
@@ -324,22 +340,26 @@ impl Cognate {
     ///
     /// # Errors
     /// A length that is not positive.
-    pub fn linkage(&self, poses: impl IntoIterator<Item = [Point; 4]>, travel: &Travel) -> Result<Linkage, Error> {
-        let starts = poses.into_iter().map(|pose| self.start(pose)).filter(|start| start.2.is_finite());
+    pub fn to_linkage(
+        &self,
+        poses: impl IntoIterator<Item = [Point; 4]>,
+        travel: &MotionOptions,
+    ) -> Result<Linkage, Error> {
+        let starts = poses.into_iter().map(|pose| self.input_at_pose(pose)).filter(|start| start.2.is_finite());
         let best = starts.reduce(|best, start| if start.2 > best.2 { start } else { best });
         let is_parted =
-            travel.continuation == Continuation::Branch && self.four_bar.lengths.class() == Class::ChangePoint;
-        let circuits = if is_parted { Circuits::All } else { travel.circuits };
+            travel.continuation == Continuation::Branch && self.four_bar.lengths.class() == FourBarClass::ChangePoint;
+        let circuits = if is_parted { CircuitSelection::All } else { travel.circuits };
         let (start, side) = match best {
-            Some((start, side, _)) if circuits == Circuits::Start => (Some(start), side),
+            Some((start, side, _)) if circuits == CircuitSelection::Start => (Some(start), side),
             _ => (None, Side::Left),
         };
-        self.four_bar.linkage(side, Travel { start, circuits, ..Travel::default() })
+        self.four_bar.to_linkage(side, MotionOptions { start, circuits, ..MotionOptions::default() })
     }
 
     /// Its input, in degrees from -180 to 180, and the side of its rocker pin in a pose of the original, as for
     /// [`Cognate::pins`]; and how far from flat its dyad is there: the sine of the transmission angle.
-    pub fn start(&self, pose: [Point; 4]) -> (f64, Side, f64) {
+    pub fn input_at_pose(&self, pose: [Point; 4]) -> (f64, Side, f64) {
         let [a, b] = self.pins(pose);
         let [o, c] = self.four_bar.pivots;
         let FourBar { coupler, rocker, .. } = self.four_bar.lengths;
@@ -354,7 +374,7 @@ fn conjugate(a: Vector) -> Vector {
 }
 
 /// Takes the other points of a grid off their link, and gives this one a name of its own.
-fn alone(linkage: &mut Linkage, joint: JointId) {
+fn isolate_from_grid(linkage: &mut Linkage, joint: JointId) {
     let name = linkage.joints[joint].name.clone();
     let grid: Vec<JointId> = (0..linkage.joints.len()).filter(|&other| linkage.joints[other].name == name).collect();
     if let ([_, _, ..], Some(place)) = (&grid[..], grid.iter().position(|&other| other == joint)) {
@@ -366,9 +386,13 @@ fn alone(linkage: &mut Linkage, joint: JointId) {
 }
 
 /// The places of two joints and a third on the link that has the first two.
-fn on_link(linkage: &Linkage, base: [JointId; 2], joint: JointId) -> (Option<Vector>, Option<Vector>, Option<Vector>) {
-    let has = |link: &&Link| base.iter().all(|&pin| link.place(pin).is_some());
+fn positions_on_link(
+    linkage: &Linkage,
+    base: [JointId; 2],
+    joint: JointId,
+) -> (Option<Vector>, Option<Vector>, Option<Vector>) {
+    let has = |link: &&Link| base.iter().all(|&pin| link.position(pin).is_some());
     let link = linkage.links.iter().find(has);
-    let place = |joint| link.and_then(|link| link.place(joint));
+    let place = |joint| link.and_then(|link| link.position(joint));
     (place(base[0]), place(base[1]), place(joint))
 }

@@ -5,7 +5,7 @@ use super::MAX_DYADS;
 pub enum Error {
     /// Two joints are wanted and one was given twice.
     #[error("`{joint}` is placed from `{base}` and `{base}`, which are one joint")]
-    OneJointTwice {
+    RepeatedJoint {
         /// The joint to place.
         joint: String,
         /// The joint given twice.
@@ -21,7 +21,7 @@ pub enum Error {
     },
     /// A length is negative, zero or not finite.
     #[error("the length {length} of `{joint}` is not positive")]
-    Length {
+    InvalidLength {
         /// The joint to place.
         joint: String,
         /// The length.
@@ -47,7 +47,7 @@ pub enum Error {
     },
     /// A point is wanted of what slides, and more than one thing is known by the joints given.
     #[error("`{joint}` may be on more than one link that is known by `{}` and `{}`", base[0], base[1])]
-    Ambiguous {
+    AmbiguousLink {
         /// The joint to place.
         joint: String,
         /// The joints it hangs on.
@@ -55,13 +55,13 @@ pub enum Error {
     },
     /// The slot of a yoke is parallel to its guide.
     #[error("the slot of `{joint}` lies along its guide")]
-    Parallel {
+    SlotParallelToGuide {
         /// The joint to place.
         joint: String,
     },
-    /// A gear ratio is no ratio of whole numbers from 1 to [`Error::MAX_RATIO`].
-    #[error("`{joint}` is geared {} to {}, and both must be whole numbers from 1 to {} or their negatives", ratio[0], ratio[1], Error::MAX_RATIO)]
-    Ratio {
+    /// A gear ratio is no ratio of whole numbers from 1 to [`Error::MAX_GEAR_RATIO`].
+    #[error("`{joint}` is geared {} to {}, and both must be whole numbers from 1 to {} or their negatives", ratio[0], ratio[1], Error::MAX_GEAR_RATIO)]
+    InvalidRatio {
         /// The joint to place.
         joint: String,
         /// The ratio.
@@ -77,19 +77,19 @@ pub enum Error {
 
 impl Error {
     /// The greatest number in a gear ratio: a circuit takes as many turns.
-    pub const MAX_RATIO: u64 = 100;
+    pub const MAX_GEAR_RATIO: u64 = 100;
 
     /// The joint that cannot be placed; `seen_from` where that names no link.
     pub fn joint(&self) -> &str {
         match self {
-            Error::OneJointTwice { joint, .. }
+            Error::RepeatedJoint { joint, .. }
             | Error::NoCommonLink { joint, .. }
-            | Error::Length { joint, .. }
+            | Error::InvalidLength { joint, .. }
             | Error::NoDirection { joint, .. }
             | Error::NoTriangle { joint, .. }
-            | Error::Ambiguous { joint, .. }
-            | Error::Parallel { joint }
-            | Error::Ratio { joint, .. }
+            | Error::AmbiguousLink { joint, .. }
+            | Error::SlotParallelToGuide { joint }
+            | Error::InvalidRatio { joint, .. }
             | Error::TooManyDyads { joint } => joint,
         }
     }
@@ -97,16 +97,16 @@ impl Error {
     /// The remedy.
     pub fn help(&self) -> &'static str {
         match self {
-            Error::OneJointTwice { .. } => "name two different joints",
+            Error::RepeatedJoint { .. } => "name two different joints",
             Error::NoCommonLink { .. } => {
                 "name two joints of one link: two fixed ones, a crank's, or a dyad's and its base"
             }
-            Error::Length { .. } => "give a length of more than 0",
+            Error::InvalidLength { .. } => "give a length of more than 0",
             Error::NoDirection { .. } => "name two joints that are apart",
             Error::NoTriangle { .. } => "give distances that reach each other",
-            Error::Ambiguous { .. } => "give each of them a pivot, or a second joint of its line, of its own",
-            Error::Parallel { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
-            Error::Ratio { .. } => "write it like ratio = [2, 3]",
+            Error::AmbiguousLink { .. } => "give each of them a pivot, or a second joint of its line, of its own",
+            Error::SlotParallelToGuide { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
+            Error::InvalidRatio { .. } => "write it like ratio = [2, 3]",
             Error::TooManyDyads { .. } => "take joints away, or place some as points of links",
         }
     }

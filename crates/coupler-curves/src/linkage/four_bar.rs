@@ -1,4 +1,4 @@
-use super::{JointId, Linkage, Step};
+use super::{JointId, JointKind, Linkage};
 
 /// The lengths of a four-bar linkage, seen from its frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct FourBar {
 
 /// Grashof's classes (Natesan, table 3.1), as seen from the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
+pub enum FourBarClass {
     /// A side link is shortest, and turns fully.
     CrankRocker,
     /// The frame is shortest, and both side links turn fully.
@@ -28,19 +28,24 @@ pub enum Class {
     ChangePoint,
 }
 
-impl Class {
+impl FourBarClass {
     /// Every class.
-    pub const ALL: [Class; 5] =
-        [Class::CrankRocker, Class::DragLink, Class::DoubleRocker, Class::TripleRocker, Class::ChangePoint];
+    pub const ALL: [FourBarClass; 5] = [
+        FourBarClass::CrankRocker,
+        FourBarClass::DragLink,
+        FourBarClass::DoubleRocker,
+        FourBarClass::TripleRocker,
+        FourBarClass::ChangePoint,
+    ];
 
     /// Its name in captions and tables.
     pub fn name(self) -> &'static str {
         match self {
-            Class::CrankRocker => "crank-rocker",
-            Class::DragLink => "drag-link",
-            Class::DoubleRocker => "double-rocker",
-            Class::TripleRocker => "triple-rocker",
-            Class::ChangePoint => "change-point",
+            FourBarClass::CrankRocker => "crank-rocker",
+            FourBarClass::DragLink => "drag-link",
+            FourBarClass::DoubleRocker => "double-rocker",
+            FourBarClass::TripleRocker => "triple-rocker",
+            FourBarClass::ChangePoint => "change-point",
         }
     }
 }
@@ -51,24 +56,25 @@ impl FourBar {
     ///
     /// Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and the
     /// crank the link at the origin of the view.
-    pub fn of(linkage: &Linkage) -> Option<FourBar> {
+    pub fn from_linkage(linkage: &Linkage) -> Option<FourBar> {
         let [o, a, b, c] = FourBar::pins(linkage)?;
         let length = |from: JointId, to: JointId| {
-            let link = linkage.links.iter().find(|link| link.place(from).is_some() && link.place(to).is_some())?;
-            Some((link.place(to)? - link.place(from)?).norm())
+            let link =
+                linkage.links.iter().find(|link| link.position(from).is_some() && link.position(to).is_some())?;
+            Some((link.position(to)? - link.position(from)?).norm())
         };
         Some(FourBar { frame: length(o, c)?, crank: length(o, a)?, coupler: length(a, b)?, rocker: length(b, c)? })
     }
 
-    /// The pins of the four-bar in a linkage, as [`FourBar::of`] sees it: crank pivot, crank pin, rocker pin, rocker pivot.
+    /// The pins of the four-bar in a linkage, as [`FourBar::from_linkage`] sees it: crank pivot, crank pin, rocker pin, rocker pivot.
     pub fn pins(linkage: &Linkage) -> Option<[JointId; 4]> {
         let mut crank = None;
         let mut dyad = None;
         for (id, joint) in linkage.joints.iter().enumerate() {
-            match joint.step {
-                Step::Crank { pivot, .. } if crank.is_none() => crank = Some((id, pivot)),
-                Step::Dyad { base, .. } if dyad.is_none() => dyad = Some((id, base)),
-                Step::Fixed(_) | Step::Rigid { .. } | Step::Parallelogram { .. } => {}
+            match joint.kind {
+                JointKind::Crank { pivot, .. } if crank.is_none() => crank = Some((id, pivot)),
+                JointKind::Dyad { base, .. } if dyad.is_none() => dyad = Some((id, base)),
+                JointKind::Fixed(_) | JointKind::Rigid { .. } | JointKind::Parallelogram { .. } => {}
                 _ => return None,
             }
         }
@@ -77,7 +83,7 @@ impl FourBar {
             [x, c] | [c, x] if x == a => c,
             _ => return None,
         };
-        linkage.links[0].place(c)?;
+        linkage.links[0].position(c)?;
         let round = [o, a, b, c];
         let Some([origin, end]) = linkage.seen_from else { return Some(round) };
         // From the origin of the view round the loop, away from the joint on its x-axis.
@@ -94,7 +100,7 @@ impl FourBar {
     pub fn coupler_pins(linkage: &Linkage, joint: JointId) -> Option<[JointId; 4]> {
         let pins = FourBar::pins(linkage)?;
         let [_, a, b, _] = pins;
-        let is_coupler = |link: &super::Link| [joint, a, b].iter().all(|&j| link.place(j).is_some());
+        let is_coupler = |link: &super::Link| [joint, a, b].iter().all(|&j| link.position(j).is_some());
         linkage.links.iter().any(is_coupler).then_some(pins)
     }
 
@@ -103,12 +109,12 @@ impl FourBar {
     ///
     /// # Source
     /// McCarthy and Soh, *Geometric Design of Linkages*, table 2.2.
-    pub fn kind(self) -> &'static str {
+    pub fn mccarthy_type(self) -> &'static str {
         let FourBar { frame: g, crank: a, coupler: h, rocker: b } = self;
-        let tolerance = tolerance(g + a + h + b);
+        let tolerance = length_tolerance(g + a + h + b);
         let signs = [(g - a) + (h - b), (g - a) - (h - b), (h - a) - (g - b)];
         if signs.iter().any(|sign| sign.abs() <= tolerance) {
-            return Class::ChangePoint.name();
+            return FourBarClass::ChangePoint.name();
         }
         match signs.map(|sign| sign > 0.0) {
             [true, true, true] => "crank-rocker",
@@ -124,28 +130,28 @@ impl FourBar {
 
     /// Grashof's class. Lengths whose sums agree to within a few ulps make a change point: they are meant to be equal,
     /// and decimals such as 0.1 + 0.2 are not.
-    pub fn class(self) -> Class {
+    pub fn class(self) -> FourBarClass {
         let FourBar { frame, crank, coupler, rocker } = self;
         let mut lengths = [frame, crank, coupler, rocker];
         lengths.sort_by(f64::total_cmp);
         let [shortest, la, lb, longest] = lengths;
         let excess = (longest - lb) - (la - shortest);
-        if excess.abs() <= tolerance(longest + shortest + la + lb) {
-            Class::ChangePoint
+        if excess.abs() <= length_tolerance(longest + shortest + la + lb) {
+            FourBarClass::ChangePoint
         } else if excess > 0.0 {
-            Class::TripleRocker
+            FourBarClass::TripleRocker
         } else if frame == shortest {
-            Class::DragLink
+            FourBarClass::DragLink
         } else if coupler == shortest {
-            Class::DoubleRocker
+            FourBarClass::DoubleRocker
         } else {
-            Class::CrankRocker
+            FourBarClass::CrankRocker
         }
     }
 }
 
 /// Sums of lengths closer than this are equal: a few ulps of the sum of all four.
-pub(crate) fn tolerance(sum: f64) -> f64 {
+pub(crate) fn length_tolerance(sum: f64) -> f64 {
     4.0 * f64::EPSILON * sum
 }
 
@@ -156,14 +162,14 @@ mod tests {
     #[test]
     fn classes_are_those_of_the_table() {
         let class = |frame, crank, coupler, rocker| FourBar { frame, crank, coupler, rocker }.class();
-        assert_eq!(class(2.0, 1.0, 2.59, 2.59), Class::CrankRocker, "Evans, figure 1");
-        assert_eq!(class(2.0, 2.59, 1.0, 2.59), Class::DoubleRocker, "Chebyshev, figure 11");
-        assert_eq!(class(4.0, 2.0, 1.0, 2.0), Class::TripleRocker, "Watt, figure 23");
-        assert_eq!(class(2.0, 2.0, 1.0, 2.0), Class::DoubleRocker, "Roberts, figure 35");
-        assert_eq!(class(3.0, 2.0, 1.0, 2.0), Class::ChangePoint, "Roberts, figure 36");
-        assert_eq!(class(4.0, 2.0, 2.0, 2.0), Class::TripleRocker, "Roberts, figure 39");
-        assert_eq!(class(1.0, 3.0, 3.0, 3.0), Class::DragLink);
-        assert_eq!(class(0.1, 0.2, 0.3, 0.4), Class::ChangePoint, "0.1 + 0.4 and 0.2 + 0.3");
-        assert_eq!(class(2.0, 2.0, 2.0, 2.0), Class::ChangePoint, "a rhombus");
+        assert_eq!(class(2.0, 1.0, 2.59, 2.59), FourBarClass::CrankRocker, "Evans, figure 1");
+        assert_eq!(class(2.0, 2.59, 1.0, 2.59), FourBarClass::DoubleRocker, "Chebyshev, figure 11");
+        assert_eq!(class(4.0, 2.0, 1.0, 2.0), FourBarClass::TripleRocker, "Watt, figure 23");
+        assert_eq!(class(2.0, 2.0, 1.0, 2.0), FourBarClass::DoubleRocker, "Roberts, figure 35");
+        assert_eq!(class(3.0, 2.0, 1.0, 2.0), FourBarClass::ChangePoint, "Roberts, figure 36");
+        assert_eq!(class(4.0, 2.0, 2.0, 2.0), FourBarClass::TripleRocker, "Roberts, figure 39");
+        assert_eq!(class(1.0, 3.0, 3.0, 3.0), FourBarClass::DragLink);
+        assert_eq!(class(0.1, 0.2, 0.3, 0.4), FourBarClass::ChangePoint, "0.1 + 0.4 and 0.2 + 0.3");
+        assert_eq!(class(2.0, 2.0, 2.0, 2.0), FourBarClass::ChangePoint, "a rhombus");
     }
 }

@@ -1,34 +1,34 @@
 //! A linkage in numbers: joints, the steps that place them, the input and the traced points.
 //!
-//! A planar linkage of one degree of freedom is a list of [`Joint`]s, each placed by a [`Step`] from joints before
+//! A planar linkage of one degree of freedom is a list of [`Joint`]s, each placed by a [`JointKind`] from joints before
 //! it. The joints that keep their distances form a [`Link`]. How a linkage is to travel (from where, how far, which
-//! circuits) is its [`Travel`].
+//! circuits) is its [`MotionOptions`].
 
-mod assembly;
+mod assembly_mode;
+mod builder;
 mod cognate;
 mod error;
 mod four_bar;
-mod mccarthy;
 mod outline;
+mod position_analysis;
 mod sextic;
-mod signs;
-mod straight_line;
+mod symmetrical_four_bar;
 
-pub use assembly::Assembly;
-pub use cognate::{Bar, Cognate, Cognates, NoCognates, PlacedFourBar};
+pub use assembly_mode::{AssemblyMode, DyadSet};
+pub use builder::LinkageBuilder;
+pub use cognate::{Cognate, CognateError, Cognates, MovingLink, PlacedFourBar};
 pub use error::Error;
-pub(crate) use four_bar::tolerance as four_bar_tolerance;
-pub use four_bar::{Class, FourBar};
-pub use mccarthy::InvertedSliderCrank;
+pub(crate) use four_bar::length_tolerance;
+pub use four_bar::{FourBar, FourBarClass};
 pub use outline::{LinkOutline, is_plate};
-pub use sextic::{DoublePoint, Node, Sextic};
-pub use signs::{Flat, Signs};
-pub use straight_line::Symmetrical;
+pub use position_analysis::InvertedSliderCrank;
+pub use sextic::{DoublePoint, DoublePointKind, Sextic};
+pub use symmetrical_four_bar::SymmetricalFourBar;
 
-pub use crate::geometry::Placement;
+pub use crate::geometry::Orientation;
 use crate::geometry::{Point, Vector};
 
-/// The most two-valued joints a linkage may have: [`Signs`] has a bit for each.
+/// The most two-valued joints a linkage may have: [`AssemblyMode`] has a bit for each.
 pub const MAX_DYADS: usize = 16;
 
 /// A joint's place in [`Linkage::joints`].
@@ -46,9 +46,9 @@ pub struct Linkage {
     /// The link whose frame everything is reported in, by its origin and a joint on its x-axis.
     pub seen_from: Option<[JointId; 2]>,
     /// Where the plane it is reported in is laid, after that.
-    pub placement: Placement,
+    pub placement: Orientation,
     /// How it is to travel.
-    pub travel: Travel,
+    pub motion_options: MotionOptions,
 }
 
 /// A named point of a linkage.
@@ -57,12 +57,12 @@ pub struct Joint {
     /// Its name; points of a grid share one.
     pub name: String,
     /// How it is placed.
-    pub step: Step,
+    pub kind: JointKind,
 }
 
 /// How a joint is placed from joints before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
+pub enum JointKind {
     /// At a fixed place.
     Fixed(Point),
     /// On a crank that turns about `pivot`; its angle is the linkage's input.
@@ -91,7 +91,7 @@ pub enum Step {
         length: f64,
         /// The actuator's line is this far from its pivot.
         offset: f64,
-        /// Its place among the two-valued joints: its bit in [`Signs`].
+        /// Its place among the two-valued joints: its bit in [`AssemblyMode`].
         index: usize,
     },
     /// At the third corner of a triangle of two links on two joints (the RRR dyad).
@@ -100,7 +100,7 @@ pub enum Step {
         base: [JointId; 2],
         /// Their lengths, positive.
         lengths: [f64; 2],
-        /// Its place among the two-valued joints, counted from 0: its bit in [`Signs`].
+        /// Its place among the two-valued joints, counted from 0: its bit in [`AssemblyMode`].
         index: usize,
     },
     /// At the end of a link whose other end slides on a line: on the line itself (the RRP dyad).
@@ -113,7 +113,7 @@ pub enum Step {
         line: [JointId; 2],
         /// How far the line runs to the left of the two.
         offset: f64,
-        /// Its place among the two-valued joints: its bit in [`Signs`], 1 ahead of the link's hanging joint.
+        /// Its place among the two-valued joints: its bit in [`AssemblyMode`], 1 ahead of the link's hanging joint.
         index: usize,
     },
     /// At the foot of the line that slides through a joint (the RPR dyad, McCarthy's inverted slider-crank): square
@@ -124,7 +124,7 @@ pub enum Step {
         base: [JointId; 2],
         /// The line's distance from the pivot; negative on the other side.
         offset: f64,
-        /// Its place among the two-valued joints: its bit in [`Signs`].
+        /// Its place among the two-valued joints: its bit in [`AssemblyMode`].
         index: usize,
     },
     /// On the guide of a yoke that slides along a line, its slot through a joint at an angle to the guide (the RPP
@@ -137,10 +137,10 @@ pub enum Step {
         /// How far the guide runs to the left of the two.
         offset: f64,
         /// The slot's direction in the guide's frame, a unit vector with y other than 0.
-        slot: Vector,
+        slot_direction: Vector,
     },
     /// On a body that keeps the direction of a line: so far along it and to the left of it from a joint.
-    Directed {
+    Aligned {
         /// The joint of the body it is measured from.
         from: JointId,
         /// A joint on the line, or beside it, and one that the line goes through.
@@ -148,7 +148,7 @@ pub enum Step {
         /// How far the line runs to the left of the first of them; no further than they are apart.
         offset: f64,
         /// What says how far along the line the second of them is.
-        line_is: LineIs,
+        direction: LineDirection,
         /// Along the line.
         along: f64,
         /// To the left of the line.
@@ -172,30 +172,30 @@ pub enum Step {
 
 /// How a line through a joint, beside another, is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LineIs {
+pub enum LineDirection {
     /// It points from the one to the other.
     Towards,
     /// It does so on the right side of a two-valued joint, a slot without offset, and away on the left.
-    Turned(usize),
+    BySide(usize),
     /// The one is as far along it from the other as the input says: an actuator's.
-    Driven,
+    Actuator,
 }
 
-impl Step {
+impl JointKind {
     /// The place of a two-valued joint among them; `None` for a joint with one place.
-    pub fn index(&self) -> Option<usize> {
+    pub fn dyad_index(&self) -> Option<usize> {
         match *self {
-            Step::Dyad { index, .. }
-            | Step::Slide { index, .. }
-            | Step::Slot { index, .. }
-            | Step::Piston { index, .. } => Some(index),
-            Step::Fixed(_)
-            | Step::Crank { .. }
-            | Step::Gear { .. }
-            | Step::Yoke { .. }
-            | Step::Parallelogram { .. }
-            | Step::Directed { .. }
-            | Step::Rigid { .. } => None,
+            JointKind::Dyad { index, .. }
+            | JointKind::Slide { index, .. }
+            | JointKind::Slot { index, .. }
+            | JointKind::Piston { index, .. } => Some(index),
+            JointKind::Fixed(_)
+            | JointKind::Crank { .. }
+            | JointKind::Gear { .. }
+            | JointKind::Yoke { .. }
+            | JointKind::Parallelogram { .. }
+            | JointKind::Aligned { .. }
+            | JointKind::Rigid { .. } => None,
         }
     }
 }
@@ -209,7 +209,7 @@ pub struct Link {
 
 impl Link {
     /// Where a joint is in the link's own frame.
-    pub fn place(&self, joint: JointId) -> Option<Vector> {
+    pub fn position(&self, joint: JointId) -> Option<Vector> {
         self.joints.iter().find(|(j, _)| *j == joint).map(|&(_, place)| place)
     }
 }
@@ -225,26 +225,26 @@ pub enum Side {
 
 /// How a linkage is to travel.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Travel {
+pub struct MotionOptions {
     /// The sides of the dyads at the start.
-    pub signs: Signs,
+    pub mode: AssemblyMode,
     /// The input at the start, in degrees or as a length; by default the middle of the first assemblable range from 0 upward.
     pub start: Option<f64>,
     /// The input to stay within, from and to, in degrees or as lengths; by default all there is.
     pub range: Option<[f64; 2]>,
     /// Which circuits are wanted.
-    pub circuits: Circuits,
+    pub circuits: CircuitSelection,
     /// What happens at a change point.
     pub continuation: Continuation,
     /// Which dyads change their sides where several lie flat at one input.
-    pub coincident: Coincident,
+    pub coincident: CoincidentDyads,
     /// The part of the curve that a source's figure shows; the rest is drawn lighter.
-    pub arc: Option<Arc>,
+    pub figure_arc: Option<BranchArc>,
 }
 
 /// Which circuits are wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Circuits {
+pub enum CircuitSelection {
     /// The one through the start pose.
     #[default]
     Start,
@@ -265,7 +265,7 @@ pub enum Continuation {
 /// Which dyads change their sides where several come to lie flat at one input, and could change them one without the
 /// others. A dyad whose base vanishes there changes its side in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Coincident {
+pub enum CoincidentDyads {
     /// All of them.
     #[default]
     Together,
@@ -277,7 +277,7 @@ pub enum Coincident {
 
 /// Part of one branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arc {
+pub struct BranchArc {
     /// From and to, in degrees of input.
     pub input_deg: [f64; 2],
     /// The side of the first dyad, 1 or -1.
@@ -312,9 +312,9 @@ impl Linkage {
     pub fn input(&self) -> Input {
         let mut turns = 1;
         for joint in &self.joints {
-            match joint.step {
-                Step::Piston { .. } => return Input::Length,
-                Step::Gear { ratio: [_, of], .. } => {
+            match joint.kind {
+                JointKind::Piston { .. } => return Input::Length,
+                JointKind::Gear { ratio: [_, of], .. } => {
                     // Several gears come round together after the least common multiple.
                     let of = of.unsigned_abs() as u32;
                     turns = turns / gcd(turns, of) * of;
@@ -330,7 +330,8 @@ impl Linkage {
     pub fn with_one_point(&self, joint: JointId) -> (Linkage, JointId) {
         let mut first = self.joints.len();
         let mut base_of_all = self.seen_from.map_or(0, |[origin, end]| origin.max(end));
-        while let Some(Step::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].step) {
+        while let Some(JointKind::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].kind)
+        {
             base_of_all = base_of_all.max(p).max(q);
             if base_of_all >= first - 1 {
                 break;
@@ -348,19 +349,20 @@ impl Linkage {
             traced: place(joint).into_iter().collect(),
             seen_from: self.seen_from,
             placement: self.placement,
-            travel: self.travel.clone(),
+            motion_options: self.motion_options.clone(),
         };
         (linkage, joint.min(first))
     }
 
     /// How many two-valued joints there are.
-    pub fn dyads(&self) -> usize {
-        self.joints.iter().filter(|joint| joint.step.index().is_some()).count()
+    pub fn dyad_count(&self) -> usize {
+        self.joints.iter().filter(|joint| joint.kind.dyad_index().is_some()).count()
     }
 
     /// The link that is at rest for the observer: the one seen from, or the one the fixed joints are on.
     pub fn ground(&self) -> &Link {
-        let seen = |link: &&Link| self.seen_from.is_some_and(|joints| joints.iter().all(|&j| link.place(j).is_some()));
+        let seen =
+            |link: &&Link| self.seen_from.is_some_and(|joints| joints.iter().all(|&j| link.position(j).is_some()));
         self.links.iter().find(seen).unwrap_or(&self.links[0])
     }
 }

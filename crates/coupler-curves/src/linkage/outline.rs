@@ -1,14 +1,15 @@
 //! The joints that a linkage's links are drawn through: bars, plates, and the pivots on the ground.
 
-use super::{JointId, Link, Linkage, Step};
+use super::{JointId, JointKind, Link, Linkage};
 use crate::geometry::{Bounds, Point, Vector, cross, trig};
 
 impl Linkage {
     /// The joints of the ground that moving links are on, in the order of the ground's joints.
     pub fn pivots(&self) -> Vec<JointId> {
         let ground = self.ground();
-        let is_pivot =
-            |joint: JointId| self.links.iter().any(|link| !std::ptr::eq(link, ground) && link.place(joint).is_some());
+        let is_pivot = |joint: JointId| {
+            self.links.iter().any(|link| !std::ptr::eq(link, ground) && link.position(joint).is_some())
+        };
         ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| is_pivot(joint)).collect()
     }
 
@@ -35,7 +36,7 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
     // The points of a grid stand side by side, under one name.
     let name = |joint: JointId| linkage.joints.get(joint).map(|joint| &joint.name);
     let is_grid = |joint: JointId| {
-        matches!(linkage.joints[joint].step, Step::Rigid { .. })
+        matches!(linkage.joints[joint].kind, JointKind::Rigid { .. })
             && (name(joint + 1) == name(joint) || joint.checked_sub(1).and_then(name) == name(joint))
     };
     let joints: Vec<(usize, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
@@ -59,7 +60,7 @@ pub fn is_plate(points: &[Point]) -> bool {
 
 /// Whether points lie on one line, to a thousandth of their extent.
 fn is_flat(points: &[Point]) -> bool {
-    let size = Bounds::of(points.iter().copied()).size().norm();
+    let size = Bounds::from_points(points.iter().copied()).size().norm();
     let Some((first, rest)) = points.split_first() else { return true };
     rest.iter().all(|a| rest.iter().all(|b| cross(a - first, b - first).abs() <= 1e-3 * size * size))
 }

@@ -27,8 +27,8 @@ impl Polynomial {
 
     fn times(&self, other: &Polynomial) -> Polynomial {
         let mut product = Polynomial::ZERO;
-        for (i, j) in powers(6) {
-            for (k, l) in powers(6 - i - j) {
+        for (i, j) in exponents(6) {
+            for (k, l) in exponents(6 - i - j) {
                 product.0[i + k][j + l] += self.0[i][j] * other.0[k][l];
             }
         }
@@ -37,7 +37,7 @@ impl Polynomial {
 }
 
 /// The pairs of powers up to a degree.
-fn powers(degree: usize) -> impl Iterator<Item = (usize, usize)> {
+fn exponents(degree: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..=degree).flat_map(move |i| (0..=degree - i).map(move |j| (i, j)))
 }
 
@@ -50,15 +50,15 @@ fn powers(degree: usize) -> impl Iterator<Item = (usize, usize)> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sextic {
     equation: Polynomial,
-    parts: Parts,
+    terms: EquationTerms,
     /// Where the coupler point is when all links lie on one line.
-    changes: Vec<Point>,
+    change_points: Vec<Point>,
 }
 
 /// What the equation is made of: with u and v from the pins to the coupler point, `|u|^2` and `|v|^2`, their products
 /// `u . v` and `u x v`, and the lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Parts {
+struct EquationTerms {
     frame: f64,
     dot: f64,
     cross: f64,
@@ -72,14 +72,14 @@ struct Parts {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoublePoint {
     /// Where it is.
-    pub at: Point,
+    pub point: Point,
     /// What it is.
-    pub kind: Node,
+    pub kind: DoublePointKind,
 }
 
 /// The kinds of double points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Node {
+pub enum DoublePointKind {
     /// Two branches of the curve cross.
     Crunode,
     /// The branches touch, or form a cusp.
@@ -88,13 +88,13 @@ pub enum Node {
     Acnode,
 }
 
-impl Node {
+impl DoublePointKind {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
-            Node::Crunode => "crunode",
-            Node::Cusp => "cusp",
-            Node::Acnode => "acnode",
+            DoublePointKind::Crunode => "crunode",
+            DoublePointKind::Cusp => "cusp",
+            DoublePointKind::Acnode => "acnode",
         }
     }
 }
@@ -104,7 +104,7 @@ impl Sextic {
     /// the rocker pin, and to the left of it.
     ///
     /// `None` for the pins themselves, which go on circles.
-    pub fn of(four_bar: FourBar, point: Vector) -> Option<Sextic> {
+    pub fn from_four_bar(four_bar: FourBar, point: Vector) -> Option<Sextic> {
         let FourBar { frame, crank, coupler, rocker } = four_bar;
         let (u, v) = (point, point - Vector::new(coupler, 0.0));
         if u == Vector::zeros() || v == Vector::zeros() {
@@ -112,14 +112,14 @@ impl Sextic {
         }
         let (u2, v2) = (u.norm_squared(), v.norm_squared());
         let difference = |length2: f64, length: f64| (length2.sqrt() - length) * (length2.sqrt() + length);
-        let parts = Parts {
+        let parts = EquationTerms {
             frame,
             dot: u.dot(&v),
             cross: cross(u, v),
             u: [u2, difference(u2, crank)],
             v: [v2, difference(v2, rocker)],
         };
-        let Parts { dot, cross: sine, .. } = parts;
+        let EquationTerms { dot, cross: sine, .. } = parts;
         // From (6.4): x cos t + y sin t = E1 / 2b, and the same about the rocker's pivot, turned by gamma.
         let e1 = Polynomial::circle(parts.u[1], [0.0, 0.0], 1.0);
         let e2 = Polynomial::circle(frame * frame + parts.v[1], [-2.0 * frame, 0.0], 1.0);
@@ -131,7 +131,7 @@ impl Sextic {
         let equation = squares.plus(&right.times(&right).scaled(-4.0 * u2));
         // Divided by what stands before (x^2 + y^2)^3: the square of the coupler's length, times |u|^2.
         let equation = equation.scaled(1.0 / equation.0[6][0]);
-        Some(Sextic { equation, parts, changes: changes(four_bar, point) })
+        Some(Sextic { equation, terms: parts, change_points: change_points(four_bar, point) })
     }
 
     /// The coefficient of `x^i y^j`; that of `x^6` is 1.
@@ -144,9 +144,9 @@ impl Sextic {
 
     /// The left side of the equation at a point, and the sum of the magnitudes of its terms, against which rounding is to
     /// be seen.
-    pub fn at(&self, point: Point) -> [f64; 2] {
-        let (xs, ys) = (ladder(point.x), ladder(point.y));
-        powers(6).fold([0.0; 2], |[sum, size], (i, j)| {
+    pub fn evaluate(&self, point: Point) -> [f64; 2] {
+        let (xs, ys) = (monomials(point.x), monomials(point.y));
+        exponents(6).fold([0.0; 2], |[sum, size], (i, j)| {
             let term = self.equation.0[i][j] * xs[i] * ys[j];
             [sum + term, size + term.abs()]
         })
@@ -154,8 +154,8 @@ impl Sextic {
 
     /// Its first derivatives at a point.
     pub fn gradient(&self, point: Point) -> Vector {
-        let (xs, ys) = (ladder(point.x), ladder(point.y));
-        powers(6).fold(Vector::zeros(), |sum, (i, j)| {
+        let (xs, ys) = (monomials(point.x), monomials(point.y));
+        exponents(6).fold(Vector::zeros(), |sum, (i, j)| {
             let c = self.equation.0[i][j];
             let x = if i > 0 { i as f64 * xs[i - 1] * ys[j] } else { 0.0 };
             let y = if j > 0 { j as f64 * xs[i] * ys[j - 1] } else { 0.0 };
@@ -165,10 +165,10 @@ impl Sextic {
 
     /// Its second derivatives at a point: by x twice, by x and y, by y twice.
     pub fn second_derivatives(&self, point: Point) -> [f64; 3] {
-        let (xs, ys) = (ladder(point.x), ladder(point.y));
+        let (xs, ys) = (monomials(point.x), monomials(point.y));
         let second = |n: usize, powers: &[f64; 7]| if n > 1 { (n * (n - 1)) as f64 * powers[n - 2] } else { 0.0 };
         let first = |n: usize, powers: &[f64; 7]| if n > 0 { n as f64 * powers[n - 1] } else { 0.0 };
-        powers(6).fold([0.0; 3], |[xx, xy, yy], (i, j)| {
+        exponents(6).fold([0.0; 3], |[xx, xy, yy], (i, j)| {
             let c = self.equation.0[i][j];
             [xx + c * second(i, &xs) * ys[j], xy + c * first(i, &xs) * first(j, &ys), yy + c * xs[i] * second(j, &ys)]
         })
@@ -179,7 +179,7 @@ impl Sextic {
     ///
     /// # Source
     /// Natesan (8.4) and (8.7): the equation differentiated by x once and twice.
-    pub fn course(&self, point: Point) -> [f64; 2] {
+    pub fn y_derivatives(&self, point: Point) -> [f64; 2] {
         let [by_x, by_y] = [self.gradient(point).x, self.gradient(point).y];
         let [xx, xy, yy] = self.second_derivatives(point);
         let slope = -by_x / by_y;
@@ -187,17 +187,17 @@ impl Sextic {
     }
 
     /// The determinant of its second derivatives at a point, and the size of its terms.
-    fn hessian(&self, point: Point) -> [f64; 2] {
+    fn hessian_determinant(&self, point: Point) -> [f64; 2] {
         let [xx, xy, yy] = self.second_derivatives(point);
         [xx * yy - xy * xy, (xx * yy).abs() + xy * xy]
     }
 
     /// Where the curve meets a line through a point in a direction: at most six points, in the order along the line.
-    pub fn on_line(&self, point: Point, direction: Vector) -> Vec<Point> {
+    pub fn line_intersections(&self, point: Point, direction: Vector) -> Vec<Point> {
         // The polynomial in t of point + t direction, by powers of both coordinates.
         let mut along = [0.0; 7];
-        let (x, y) = (binomials(point.x, direction.x), binomials(point.y, direction.y));
-        for (i, j) in powers(6) {
+        let (x, y) = (binomial_powers(point.x, direction.x), binomial_powers(point.y, direction.y));
+        for (i, j) in exponents(6) {
             for (k, a) in x[i].iter().enumerate().take(i + 1) {
                 for (l, b) in y[j].iter().enumerate().take(j + 1) {
                     along[k + l] += self.equation.0[i][j] * a * b;
@@ -213,7 +213,7 @@ impl Sextic {
     /// # Source
     /// There the two equations for the coupler's direction are one (Natesan 6.4): the right side of (6.5) vanishes.
     pub fn double_points(&self) -> Vec<DoublePoint> {
-        let Parts { frame, dot, cross: sine, u, v } = self.parts;
+        let EquationTerms { frame, dot, cross: sine, u, v } = self.terms;
         // Where the normals of both equations are parallel, and both distances agree.
         let agreement = |p: Point| {
             let e1 = p.coords.norm_squared() + u[1];
@@ -240,18 +240,19 @@ impl Sextic {
             }
         };
         let mut found: Vec<DoublePoint> = Vec::new();
-        for point in zeros(|t| agreement(at(t))).into_iter().map(at).chain(self.changes.iter().copied()) {
-            let [determinant, size] = self.hessian(point);
+        for point in periodic_zeros(|t| agreement(at(t))).into_iter().map(at).chain(self.change_points.iter().copied())
+        {
+            let [determinant, size] = self.hessian_determinant(point);
             let kind = match determinant / size {
-                d if d.abs() < 1e-7 => Node::Cusp,
-                d if d < 0.0 => Node::Crunode,
-                _ => Node::Acnode,
+                d if d.abs() < 1e-7 => DoublePointKind::Cusp,
+                d if d < 0.0 => DoublePointKind::Crunode,
+                _ => DoublePointKind::Acnode,
             };
-            let is_new = found.iter().all(|other| (other.at - point).norm() > 1e-6 * (frame + point.coords.norm()));
+            let is_new = found.iter().all(|other| (other.point - point).norm() > 1e-6 * (frame + point.coords.norm()));
             // The pivots are on the circle too, and are double points only where the curve goes through them.
-            let [value, terms] = self.at(point);
+            let [value, terms] = self.evaluate(point);
             if is_new && point.x.is_finite() && value.abs() <= 1e-9 * terms {
-                found.push(DoublePoint { at: point, kind });
+                found.push(DoublePoint { point, kind });
             }
         }
         found
@@ -260,27 +261,27 @@ impl Sextic {
     /// How often the curve goes through each of the two circular points at infinity: three times.
     pub fn circularity(&self) -> usize {
         // The form of degree 6 - k has the factor (x^2 + y^2) as often as m - k times.
-        let holds = |m: usize| (0..m).all(|k| divides(&self.form(6 - k), m - k));
+        let holds = |m: usize| (0..m).all(|k| has_circular_factor(&self.homogeneous_part(6 - k), m - k));
         (0..=3).rev().find(|&m| holds(m)).unwrap_or(0)
     }
 
     /// The terms of one degree, by the power of y.
-    fn form(&self, degree: usize) -> Vec<f64> {
+    fn homogeneous_part(&self, degree: usize) -> Vec<f64> {
         (0..=degree).map(|j| self.equation.0[degree - j][j]).collect()
     }
 }
 
 /// Where the coupler point of a four-bar is at its change points: there the linkage may go on in two ways.
-fn changes(four_bar: FourBar, point: Vector) -> Vec<Point> {
+fn change_points(four_bar: FourBar, point: Vector) -> Vec<Point> {
     let FourBar { frame, crank, coupler, rocker } = four_bar;
-    let tolerance = super::four_bar_tolerance(frame + crank + coupler + rocker);
+    let tolerance = super::length_tolerance(frame + crank + coupler + rocker);
     let lines = (0..8).map(|k| [1, 2, 4].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 }));
     let flat = lines.filter(|[a, b, c]| (a * crank + b * coupler - c * rocker - frame).abs() <= tolerance);
     flat.map(|[a, b, _]| Point::new(a * crank, 0.0) + point * b).collect()
 }
 
 /// Whether a form, by the powers of y, has the factor x^2 + y^2 so many times.
-fn divides(form: &[f64], times: usize) -> bool {
+fn has_circular_factor(form: &[f64], times: usize) -> bool {
     let size = form.iter().fold(0.0, |a: f64, c| a.max(c.abs()));
     let mut left = form.to_vec();
     for _ in 0..times {
@@ -302,7 +303,7 @@ fn divides(form: &[f64], times: usize) -> bool {
 }
 
 /// The powers from 0 to 6.
-fn ladder(x: f64) -> [f64; 7] {
+fn monomials(x: f64) -> [f64; 7] {
     let mut powers = [1.0; 7];
     for n in 1..7 {
         powers[n] = powers[n - 1] * x;
@@ -311,7 +312,7 @@ fn ladder(x: f64) -> [f64; 7] {
 }
 
 /// The powers of `a + b t`, each by its coefficients.
-fn binomials(a: f64, b: f64) -> [[f64; 7]; 7] {
+fn binomial_powers(a: f64, b: f64) -> [[f64; 7]; 7] {
     let mut powers = [[0.0; 7]; 7];
     powers[0][0] = 1.0;
     for n in 1..7 {
@@ -348,7 +349,7 @@ fn real_roots(coefficients: &[f64]) -> Vec<f64> {
         if turning.contains(&a) && fa.abs() <= 1e-13 * sa {
             roots.push(a);
         } else if fa * fb < 0.0 {
-            roots.push(bisected(|t| value(t)[0], a, b));
+            roots.push(bisect(|t| value(t)[0], a, b));
         }
     }
     roots.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * bound);
@@ -356,7 +357,7 @@ fn real_roots(coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The zero of a function between two places at which its signs differ.
-pub(super) fn bisected(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+pub(super) fn bisect(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let rises = f(b) > 0.0;
     loop {
         let middle = a + (b - a) / 2.0;
@@ -368,7 +369,7 @@ pub(super) fn bisected(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
 }
 
 /// The zeros of a function of period 2 pi with a few of them, those included where it touches zero.
-fn zeros(f: impl Fn(f64) -> f64) -> Vec<f64> {
+fn periodic_zeros(f: impl Fn(f64) -> f64) -> Vec<f64> {
     const STEPS: usize = 720;
     // Off the round angles, at which the function may have a pole.
     let at = |k: usize| trig::radians(0.5 * (k as f64 - 360.0) + 0.123_456_789);
@@ -377,7 +378,7 @@ fn zeros(f: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut found = Vec::new();
     for k in 0..STEPS {
         if values[k] * values[k + 1] < 0.0 {
-            found.push(bisected(&f, at(k), at(k + 1)));
+            found.push(bisect(&f, at(k), at(k + 1)));
         } else if k > 0 && values[k].abs() <= values[k - 1].abs() && values[k].abs() < values[k + 1].abs() {
             // A touch: the least value nearby, by thirds.
             let (mut a, mut b) = (at(k - 1), at(k + 1));

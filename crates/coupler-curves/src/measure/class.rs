@@ -1,4 +1,4 @@
-use super::{Measure, Subject, Value};
+use super::{Measure, TracedCurve, Value};
 use crate::linkage::FourBar;
 
 /// Grashof's class.
@@ -7,7 +7,7 @@ pub const CLASS: Measure = Measure {
     unit: "",
     is_word: true,
     definition: "Grashof's class of a four-bar, as seen from its frame (Natesan, table 3.1)",
-    take: |subject: &Subject| match FourBar::of(subject.linkage) {
+    compute: |subject: &TracedCurve| match FourBar::from_linkage(subject.linkage) {
         Some(four_bar) => Value::Word(four_bar.class().name()),
         None => Value::Missing,
     },

@@ -1,13 +1,13 @@
 //! Where a curve crosses itself, by the chords between its samples.
 
-use super::trail::Trail;
-use crate::geometry::{Point, Vector, cross, times, trig};
+use super::sampled_curve::SampledCurve;
+use crate::geometry::{Point, Vector, complex_product, cross, trig};
 
-impl Trail {
+impl SampledCurve {
     /// The places where the curve crosses itself, in the order of the first time it goes there.
-    pub fn crossings(&self) -> Vec<Point> {
-        let n = self.intervals();
-        let end = |i: usize| self.points[self.at(i, 1).unwrap_or(i)];
+    pub fn crunodes(&self) -> Vec<Point> {
+        let n = self.interval_count();
+        let end = |i: usize| self.points[self.neighbour(i, 1).unwrap_or(i)];
         let spans: Vec<[f64; 2]> =
             (0..n).map(|i| [self.points[i].x.min(end(i).x), self.points[i].x.max(end(i).x)]).collect();
         let mut order: Vec<usize> = (0..n).collect();
@@ -15,10 +15,10 @@ impl Trail {
         let mut found: Vec<(usize, Point)> = Vec::new();
         for (k, &i) in order.iter().enumerate() {
             for &j in order[k + 1..].iter().take_while(|&&j| spans[j][0] <= spans[i][1]) {
-                let are_neighbours = self.at(i, 1) == Some(j) || self.at(j, 1) == Some(i);
+                let are_neighbours = self.neighbour(i, 1) == Some(j) || self.neighbour(j, 1) == Some(i);
                 if !are_neighbours
-                    && let Some((at, parts)) = crossing([self.points[i], end(i)], [self.points[j], end(j)])
-                    && self.cross_at([i, j], parts)
+                    && let Some((at, parts)) = chord_crossing([self.points[i], end(i)], [self.points[j], end(j)])
+                    && self.is_crossing([i, j], parts)
                 {
                     found.push((i.min(j), at));
                 }
@@ -38,13 +38,13 @@ impl Trail {
 
     /// Whether the curve goes through the crossing of two chords in two directions. Where it goes there and back on one
     /// path, as a rocker's pin does, chords of that path cross too.
-    fn cross_at(&self, chords: [usize; 2], parts: [f64; 2]) -> bool {
+    fn is_crossing(&self, chords: [usize; 2], parts: [f64; 2]) -> bool {
         let [a, b] = [0, 1].map(|k| {
-            let (i, next) = (chords[k], self.at(chords[k], 1).unwrap_or(chords[k]));
+            let (i, next) = (chords[k], self.neighbour(chords[k], 1).unwrap_or(chords[k]));
             let chord = self.points[next] - self.points[i];
-            let turned = (self.bends[i] + self.bends[next]) / 2.0 * chord.norm() * (parts[k] - 0.5);
+            let turned = (self.curvatures[i] + self.curvatures[next]) / 2.0 * chord.norm() * (parts[k] - 0.5);
             let (cos, sin) = (trig::cos(turned), trig::sin(turned));
-            times(Vector::new(cos, sin), chord)
+            complex_product(Vector::new(cos, sin), chord)
         });
         cross(a, b).abs() > 1e-3 * a.norm() * b.norm()
     }
@@ -52,7 +52,7 @@ impl Trail {
 
 /// Where two chords cross, and what part of each is before that. One that ends on the other counts as to its left, so
 /// that a crossing at a sample counts once.
-fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<(Point, [f64; 2])> {
+fn chord_crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<(Point, [f64; 2])> {
     let [ab, cd] = [b - a, d - c];
     let is_left = |from: Point, along: Vector, p: Point| cross(along, p - from) >= 0.0;
     if is_left(a, ab, c) == is_left(a, ab, d) || is_left(c, cd, a) == is_left(c, cd, b) {

@@ -1,14 +1,14 @@
-use super::Subject;
+use super::TracedCurve;
 use crate::geometry::Point;
 use crate::motion::{self, Pass};
 
 /// The least and the greatest value over a circuit of a quantity of the pose, of joints that something stands on, by its samples and then by parabolas between
 /// them. An extreme is as flat as it is smooth: what a parabola misses of its place is missed twice over in its value.
-pub(super) fn extremes(subject: &Subject, quantity: impl Fn(&dyn Fn(usize) -> Point) -> f64) -> [f64; 2] {
+pub(super) fn extremes(subject: &TracedCurve, quantity: impl Fn(&dyn Fn(usize) -> Point) -> f64) -> [f64; 2] {
     let circuit = subject.circuit;
-    let values: Vec<f64> = (0..circuit.len()).map(|i| quantity(&|joint| circuit.places.point(joint, i))).collect();
+    let values: Vec<f64> = (0..circuit.len()).map(|i| quantity(&|joint| circuit.positions.point(joint, i))).collect();
     let at = |pass: &Pass, input: f64| {
-        let pose = motion::pose(subject.alone().0, pass, input);
+        let pose = motion::pose(subject.single_point_linkage().0, pass, input);
         quantity(&|joint| pose[joint])
     };
     [1.0, -1.0].map(|sign| {
@@ -18,20 +18,24 @@ pub(super) fn extremes(subject: &Subject, quantity: impl Fn(&dyn Fn(usize) -> Po
         };
         let mut least = sign * values[best];
         for pass in &circuit.passes {
-            let [low, high] = pass.range();
-            let middle = circuit.input[best];
+            let [low, high] = pass.input_range();
+            let middle = circuit.inputs[best];
             // On a whole turn the first sample is between the last and the second.
             let step = (high - low) / circuit.len().max(2) as f64;
             let turn = if middle > high { low - high } else { 0.0 };
-            if pass.signs == circuit.signs(best) && (low - step..=high + step).contains(&(middle + turn)) {
+            if pass.mode == circuit.mode_at(best) && (low - step..=high + step).contains(&(middle + turn)) {
                 let neighbours = [-1, 1].map(|way: isize| {
                     let k = best as isize + way;
-                    let beside = usize::try_from(k).ok().and_then(|k| circuit.input.get(k));
+                    let beside = usize::try_from(k).ok().and_then(|k| circuit.inputs.get(k));
                     let off = beside.map_or(step, |input| (input - middle).abs());
                     (middle + turn + way as f64 * off).clamp(low, high)
                 });
-                least =
-                    least.min(parabolic(|input| sign * at(pass, input), neighbours[0], middle + turn, neighbours[1]));
+                least = least.min(parabolic_minimum(
+                    |input| sign * at(pass, input),
+                    neighbours[0],
+                    middle + turn,
+                    neighbours[1],
+                ));
             }
         }
         sign * least
@@ -39,7 +43,7 @@ pub(super) fn extremes(subject: &Subject, quantity: impl Fn(&dyn Fn(usize) -> Po
 }
 
 /// The least value of a function about a place where it is less than at both ends, by parabolas through three places.
-fn parabolic(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64, mut c: f64) -> f64 {
+fn parabolic_minimum(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64, mut c: f64) -> f64 {
     const ROUNDS: usize = 8;
     let (mut fa, mut fb, mut fc) = (f(a), f(b), f(c));
     for _ in 0..ROUNDS {

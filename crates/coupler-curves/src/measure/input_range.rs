@@ -1,4 +1,4 @@
-use super::{Measure, Subject, Value};
+use super::{Measure, TracedCurve, Value};
 
 /// The least input of the circuit.
 pub const INPUT_MIN: Measure = Measure {
@@ -6,7 +6,7 @@ pub const INPUT_MIN: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "least input of the circuit; empty on a full turn",
-    take: |subject: &Subject| extreme(subject, f64::INFINITY, f64::min),
+    compute: |subject: &TracedCurve| extreme_input(subject, f64::INFINITY, f64::min),
 };
 
 /// The greatest input of the circuit.
@@ -15,15 +15,15 @@ pub const INPUT_MAX: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "greatest input of the circuit; empty on a full turn",
-    take: |subject: &Subject| extreme(subject, f64::NEG_INFINITY, f64::max),
+    compute: |subject: &TracedCurve| extreme_input(subject, f64::NEG_INFINITY, f64::max),
 };
 
-fn extreme(subject: &Subject, start: f64, pick: fn(f64, f64) -> f64) -> Value {
+fn extreme_input(subject: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
     let passes = &subject.circuit.passes;
-    let turns_round = passes.iter().any(|pass| pass.heading() != passes[0].heading());
-    if subject.circuit.closed && !turns_round {
+    let turns_round = passes.iter().any(|pass| pass.input_direction() != passes[0].input_direction());
+    if subject.circuit.is_closed && !turns_round {
         return Value::Missing;
     }
-    let ends = passes.iter().flat_map(|pass| [pass.from.stop.at, pass.to.stop.at]);
+    let ends = passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);
     Value::Number(ends.fold(start, pick))
 }

@@ -1,19 +1,19 @@
 //! Numbers read off a motion, one measure a file; each is a column of `cells.csv` and a name in `where`.
 
 mod annulus;
-mod between;
 mod class;
 mod column;
-mod course;
 mod crossings;
+mod curve_segment;
 mod dwell;
-mod exchange;
 mod extreme;
+mod four_bar_type;
 mod input_range;
-mod kind;
-mod longest;
-mod mirror;
+mod interpolation;
+mod longest_straight;
 mod path;
+mod remez;
+mod sampled_curve;
 mod shape;
 mod speed_ratio;
 mod straight;
@@ -21,28 +21,28 @@ mod straightest;
 mod strip;
 mod swing;
 mod symmetry;
+mod symmetry_axis;
 mod time_ratio;
-mod trail;
 mod transmission;
 
-pub use column::{COLUMNS, Column, column, take_columns};
+pub use column::{COLUMNS, Column, compute_columns, find_column};
 pub use dwell::Dwell;
-pub use mirror::Axis;
-pub use path::lengths_from_start;
-pub use straight::{Portion, Straight};
+pub use path::cumulative_lengths;
+pub use straight::{StraightCriterion, StraightPortion};
 pub use symmetry::Symmetry;
+pub use symmetry_axis::SymmetryAxis;
 
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use crate::linkage::{Class, JointId, Linkage};
+use crate::linkage::{FourBarClass, JointId, Linkage};
 use crate::motion::{Circuit, Motion};
-use course::Course;
-use trail::Trail;
+use curve_segment::CurveSegment;
+use sampled_curve::SampledCurve;
 
 /// What a measure is taken of: a traced joint on a circuit.
 #[derive(Clone, Debug)]
-pub struct Subject<'a> {
+pub struct TracedCurve<'a> {
     /// The linkage.
     pub linkage: &'a Linkage,
     /// All that it does.
@@ -52,94 +52,94 @@ pub struct Subject<'a> {
     /// The traced joint.
     pub joint: JointId,
     /// What is asked of its straight portion.
-    pub asked: Straight,
-    alone: OnceCell<(Linkage, JointId)>,
-    trail: OnceCell<Rc<Trail>>,
-    course: OnceCell<Course>,
-    straight: OnceCell<Option<Portion>>,
+    pub straight_criterion: StraightCriterion,
+    single_point_linkage: OnceCell<(Linkage, JointId)>,
+    sampled_curve: OnceCell<Rc<SampledCurve>>,
+    curve_segment: OnceCell<CurveSegment>,
+    straight: OnceCell<Option<StraightPortion>>,
     dwell: OnceCell<Option<Dwell>>,
     symmetry: OnceCell<Option<Symmetry>>,
-    transmission: OnceCell<Option<[f64; 2]>>,
-    cusps: OnceCell<usize>,
+    transmission_angles: OnceCell<Option<[f64; 2]>>,
+    cusp_count: OnceCell<usize>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> TracedCurve<'a> {
     /// A traced joint on a circuit of a linkage's motion.
-    pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> Subject<'a> {
+    pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> TracedCurve<'a> {
         let (alone, trail, course, straight, dwell, symmetry, transmission, cusps) = Default::default();
-        let (asked, circuit) = (Straight::default(), circuit.finely(linkage));
-        Subject {
+        let (asked, circuit) = (StraightCriterion::default(), circuit.refined(linkage));
+        TracedCurve {
             linkage,
             motion,
             circuit,
             joint,
-            asked,
-            alone,
-            trail,
-            course,
+            straight_criterion: asked,
+            single_point_linkage: alone,
+            sampled_curve: trail,
+            curve_segment: course,
             straight,
             dwell,
             symmetry,
-            transmission,
-            cusps,
+            transmission_angles: transmission,
+            cusp_count: cusps,
         }
     }
 
     /// The same, of which another straight portion is wanted.
-    pub fn asking(self, asked: Straight) -> Subject<'a> {
-        Subject { asked, straight: OnceCell::new(), ..self }
+    pub fn with_straight_criterion(self, asked: StraightCriterion) -> TracedCurve<'a> {
+        TracedCurve { straight_criterion: asked, straight: OnceCell::new(), ..self }
     }
 
     /// The straight portion asked for.
-    pub fn straight(&self) -> Option<&Portion> {
-        self.straight.get_or_init(|| straight::portion(self.course()?, self.asked)).as_ref()
+    pub fn straight(&self) -> Option<&StraightPortion> {
+        self.straight.get_or_init(|| straight::find_portion(self.curve_segment()?, self.straight_criterion)).as_ref()
     }
 
     /// The least and the greatest transmission angle, in degrees.
-    fn transmission(&self) -> Option<[f64; 2]> {
-        *self.transmission.get_or_init(|| transmission::least_and_greatest(self))
+    fn transmission_angles(&self) -> Option<[f64; 2]> {
+        *self.transmission_angles.get_or_init(|| transmission::transmission_angles(self))
     }
 
     /// The linkage without other traced points, and the joint in it: what is asked at many inputs is asked of this.
-    fn alone(&self) -> (&Linkage, JointId) {
-        let (linkage, joint) = self.alone.get_or_init(|| self.linkage.with_one_point(self.joint));
+    fn single_point_linkage(&self) -> (&Linkage, JointId) {
+        let (linkage, joint) = self.single_point_linkage.get_or_init(|| self.linkage.with_one_point(self.joint));
         (linkage, *joint)
     }
 
     /// How often the path stands still and turns back.
-    fn cusps(&self) -> usize {
-        *self.cusps.get_or_init(|| shape::cusps(self))
+    fn cusp_count(&self) -> usize {
+        *self.cusp_count.get_or_init(|| shape::count_cusps(self))
     }
 
     /// What is marked on pages of what has been measured: its straight portion and its symmetry.
-    pub fn marks(&self) -> (Option<Portion>, Option<Symmetry>) {
+    pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>) {
         (self.straight.get().cloned().flatten(), self.symmetry.get().copied().flatten())
     }
 
     /// Whether it is symmetrical, and about which line; `None` of a point.
     pub fn symmetry(&self) -> Option<&Symmetry> {
-        self.symmetry.get_or_init(|| symmetry::symmetry(self)).as_ref()
+        self.symmetry.get_or_init(|| symmetry::find_symmetry(self)).as_ref()
     }
 
     /// The best circular portion.
     pub fn dwell(&self) -> Option<&Dwell> {
-        self.dwell.get_or_init(|| dwell::dwell(self.course()?)).as_ref()
+        self.dwell.get_or_init(|| dwell::find_dwell(self.curve_segment()?)).as_ref()
     }
 
     /// The curve, made once for all measures.
-    fn trail(&self) -> &Trail {
-        self.trail.get_or_init(|| self.new_trail())
+    fn sampled_curve(&self) -> &SampledCurve {
+        self.sampled_curve.get_or_init(|| self.new_sampled_curve())
     }
 
-    fn new_trail(&self) -> Rc<Trail> {
-        Rc::new(Trail::of(self.circuit, self.joint, self.linkage.input()))
+    fn new_sampled_curve(&self) -> Rc<SampledCurve> {
+        Rc::new(SampledCurve::from_circuit(self.circuit, self.joint, self.linkage.input()))
     }
 
     /// The curve as a row of points, made once for all portions; `None` where it has no place at most of its samples.
-    fn course(&self) -> Option<&Course> {
+    fn curve_segment(&self) -> Option<&CurveSegment> {
         const FEWEST: usize = 5;
-        let course = || Course::of(self.trail.get_or_init(|| self.new_trail()).clone());
-        (self.trail().points.len() >= FEWEST).then(|| self.course.get_or_init(course))
+        let course = || CurveSegment::whole(self.sampled_curve.get_or_init(|| self.new_sampled_curve()).clone());
+        (self.sampled_curve().points.len() >= FEWEST).then(|| self.curve_segment.get_or_init(course))
     }
 }
 
@@ -166,7 +166,7 @@ pub struct Measure {
     /// What it is.
     pub definition: &'static str,
     /// How it is taken.
-    pub take: fn(&Subject) -> Value,
+    pub compute: fn(&TracedCurve) -> Value,
 }
 
 impl Measure {
@@ -175,17 +175,17 @@ impl Measure {
         name: &'static str,
         unit: &'static str,
         definition: &'static str,
-        take: fn(&Subject) -> Value,
+        take: fn(&TracedCurve) -> Value,
     ) -> Measure {
-        Measure { name, unit, is_word: false, definition, take }
+        Measure { name, unit, is_word: false, definition, compute: take }
     }
 }
 
 /// Every measure, in the order of the columns.
 pub const ALL: [Measure; 33] = [
     class::CLASS,
-    kind::TYPE,
-    kind::SHORTEST,
+    four_bar_type::TYPE,
+    four_bar_type::SHORTEST,
     input_range::INPUT_MIN,
     input_range::INPUT_MAX,
     swing::OUTPUT_SWING,
@@ -194,10 +194,10 @@ pub const ALL: [Measure; 33] = [
     time_ratio::TIME_RATIO,
     path::LENGTH,
     path::AREA,
-    path::BOX[0],
-    path::BOX[1],
-    path::BOX[2],
-    path::BOX[3],
+    path::BOUNDING_BOX[0],
+    path::BOUNDING_BOX[1],
+    path::BOUNDING_BOX[2],
+    path::BOUNDING_BOX[3],
     shape::CUSPS,
     shape::CRUNODES,
     shape::INFLECTIONS,
@@ -219,7 +219,7 @@ pub const ALL: [Measure; 33] = [
 ];
 
 /// A name that is true or false of a curve: `is_crank_rocker` and its like, by the word it asks for.
-pub const TRUTHS: [(&str, &str); 5] = [
+pub const BOOLEANS: [(&str, &str); 5] = [
     ("is_crank_rocker", "crank-rocker"),
     ("is_drag_link", "drag-link"),
     ("is_double_rocker", "double-rocker"),
@@ -227,13 +227,13 @@ pub const TRUTHS: [(&str, &str); 5] = [
     ("is_change_point", "change-point"),
 ];
 
-/// Whether it is the measure, told by its place in [`ALL`], by which [`TRUTHS`] are told.
-pub fn tells_truths(measure: usize) -> bool {
+/// Whether it is the measure, told by its place in [`ALL`], by which [`BOOLEANS`] are told.
+pub fn defines_booleans(measure: usize) -> bool {
     ALL[measure].name == class::CLASS.name
 }
 
-/// Whether one of [`TRUTHS`] holds, 1 or 0; not a number where there is no class.
-pub fn truth(word: &str, values: &[Value]) -> f64 {
+/// Whether one of [`BOOLEANS`] holds, 1 or 0; not a number where there is no class.
+pub fn bool_value(word: &str, values: &[Value]) -> f64 {
     match ALL.iter().zip(values).find(|(measure, _)| measure.name == class::CLASS.name) {
         Some((_, Value::Word(class))) => f64::from(u8::from(*class == word)),
         _ => f64::NAN,
@@ -241,17 +241,17 @@ pub fn truth(word: &str, values: &[Value]) -> f64 {
 }
 
 /// Every measure of a subject, in the order of [`ALL`].
-pub fn take(subject: &Subject) -> Vec<Value> {
-    take_some(subject, |_| true)
+pub fn compute_all(subject: &TracedCurve) -> Vec<Value> {
+    compute_selected(subject, |_| true)
 }
 
 /// Some measures of a subject, told by their place in [`ALL`], in that order; the others are missing.
-pub fn take_some(subject: &Subject, is_wanted: impl Fn(usize) -> bool) -> Vec<Value> {
-    let take = |(k, measure): (usize, &Measure)| if is_wanted(k) { (measure.take)(subject) } else { Value::Missing };
+pub fn compute_selected(subject: &TracedCurve, is_wanted: impl Fn(usize) -> bool) -> Vec<Value> {
+    let take = |(k, measure): (usize, &Measure)| if is_wanted(k) { (measure.compute)(subject) } else { Value::Missing };
     ALL.iter().enumerate().map(take).collect()
 }
 
-const _: () = assert!(TRUTHS.len() == Class::ALL.len());
+const _: () = assert!(BOOLEANS.len() == FourBarClass::ALL.len());
 
 #[cfg(test)]
 mod tests {
@@ -259,9 +259,9 @@ mod tests {
 
     #[test]
     fn every_class_has_its_truth() {
-        for class in Class::ALL {
+        for class in FourBarClass::ALL {
             let truth =
-                TRUTHS.iter().find(|(_, word)| *word == class.name()).unwrap_or_else(|| panic!("{}", class.name()));
+                BOOLEANS.iter().find(|(_, word)| *word == class.name()).unwrap_or_else(|| panic!("{}", class.name()));
             assert_eq!(truth.0, format!("is_{}", class.name().replace('-', "_")));
         }
     }

@@ -1,7 +1,7 @@
-use super::{Measure, Subject, Value};
+use super::{Measure, TracedCurve, Value};
 use crate::geometry::{cross, trig};
-use crate::linkage::{Flat, Input};
-use crate::motion::{End, Jets, Stop};
+use crate::linkage::{DyadSet, Input};
+use crate::motion::{InputPosition, JointDerivatives, PassEnd};
 
 /// How often the path crosses itself.
 pub const CRUNODES: Measure = Measure {
@@ -9,7 +9,7 @@ pub const CRUNODES: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "points at which the path crosses itself",
-    take: |subject: &Subject| Value::Number(subject.trail().crossings().len() as f64),
+    compute: |subject: &TracedCurve| Value::Number(subject.sampled_curve().crunodes().len() as f64),
 };
 
 /// How often it bends the other way.
@@ -18,7 +18,7 @@ pub const INFLECTIONS: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "points at which the path begins to bend the other way",
-    take: |subject: &Subject| Value::Number(subject.trail().inflections() as f64),
+    compute: |subject: &TracedCurve| Value::Number(subject.sampled_curve().inflection_count() as f64),
 };
 
 /// How often it stops and turns back.
@@ -27,7 +27,7 @@ pub const CUSPS: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "points at which the path stands still and turns back: slower than a millionth of its fastest",
-    take: |subject: &Subject| Value::Number(subject.cusps() as f64),
+    compute: |subject: &TracedCurve| Value::Number(subject.cusp_count() as f64),
 };
 
 /// Its sharpest bend.
@@ -36,40 +36,40 @@ pub const CURVATURE_MAX: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "greatest curvature of the path but for corners at change points, 1 over the manifest's unit; inf at a cusp, and where the path turns back at a limit",
-    take: |subject: &Subject| sharpest(subject).map_or(Value::Missing, Value::Number),
+    compute: |subject: &TracedCurve| max_curvature(subject).map_or(Value::Missing, Value::Number),
 };
 
 /// Speed and curvature of the path at an input of the pass that a sample is on.
-fn speed_and_curvature(subject: &Subject, sample: usize, input: f64) -> [f64; 2] {
-    let stop = Stop::of(subject.linkage.input(), input);
-    let (linkage, joint) = subject.alone();
-    let jets = Jets::of(linkage, stop, subject.circuit.signs(sample), Flat::NONE);
+fn speed_and_curvature(subject: &TracedCurve, sample: usize, input: f64) -> [f64; 2] {
+    let stop = InputPosition::new(subject.linkage.input(), input);
+    let (linkage, joint) = subject.single_point_linkage();
+    let jets = JointDerivatives::new(linkage, stop, subject.circuit.mode_at(sample), DyadSet::EMPTY);
     let (v, a) = (jets.velocity(joint), jets.acceleration(joint));
     let speed = v.norm();
     [speed, (cross(v, a) / (speed * speed * speed)).abs()]
 }
 
 /// The inputs beside a sample on its own pass.
-fn beside(subject: &Subject, sample: usize) -> [f64; 2] {
-    let input = |k: usize| subject.circuit.input.get(k).copied();
-    let here = subject.circuit.input[sample];
+fn neighbour_inputs(subject: &TracedCurve, sample: usize) -> [f64; 2] {
+    let input = |k: usize| subject.circuit.inputs.get(k).copied();
+    let here = subject.circuit.inputs[sample];
     let (before, after) = (sample.checked_sub(1).and_then(input), input(sample + 1));
     let step = after.or(before).map_or(0.0, |other| (other - here).abs());
     [here - before.map_or(step, |b| (here - b).abs()), here + after.map_or(step, |a| (a - here).abs())]
 }
 
 /// How often a path stands still and turns back.
-pub(super) fn cusps(subject: &Subject) -> usize {
-    let trail = subject.trail();
+pub(super) fn count_cusps(subject: &TracedCurve) -> usize {
+    let trail = subject.sampled_curve();
     let turns: Vec<usize> = (0..trail.points.len()).filter(|&i| trail.turns_sharply(i)).collect();
     if turns.is_empty() {
         return 0;
     }
-    let longest = trail.lengths().into_iter().fold(0.0, f64::max);
+    let longest = trail.arc_lengths().into_iter().fold(0.0, f64::max);
     let mut found: Vec<f64> = Vec::new();
     for i in turns {
-        let sample = trail.samples[i];
-        let [mut a, mut b] = beside(subject, sample);
+        let sample = trail.sample_indices[i];
+        let [mut a, mut b] = neighbour_inputs(subject, sample);
         let step = (b - a).abs();
         for _ in 0..60 {
             let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
@@ -89,24 +89,24 @@ pub(super) fn cusps(subject: &Subject) -> usize {
 }
 
 /// The ends of passes at which a dyad lies flat.
-fn ends<'a>(subject: &Subject<'a>) -> impl Iterator<Item = &'a End> {
+fn limit_ends<'a>(subject: &TracedCurve<'a>) -> impl Iterator<Item = &'a PassEnd> {
     let ends = subject.circuit.passes.iter().flat_map(|pass| [&pass.from, &pass.to]);
-    ends.filter(|end| !end.flat.is_none())
+    ends.filter(|end| !end.flat_dyads.is_empty())
 }
 
-fn sharpest(subject: &Subject) -> Option<f64> {
-    let trail = subject.trail();
-    let sharpest = trail.sharpest()?;
-    let is_limit = |i: &usize| ends(subject).any(|end| end.stop.at == trail.inputs[*i]);
-    if subject.cusps() > 0 || (0..trail.points.len()).filter(is_limit).any(|i| trail.doubles_back(i)) {
+fn max_curvature(subject: &TracedCurve) -> Option<f64> {
+    let trail = subject.sampled_curve();
+    let sharpest = trail.sharpest_sample()?;
+    let is_limit = |i: &usize| limit_ends(subject).any(|end| end.input.value == trail.inputs[*i]);
+    if subject.cusp_count() > 0 || (0..trail.points.len()).filter(is_limit).any(|i| trail.doubles_back(i)) {
         return Some(f64::INFINITY);
     }
-    let sample = trail.samples[sharpest];
-    let [mut a, mut b] = beside(subject, sample);
-    let is_end = |input: &f64| ends(subject).any(|end| (end.stop.at - input).abs() <= (b - a).abs());
+    let sample = trail.sample_indices[sharpest];
+    let [mut a, mut b] = neighbour_inputs(subject, sample);
+    let is_end = |input: &f64| limit_ends(subject).any(|end| (end.input.value - input).abs() <= (b - a).abs());
     // At a limit the path bends as it does elsewhere, but its rates do not tell.
-    if is_end(&subject.circuit.input[sample]) {
-        return Some(trail.curvature_near(sharpest));
+    if is_end(&subject.circuit.inputs[sample]) {
+        return Some(trail.max_curvature_near(sharpest));
     }
     let at = |input: f64| speed_and_curvature(subject, sample, input)[1];
     // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.
@@ -114,5 +114,5 @@ fn sharpest(subject: &Subject) -> Option<f64> {
         let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
         if at(c) > at(d) { b = d } else { a = c }
     }
-    Some(at((a + b) / 2.0).max(at(subject.circuit.input[sample])))
+    Some(at((a + b) / 2.0).max(at(subject.circuit.inputs[sample])))
 }

@@ -1,4 +1,4 @@
-use super::{Measure, Subject, Value};
+use super::{Measure, TracedCurve, Value};
 use crate::linkage::Input;
 use crate::motion;
 
@@ -8,10 +8,10 @@ pub const SPEED_RATIO: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "longest dash to shortest: the first 3 of every 5 deg of input, from input 0, without those that a pass's end cuts",
-    take: |subject: &Subject| ratio(subject).map_or(Value::Missing, Value::Number),
+    compute: |subject: &TracedCurve| ratio(subject).map_or(Value::Missing, Value::Number),
 };
 
-fn ratio(subject: &Subject) -> Option<f64> {
+fn ratio(subject: &TracedCurve) -> Option<f64> {
     const PERIOD: f64 = 5.0;
     const DRAWN: f64 = 3.0;
     /// Places in a dash.
@@ -19,10 +19,10 @@ fn ratio(subject: &Subject) -> Option<f64> {
     if subject.linkage.input() == Input::Length {
         return None;
     }
-    let (linkage, joint) = subject.alone();
+    let (linkage, joint) = subject.single_point_linkage();
     let mut lengths: Vec<f64> = Vec::new();
     for pass in &subject.circuit.passes {
-        let [low, high] = pass.range();
+        let [low, high] = pass.input_range();
         let (first, last) = ((low / PERIOD).ceil() as i64, ((high - DRAWN) / PERIOD).floor() as i64);
         let place = |k: i64, i: usize| k as f64 * PERIOD + DRAWN * i as f64 / (PLACES - 1) as f64;
         let inputs: Vec<f64> = (first..=last).flat_map(|k| (0..PLACES).map(move |i| place(k, i))).collect();

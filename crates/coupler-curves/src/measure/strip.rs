@@ -1,4 +1,4 @@
-use super::exchange::exchanged;
+use super::remez::exchange_point;
 use crate::geometry::{Point, Vector, cross};
 
 /// The narrowest band between two parallel lines that holds some points.
@@ -9,63 +9,63 @@ pub(super) struct Strip {
     /// How far the points reach along it.
     pub length: f64,
     /// The direction it runs in.
-    pub along: Vector,
+    pub direction: Vector,
 }
 
 impl Strip {
     /// Of at least one point.
-    pub fn of(points: Vec<Point>) -> Strip {
-        Strip::of_corners(&hull(points))
+    pub fn enclosing(points: Vec<Point>) -> Strip {
+        Strip::from_hull(&convex_hull(points))
     }
 
     /// Of a row of points that goes one way in the main; if it is wider than `most`, perhaps `None`.
     ///
     /// One edge goes through two of three points, and the other through the one between: three are exchanged for others
     /// until no point is outside. Begun with `three`, which are those of the strip afterwards.
-    pub fn of_row(points: &[Point], three: &mut [usize; 3], most: f64) -> Option<Strip> {
+    pub fn by_exchange(points: &[Point], three: &mut [usize; 3], most: f64) -> Option<Strip> {
         const ROUNDS: usize = 12;
         /// Of wider strips, by their length, the narrowest may go through other points.
         const THIN: f64 = 1.0 / 300.0;
         for _ in 0..ROUNDS {
             let corners = three.map(|k| points[k]);
-            let least = height(corners);
+            let least = triangle_height(corners);
             if least > most {
                 return None;
             }
             let [a, b, c] = corners;
             let (side, length) = (c - a, (c - a).norm());
             let area = |p: &Point| cross(side, p - a);
-            let [low, high] = extent(points, area);
+            let [low, high] = min_max(points, area);
             let width = (high - low) / length;
             if width <= least * (1.0 + 1e-12) || (most.is_finite() && width <= most) {
                 let along = side / length;
-                let [near, far] = extent(points, |p| along.dot(&(p - a)));
+                let [near, far] = min_max(points, |p| along.dot(&(p - a)));
                 if width > THIN * (far - near) {
                     break;
                 }
-                return Some(Strip { width, length: far - near, along });
+                return Some(Strip { width, length: far - near, direction: along });
             }
             // The one that is furthest outside.
             let own = area(&b);
             let outside = if high - own.max(0.0) > own.min(0.0) - low { high } else { low };
             let Some(new) = points.iter().position(|p| area(p) == outside) else { break };
-            *three = exchanged(*three, new, |k| (k == 1) == ((outside > 0.0) == (own > 0.0)));
+            *three = exchange_point(*three, new, |k| (k == 1) == ((outside > 0.0) == (own > 0.0)));
         }
-        Some(Strip::of(points.to_vec())).filter(|strip| strip.width <= most)
+        Some(Strip::enclosing(points.to_vec())).filter(|strip| strip.width <= most)
     }
 
     /// Of a convex polygon: one of its sides lies on an edge of the strip.
-    pub fn of_corners(corners: &[Point]) -> Strip {
+    pub fn from_hull(corners: &[Point]) -> Strip {
         let n = corners.len();
         let first = corners.first().copied().unwrap_or_default();
         let direct = corners.last().copied().unwrap_or_default() - first;
         if n <= 2 {
             // A line, or a point.
             let along = direct.try_normalize(0.0).unwrap_or_else(Vector::x);
-            return Strip { width: 0.0, length: direct.norm(), along };
+            return Strip { width: 0.0, length: direct.norm(), direction: along };
         }
         let next = |i: usize| if i + 1 < n { i + 1 } else { 0 };
-        let mut best = Strip { width: f64::INFINITY, length: 0.0, along: Vector::x() };
+        let mut best = Strip { width: f64::INFINITY, length: 0.0, direction: Vector::x() };
         let mut far = 1;
         for k in 0..n {
             let (a, side) = (corners[k], corners[next(k)] - corners[k]);
@@ -80,17 +80,17 @@ impl Strip {
             let width = height(far).max(0.0) / length;
             // Sides of a hull have a length.
             if width < best.width {
-                best = Strip { width, along: side / length, ..best };
+                best = Strip { width, direction: side / length, ..best };
             }
         }
-        let reach = corners.iter().map(|p| best.along.dot(&(p - first)));
+        let reach = corners.iter().map(|p| best.direction.dot(&(p - first)));
         let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
         Strip { length: high - low, ..best }
     }
 }
 
 /// The least height of a triangle.
-pub(super) fn height([a, b, c]: [Point; 3]) -> f64 {
+pub(super) fn triangle_height([a, b, c]: [Point; 3]) -> f64 {
     let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
     let area = cross(b - a, c - a);
     // A comparison with an infinite width is always lost.
@@ -98,7 +98,7 @@ pub(super) fn height([a, b, c]: [Point; 3]) -> f64 {
 }
 
 /// The least and the greatest value of some points.
-pub(super) fn extent(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
+pub(super) fn min_max(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
     // Four at a time, so that the compiler takes them by vectors.
     let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
     let (fours, rest) = points.as_chunks::<4>();
@@ -115,7 +115,7 @@ pub(super) fn extent(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
 }
 
 /// The corners of the convex hull of some points, counter-clockwise.
-pub(super) fn hull(mut points: Vec<Point>) -> Vec<Point> {
+pub(super) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     // Points of a nearly straight portion are in order along x or y already, and sorting them again costs little.
     let ends = points.last().zip(points.first()).map_or(Vector::zeros(), |(last, first)| last - first);
     if ends.x.abs() >= ends.y.abs() {
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn a_triangle_is_as_wide_as_its_least_height() {
         let points = [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0), (1.0, 1.0)].map(|(x, y)| Point::new(x, y));
-        let strip = Strip::of(points.to_vec());
+        let strip = Strip::enclosing(points.to_vec());
         assert!((strip.width - 2.4).abs() < 1e-15 && (strip.length - 5.0).abs() < 1e-15, "{strip:?}");
     }
 
@@ -183,7 +183,7 @@ mod tests {
         for n in 1..40 {
             let points: Vec<Point> = (0..n).map(|_| Point::new(random(), random() * random())).collect();
             let furthest = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
-            assert!((diameter(&hull(points)) - furthest).abs() < 1e-15, "{n}");
+            assert!((diameter(&convex_hull(points)) - furthest).abs() < 1e-15, "{n}");
         }
     }
 
@@ -191,7 +191,7 @@ mod tests {
     fn few_points_and_equal_points_have_no_width() {
         let p = Point::new(1.0, 2.0);
         for points in [vec![p], vec![p; 5], vec![p, Point::new(2.0, 2.0), p, Point::new(1.5, 2.0)]] {
-            let strip = Strip::of(points.clone());
+            let strip = Strip::enclosing(points.clone());
             assert!(strip.width == 0.0 && (0.0..=1.0).contains(&strip.length), "{points:?} {strip:?}");
         }
     }

@@ -1,6 +1,6 @@
 use super::extreme::extremes;
-use super::{Measure, Subject, Value};
-use crate::geometry::{Vector, cross, times, trig};
+use super::{Measure, TracedCurve, Value};
+use crate::geometry::{Vector, complex_product, cross, trig};
 use crate::linkage::FourBar;
 
 /// How far the output link swings.
@@ -9,13 +9,13 @@ pub const OUTPUT_SWING: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "angle the output link of a four-bar swings through over the circuit; 360 where it turns round",
-    take: |subject: &Subject| swing(subject).map_or(Value::Missing, Value::Number),
+    compute: |subject: &TracedCurve| swing(subject).map_or(Value::Missing, Value::Number),
 };
 
-fn swing(subject: &Subject) -> Option<f64> {
+fn swing(subject: &TracedCurve) -> Option<f64> {
     let [_, _, b, c] = FourBar::pins(subject.linkage)?;
     let circuit = subject.circuit;
-    let arm = |i: usize| circuit.places.point(b, i) - circuit.places.point(c, i);
+    let arm = |i: usize| circuit.positions.point(b, i) - circuit.positions.point(c, i);
     let angle = |from: Vector, to: Vector| trig::degrees(trig::atan2(cross(from, to), from.dot(&to)));
     // How far it has turned at each sample, from the first; and over the whole, back to where it began.
     let mut turned = vec![0.0];
@@ -23,14 +23,14 @@ fn swing(subject: &Subject) -> Option<f64> {
         turned.push(turned[i - 1] + angle(arm(i - 1), arm(i)));
     }
     let last = circuit.len() - 1;
-    if circuit.closed && (turned[last] + angle(arm(last), arm(0))).abs() > 180.0 {
+    if circuit.is_closed && (turned[last] + angle(arm(last), arm(0))).abs() > 180.0 {
         return Some(360.0);
     }
     // Rocking, it never goes so far from the middle of its swing that its direction from there is in doubt.
     let [low, high] = turned.iter().fold([0.0f64; 2], |[low, high], t| [low.min(*t), high.max(*t)]);
     let (cos, sin) = trig::cos_sin_deg((low + high) / 2.0);
     let first = arm(0);
-    let middle = times(Vector::new(cos, sin), first);
+    let middle = complex_product(Vector::new(cos, sin), first);
     let [least, greatest] = extremes(subject, |place| angle(middle, place(b) - place(c)));
     Some(greatest - least)
 }

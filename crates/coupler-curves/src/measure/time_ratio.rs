@@ -1,4 +1,4 @@
-use super::{Measure, Subject, Value};
+use super::{Measure, TracedCurve, Value};
 use crate::geometry::trig;
 use crate::linkage::FourBar;
 
@@ -8,15 +8,15 @@ pub const TIME_RATIO: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "crank angle of the rocker's slower stroke to that of its faster one, of a crank-rocker; 1 or more",
-    take: |subject: &Subject| ratio(subject).map_or(Value::Missing, Value::Number),
+    compute: |subject: &TracedCurve| ratio(subject).map_or(Value::Missing, Value::Number),
 };
 
-fn ratio(subject: &Subject) -> Option<f64> {
-    let bar = FourBar::of(subject.linkage).filter(|_| subject.linkage.seen_from.is_none())?;
+fn ratio(subject: &TracedCurve) -> Option<f64> {
+    let bar = FourBar::from_linkage(subject.linkage).filter(|_| subject.linkage.seen_from.is_none())?;
     let FourBar { frame, crank, coupler, rocker } = bar;
     // The rocker turns where crank and coupler are in line; by the triangles of pivots and rocker pin there.
-    let turns = subject.circuit.closed && subject.circuit.passes.len() == 1;
-    if bar.kind() != "crank-rocker" || !turns {
+    let turns = subject.circuit.is_closed && subject.circuit.passes.len() == 1;
+    if bar.mccarthy_type() != "crank-rocker" || !turns {
         return None;
     }
     let angle = |reach: f64| {

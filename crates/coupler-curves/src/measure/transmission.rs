@@ -1,7 +1,7 @@
 use super::extreme::extremes;
-use super::{Measure, Subject, Value};
+use super::{Measure, TracedCurve, Value};
 use crate::geometry::{cross, trig};
-use crate::linkage::{FourBar, JointId, Linkage, Step, four_bar_tolerance};
+use crate::linkage::{FourBar, JointId, JointKind, Linkage, length_tolerance};
 
 /// The least transmission angle.
 pub const MU_MIN: Measure = Measure {
@@ -9,7 +9,9 @@ pub const MU_MIN: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "least transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins (McCarthy 2.3.3)",
-    take: |subject: &Subject| subject.transmission().map_or(Value::Missing, |[least, _]| Value::Number(least)),
+    compute: |subject: &TracedCurve| {
+        subject.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least))
+    },
 };
 
 /// The greatest transmission angle.
@@ -18,14 +20,16 @@ pub const MU_MAX: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins",
-    take: |subject: &Subject| subject.transmission().map_or(Value::Missing, |[_, most]| Value::Number(most)),
+    compute: |subject: &TracedCurve| {
+        subject.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most))
+    },
 };
 
 /// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 where it is flat.
-fn opposite(side: f64, [x, y]: [f64; 2]) -> f64 {
+fn opposite_angle(side: f64, [x, y]: [f64; 2]) -> f64 {
     // Half the angle has sine and cosine by the factors of Heron's formula. At a limit they are zero but for the rounding
     // of the places the side is taken from.
-    let rounding = 4.0 * four_bar_tolerance(side + x + y);
+    let rounding = 4.0 * length_tolerance(side + x + y);
     let clear = |gap: f64| if gap.abs() <= rounding { 0.0 } else { gap };
     let sine = clear(side - (x - y).abs()) * (side + (x - y).abs());
     let cosine = clear(x + y - side) * (x + y + side);
@@ -33,18 +37,18 @@ fn opposite(side: f64, [x, y]: [f64; 2]) -> f64 {
 }
 
 /// The least and the greatest over the circuit, in degrees.
-pub(super) fn least_and_greatest(subject: &Subject) -> Option<[f64; 2]> {
+pub(super) fn transmission_angles(subject: &TracedCurve) -> Option<[f64; 2]> {
     let linkage = subject.linkage;
-    let FourBar { frame, crank, coupler, rocker } = FourBar::of(linkage)?;
+    let FourBar { frame, crank, coupler, rocker } = FourBar::from_linkage(linkage)?;
     if linkage.seen_from.is_none() {
         // By the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the frame line.
         let [o, a, _, c] = FourBar::pins(linkage)?;
-        let [least, greatest] = distances(subject, [o, a, c], [frame, crank]);
-        return Some([least, greatest].map(|d| opposite(d, [coupler, rocker])));
+        let [least, greatest] = pin_distance_range(subject, [o, a, c], [frame, crank]);
+        return Some([least, greatest].map(|d| opposite_angle(d, [coupler, rocker])));
     }
     let [o, a, b, c] = FourBar::pins(linkage)?;
     let angle = |[from, to]: [JointId; 2], sides: [f64; 2]| {
-        extremes(subject, |place| (place(from) - place(to)).norm()).map(|side| opposite(side, sides))
+        extremes(subject, |place| (place(from) - place(to)).norm()).map(|side| opposite_angle(side, sides))
     };
     let at_rocker = angle([a, c], [coupler, rocker]);
     if !is_driven(linkage, [a, b]) {
@@ -56,25 +60,25 @@ pub(super) fn least_and_greatest(subject: &Subject) -> Option<[f64; 2]> {
 
 /// Whether the link through two pins is the one that is driven: the crank of the linkage as it was assembled.
 fn is_driven(linkage: &Linkage, pins: [JointId; 2]) -> bool {
-    linkage.joints.iter().enumerate().any(|(id, joint)| match joint.step {
-        Step::Crank { pivot, .. } => pins == [pivot, id] || pins == [id, pivot],
+    linkage.joints.iter().enumerate().any(|(id, joint)| match joint.kind {
+        JointKind::Crank { pivot, .. } => pins == [pivot, id] || pins == [id, pivot],
         _ => false,
     })
 }
 
 /// The least and the greatest distance of a crank's pin from another fixed pivot over a circuit.
-fn distances(subject: &Subject, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2]) -> [f64; 2] {
+fn pin_distance_range(subject: &TracedCurve, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2]) -> [f64; 2] {
     let circuit = subject.circuit;
-    let at = |joint, i| circuit.places.point(joint, i);
+    let at = |joint, i| circuit.positions.point(joint, i);
     // The direction of the frame line, by the input at which the crank points along it.
     let along = at(c, 0) - at(o, 0);
     let arm = at(a, 0) - at(o, 0);
     let turned = cross(arm, along) * subject.linkage.placement.handedness();
     let turn = trig::degrees(trig::atan2(turned, arm.dot(&along)));
-    let towards = circuit.input[0] + turn;
+    let towards = circuit.inputs[0] + turn;
     let reached = |deg: f64| {
         circuit.passes.iter().any(|pass| {
-            let [low, high] = pass.range();
+            let [low, high] = pass.input_range();
             (deg - low + 1e-9).rem_euclid(360.0) <= high - low + 2e-9
         })
     };

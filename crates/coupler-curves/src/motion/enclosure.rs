@@ -13,7 +13,7 @@ pub(super) struct Enclosure {
 }
 
 /// Nothing is known.
-const ALL: Enclosure = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
+const ENTIRE: Enclosure = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
 /// How far a sine or cosine may be off, in absolute terms: libm's are within an ulp, and angles are turned to radians.
 const TRIG_ERROR: f64 = 4.0 * f64::EPSILON;
@@ -25,25 +25,25 @@ impl Enclosure {
     }
 
     /// The same, rounded outwards; everything where a bound is no number.
-    fn rounded(low: f64, high: f64) -> Enclosure {
-        if low.is_nan() || high.is_nan() { ALL } else { Enclosure { low: low.next_down(), high: high.next_up() } }
+    fn rounded_outwards(low: f64, high: f64) -> Enclosure {
+        if low.is_nan() || high.is_nan() { ENTIRE } else { Enclosure { low: low.next_down(), high: high.next_up() } }
     }
 
     /// What is in both; this one where rounding has parted them.
-    pub fn meet(self, other: Enclosure) -> Enclosure {
+    pub fn intersection(self, other: Enclosure) -> Enclosure {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         if low <= high { Enclosure { low, high } } else { self }
     }
 
     /// Whether a number is in it.
-    pub fn holds(self, x: f64) -> bool {
+    pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }
 
     /// The cosines of all angles in it, in degrees.
     fn cos_deg(self) -> Enclosure {
         let [a, b] = [self.low, self.high].map(|deg| trig::cos_sin_deg(deg).0);
-        let mut out = Enclosure::rounded(a.min(b) - TRIG_ERROR, a.max(b) + TRIG_ERROR);
+        let mut out = Enclosure::rounded_outwards(a.min(b) - TRIG_ERROR, a.max(b) + TRIG_ERROR);
         // Every half turn the cosine is 1 or -1.
         let (first, last) = ((self.low / 180.0).ceil(), (self.high / 180.0).floor());
         for half in [first, first + 1.0].into_iter().filter(|half| *half <= last) {
@@ -62,14 +62,14 @@ impl From<f64> for Enclosure {
 impl Add for Enclosure {
     type Output = Enclosure;
     fn add(self, other: Enclosure) -> Enclosure {
-        Enclosure::rounded(self.low + other.low, self.high + other.high)
+        Enclosure::rounded_outwards(self.low + other.low, self.high + other.high)
     }
 }
 
 impl Sub for Enclosure {
     type Output = Enclosure;
     fn sub(self, other: Enclosure) -> Enclosure {
-        Enclosure::rounded(self.low - other.high, self.high - other.low)
+        Enclosure::rounded_outwards(self.low - other.high, self.high - other.low)
     }
 }
 
@@ -85,40 +85,40 @@ impl Mul for Enclosure {
     fn mul(self, other: Enclosure) -> Enclosure {
         let products = [self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high];
         if products.iter().any(|product| product.is_nan()) {
-            return ALL;
+            return ENTIRE;
         }
         let [a, b, c, d] = products;
-        Enclosure::rounded(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        Enclosure::rounded_outwards(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }
 }
 
 impl Div for Enclosure {
     type Output = Enclosure;
     fn div(self, divisor: Enclosure) -> Enclosure {
-        if divisor.holds(0.0) {
-            return ALL;
+        if divisor.contains(0.0) {
+            return ENTIRE;
         }
-        self * Enclosure::rounded(1.0 / divisor.high, 1.0 / divisor.low)
+        self * Enclosure::rounded_outwards(1.0 / divisor.high, 1.0 / divisor.low)
     }
 }
 
 impl Scalar for Enclosure {
     fn square(self) -> Enclosure {
         let (low, high) = (self.low * self.low, self.high * self.high);
-        let least = if self.holds(0.0) { 0.0 } else { low.min(high).next_down() };
-        Enclosure { low: least, ..Enclosure::rounded(least, low.max(high)) }
+        let least = if self.contains(0.0) { 0.0 } else { low.min(high).next_down() };
+        Enclosure { low: least, ..Enclosure::rounded_outwards(least, low.max(high)) }
     }
 
     fn sqrt(self) -> Enclosure {
         let [low, high] = [self.low, self.high].map(|x| x.max(0.0).sqrt());
-        Enclosure { low: low.next_down().max(0.0), ..Enclosure::rounded(low, high) }
+        Enclosure { low: low.next_down().max(0.0), ..Enclosure::rounded_outwards(low, high) }
     }
 
     fn cos_sin_deg(self) -> [Enclosure; 2] {
         [self.cos_deg(), (self - Enclosure::from(90.0)).cos_deg()]
     }
 
-    fn geared(self, [turns, of]: [i64; 2], phase_deg: f64) -> Enclosure {
+    fn geared_angle(self, [turns, of]: [i64; 2], phase_deg: f64) -> Enclosure {
         self * Enclosure::from(turns as f64) / Enclosure::from(of as f64) + Enclosure::from(phase_deg)
     }
 }
@@ -138,12 +138,12 @@ mod tests {
     proptest! {
         #[test]
         fn what_comes_out_is_enclosed((a, x) in span(), (b, y) in span()) {
-            prop_assert!((a + b).holds(x + y) && (a - b).holds(x - y) && (a * b).holds(x * y));
-            prop_assert!((a / b).holds(x / y) && a.square().holds(x * x) && (-a).holds(-x));
-            prop_assert!(a.sqrt().holds(x.max(0.0).sqrt()));
+            prop_assert!((a + b).contains(x + y) && (a - b).contains(x - y) && (a * b).contains(x * y));
+            prop_assert!((a / b).contains(x / y) && a.square().contains(x * x) && (-a).contains(-x));
+            prop_assert!(a.sqrt().contains(x.max(0.0).sqrt()));
             let (cos, sin) = trig::cos_sin_deg(x);
             let [c, s] = a.cos_sin_deg();
-            prop_assert!(c.holds(cos) && s.holds(sin), "{a:?} {x}: {c:?} {s:?}");
+            prop_assert!(c.contains(cos) && s.contains(sin), "{a:?} {x}: {c:?} {s:?}");
         }
     }
 }

@@ -1,13 +1,13 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use super::circuit::{Pass, Route, Stop};
-use super::ends::place_end;
-use super::jet::Jets;
-use super::kernel::{Columns, Modes, OwnInputs, place, see};
-use super::spacing::{self, Mileage};
+use super::circuit::{InputPosition, Pass, UnsampledCircuit};
+use super::derivatives::JointDerivatives;
+use super::pass_ends::place_at_end;
+use super::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
+use super::spacing::{self, CumulativeLength};
 use crate::geometry::Point;
-use crate::linkage::{Flat, Input, JointId, Linkage, Signs};
+use crate::linkage::{AssemblyMode, DyadSet, Input, JointId, Linkage};
 
 /// How densely a circuit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,9 +17,9 @@ pub enum Sampling {
     /// That many samples in the whole circuit, evenly over each pass.
     Samples(usize),
     /// That many, dense towards the limits.
-    Smooth(usize),
+    DenseAtLimits(usize),
     /// That many, evenly along the path of the first traced joint, to a part in ten thousand.
-    Arc(usize),
+    ArcLength(usize),
 }
 
 /// The most samples a circuit may have.
@@ -30,68 +30,72 @@ pub const MAX_SAMPLES: usize = 100_000;
 pub struct Sampler {
     sampling: Sampling,
     /// The samples of a full turn.
-    turn: Vec<Stop>,
+    full_turn: Vec<InputPosition>,
 }
 
 /// A sampled circuit.
 #[derive(Clone, Debug)]
 pub struct Circuit {
     /// Whether it comes back to where it began.
-    pub closed: bool,
+    pub is_closed: bool,
     /// Its passes, in order.
     pub passes: Vec<Pass>,
     /// The input of each sample: degrees, continuous and never wrapped, or lengths.
-    pub input: Vec<f64>,
+    pub inputs: Vec<f64>,
     /// Where each joint is at each sample, in the frame the linkage is seen from.
-    pub places: Columns,
+    pub positions: JointPositions,
     /// The pass each sample is on; at the end of one, the pass it ends.
-    pass: Vec<usize>,
+    sample_passes: Vec<usize>,
     /// The same by more samples, once they are asked for.
-    pub(super) fine: OnceLock<Box<Circuit>>,
+    pub(super) refined: OnceLock<Box<Circuit>>,
 }
 
 impl Circuit {
     /// The number of samples.
     pub fn len(&self) -> usize {
-        self.input.len()
+        self.inputs.len()
     }
 
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
-        self.input.is_empty()
+        self.inputs.is_empty()
     }
 
     /// The sides of the dyads at a sample; at the end of a pass, those of the pass it ends.
-    pub fn signs(&self, sample: usize) -> Signs {
-        self.passes[self.pass[sample]].signs
+    pub fn mode_at(&self, sample: usize) -> AssemblyMode {
+        self.passes[self.sample_passes[sample]].mode
     }
 
     /// Whether the input turns round at the end of a pass, for a dyad lies flat there.
-    pub fn turns_after(&self, pass: usize) -> bool {
+    pub fn reverses_after(&self, pass: usize) -> bool {
         let last = pass + 1 == self.passes.len();
         let next = &self.passes[(pass + 1) % self.passes.len()];
-        (!last || self.closed) && self.passes[pass].heading() != next.heading()
+        (!last || self.is_closed) && self.passes[pass].input_direction() != next.input_direction()
     }
 
     /// Whether paths may have a corner at a sample: where the input goes on over a change point, and the branch stays.
     pub fn is_corner(&self, sample: usize) -> bool {
-        let k = self.pass[sample];
+        let k = self.sample_passes[sample];
         let (pass, next) = (&self.passes[k], &self.passes[(k + 1) % self.passes.len()]);
-        let is_end = self.input[sample] == pass.to.stop.at || (sample == 0 && self.closed);
-        is_end && !pass.to.flat.is_none() && !self.turns_after(k) && pass.signs == next.signs
+        let is_end = self.inputs[sample] == pass.to.input.value || (sample == 0 && self.is_closed);
+        is_end && !pass.to.flat_dyads.is_empty() && !self.reverses_after(k) && pass.mode == next.mode
     }
 
     /// Places and rates of all joints at a sample.
-    pub fn jets(&self, linkage: &Linkage, sample: usize) -> Jets {
-        let pass = &self.passes[self.pass[sample]];
+    pub fn derivatives(&self, linkage: &Linkage, sample: usize) -> JointDerivatives {
+        let pass = &self.passes[self.sample_passes[sample]];
         // A closed circuit begins where its last pass ends, perhaps a few turns on.
-        let begins_at_an_end = sample == 0 && self.closed && !pass.to.flat.is_none();
-        Jets::on(linkage, pass, if begins_at_an_end { pass.to.stop.at } else { self.input[sample] })
+        let begins_at_an_end = sample == 0 && self.is_closed && !pass.to.flat_dyads.is_empty();
+        JointDerivatives::on_pass(
+            linkage,
+            pass,
+            if begins_at_an_end { pass.to.input.value } else { self.inputs[sample] },
+        )
     }
 
     /// A joint's places, sample by sample.
     pub fn points(&self, joint: JointId) -> impl Iterator<Item = Point> {
-        self.places.x(joint).iter().zip(self.places.y(joint)).map(|(&x, &y)| Point::new(x, y))
+        self.positions.x(joint).iter().zip(self.positions.y(joint)).map(|(&x, &y)| Point::new(x, y))
     }
 }
 
@@ -105,101 +109,117 @@ impl Sampler {
             Sampling::Step(step) => {
                 assert!(step > 0.0, "a step of {step}");
                 // A step of a length may be short; there is no turn then.
-                multiples(step, 0.0, 360.0).take(MAX_SAMPLES).map(Stop::angle).collect()
+                multiples(step, 0.0, 360.0).take(MAX_SAMPLES).map(InputPosition::from_degrees).collect()
             }
-            Sampling::Samples(n) | Sampling::Smooth(n) | Sampling::Arc(n) => {
+            Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => {
                 assert!(n <= MAX_SAMPLES, "{n} samples");
-                (0..n).map(|i| Stop::angle(360.0 * i as f64 / n as f64)).collect()
+                (0..n).map(|i| InputPosition::from_degrees(360.0 * i as f64 / n as f64)).collect()
             }
         };
-        Sampler { sampling, turn }
+        Sampler { sampling, full_turn: turn }
     }
 
     /// The samples of a whole turn from input 0: the table of sines and cosines.
-    pub fn turn(&self) -> &[Stop] {
-        &self.turn
+    pub fn full_turn(&self) -> &[InputPosition] {
+        &self.full_turn
     }
 
     /// Why a route is not sampled by so short a step.
-    pub(super) fn excess(&self, route: &Route) -> Option<String> {
+    pub(super) fn excess_reason(&self, route: &UnsampledCircuit) -> Option<String> {
         let Sampling::Step(step) = self.sampling else { return None };
         // A full turn may have them all, and rounding one more.
-        let is_long = |pass: &Pass| pass.length() / step > MAX_SAMPLES as f64 + 1.0;
+        let is_long = |pass: &Pass| pass.input_length() / step > MAX_SAMPLES as f64 + 1.0;
         let reason = || format!("a step of {step} makes more than {MAX_SAMPLES} samples from one end to the other");
         route.passes.iter().any(is_long).then(reason)
     }
 
-    pub(super) fn sample(&self, linkage: &Linkage, route: Route) -> Circuit {
-        let mut plan = self.plan(&route, linkage);
-        let mut places = Columns::new(linkage.joints.len(), plan.stops.len());
-        let inputs = OwnInputs::new(&plan.stops);
+    pub(super) fn sample_circuit(&self, linkage: &Linkage, route: UnsampledCircuit) -> Circuit {
+        let mut plan = self.plan_samples(&route, linkage);
+        let mut places = JointPositions::new(linkage.joints.len(), plan.inputs.len());
+        let inputs = InputColumns::new(&plan.inputs);
         let all = linkage.joints.len();
-        for (run, pass) in plan.runs.iter().zip(&route.passes) {
-            let modes = Modes::new(pass.signs, Flat::NONE);
-            place(linkage, all, inputs.of(run.clone()), &modes, &mut places, run.clone());
+        for (run, pass) in plan.pass_ranges.iter().zip(&route.passes) {
+            let modes = DyadSigns::new(pass.mode, DyadSet::EMPTY);
+            place_leading_joints(linkage, all, inputs.slice(run.clone()), &modes, &mut places, run.clone());
         }
-        for &(sample, on, is_first) in &plan.ends {
+        for &(sample, on, is_first) in &plan.pass_ends {
             let pass = &route.passes[on];
-            place_end(linkage, pass, is_first, &mut places, sample);
-            plan.pass[sample] = on;
+            place_at_end(linkage, pass, is_first, &mut places, sample);
+            plan.sample_passes[sample] = on;
         }
-        see(linkage, &mut places);
-        let input = plan.stops.iter().map(|stop| stop.at).collect();
-        Circuit { closed: route.closed, passes: route.passes, input, places, pass: plan.pass, fine: OnceLock::new() }
+        convert_to_view_frame(linkage, &mut places);
+        let input = plan.inputs.iter().map(|stop| stop.value).collect();
+        Circuit {
+            is_closed: route.is_closed,
+            passes: route.passes,
+            inputs: input,
+            positions: places,
+            sample_passes: plan.sample_passes,
+            refined: OnceLock::new(),
+        }
     }
 
     /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which
     /// of a closed circuit is the end of its last pass.
-    fn plan(&self, route: &Route, linkage: &Linkage) -> Plan {
+    fn plan_samples(&self, route: &UnsampledCircuit, linkage: &Linkage) -> SamplePlan {
         let input = linkage.input();
-        let mut plan = Plan::default();
+        let mut plan = SamplePlan::default();
         if let [pass] = route.passes[..]
-            && route.closed
-            && pass.from.flat.is_none()
-            && !matches!(self.sampling, Sampling::Arc(_))
+            && route.is_closed
+            && pass.from.flat_dyads.is_empty()
+            && !matches!(self.sampling, Sampling::ArcLength(_))
         {
             // A full turn on one branch: the table as it is, and again for every further turn.
-            plan.stops = self.turns(input);
-            plan.pass = vec![0; plan.stops.len()];
-            plan.runs.push(0..plan.stops.len());
+            plan.inputs = self.full_period(input);
+            plan.sample_passes = vec![0; plan.inputs.len()];
+            plan.pass_ranges.push(0..plan.inputs.len());
             return plan;
         }
         let last = route.passes.len() - 1;
-        plan.ends.push(if route.closed { (0, last, false) } else { (0, 0, true) });
-        plan.stops.push(route.passes[0].from.stop);
-        plan.pass.push(0);
-        let mileages = self.mileages(route, linkage);
-        let intervals = self.intervals(route, &mileages);
+        plan.pass_ends.push(if route.is_closed { (0, last, false) } else { (0, 0, true) });
+        plan.inputs.push(route.passes[0].from.input);
+        plan.sample_passes.push(0);
+        let mileages = self.cumulative_lengths(route, linkage);
+        let intervals = self.interval_counts(route, &mileages);
         for (k, pass) in route.passes.iter().enumerate() {
-            let begin = plan.stops.len();
-            self.inside(pass, (intervals[k], input), mileages.get(k), &mut plan.stops);
-            if k < last || !route.closed {
-                plan.ends.push((plan.stops.len(), k, false));
-                plan.stops.push(pass.to.stop);
+            let begin = plan.inputs.len();
+            self.push_inner_samples(pass, (intervals[k], input), mileages.get(k), &mut plan.inputs);
+            if k < last || !route.is_closed {
+                plan.pass_ends.push((plan.inputs.len(), k, false));
+                plan.inputs.push(pass.to.input);
             }
-            plan.runs.push(begin..plan.stops.len());
-            plan.pass.resize(plan.stops.len(), k);
+            plan.pass_ranges.push(begin..plan.inputs.len());
+            plan.sample_passes.resize(plan.inputs.len(), k);
         }
         plan
     }
 
     /// The samples strictly inside a pass.
-    fn inside(&self, pass: &Pass, (intervals, input): (usize, Input), mileage: Option<&Mileage>, out: &mut Vec<Stop>) {
-        let (from, to) = (pass.from.stop.at, pass.to.stop.at);
+    fn push_inner_samples(
+        &self,
+        pass: &Pass,
+        (intervals, input): (usize, Input),
+        mileage: Option<&CumulativeLength>,
+        out: &mut Vec<InputPosition>,
+    ) {
+        let (from, to) = (pass.from.input.value, pass.to.input.value);
         let shares = (1..intervals).map(|i| i as f64 / intervals as f64);
         match self.sampling {
-            Sampling::Smooth(_) | Sampling::Arc(_) => out.extend(shares.map(|share| {
-                Stop::of(input, spacing::smooth(pass, mileage.map_or(share, |mileage| mileage.part(share))))
+            Sampling::DenseAtLimits(_) | Sampling::ArcLength(_) => out.extend(shares.map(|share| {
+                InputPosition::new(
+                    input,
+                    spacing::eased_input(pass, mileage.map_or(share, |mileage| mileage.pass_fraction(share))),
+                )
             })),
             Sampling::Samples(_) => out.extend(shares.map(|t| {
                 // From both ends, so that equal passes there and back have equal samples.
-                Stop::of(input, if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
+                InputPosition::new(input, if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
             })),
             Sampling::Step(step) => {
                 let begin = out.len();
                 let apart = |at: &f64| (at - from).abs() > 1e-9 * step && (at - to).abs() > 1e-9 * step;
                 let inside = multiples(step, from.min(to), from.max(to)).filter(apart).take(MAX_SAMPLES);
-                out.extend(inside.map(|at| self.stop(input, at, step)));
+                out.extend(inside.map(|at| self.input_at_multiple(input, at, step)));
                 if from > to {
                     out[begin..].reverse();
                 }
@@ -208,48 +228,50 @@ impl Sampler {
     }
 
     /// The input at a multiple of the step, from the table where the step divides the turn.
-    fn stop(&self, input: Input, at: f64, step: f64) -> Stop {
-        let n = self.turn.len();
+    fn input_at_multiple(&self, input: Input, at: f64, step: f64) -> InputPosition {
+        let n = self.full_turn.len();
         if n as f64 * step == 360.0 && input != Input::Length {
             let index = ((at / step).round() as i64).rem_euclid(n as i64) as usize;
-            return Stop { at, ..self.turn[index] };
+            return InputPosition { value: at, ..self.full_turn[index] };
         }
-        Stop::of(input, at)
+        InputPosition::new(input, at)
     }
 
     /// The samples of a whole period from input 0.
-    fn turns(&self, input: Input) -> Vec<Stop> {
+    fn full_period(&self, input: Input) -> Vec<InputPosition> {
         let period = input.period();
         match self.sampling {
-            _ if period == 360.0 => self.turn.clone(),
-            Sampling::Step(step) => multiples(step, 0.0, period).map(|at| self.stop(input, at, step)).collect(),
-            Sampling::Samples(n) | Sampling::Smooth(n) | Sampling::Arc(n) => {
-                (0..n).map(|i| Stop::angle(period * i as f64 / n as f64)).collect()
+            _ if period == 360.0 => self.full_turn.clone(),
+            Sampling::Step(step) => {
+                multiples(step, 0.0, period).map(|at| self.input_at_multiple(input, at, step)).collect()
+            }
+            Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => {
+                (0..n).map(|i| InputPosition::from_degrees(period * i as f64 / n as f64)).collect()
             }
         }
     }
 
     /// The paths of the first traced joint, pass by pass, where samples are to be even along them.
-    fn mileages(&self, route: &Route, linkage: &Linkage) -> Vec<Mileage> {
+    fn cumulative_lengths(&self, route: &UnsampledCircuit, linkage: &Linkage) -> Vec<CumulativeLength> {
         match (self.sampling, linkage.traced.first()) {
-            (Sampling::Arc(_), Some(&joint)) => {
-                let mileages: Vec<Mileage> =
-                    route.passes.iter().map(|pass| Mileage::of(linkage, pass, joint)).collect();
+            (Sampling::ArcLength(_), Some(&joint)) => {
+                let mileages: Vec<CumulativeLength> =
+                    route.passes.iter().map(|pass| CumulativeLength::measure(linkage, pass, joint)).collect();
                 // A joint that does not move tells nothing: the input is as good then.
-                if mileages.iter().all(|mileage| mileage.whole() > 0.0) { mileages } else { Vec::new() }
+                if mileages.iter().all(|mileage| mileage.total() > 0.0) { mileages } else { Vec::new() }
             }
             _ => Vec::new(),
         }
     }
 
     /// How many intervals each pass gets: in proportion to its length, at least one, by largest remainder.
-    fn intervals(&self, route: &Route, mileages: &[Mileage]) -> Vec<usize> {
+    fn interval_counts(&self, route: &UnsampledCircuit, mileages: &[CumulativeLength]) -> Vec<usize> {
         let samples = match self.sampling {
             Sampling::Step(_) => return vec![0; route.passes.len()],
-            Sampling::Samples(n) | Sampling::Smooth(n) | Sampling::Arc(n) => n,
+            Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => n,
         };
-        let wanted = if route.closed { samples } else { samples.saturating_sub(1) };
-        let length = |k: usize| mileages.get(k).map_or(route.passes[k].length(), Mileage::whole);
+        let wanted = if route.is_closed { samples } else { samples.saturating_sub(1) };
+        let length = |k: usize| mileages.get(k).map_or(route.passes[k].input_length(), CumulativeLength::total);
         let total: f64 = (0..route.passes.len()).map(length).sum();
         let exact: Vec<f64> = (0..route.passes.len()).map(|k| wanted as f64 * length(k) / total).collect();
         // A share a rounding error below a whole number is that number.
@@ -267,14 +289,14 @@ impl Sampler {
 }
 
 #[derive(Default)]
-struct Plan {
-    stops: Vec<Stop>,
+struct SamplePlan {
+    inputs: Vec<InputPosition>,
     /// The pass of each sample.
-    pass: Vec<usize>,
+    sample_passes: Vec<usize>,
     /// The samples of each pass.
-    runs: Vec<Range<usize>>,
+    pass_ranges: Vec<Range<usize>>,
     /// The samples at the ends of passes: sample, pass, and whether it is where the pass begins.
-    ends: Vec<(usize, usize, bool)>,
+    pass_ends: Vec<(usize, usize, bool)>,
 }
 
 /// The whole multiples of `step` in `[from, to)`, as the decimals say: the third multiple of 0.1 is 0.3.

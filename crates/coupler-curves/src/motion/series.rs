@@ -6,7 +6,7 @@
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::kernel::geared;
+use super::positions::geared_angle;
 use crate::geometry::{Vector, trig};
 
 /// What the coefficients of a series may be.
@@ -29,7 +29,7 @@ pub(super) trait Scalar:
     fn cos_sin_deg(self) -> [Self; 2];
 
     /// The angle in degrees of a crank that turns `ratio[0]` times to `ratio[1]` turns of this angle.
-    fn geared(self, ratio: [i64; 2], phase_deg: f64) -> Self;
+    fn geared_angle(self, ratio: [i64; 2], phase_deg: f64) -> Self;
 }
 
 impl Scalar for f64 {
@@ -45,8 +45,8 @@ impl Scalar for f64 {
         trig::cos_sin_deg(self).into()
     }
 
-    fn geared(self, ratio: [i64; 2], phase_deg: f64) -> f64 {
-        geared(self, ratio, phase_deg)
+    fn geared_angle(self, ratio: [i64; 2], phase_deg: f64) -> f64 {
+        geared_angle(self, ratio, phase_deg)
     }
 }
 
@@ -66,7 +66,7 @@ impl<T: Scalar, const N: usize> Series<T, N> {
     }
 
     /// The coefficient of `t^n` in the product.
-    fn coefficient(self, other: Self, n: usize) -> T {
+    fn product_coefficient(self, other: Self, n: usize) -> T {
         let terms = (1..=n).map(|k| self.0[k] * other.0[n - k]);
         terms.fold(self.0[0] * other.0[n], |sum, term| sum + term)
     }
@@ -115,7 +115,7 @@ impl<T: Scalar, const N: usize> Sub for Series<T, N> {
 impl<T: Scalar, const N: usize> Mul for Series<T, N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Series(from_fn(|n| self.coefficient(other, n)))
+        Series(from_fn(|n| self.product_coefficient(other, n)))
     }
 }
 
@@ -134,7 +134,7 @@ impl<T: Scalar, const N: usize> Div for Series<T, N> {
 impl<const N: usize> Series<f64, N> {
     /// The root of a square that touches zero where the series begins, with the sign it has beyond; `None` where it goes
     /// through zero. One term fewer is known of it than of the square: that one is not a number.
-    pub fn touching_root(self, size: f64) -> Option<Self> {
+    pub fn sqrt_at_touch(self, size: f64) -> Option<Self> {
         // A touch has no first term but rounding; at a limit that is as near one as 1e-12 it is 1e-6.
         if !(self.0[1].abs() <= 1e-9 * size && self.0[2] > 0.0) {
             return None;
@@ -146,33 +146,33 @@ impl<const N: usize> Series<f64, N> {
 
 /// A place, or a difference of places, as it changes with the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Planar<T, const N: usize> {
+pub(super) struct VectorSeries<T, const N: usize> {
     pub x: Series<T, N>,
     pub y: Series<T, N>,
 }
 
-impl<T: Scalar, const N: usize> Planar<T, N> {
+impl<T: Scalar, const N: usize> VectorSeries<T, N> {
     pub fn constant(v: Vector) -> Self {
-        Planar { x: Series::constant(v.x), y: Series::constant(v.y) }
+        VectorSeries { x: Series::constant(v.x), y: Series::constant(v.y) }
     }
 
     /// A direction that turns `by` radians to a radian of input.
-    pub fn turning([cos, sin]: [T; 2], by: f64) -> Self {
+    pub fn rotating_unit([cos, sin]: [T; 2], by: f64) -> Self {
         let (mut x, mut y) = ([cos; N], [sin; N]);
         for n in 1..N {
             let rate = T::from(by) / T::from(n as f64);
             (x[n], y[n]) = (-(rate * y[n - 1]), rate * x[n - 1]);
         }
-        Planar { x: Series(x), y: Series(y) }
+        VectorSeries { x: Series(x), y: Series(y) }
     }
 
     pub fn minus(self, other: Self) -> Self {
-        Planar { x: self.x - other.x, y: self.y - other.y }
+        VectorSeries { x: self.x - other.x, y: self.y - other.y }
     }
 
     /// This place, moved `along` times a vector and `across` times its left normal.
     pub fn moved(self, by: Self, along: Series<T, N>, across: Series<T, N>) -> Self {
-        Planar { x: self.x + along * by.x - across * by.y, y: self.y + along * by.y + across * by.x }
+        VectorSeries { x: self.x + along * by.x - across * by.y, y: self.y + along * by.y + across * by.x }
     }
 
     pub fn dot(self, other: Self) -> Series<T, N> {
@@ -191,7 +191,7 @@ impl<T: Scalar, const N: usize> Planar<T, N> {
     /// It and its length as one: the direction.
     pub fn unit(self) -> Self {
         let length = self.norm_squared().sqrt();
-        Planar { x: self.x / length, y: self.y / length }
+        VectorSeries { x: self.x / length, y: self.y / length }
     }
 }
 

@@ -9,9 +9,9 @@ use crate::linkage::{JointId, Linkage};
 
 /// The input at a part of a pass, dense towards the ends where a dyad lies flat: there a joint's place goes with the
 /// root of the input, and this makes it go evenly.
-pub(super) fn smooth(pass: &Pass, part: f64) -> f64 {
-    let (from, to) = (pass.from.stop.at, pass.to.stop.at);
-    let eased = match (pass.from.flat.is_none(), pass.to.flat.is_none()) {
+pub(super) fn eased_input(pass: &Pass, part: f64) -> f64 {
+    let (from, to) = (pass.from.input.value, pass.to.input.value);
+    let eased = match (pass.from.flat_dyads.is_empty(), pass.to.flat_dyads.is_empty()) {
         (true, true) => part,
         (false, true) => 1.0 - trig::cos(PI / 2.0 * part),
         (true, false) => trig::sin(PI / 2.0 * part),
@@ -21,41 +21,41 @@ pub(super) fn smooth(pass: &Pass, part: f64) -> f64 {
 }
 
 /// How far a joint has come along its path, at many places of a pass.
-pub(super) struct Mileage {
-    /// Parts of the pass, as [`smooth`] takes them.
-    parts: Vec<f64>,
+pub(super) struct CumulativeLength {
+    /// Parts of the pass, as [`eased_input`] takes them.
+    pass_fractions: Vec<f64>,
     /// Length of the path up to there.
     lengths: Vec<f64>,
 }
 
-impl Mileage {
+impl CumulativeLength {
     /// Measures a joint's path over a pass by chords: with so many of them an arc and its chord differ by less than a
     /// part in a hundred thousand.
-    pub fn of(linkage: &Linkage, pass: &Pass, joint: JointId) -> Mileage {
+    pub fn measure(linkage: &Linkage, pass: &Pass, joint: JointId) -> CumulativeLength {
         const CHORDS: usize = 2048;
         let parts: Vec<f64> = (0..=CHORDS).map(|i| i as f64 / CHORDS as f64).collect();
-        let inputs: Vec<f64> = parts.iter().map(|&part| smooth(pass, part)).collect();
-        let places = path::at_inputs(linkage, pass, &inputs);
+        let inputs: Vec<f64> = parts.iter().map(|&part| eased_input(pass, part)).collect();
+        let places = path::positions_at_inputs(linkage, pass, &inputs);
         let mut lengths = vec![0.0];
         for i in 1..parts.len() {
             let chord = (places.point(joint, i) - places.point(joint, i - 1)).norm();
             // A place that is undefined adds nothing.
             lengths.push(lengths[i - 1] + if chord.is_finite() { chord } else { 0.0 });
         }
-        Mileage { parts, lengths }
+        CumulativeLength { pass_fractions: parts, lengths }
     }
 
     /// The whole length.
-    pub fn whole(&self) -> f64 {
+    pub fn total(&self) -> f64 {
         self.lengths[self.lengths.len() - 1]
     }
 
     /// The part of the pass at which so much of the whole length is behind.
-    pub fn part(&self, share: f64) -> f64 {
-        let length = share * self.whole();
+    pub fn pass_fraction(&self, share: f64) -> f64 {
+        let length = share * self.total();
         let i = self.lengths.partition_point(|l| *l < length).clamp(1, self.lengths.len() - 1);
         let [before, after] = [self.lengths[i - 1], self.lengths[i]];
         let over = if after > before { (length - before) / (after - before) } else { 1.0 };
-        self.parts[i - 1] + (self.parts[i] - self.parts[i - 1]) * over
+        self.pass_fractions[i - 1] + (self.pass_fractions[i] - self.pass_fractions[i - 1]) * over
     }
 }

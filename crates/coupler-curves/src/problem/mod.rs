@@ -3,11 +3,11 @@
 //! A reader of texts never stops at the first mistake: it notes a [`Problem`] and reads on, so that one run names
 //! them all. [`report`] draws them with the offending text underlined.
 
-mod nearest;
 mod report;
+mod suggestion;
 
-pub use nearest::{nearest, nearest_or_all};
 pub use report::report;
+pub use suggestion::{nearest_word, suggestion};
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ pub type Span = Range<usize>;
 
 /// How grave a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Gravity {
+pub enum Severity {
     /// Nothing can be made of the text.
     Error,
     /// The text is understood, but perhaps not what was meant.
@@ -27,7 +27,7 @@ pub enum Gravity {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Error or warning.
-    pub gravity: Gravity,
+    pub severity: Severity,
     /// What is wrong, in lower case and without a full stop.
     pub message: String,
     /// The offending text, in bytes from the start of the text.
@@ -41,28 +41,28 @@ pub struct Problem {
 impl Problem {
     /// An error at `span`.
     pub fn error(span: Span, message: impl Into<String>) -> Problem {
-        Problem { gravity: Gravity::Error, message: message.into(), span, label: String::new(), help: String::new() }
+        Problem { severity: Severity::Error, message: message.into(), span, label: String::new(), help: String::new() }
     }
 
     /// A warning at `span`.
     pub fn warning(span: Span, message: impl Into<String>) -> Problem {
-        Problem { gravity: Gravity::Warning, ..Problem::error(span, message) }
+        Problem { severity: Severity::Warning, ..Problem::error(span, message) }
     }
 
     /// The same with a word beside the underline.
-    pub fn label(mut self, label: impl Into<String>) -> Problem {
+    pub fn with_label(mut self, label: impl Into<String>) -> Problem {
         self.label = label.into();
         self
     }
 
     /// The same with a remedy.
-    pub fn help(mut self, help: impl Into<String>) -> Problem {
+    pub fn with_help(mut self, help: impl Into<String>) -> Problem {
         self.help = help.into();
         self
     }
 
     /// Whether this is an error and not a warning.
     pub fn is_error(&self) -> bool {
-        self.gravity == Gravity::Error
+        self.severity == Severity::Error
     }
 }

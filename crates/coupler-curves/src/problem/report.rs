@@ -1,7 +1,7 @@
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use super::{Gravity, Problem};
+use super::{Problem, Severity};
 
 /// Draws problems for a person to read: each with file, line and column, the offending text underlined and `help:`.
 ///
@@ -10,11 +10,11 @@ use super::{Gravity, Problem};
 pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
     let mut ordered: Vec<&Problem> = problems.iter().collect();
-    ordered.sort_by_key(|p| (p.gravity != Gravity::Error, p.span.start));
+    ordered.sort_by_key(|p| (p.severity != Severity::Error, p.span.start));
     let mut out = String::new();
     for problem in ordered {
         let Problem { message, label, help, .. } = problem;
-        let [message, label, help] = [message, label, help].map(|words| plain(words));
+        let [message, label, help] = [message, label, help].map(|words| replace_control_chars(words));
         let shown = Problem { message, label, help, ..problem.clone() };
         out.push_str(&renderer.render(&[group(&shown, path, text)]));
         out.push_str("\n\n");
@@ -24,16 +24,16 @@ pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> Str
 }
 
 /// Words that may quote the text, without its control characters.
-fn plain(words: &str) -> String {
+fn replace_control_chars(words: &str) -> String {
     words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
 }
 
 fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_snippets::Group<'a> {
-    let level = match problem.gravity {
-        Gravity::Error => Level::ERROR,
-        Gravity::Warning => Level::WARNING,
+    let level = match problem.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
     };
-    let annotation = AnnotationKind::Primary.span(within(problem, text));
+    let annotation = AnnotationKind::Primary.span(underlined_span(problem, text));
     let annotation = match problem.label.as_str() {
         "" => annotation,
         label => annotation.label(label),
@@ -47,14 +47,14 @@ fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_sni
 }
 
 /// The span brought inside the text and onto whole characters; only the first line of a longer one is underlined.
-fn within(problem: &Problem, text: &str) -> std::ops::Range<usize> {
-    let start = floor_char(text, problem.span.start);
-    let end = floor_char(text, problem.span.end).max(start);
+fn underlined_span(problem: &Problem, text: &str) -> std::ops::Range<usize> {
+    let start = floor_char_boundary(text, problem.span.start);
+    let end = floor_char_boundary(text, problem.span.end).max(start);
     let end = text[start..end].find(['\r', '\n']).map_or(end, |n| start + n);
     start..end
 }
 
-fn floor_char(text: &str, mut at: usize) -> usize {
+fn floor_char_boundary(text: &str, mut at: usize) -> usize {
     at = at.min(text.len());
     while !text.is_char_boundary(at) {
         at -= 1;
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn a_report_names_place_and_remedy() {
         let text = "title = \"x\"\nstep = 0\n";
-        let problem = Problem::error(19..20, "a step of 0 never ends").help("give a step of more than 0");
+        let problem = Problem::error(19..20, "a step of 0 never ends").with_help("give a step of more than 0");
         let report = report(&[problem], "atlas.toml", text, false);
         assert!(report.contains("error: a step of 0 never ends"), "{report}");
         assert!(report.contains("atlas.toml:2:8"), "{report}");

@@ -2,12 +2,12 @@
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};
-use crate::measure::{self, Portion, Subject, Symmetry, Value};
+use crate::measure::{self, StraightPortion, Symmetry, TracedCurve, Value};
 use crate::motion::{Circuit, Motion, Sampler};
 
 /// A solved and measured cell.
 #[derive(Clone, Debug)]
-pub struct Solved {
+pub struct SolvedCell {
     /// The parameter set.
     pub cell: Cell,
     /// Its linkage.
@@ -15,14 +15,14 @@ pub struct Solved {
     /// What the linkage does.
     pub motion: Motion,
     /// The curves that `where` keeps, in order of trace and circuit.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<MeasuredCurve>,
     /// How many curves `where` left out.
-    pub left_out: usize,
+    pub left_out_count: usize,
 }
 
 /// A traced joint on a circuit, and what was measured of it.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub struct MeasuredCurve {
     /// The number of the traced joint, from 1.
     pub trace: usize,
     /// The number of the circuit, from 1.
@@ -30,18 +30,18 @@ pub struct Curve {
     /// The joint.
     pub joint: JointId,
     /// The values of [`measure::ALL`].
-    pub measures: Vec<Value>,
+    pub values: Vec<Value>,
     /// Its straight portion.
-    pub straight: Option<Portion>,
+    pub straight: Option<StraightPortion>,
     /// Its symmetry.
     pub symmetry: Option<Symmetry>,
 }
 
-impl Curve {
+impl MeasuredCurve {
     /// What was measured of it under a name.
-    pub fn measure(&self, name: &str) -> Value {
+    pub fn value(&self, name: &str) -> Value {
         let at = measure::ALL.iter().position(|measure| measure.name == name);
-        at.and_then(|at| self.measures.get(at)).copied().unwrap_or(Value::Missing)
+        at.and_then(|at| self.values.get(at)).copied().unwrap_or(Value::Missing)
     }
 }
 
@@ -67,10 +67,10 @@ impl Status {
     }
 }
 
-impl Solved {
+impl SolvedCell {
     /// How far the cell was assembled.
     pub fn status(&self) -> Status {
-        match (&self.motion.shortfall, self.motion.is_assembled()) {
+        match (&self.motion.incomplete_reason, self.motion.is_assembled()) {
             (_, false) => Status::None,
             (Some(_), true) => Status::Partial,
             (None, true) => Status::Ok,
@@ -78,12 +78,12 @@ impl Solved {
     }
 
     /// The circuit of a curve.
-    pub fn circuit(&self, curve: &Curve) -> &Circuit {
+    pub fn circuit(&self, curve: &MeasuredCurve) -> &Circuit {
         &self.motion.circuits[curve.circuit - 1]
     }
 
     /// The curves by traced points, in order, so many points together: what stands on one page after the other.
-    pub fn by_points(&self, together: usize) -> Vec<Vec<usize>> {
+    pub fn curves_by_traces(&self, together: usize) -> Vec<Vec<usize>> {
         let mut traces: Vec<usize> = self.curves.iter().map(|curve| curve.trace).collect();
         traces.dedup();
         let of =
@@ -92,45 +92,46 @@ impl Solved {
     }
 
     /// What was measured of the first curve; nothing where there is none.
-    pub fn measures(&self) -> &[Value] {
-        self.curves.first().map_or(&[], |curve| &curve.measures)
+    pub fn first_curve_values(&self) -> &[Value] {
+        self.curves.first().map_or(&[], |curve| &curve.values)
     }
 
     /// Whether nothing of the cell is kept.
     pub fn is_left_out(&self) -> bool {
-        self.curves.is_empty() && self.left_out > 0
+        self.curves.is_empty() && self.left_out_count > 0
     }
 }
 
 /// Solves and measures the `k`-th cell of a family.
-pub fn solve(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved> {
-    solve_measuring(family, sampler, k, &family.measures)
+pub fn solve_cell(family: &Family, sampler: &Sampler, k: usize) -> Option<SolvedCell> {
+    solve_measuring(family, sampler, k, &family.is_computed)
 }
 
 /// Solves the `k`-th cell of a family and computes the measures requested, by their indices in [`measure::ALL`]; those that
 /// `where` uses must be among them.
-pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: &[bool]) -> Option<Solved> {
+pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: &[bool]) -> Option<SolvedCell> {
     let cell = family.cell(k);
     // A family is validated cell by cell before it is swept, so every cell makes a linkage.
     let linkage = family.linkage(&cell).ok()?;
-    let motion = Motion::of(&linkage, sampler);
-    let mut solved = Solved { cell, linkage, motion, curves: Vec::new(), left_out: 0 };
+    let motion = Motion::solve(&linkage, sampler);
+    let mut solved = SolvedCell { cell, linkage, motion, curves: Vec::new(), left_out_count: 0 };
     let mut curves = Vec::new();
     for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
         for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-            let subject = Subject::new(&solved.linkage, &solved.motion, circuit, joint).asking(family.straight);
-            let measures = measure::take_some(&subject, |measure| requested[measure]);
+            let subject = TracedCurve::new(&solved.linkage, &solved.motion, circuit, joint)
+                .with_straight_criterion(family.straight);
+            let measures = measure::compute_selected(&subject, |measure| requested[measure]);
             if family.keeps(&solved.cell, &measures) {
-                let (straight, symmetry) = subject.marks();
-                curves.push(Curve { trace, circuit: number, joint, measures, straight, symmetry });
+                let (straight, symmetry) = subject.computed_marks();
+                curves.push(MeasuredCurve { trace, circuit: number, joint, values: measures, straight, symmetry });
             } else {
-                solved.left_out += 1;
+                solved.left_out_count += 1;
             }
         }
     }
     // A cell without any motion is one row, of which only its own values can be asked.
     if !solved.motion.is_assembled() && !family.keeps(&solved.cell, &[]) {
-        solved.left_out += 1;
+        solved.left_out_count += 1;
     }
     solved.curves = curves;
     Some(solved)

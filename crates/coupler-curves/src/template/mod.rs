@@ -1,17 +1,17 @@
 //! A linkage with expressions for numbers; a parameter set makes it a [`Linkage`].
 
+mod joint_kind;
 mod order;
-mod placing;
 
-pub use order::{Open, dependency_order};
-pub use placing::{Coordinate, Placing};
+pub use joint_kind::{Coordinate, JointKindTemplate};
+pub use order::{DependencyCycle, dependency_order};
 
-use crate::expression::{Bound, Caption, Expression, Unit};
-use crate::linkage::{self, Arc, Assembly, JointId, Travel};
+use crate::expression::{Caption, CompiledExpression, Expression, Unit};
+use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
 
-pub use crate::linkage::{Circuits, Coincident, Continuation, Linkage, Placement, Side};
+pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
 
-/// A linkage family before it has numbers. All [`Bound`] expressions are over [`Template::parameters`].
+/// A linkage family before it has numbers. All [`CompiledExpression`] expressions are over [`Template::parameters`].
 #[derive(Clone, Debug)]
 pub struct Template {
     /// The name manifests call it by.
@@ -33,13 +33,13 @@ pub struct Template {
     /// The link whose frame everything is reported in.
     pub seen_from: Option<[usize; 2]>,
     /// Where the plane it is reported in is laid, after that.
-    pub placement: Placement,
+    pub orientation: Orientation,
     /// Which circuits are wanted.
-    pub circuits: Circuits,
+    pub circuits: CircuitSelection,
     /// What happens at a change point.
     pub continuation: Continuation,
     /// Which dyads change their sides where several lie flat at one input.
-    pub coincident: Coincident,
+    pub coincident: CoincidentDyads,
     /// The input at which the sides hold.
     pub start: Option<InputValue>,
     /// The range of the input.
@@ -63,7 +63,7 @@ pub struct Parameter {
 
 impl Parameter {
     /// What is wrong with a value, if anything.
-    pub fn objection(&self, value: f64) -> Option<String> {
+    pub fn value_error(&self, value: f64) -> Option<String> {
         let name = &self.name;
         if !value.is_finite() {
             return Some(format!("`{name}` is {value}, which is not a finite number"));
@@ -82,7 +82,7 @@ impl Parameter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputValue {
     /// The number of units.
-    pub value: Bound,
+    pub value: CompiledExpression,
     /// Degrees or radians; none for a length.
     pub unit: Option<Unit>,
 }
@@ -90,7 +90,7 @@ pub struct InputValue {
 impl InputValue {
     fn evaluate(&self, values: &[f64]) -> f64 {
         let value = self.value.evaluate(|slot| values[slot]);
-        self.unit.map_or(value, |unit| unit.convert(value))
+        self.unit.map_or(value, |unit| unit.to_base_unit(value))
     }
 }
 
@@ -100,7 +100,7 @@ pub struct JointTemplate {
     /// Its name.
     pub name: String,
     /// How it is placed.
-    pub placing: Placing,
+    pub kind: JointKindTemplate,
 }
 
 /// Why a parameter set makes no linkage.
@@ -128,47 +128,49 @@ pub enum Error {
     },
     /// A joint cannot be placed.
     #[error(transparent)]
-    Assembly(#[from] linkage::Error),
+    Linkage(#[from] linkage::Error),
 }
 
 impl Template {
     /// Whether its input is the length of an actuator, and not an angle.
     pub fn is_driven_by_length(&self) -> bool {
-        self.joints.iter().any(|joint| matches!(joint.placing, Placing::Piston { .. }))
+        self.joints.iter().any(|joint| matches!(joint.kind, JointKindTemplate::Piston { .. }))
     }
 
     /// How many curves its traced joints draw on one circuit.
-    pub fn curves(&self) -> usize {
-        let points = |placing: &Placing| match placing {
-            Placing::Point { along, across, .. } => along.count() * across.count(),
+    pub fn curve_count(&self) -> usize {
+        let points = |placing: &JointKindTemplate| match placing {
+            JointKindTemplate::Point { along, across, .. } => along.count() * across.count(),
             _ => 1,
         };
-        self.traced.iter().map(|&joint| points(&self.joints[joint].placing)).sum()
+        self.traced.iter().map(|&joint| points(&self.joints[joint].kind)).sum()
     }
 
     /// What the lengths of links are called, where it is one name or a number: the names of the joints at the ends, and
     /// the word. Of the frame, the distance between two fixed joints on one level, of which one is at its origin.
-    pub fn lengths(&self) -> Vec<([&str; 2], String)> {
+    pub fn link_length_names(&self) -> Vec<([&str; 2], String)> {
         let name = |joint: usize| self.joints[joint].name.as_str();
-        let origin = self.joints.iter().position(|joint| match &joint.placing {
-            Placing::Fixed(at) => at.iter().all(|c| c.word().as_deref() == Some("0")),
+        let origin = self.joints.iter().position(|joint| match &joint.kind {
+            JointKindTemplate::Fixed(at) => at.iter().all(|c| c.name_or_number().as_deref() == Some("0")),
             _ => false,
         });
         let mut out = Vec::new();
         for joint in &self.joints {
-            let mut call = |from: usize, length: &Bound| {
-                out.extend(length.word().map(|word| ([name(from), joint.name.as_str()], word)));
+            let mut call = |from: usize, length: &CompiledExpression| {
+                out.extend(length.name_or_number().map(|word| ([name(from), joint.name.as_str()], word)));
             };
-            match (&joint.placing, origin) {
-                (Placing::Crank { pivot, length } | Placing::Gear { pivot, length, .. }, _) => call(*pivot, length),
-                (Placing::Piston { base: [_, pivot], length, .. }, _) => call(*pivot, length),
-                (Placing::Slide { from, length, .. }, _) => call(*from, length),
-                (Placing::Dyad { base: [p, q], lengths: [l0, l1], .. }, _) => {
+            match (&joint.kind, origin) {
+                (JointKindTemplate::Crank { pivot, length } | JointKindTemplate::Gear { pivot, length, .. }, _) => {
+                    call(*pivot, length)
+                }
+                (JointKindTemplate::Piston { base: [_, pivot], length, .. }, _) => call(*pivot, length),
+                (JointKindTemplate::Slide { from, length, .. }, _) => call(*from, length),
+                (JointKindTemplate::Dyad { base: [p, q], lengths: [l0, l1], .. }, _) => {
                     call(*p, l0);
                     call(*q, l1);
                 }
-                (Placing::Fixed([x, y]), Some(origin))
-                    if y.word().as_deref() == Some("0") && name(origin) != joint.name =>
+                (JointKindTemplate::Fixed([x, y]), Some(origin))
+                    if y.name_or_number().as_deref() == Some("0") && name(origin) != joint.name =>
                 {
                     call(origin, x);
                 }
@@ -183,30 +185,32 @@ impl Template {
     /// # Errors
     /// A number that is not finite, a length that is not positive, a joint that cannot be placed.
     pub fn linkage(&self, values: &[f64]) -> Result<Linkage, Error> {
-        self.assemble(values, |_, bound| bound.evaluate(|slot| values[slot]))
+        self.build_with(values, |_, bound| bound.evaluate(|slot| values[slot]))
     }
 
     /// What is wrong with the joints whatever the numbers: one joint given twice, a point on no link, too many dyads.
     pub fn structural_error(&self) -> Option<linkage::Error> {
         // Any numbers will do; fixed joints and points in general position have distances to measure along.
         let place = |joint: usize| (joint * joint) as f64;
-        let numbers = |joint: usize, _: &Bound| match self.joints[joint].placing {
-            Placing::Fixed(_) => place(joint),
-            Placing::Point { .. } => 1.0 + place(joint),
+        let numbers = |joint: usize, _: &CompiledExpression| match self.joints[joint].kind {
+            JointKindTemplate::Fixed(_) => place(joint),
+            JointKindTemplate::Point { .. } => 1.0 + place(joint),
             _ => 1.0,
         };
-        match self.assemble(&vec![1.0; self.parameters.len()], numbers) {
+        match self.build_with(&vec![1.0; self.parameters.len()], numbers) {
             // These depend on the numbers after all: each cell is asked for them.
-            Err(Error::Assembly(
-                linkage::Error::Length { .. } | linkage::Error::NoTriangle { .. } | linkage::Error::NoDirection { .. },
+            Err(Error::Linkage(
+                linkage::Error::InvalidLength { .. }
+                | linkage::Error::NoTriangle { .. }
+                | linkage::Error::NoDirection { .. },
             )) => None,
-            Err(Error::Assembly(error)) => Some(error),
+            Err(Error::Linkage(error)) => Some(error),
             _ => None,
         }
     }
 
-    fn assemble(&self, values: &[f64], number: impl Fn(usize, &Bound) -> f64) -> Result<Linkage, Error> {
-        let mut assembly = Assembly::default();
+    fn build_with(&self, values: &[f64], number: impl Fn(usize, &CompiledExpression) -> f64) -> Result<Linkage, Error> {
+        let mut assembly = LinkageBuilder::default();
         // Where each joint of the template has gone: a grid of points makes several.
         let mut made: Vec<Vec<JointId>> = Vec::with_capacity(self.joints.len());
         for (k, joint) in self.joints.iter().enumerate() {
@@ -219,44 +223,46 @@ impl Template {
                 }
             };
             let two = |base: &[usize; 2]| base.map(|j| made[j][0]);
-            let ids = match &joint.placing {
-                Placing::Fixed([x, y]) => {
+            let ids = match &joint.kind {
+                JointKindTemplate::Fixed([x, y]) => {
                     let at = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
                     vec![assembly.fixed(name, at.into())]
                 }
-                Placing::Crank { pivot, length } => vec![assembly.crank(name, made[*pivot][0], number(k, length))?],
-                Placing::Gear { pivot, length, ratio: [n, m], phase, .. } => {
+                JointKindTemplate::Crank { pivot, length } => {
+                    vec![assembly.crank(name, made[*pivot][0], number(k, length))?]
+                }
+                JointKindTemplate::Gear { pivot, length, ratio: [n, m], phase, .. } => {
                     let ratio = [number(k, n), number(k, m)];
                     let phase = finite("`phase`", phase.evaluate(values))?;
                     vec![assembly.gear(name, (made[*pivot][0], number(k, length)), ratio, phase)?]
                 }
-                Placing::Piston { base, length, offset, side } => {
+                JointKindTemplate::Piston { base, length, offset, side } => {
                     let crank = (number(k, length), finite("`offset`", number(k, offset))?);
                     vec![assembly.piston(name, two(base), crank, *side)?]
                 }
-                Placing::Dyad { base, lengths: [l0, l1], side } => {
+                JointKindTemplate::Dyad { base, lengths: [l0, l1], side } => {
                     vec![assembly.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
                 }
-                Placing::Slide { from, length, line, offset, side } => {
+                JointKindTemplate::Slide { from, length, line, offset, side } => {
                     let hung = (made[*from][0], number(k, length));
                     let line = (two(line), finite("`offset`", number(k, offset))?);
                     vec![assembly.slide(name, hung, line, *side)?]
                 }
-                Placing::Yoke { from, line, offset, angle } => {
+                JointKindTemplate::Yoke { from, line, offset, angle } => {
                     let line = (two(line), finite("`offset`", number(k, offset))?);
                     let angle = finite("`angle`", angle.evaluate(values))?;
                     vec![assembly.yoke(name, made[*from][0], line, angle)?]
                 }
-                Placing::Slot { base, offset, side } => {
+                JointKindTemplate::Slot { base, offset, side } => {
                     vec![assembly.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
                 }
-                Placing::Parallelogram { corners } => {
+                JointKindTemplate::Parallelogram { corners } => {
                     vec![assembly.parallelogram(name, corners.map(|j| made[j][0]))?]
                 }
-                Placing::Distances { base, distances: [d0, d1], side } => {
-                    vec![assembly.distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
+                JointKindTemplate::Distances { base, distances: [d0, d1], side } => {
+                    vec![assembly.point_at_distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
                 }
-                Placing::Point { base, along, across } => {
+                JointKindTemplate::Point { base, along, across } => {
                     let across = across.values(|b| number(k, b));
                     let mut ids = Vec::new();
                     for along in along.values(|b| number(k, b)) {
@@ -272,9 +278,9 @@ impl Template {
         }
         let traced = self.traced.iter().flat_map(|&k| made[k].clone()).collect();
         let seen_from = self.seen_from.map(|joints| joints.map(|k| made[k][0]));
-        let linkage = assembly.finish(traced, seen_from, self.travel(values)?)?;
-        let linkage = Linkage { placement: self.placement, ..linkage };
-        match linkage.travel.range {
+        let linkage = assembly.build(traced, seen_from, self.motion_options(values)?)?;
+        let linkage = Linkage { placement: self.orientation, ..linkage };
+        match linkage.motion_options.range {
             Some([from, to]) if to - from > linkage.input().period() => {
                 let why = "more from `from` than it takes to come round";
                 Err(Error::Input { what: "the input's `to`", value: to, why })
@@ -283,7 +289,7 @@ impl Template {
         }
     }
 
-    fn travel(&self, values: &[f64]) -> Result<Travel, Error> {
+    fn motion_options(&self, values: &[f64]) -> Result<MotionOptions, Error> {
         let degrees = |what, angle: &InputValue| match angle.evaluate(values) {
             value if value.is_finite() => Ok(value),
             value => Err(Error::Input { what, value, why: "which is not a finite number" }),
@@ -303,9 +309,17 @@ impl Template {
         // An arc whose ends do not exist for these lengths is no part of the curve: nothing is set apart then.
         let arc = self.arc.as_ref().and_then(|([from, to], branch)| {
             let input_deg = [from.evaluate(values), to.evaluate(values)];
-            input_deg.iter().all(|deg| deg.is_finite()).then_some(Arc { input_deg, branch: *branch })
+            input_deg.iter().all(|deg| deg.is_finite()).then_some(BranchArc { input_deg, branch: *branch })
         });
         let (circuits, continuation, coincident) = (self.circuits, self.continuation, self.coincident);
-        Ok(Travel { start, range, circuits, continuation, coincident, arc, ..Travel::default() })
+        Ok(MotionOptions {
+            start,
+            range,
+            circuits,
+            continuation,
+            coincident,
+            figure_arc: arc,
+            ..MotionOptions::default()
+        })
     }
 }

@@ -1,10 +1,10 @@
 /// What cannot be put in order.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Open {
+pub struct DependencyCycle {
     /// A cycle, its first once more at the end.
     pub cycle: Vec<usize>,
     /// All that is in a cycle or needs what is.
-    pub all: Vec<usize>,
+    pub unresolved: Vec<usize>,
 }
 
 /// An order in which everything comes after what it needs; as numbered, where that is one.
@@ -13,7 +13,7 @@ pub struct Open {
 ///
 /// # Errors
 /// What stays open, where there is no such order.
-pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Result<Vec<usize>, Open> {
+pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Result<Vec<usize>, DependencyCycle> {
     let mut order: Vec<usize> = Vec::with_capacity(count);
     while order.len() < count {
         let is_ready = |k: &usize| !order.contains(k) && needs(*k).iter().all(|need| order.contains(need));
@@ -21,7 +21,7 @@ pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Re
             Some(next) => order.push(next),
             None => {
                 let all = (0..count).filter(|k| !order.contains(k)).collect();
-                return Err(Open { cycle: cycle(count, &needs, &order), all });
+                return Err(DependencyCycle { cycle: find_cycle(count, &needs, &order), unresolved: all });
             }
         }
     }
@@ -29,7 +29,7 @@ pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Re
 }
 
 /// What cannot be put in order needs something that cannot either: following those comes round.
-fn cycle(count: usize, needs: &impl Fn(usize) -> Vec<usize>, order: &[usize]) -> Vec<usize> {
+fn find_cycle(count: usize, needs: &impl Fn(usize) -> Vec<usize>, order: &[usize]) -> Vec<usize> {
     let stuck = |k: &usize| !order.contains(k);
     let mut path: Vec<usize> = (0..count).find(stuck).into_iter().collect();
     while let Some(next) = path.last().and_then(|&at| needs(at).into_iter().find(stuck)) {
@@ -56,7 +56,10 @@ mod tests {
     #[test]
     fn a_cycle_is_found_and_what_leads_to_it_left_out() {
         let needs = |k: usize| [vec![1], vec![2], vec![3], vec![1]][k].clone();
-        assert_eq!(dependency_order(4, needs), Err(Open { cycle: vec![1, 2, 3, 1], all: vec![0, 1, 2, 3] }));
-        assert_eq!(dependency_order(1, |_| vec![0]), Err(Open { cycle: vec![0, 0], all: vec![0] }));
+        assert_eq!(
+            dependency_order(4, needs),
+            Err(DependencyCycle { cycle: vec![1, 2, 3, 1], unresolved: vec![0, 1, 2, 3] })
+        );
+        assert_eq!(dependency_order(1, |_| vec![0]), Err(DependencyCycle { cycle: vec![0, 0], unresolved: vec![0] }));
     }
 }

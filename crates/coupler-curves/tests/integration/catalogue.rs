@@ -1,7 +1,7 @@
 //! Each linkage of the catalogue with its published proportions, and the property it is known for.
 
 use coupler_curves::geometry::{Point, Vector, trig};
-use coupler_curves::linkage::{Circuits, Linkage, Travel};
+use coupler_curves::linkage::{CircuitSelection, Linkage, MotionOptions};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 
 use crate::linkages::{check_motion, third_corner};
@@ -23,7 +23,7 @@ pub fn defaults(id: &str) -> Linkage {
 
 /// The first circuit with the default proportions, by so many samples.
 fn circuit(linkage: &Linkage, samples: usize) -> Circuit {
-    Motion::of(linkage, &Sampler::new(Sampling::Samples(samples))).circuits.remove(0)
+    Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples))).circuits.remove(0)
 }
 
 fn joint(linkage: &Linkage, name: &str) -> usize {
@@ -41,16 +41,19 @@ fn peaucelliers_line_is_straight_to_its_ends() {
     let template = coupler_curves::catalogue::find("peaucellier-lipkin").unwrap();
     for values in [[2.0, 5.0, 2.0], [1.0, 5.0, 3.5], [1.5, 5.0, 3.0]] {
         let linkage = template.linkage(&values).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(90)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(90)));
         let [r, arm, side] = values;
         let line = (arm * arm - side * side) / (2.0 * r);
         let circuit = &motion.circuits[0];
-        assert!(circuit.closed);
+        assert!(circuit.is_closed);
         // Of the other modes one has Q on P, and in two the rhombus has no opening.
-        let all = Linkage { travel: Travel { circuits: Circuits::All, ..linkage.travel.clone() }, ..linkage.clone() };
-        assert_eq!(Motion::of(&all, &Sampler::new(Sampling::Samples(90))).circuits.len(), 2);
+        let all = Linkage {
+            motion_options: MotionOptions { circuits: CircuitSelection::All, ..linkage.motion_options.clone() },
+            ..linkage.clone()
+        };
+        assert_eq!(Motion::solve(&all, &Sampler::new(Sampling::Samples(90))).circuits.len(), 2);
         for (i, q) in circuit.points(linkage.traced[0]).enumerate() {
-            assert!((q.x - line).abs() < 1e-11 * line, "{values:?} at {}: {q} {line}", circuit.input[i]);
+            assert!((q.x - line).abs() < 1e-11 * line, "{values:?} at {}: {q} {line}", circuit.inputs[i]);
         }
     }
 }
@@ -59,13 +62,13 @@ fn peaucelliers_line_is_straight_to_its_ends() {
 #[test]
 fn harts_line_is_straight() {
     let linkage = defaults("hart-inversor");
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(90)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(90)));
     // P and Q on either side of O: |OP| |OQ| = part (1 - part) (long^2 - short^2), and P's circle of radius r goes through O.
     let line = 0.25 * (144.0 - 36.0) / (2.0 * 2.0);
     for circuit in &motion.circuits {
         for (i, q) in circuit.points(linkage.traced[0]).enumerate() {
             // At the limit of the first dyad the others hang on places that it makes uncertain.
-            assert!((q.x + line).abs() < 1e-9 * line, "at {}: {q} {line}", circuit.input[i]);
+            assert!((q.x + line).abs() < 1e-9 * line, "at {}: {q} {line}", circuit.inputs[i]);
         }
     }
 }
@@ -74,7 +77,7 @@ fn harts_line_is_straight() {
 #[test]
 fn hoekens_line_is_nearly_straight() {
     let linkage = defaults("hoeken");
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(1.0)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(1.0)));
     let foot: Vec<_> = motion.circuits[0].points(linkage.traced[0]).skip(90).take(181).collect();
     let (low, high) = foot.iter().fold((f64::INFINITY, 0.0f64), |(l, h), p| (l.min(p.y), h.max(p.y)));
     let length = (foot[0].x - foot[180].x).abs();
@@ -90,7 +93,7 @@ fn jansens_leg_steps_as_its_lengths_say() {
     let circuit = circuit(&linkage, samples);
     let foot: Vec<Point> = circuit.points(linkage.traced[0]).collect();
     let (o, b) = (Point::new(38.0, 7.8), Point::new(0.0, 0.0));
-    for (i, deg) in circuit.input.iter().enumerate() {
+    for (i, deg) in circuit.inputs.iter().enumerate() {
         let (cos, sin) = trig::cos_sin_deg(*deg);
         let p = o + Vector::new(cos, sin) * 15.0;
         let upper = third_corner(p, b, [50.0, 41.5], -1.0).0;
@@ -138,8 +141,8 @@ fn a_pantograph_draws_its_curve_in_its_ratio() {
     let circuit = circuit(&linkage, 90);
     let [f, led, pen] = ["F", "T", "P"].map(|name| joint(&linkage, name));
     for i in 0..circuit.len() {
-        let [f, led, pen] = [f, led, pen].map(|joint| circuit.places.point(joint, i));
-        assert!((pen - f - (led - f) * 3.0).norm() < 1e-13, "at {}: {pen} {led}", circuit.input[i]);
+        let [f, led, pen] = [f, led, pen].map(|joint| circuit.positions.point(joint, i));
+        assert!((pen - f - (led - f) * 3.0).norm() < 1e-13, "at {}: {pen} {led}", circuit.inputs[i]);
     }
 }
 
@@ -148,12 +151,15 @@ fn a_pantograph_draws_its_curve_in_its_ratio() {
 #[test]
 fn the_geared_five_bar_is_nortons() {
     let linkage = defaults("geared-five-bar");
-    let both = Linkage { travel: Travel { circuits: Circuits::All, ..linkage.travel.clone() }, ..linkage };
-    let motion = Motion::of(&both, &Sampler::new(Sampling::Step(45.0)));
+    let both = Linkage {
+        motion_options: MotionOptions { circuits: CircuitSelection::All, ..linkage.motion_options.clone() },
+        ..linkage
+    };
+    let motion = Motion::solve(&both, &Sampler::new(Sampling::Step(45.0)));
     let [a, b, d] = ["A", "B", "D"].map(|name| joint(&both, name));
     for (circuit, [coupler, link]) in motion.circuits.iter().zip([[17.6495, 63.9717], [-133.7434, 179.9344]]) {
-        assert!(circuit.closed && circuit.len() == 16, "back after two turns");
-        let at = |joint| circuit.places.point(joint, 1);
+        assert!(circuit.is_closed && circuit.len() == 16, "back after two turns");
+        let at = |joint| circuit.positions.point(joint, 1);
         let angle = |v: Vector| trig::degrees(trig::atan2(v.y, v.x));
         assert!((angle(at(b) - at(a)) - coupler).abs() < 1e-4, "{}", angle(at(b) - at(a)));
         assert!((angle(at(b) - at(d)) - link).abs() < 1e-4, "{}", angle(at(b) - at(d)));
@@ -172,13 +178,13 @@ fn the_six_bars_swing_as_their_lengths_say() {
         let circuit = circuit(&linkage, 3600);
         let [e, q] = ["E", "Q"].map(|name| joint(&linkage, name));
         let angle = |i: usize| {
-            let arm = circuit.places.point(e, i) - circuit.places.point(q, i);
+            let arm = circuit.positions.point(e, i) - circuit.positions.point(q, i);
             trig::degrees(trig::atan2(arm.y, arm.x))
         };
         let [low, high] = extent((0..circuit.len()).map(angle));
         // A tenth of a degree of crank misses an extreme by less than this.
         assert!((high - low - swing).abs() < 1e-4, "{id}: {}", high - low);
-        assert!((circuit.places.point(e, 600) - pin).norm() < 1e-8, "{id}: {}", circuit.places.point(e, 600));
+        assert!((circuit.positions.point(e, 600) - pin).norm() < 1e-8, "{id}: {}", circuit.positions.point(e, 600));
     }
 }
 
@@ -188,7 +194,7 @@ fn a_scotch_yoke_is_harmonic() {
     let linkage = defaults("scotch-yoke");
     let circuit = circuit(&linkage, 24);
     for (i, p) in circuit.points(linkage.traced[0]).enumerate() {
-        assert!((p - Point::new(2.0 + trig::cos_sin_deg(circuit.input[i]).0, 0.0)).norm() < 1e-15);
+        assert!((p - Point::new(2.0 + trig::cos_sin_deg(circuit.inputs[i]).0, 0.0)).norm() < 1e-15);
     }
 }
 
@@ -197,8 +203,13 @@ fn every_linkage_of_the_catalogue_moves_with_its_defaults() {
     for template in coupler_curves::catalogue::all().iter().filter(|t| t.parameters.iter().all(|p| p.default.is_some()))
     {
         let linkage = defaults(&template.id);
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
-        assert!(motion.is_assembled() && motion.shortfall.is_none(), "{}: {:?}", template.id, motion.shortfall);
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
+        assert!(
+            motion.is_assembled() && motion.incomplete_reason.is_none(),
+            "{}: {:?}",
+            template.id,
+            motion.incomplete_reason
+        );
         check_motion(&linkage, &motion).unwrap();
     }
 }

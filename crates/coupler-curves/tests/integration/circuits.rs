@@ -1,41 +1,41 @@
 //! Circuits of four-bars of every class: how many, how far they go, and that nothing jumps.
 
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{Assembly, Circuits, Continuation, FourBar, Linkage, Side, Travel};
+use coupler_curves::linkage::{CircuitSelection, Continuation, FourBar, Linkage, LinkageBuilder, MotionOptions, Side};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
-fn four_bar(lengths: [f64; 4], travel: Travel) -> Linkage {
+fn four_bar(lengths: [f64; 4], travel: MotionOptions) -> Linkage {
     let [frame, crank, coupler, rocker] = lengths;
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", Point::new(0.0, 0.0));
     let c = assembly.fixed("C", Point::new(frame, 0.0));
     let a = assembly.crank("A", o, crank).unwrap();
     let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
     let m = assembly.point("M", [a, b], coupler / 3.0, coupler / 4.0).unwrap();
-    assembly.finish(vec![m], None, travel).unwrap()
+    assembly.build(vec![m], None, travel).unwrap()
 }
 
-fn all() -> Travel {
-    Travel { circuits: Circuits::All, ..Travel::default() }
+fn all() -> MotionOptions {
+    MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }
 }
 
-fn motion(lengths: [f64; 4], travel: Travel, sampling: Sampling) -> Motion {
-    Motion::of(&four_bar(lengths, travel), &Sampler::new(sampling))
+fn motion(lengths: [f64; 4], travel: MotionOptions, sampling: Sampling) -> Motion {
+    Motion::solve(&four_bar(lengths, travel), &Sampler::new(sampling))
 }
 
 /// Input ranges and branches of the passes of each circuit.
-fn passes(lengths: [f64; 4], travel: Travel) -> Vec<Vec<(i64, i64, i8)>> {
+fn passes(lengths: [f64; 4], travel: MotionOptions) -> Vec<Vec<(i64, i64, i8)>> {
     let milli = |deg: f64| (deg * 1000.0).round() as i64;
     let motion = motion(lengths, travel, Sampling::Samples(12));
-    let pass = |p: &coupler_curves::motion::Pass| (milli(p.from.stop.at), milli(p.to.stop.at), p.signs.get(0));
+    let pass = |p: &coupler_curves::motion::Pass| (milli(p.from.input.value), milli(p.to.input.value), p.mode.sign(0));
     motion.circuits.iter().map(|c| c.passes.iter().map(pass).collect()).collect()
 }
 
 #[test]
 fn a_crank_rocker_has_a_turn_on_each_branch() {
     assert_eq!(passes([4.0, 1.0, 3.0, 3.5], all()), [vec![(0, 360_000, 1)], vec![(0, 360_000, -1)]]);
-    assert_eq!(passes([4.0, 1.0, 3.0, 3.5], Travel::default()), [vec![(0, 360_000, 1)]]);
+    assert_eq!(passes([4.0, 1.0, 3.0, 3.5], MotionOptions::default()), [vec![(0, 360_000, 1)]]);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn change_points_continue_smoothly_or_on_their_branch() {
     let limit = (trig::degrees(trig::acos(1.0 / 3.0)) * 1000.0).round() as i64;
     let smooth = [(-limit, 0, 1), (0, limit, -1), (limit, 0, 1), (0, -limit, -1)];
     assert_eq!(passes([3.0, 2.0, 1.0, 2.0], all()), [smooth.to_vec()]);
-    let branch = Travel { continuation: Continuation::Branch, ..all() };
+    let branch = MotionOptions { continuation: Continuation::Branch, ..all() };
     let kept = [(-limit, 0, 1), (0, limit, 1), (limit, 0, -1), (0, -limit, -1)];
     assert_eq!(passes([3.0, 2.0, 1.0, 2.0], branch.clone()), [kept.to_vec()]);
     // Stretched at 180: smoothly two turns, else a turn on each branch.
@@ -83,7 +83,7 @@ fn change_points_continue_smoothly_or_on_their_branch() {
 #[test]
 fn a_kite_keeps_its_rocker_where_its_base_vanishes() {
     for continuation in [Continuation::Smooth, Continuation::Branch] {
-        let travel = Travel { continuation, ..all() };
+        let travel = MotionOptions { continuation, ..all() };
         let motion = motion([2.0, 2.0, 3.0, 3.0], travel, Sampling::Step(1.0));
         assert_eq!(motion.circuits.len(), 1);
         no_jumps(&motion, 3.0, 1.0);
@@ -95,7 +95,7 @@ fn two_turns_are_sampled_as_asked() {
     let step = motion([3.0, 1.0, 2.0, 2.0], all(), Sampling::Step(50.0));
     // Multiples of 50 and the change points at 180 and 540; 360 is neither.
     let expected = [0, 50, 100, 150, 180, 200, 250, 300, 350, 400, 450, 500, 540, 550, 600, 650, 700].map(f64::from);
-    assert_eq!(step.circuits[0].input, expected);
+    assert_eq!(step.circuits[0].inputs, expected);
     assert_eq!(motion([3.0, 1.0, 2.0, 2.0], all(), Sampling::Samples(8)).circuits[0].len(), 8);
 }
 
@@ -106,7 +106,7 @@ fn samples_can_be_dense_at_limits_or_even_along_the_path() {
     let steps = |sampling| -> Vec<f64> {
         let circuit = motion(lengths, all(), sampling).circuits.remove(0);
         let n = circuit.len();
-        (0..n).map(|i| (circuit.places.point(4, (i + 1) % n) - circuit.places.point(4, i)).norm()).collect()
+        (0..n).map(|i| (circuit.positions.point(4, (i + 1) % n) - circuit.positions.point(4, i)).norm()).collect()
     };
     let ratio = |steps: Vec<f64>| {
         steps.iter().copied().fold(0.0, f64::max) / steps.iter().copied().fold(f64::INFINITY, f64::min)
@@ -114,14 +114,14 @@ fn samples_can_be_dense_at_limits_or_even_along_the_path() {
     // Beside a limit the path goes with the root of the input: of two even steps the first is 1 / (sqrt 2 - 1) = 2.41
     // times as long, on the mean of both branches, for what goes with the input itself is opposite on them.
     let beside = |steps: Vec<f64>| (steps[0] / steps[1] * steps[119] / steps[118]).sqrt();
-    let (even, smooth) = (beside(steps(Sampling::Samples(120))), beside(steps(Sampling::Smooth(120))));
+    let (even, smooth) = (beside(steps(Sampling::Samples(120))), beside(steps(Sampling::DenseAtLimits(120))));
     assert!(even > 2.0 && (smooth - 1.0).abs() < 0.05, "{even} {smooth}");
     // So many that a chord is as good as its arc. Each pass has a whole number of them, about a thousand: they may
     // differ by one in as many between passes.
-    let arc = ratio(steps(Sampling::Arc(2000)));
+    let arc = ratio(steps(Sampling::ArcLength(2000)));
     assert!(arc < 1.003, "{arc}");
-    let whole = motion([4.0, 1.0, 3.0, 3.5], Travel::default(), Sampling::Arc(90));
-    assert_eq!((whole.circuits[0].len(), whole.circuits[0].input[0]), (90, 0.0));
+    let whole = motion([4.0, 1.0, 3.0, 3.5], MotionOptions::default(), Sampling::ArcLength(90));
+    assert_eq!((whole.circuits[0].len(), whole.circuits[0].inputs[0]), (90, 0.0));
 }
 
 #[test]
@@ -131,8 +131,8 @@ fn bases_that_vanish_but_for_rounding_are_kites_too() {
         let motion = motion(lengths, all(), Sampling::Step(1.0));
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let length = (circuit.places.point(3, i) - circuit.places.point(2, i)).norm();
-                assert!((length - lengths[2]).abs() < 1e-12, "{lengths:?} at {}: {length}", circuit.input[i]);
+                let length = (circuit.positions.point(3, i) - circuit.positions.point(2, i)).norm();
+                assert!((length - lengths[2]).abs() < 1e-12, "{lengths:?} at {}: {length}", circuit.inputs[i]);
             }
         }
         no_jumps(&motion, lengths.iter().sum(), 1.0);
@@ -145,8 +145,8 @@ fn limits_keep_short_links_beside_long_ones() {
         let motion = motion([scale, scale, 1.0, 1.5], all(), Sampling::Samples(40));
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let coupler = (circuit.places.point(3, i) - circuit.places.point(2, i)).norm();
-                let rocker = (circuit.places.point(3, i) - circuit.places.point(1, i)).norm();
+                let coupler = (circuit.positions.point(3, i) - circuit.positions.point(2, i)).norm();
+                let rocker = (circuit.positions.point(3, i) - circuit.positions.point(1, i)).norm();
                 // Places of the size of the scale are rounded to this.
                 let rounding = 4.0 * f64::EPSILON * scale;
                 assert!((coupler - 1.0).abs() <= rounding && (rocker - 1.5).abs() <= rounding, "{coupler} {rocker}");
@@ -159,7 +159,7 @@ fn limits_keep_short_links_beside_long_ones() {
 fn places_beyond_all_numbers_are_reported() {
     for scale in [1e160, 1e-170] {
         let motion = motion([4.0, 1.0, 3.0, 3.5].map(|l| l * scale), all(), Sampling::Step(10.0));
-        let shortfall = motion.shortfall.unwrap_or_default();
+        let shortfall = motion.incomplete_reason.unwrap_or_default();
         assert!(shortfall.contains("double precision"), "{scale}: {shortfall}");
         assert!(motion.circuits.is_empty());
     }
@@ -169,26 +169,32 @@ fn places_beyond_all_numbers_are_reported() {
 fn a_linkage_that_cannot_close_says_why() {
     let far = motion([9.0, 1.0, 2.0, 3.0], all(), Sampling::Step(2.0));
     assert!(!far.is_assembled());
-    assert_eq!(far.shortfall.unwrap(), "B cannot be placed: A and C are 8 or more apart, links of 2 and 3 reach 5");
+    assert_eq!(
+        far.incomplete_reason.unwrap(),
+        "B cannot be placed: A and C are 8 or more apart, links of 2 and 3 reach 5"
+    );
     let near = motion([1.0, 1.0, 9.0, 3.0], all(), Sampling::Step(2.0));
-    assert_eq!(near.shortfall.unwrap(), "B cannot be placed: A and C are 2 or less apart, links of 9 and 3 need 6");
+    assert_eq!(
+        near.incomplete_reason.unwrap(),
+        "B cannot be placed: A and C are 2 or less apart, links of 9 and 3 need 6"
+    );
 }
 
 #[test]
 fn a_range_that_is_not_reached_is_reported() {
-    let travel = |range| Travel { range: Some(range), ..Travel::default() };
+    let travel = |range| MotionOptions { range: Some(range), ..MotionOptions::default() };
     let whole = motion([4.0, 1.0, 3.0, 3.5], travel([30.0, 120.0]), Sampling::Step(10.0));
-    assert_eq!(whole.shortfall, None);
-    assert_eq!(whole.circuits[0].input, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
-    assert!(!whole.circuits[0].closed);
+    assert_eq!(whole.incomplete_reason, None);
+    assert_eq!(whole.circuits[0].inputs, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
+    assert!(!whole.circuits[0].is_closed);
     let part = motion([4.0, 2.0, 2.0, 2.0], travel([0.0, 120.0]), Sampling::Step(10.0));
-    assert!(part.shortfall.unwrap().starts_with("the input goes from 0 to 75.5225 deg only"));
+    assert!(part.incomplete_reason.unwrap().starts_with("the input goes from 0 to 75.5225 deg only"));
     assert_eq!(part.circuits[0].passes.len(), 2, "out on one branch and back on the other");
     let none = motion([4.0, 2.0, 2.0, 2.0], travel([100.0, 120.0]), Sampling::Step(10.0));
-    assert!(!none.is_assembled() && none.shortfall.is_some());
+    assert!(!none.is_assembled() && none.incomplete_reason.is_some());
     // From the upper end down to a limit and back.
     let down = motion([2.0, 3.0, 1.0, 4.5], travel([0.0, 180.0]), Sampling::Step(10.0));
-    assert_eq!((down.circuits[0].input[0], down.circuits[0].passes.len()), (180.0, 2));
+    assert_eq!((down.circuits[0].inputs[0], down.circuits[0].passes.len()), (180.0, 2));
 }
 
 /// Neighbouring samples are no further apart than the fastest joint can go: sqrt-like at a limit.
@@ -196,10 +202,10 @@ fn no_jumps(motion: &Motion, size: f64, step_deg: f64) {
     for circuit in &motion.circuits {
         let n = circuit.len();
         let allowed = 12.0 * size * trig::radians(step_deg).sqrt();
-        for i in 0..(if circuit.closed { n } else { n - 1 }) {
+        for i in 0..(if circuit.is_closed { n } else { n - 1 }) {
             for joint in 0..5 {
-                let moved = circuit.places.point(joint, (i + 1) % n) - circuit.places.point(joint, i);
-                assert!(moved.norm() <= allowed, "{} to {}: {moved}", circuit.input[i], circuit.input[(i + 1) % n]);
+                let moved = circuit.positions.point(joint, (i + 1) % n) - circuit.positions.point(joint, i);
+                assert!(moved.norm() <= allowed, "{} to {}: {moved}", circuit.inputs[i], circuit.inputs[(i + 1) % n]);
             }
         }
     }
@@ -222,11 +228,11 @@ proptest! {
     #[test]
     fn every_circuit_keeps_lengths_and_never_jumps(lengths in lengths(), branch: bool) {
         let continuation = if branch { Continuation::Branch } else { Continuation::Smooth };
-        let motion = motion(lengths, Travel { continuation, ..all() }, Sampling::Step(0.5));
+        let motion = motion(lengths, MotionOptions { continuation, ..all() }, Sampling::Step(0.5));
         let [frame, crank, coupler, rocker] = lengths;
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let p = |j| circuit.places.point(j, i);
+                let p = |j| circuit.positions.point(j, i);
                 // A length beside a longer base keeps as many digits fewer as it is shorter.
                 let scale = frame + crank;
                 prop_assert!(((p(3) - p(2)).norm() - coupler).abs() <= 1e-12 * coupler.max(1e-2 * scale));
@@ -239,12 +245,12 @@ proptest! {
 
     #[test]
     fn a_crank_turns_fully_when_its_class_says_so(lengths in prop::array::uniform4(0.1f64..4.0)) {
-        use coupler_curves::linkage::Class;
+        use coupler_curves::linkage::FourBarClass;
         let [frame, crank, coupler, rocker] = lengths;
         let class = FourBar { frame, crank, coupler, rocker }.class();
         let motion = motion(lengths, all(), Sampling::Step(5.0));
-        let turns = motion.circuits.first().is_some_and(|c| c.passes[0].from.flat.is_none());
-        let expected = class == Class::DragLink || class == Class::CrankRocker && crank < rocker;
+        let turns = motion.circuits.first().is_some_and(|c| c.passes[0].from.flat_dyads.is_empty());
+        let expected = class == FourBarClass::DragLink || class == FourBarClass::CrankRocker && crank < rocker;
         prop_assert_eq!(turns, expected);
     }
 }

@@ -1,9 +1,10 @@
 //! The Roberts-Chebyshev cognates: three four-bars, one curve.
 
 use coupler_curves::catalogue;
-use coupler_curves::geometry::{Placement, Point, Vector, cross, distance_to_segment, trig};
+use coupler_curves::geometry::{Orientation, Point, Vector, cross, distance_to_segment, trig};
 use coupler_curves::linkage::{
-    Bar, Circuits, Class, Cognates, FourBar, Linkage, NoCognates, PlacedFourBar, Sextic, Side, Travel,
+    CircuitSelection, CognateError, Cognates, FourBar, FourBarClass, Linkage, MotionOptions, MovingLink, PlacedFourBar,
+    Sextic, Side,
 };
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -12,10 +13,10 @@ use crate::linkages::check_motion;
 
 /// What draws the traced joint of a linkage, evenly sampled along it.
 fn drawn(linkage: &Linkage) -> Vec<Vec<Point>> {
-    let motion = Motion::of(linkage, &Sampler::new(Sampling::Arc(500)));
+    let motion = Motion::solve(linkage, &Sampler::new(Sampling::ArcLength(500)));
     let path = |circuit: &Circuit| {
         let mut path: Vec<Point> = circuit.points(linkage.traced[0]).collect();
-        if circuit.closed {
+        if circuit.is_closed {
             path.extend(path.first().copied());
         }
         path
@@ -39,9 +40,9 @@ fn same(one: &[Vec<Point>], other: &[Vec<Point>]) -> bool {
 /// Crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
 fn poses(linkage: &Linkage, samples: usize) -> Vec<[Point; 4]> {
     let pins = FourBar::pins(linkage).unwrap();
-    let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(samples)));
+    let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)));
     let Some(circuit) = motion.circuits.first() else { return Vec::new() };
-    (0..circuit.len()).map(|i| pins.map(|pin| circuit.places.point(pin, i))).collect()
+    (0..circuit.len()).map(|i| pins.map(|pin| circuit.positions.point(pin, i))).collect()
 }
 
 fn placed() -> impl Strategy<Value = PlacedFourBar> {
@@ -54,14 +55,14 @@ fn placed() -> impl Strategy<Value = PlacedFourBar> {
             PlacedFourBar {
                 pivots: [o, o + Vector::new(cos, sin) * frame],
                 lengths: FourBar { frame, crank, coupler, rocker },
-                point: Vector::new(along, across),
+                coupler_point: Vector::new(along, across),
             }
         },
     )
 }
 
-fn all() -> Travel {
-    Travel { circuits: Circuits::All, ..Travel::default() }
+fn all() -> MotionOptions {
+    MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }
 }
 
 proptest! {
@@ -70,20 +71,20 @@ proptest! {
     /// Every sample of each satisfies the equation of every other, and all are of one class of chain.
     #[test]
     fn cognates_have_one_equation(four_bar in placed()) {
-        let Ok(cognates) = Cognates::of(four_bar) else { return Ok(()) };
+        let Ok(cognates) = Cognates::from_four_bar(four_bar) else { return Ok(()) };
         let three = cognates.all();
-        let is_grashof = |c: Class| c != Class::TripleRocker;
+        let is_grashof = |c: FourBarClass| c != FourBarClass::TripleRocker;
         for member in &three {
-            let linkage = member.linkage([], &all()).unwrap();
+            let linkage = member.to_linkage([], &all()).unwrap();
             prop_assert_eq!(is_grashof(member.four_bar.lengths.class()), is_grashof(four_bar.lengths.class()));
-            let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
+            let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
             for other in &three {
-                let sextic = Sextic::of(other.four_bar.lengths, other.four_bar.point).unwrap();
+                let sextic = Sextic::from_four_bar(other.four_bar.lengths, other.four_bar.coupler_point).unwrap();
                 let [o, c] = other.four_bar.pivots;
                 let axis = (c - o).normalize();
                 for p in motion.circuits.iter().flat_map(|circuit| circuit.points(linkage.traced[0])) {
                     let own = Point::new(axis.dot(&(p - o)), cross(axis, p - o));
-                    let [value, terms] = sextic.at(own);
+                    let [value, terms] = sextic.evaluate(own);
                     // Sixty-odd terms of the sixth degree; the cognates' own lengths and places are rounded too.
                     prop_assert!(value.abs() <= 1e-10 * terms, "{value} of {terms}");
                 }
@@ -94,21 +95,21 @@ proptest! {
     /// All circuits together are the same set of points.
     #[test]
     fn cognates_draw_one_curve(four_bar in placed()) {
-        let Ok(cognates) = Cognates::of(four_bar) else { return Ok(()) };
-        let [original, first, second] = cognates.all().map(|c| drawn(&c.linkage([], &all()).unwrap()));
+        let Ok(cognates) = Cognates::from_four_bar(four_bar) else { return Ok(()) };
+        let [original, first, second] = cognates.all().map(|c| drawn(&c.to_linkage([], &all()).unwrap()));
         prop_assert!(same(&original, &first) && same(&original, &second));
     }
 
     /// A circuit of the original is one circuit of each cognate: that through the start it is given.
     #[test]
     fn cognates_draw_the_circuit_asked_for(four_bar in placed(), left: bool) {
-        let Ok(cognates) = Cognates::of(four_bar) else { return Ok(()) };
+        let Ok(cognates) = Cognates::from_four_bar(four_bar) else { return Ok(()) };
         let side = if left { Side::Left } else { Side::Right };
-        let original = four_bar.linkage(side, Travel::default()).unwrap();
+        let original = four_bar.to_linkage(side, MotionOptions::default()).unwrap();
         let curve = drawn(&original);
         prop_assume!(!curve.is_empty());
         for cognate in cognates.others {
-            let linkage = cognate.linkage(poses(&original, 90), &original.travel).unwrap();
+            let linkage = cognate.to_linkage(poses(&original, 90), &original.motion_options).unwrap();
             prop_assert!(same(&curve, &drawn(&linkage)), "{cognate:?}");
         }
     }
@@ -116,12 +117,12 @@ proptest! {
     /// Hung on, they keep all their lengths while the original moves, and each link turns as the one it should.
     #[test]
     fn cognates_hang_together(four_bar in placed(), mirror: bool, turn in -180.0f64..180.0) {
-        let plain = four_bar.linkage(Side::Left, all()).unwrap();
-        let linkage = Linkage { placement: Placement::new(mirror, turn), ..plain };
+        let plain = four_bar.to_linkage(Side::Left, all()).unwrap();
+        let linkage = Linkage { placement: Orientation::new(mirror, turn), ..plain };
         let m = linkage.traced[0];
-        let Ok((hung, links)) = Cognates::hung(&linkage, m) else { return Ok(()) };
-        let cognates = Cognates::of(PlacedFourBar::of(&linkage, m).unwrap()).unwrap();
-        let motion = Motion::of(&hung, &Sampler::new(Sampling::Samples(24)));
+        let Ok((hung, links)) = Cognates::assemble(&linkage, m) else { return Ok(()) };
+        let cognates = Cognates::from_four_bar(PlacedFourBar::from_linkage(&linkage, m).unwrap()).unwrap();
+        let motion = Motion::solve(&hung, &Sampler::new(Sampling::Samples(24)));
         check_motion(&hung, &motion)?;
         prop_assert_eq!(links.concat().len(), 6);
         let joint = |name: &str| hung.joints.iter().position(|joint| joint.name == name).unwrap();
@@ -129,7 +130,7 @@ proptest! {
         let pins = FourBar::pins(&linkage).unwrap();
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let at = |joint| circuit.places.point(joint, i);
+                let at = |joint| circuit.positions.point(joint, i);
                 // Rounding of places and of their sums, lengths up to some hundred.
                 let close = |a: Point, b: Point| (a - b).norm() <= 1e-12 * (1.0 + a.coords.norm() + b.coords.norm());
                 prop_assert!(close(at(q), cognates.third_pivot));
@@ -142,7 +143,7 @@ proptest! {
                     prop_assert!(close(ends[0], expected[0]) && close(ends[1], expected[1]));
                     let FourBar { coupler, .. } = cognate.four_bar.lengths;
                     let along = (ends[1] - ends[0]) / coupler;
-                    let point = cognate.four_bar.point;
+                    let point = cognate.four_bar.coupler_point;
                     let left = Vector::new(-along.y, along.x);
                     prop_assert!(close(ends[0] + along * point.x + left * point.y, at(m)));
                 }
@@ -157,24 +158,24 @@ fn cognates_are_driven_by_what_turns_fully() {
     let bar = |frame, crank, coupler, rocker| PlacedFourBar {
         pivots: [Point::origin(), Point::new(frame, 0.0)],
         lengths: FourBar { frame, crank, coupler, rocker },
-        point: Vector::new(1.1, 0.7),
+        coupler_point: Vector::new(1.1, 0.7),
     };
-    use Bar::{Coupler, Crank, Rocker};
+    use MovingLink::{Coupler, Crank, Rocker};
     for (bars, classes, turns) in [
         // The crank turns fully: so does that of the cognate on the rocker's pivot, about the third.
-        (bar(4.0, 1.0, 3.0, 3.5), [Class::DoubleRocker, Class::CrankRocker], [Coupler, Crank]),
-        (bar(4.0, 3.5, 3.0, 1.0), [Class::CrankRocker, Class::DoubleRocker], [Rocker, Crank]),
-        (bar(4.0, 3.5, 1.0, 3.0), [Class::CrankRocker, Class::CrankRocker], [Coupler, Coupler]),
-        (bar(1.0, 3.5, 4.0, 3.0), [Class::DragLink, Class::DragLink], [Coupler, Crank]),
-        (bar(4.0, 2.0, 2.5, 2.0), [Class::TripleRocker, Class::TripleRocker], [Rocker, Crank]),
+        (bar(4.0, 1.0, 3.0, 3.5), [FourBarClass::DoubleRocker, FourBarClass::CrankRocker], [Coupler, Crank]),
+        (bar(4.0, 3.5, 3.0, 1.0), [FourBarClass::CrankRocker, FourBarClass::DoubleRocker], [Rocker, Crank]),
+        (bar(4.0, 3.5, 1.0, 3.0), [FourBarClass::CrankRocker, FourBarClass::CrankRocker], [Coupler, Coupler]),
+        (bar(1.0, 3.5, 4.0, 3.0), [FourBarClass::DragLink, FourBarClass::DragLink], [Coupler, Crank]),
+        (bar(4.0, 2.0, 2.5, 2.0), [FourBarClass::TripleRocker, FourBarClass::TripleRocker], [Rocker, Crank]),
     ] {
-        let cognates = Cognates::of(bars).unwrap();
+        let cognates = Cognates::from_four_bar(bars).unwrap();
         assert_eq!(cognates.others.map(|c| c.four_bar.lengths.class()), classes, "{bars:?}");
-        assert_eq!(cognates.others.map(|c| c.turns_as[0]), turns, "{bars:?}");
+        assert_eq!(cognates.others.map(|c| c.counterparts[0]), turns, "{bars:?}");
         for (cognate, class) in cognates.others.iter().zip(classes) {
-            let motion = Motion::of(&cognate.linkage([], &all()).unwrap(), &Sampler::new(Sampling::Samples(8)));
-            let turns = motion.circuits.iter().all(|c| c.closed && c.passes.len() == 1);
-            assert_eq!(turns, matches!(class, Class::CrankRocker | Class::DragLink), "{bars:?}");
+            let motion = Motion::solve(&cognate.to_linkage([], &all()).unwrap(), &Sampler::new(Sampling::Samples(8)));
+            let turns = motion.circuits.iter().all(|c| c.is_closed && c.passes.len() == 1);
+            assert_eq!(turns, matches!(class, FourBarClass::CrankRocker | FourBarClass::DragLink), "{bars:?}");
         }
     }
 }
@@ -186,10 +187,10 @@ fn cognates_go_through_change_points() {
         let four_bar = PlacedFourBar {
             pivots: [Point::origin(), Point::new(frame, 0.0)],
             lengths: FourBar { frame, crank, coupler, rocker },
-            point: Vector::new(0.7, 0.6),
+            coupler_point: Vector::new(0.7, 0.6),
         };
         let [original, first, second] =
-            Cognates::of(four_bar).unwrap().all().map(|c| drawn(&c.linkage([], &all()).unwrap()));
+            Cognates::from_four_bar(four_bar).unwrap().all().map(|c| drawn(&c.to_linkage([], &all()).unwrap()));
         assert!(same(&original, &first) && same(&original, &second), "{four_bar:?}");
     }
 }
@@ -208,23 +209,27 @@ fn cayleys_diagram_closes() {
         [3.0, 2.0, 1.0, 2.0, -0.4, 0.3],
     ] {
         let linkage = template.linkage(&values).unwrap();
-        let linkage = Linkage { travel: Travel { circuits: Circuits::All, ..linkage.travel.clone() }, ..linkage };
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(90)));
+        let linkage = Linkage {
+            motion_options: MotionOptions { circuits: CircuitSelection::All, ..linkage.motion_options.clone() },
+            ..linkage
+        };
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(90)));
         let joint = |name: &str| linkage.joints.iter().position(|joint| joint.name == name).unwrap();
         let pairs = [["H", "E"], ["I", "G"]].map(|pair| pair.map(joint));
         assert!(motion.is_assembled());
         for circuit in &motion.circuits {
             for (i, [one, other]) in (0..circuit.len()).flat_map(|i| pairs.map(|pair| (i, pair))) {
-                let [one, other] = [one, other].map(|joint| circuit.places.point(joint, i));
+                let [one, other] = [one, other].map(|joint| circuit.positions.point(joint, i));
                 // Six sums of places of the size of ten.
-                assert!((one - other).norm() < 5e-14, "{values:?} at {}: {one} {other}", circuit.input[i]);
+                assert!((one - other).norm() < 5e-14, "{values:?} at {}: {one} {other}", circuit.inputs[i]);
             }
         }
         // The diagram's own four-bars are those found from the first.
-        let cognates = Cognates::of(PlacedFourBar::of(&linkage, linkage.traced[0]).unwrap()).unwrap();
+        let cognates =
+            Cognates::from_four_bar(PlacedFourBar::from_linkage(&linkage, linkage.traced[0]).unwrap()).unwrap();
         let length = |name: &str, other: &str| {
             let [from, to] = [name, other].map(joint);
-            let places = linkage.links.iter().find_map(|link| Some((link.place(from)?, link.place(to)?)));
+            let places = linkage.links.iter().find_map(|link| Some((link.position(from)?, link.position(to)?)));
             places.map(|(from, to)| (to - from).norm()).unwrap()
         };
         for (cognate, [pivot, own, shared, end]) in
@@ -232,7 +237,7 @@ fn cayleys_diagram_closes() {
         {
             let FourBar { frame, crank, coupler, rocker } = cognate.four_bar.lengths;
             let own = [length(pivot, "Q"), length(pivot, own), length(own, shared), length("Q", end)];
-            let found = if cognate.turns_as[0] == Bar::Coupler {
+            let found = if cognate.counterparts[0] == MovingLink::Coupler {
                 [frame, crank, coupler, rocker]
             } else {
                 [frame, rocker, coupler, crank]
@@ -247,11 +252,14 @@ fn cayleys_diagram_closes() {
 fn a_point_of_a_grid_carries_the_cognates_alone() {
     let linkage = crate::catalogue::defaults("hrones-nelson");
     let joint = linkage.traced[2];
-    let (hung, links) = Cognates::hung(&linkage, joint).unwrap();
-    let carriers = hung.links.iter().filter(|link| link.place(joint).is_some()).count();
+    let (hung, links) = Cognates::assemble(&linkage, joint).unwrap();
+    let carriers = hung.links.iter().filter(|link| link.position(joint).is_some()).count();
     assert_eq!((carriers, links.concat().len()), (3, 6));
     assert!(
-        linkage.traced.iter().all(|&other| hung.links.iter().all(|link| other == joint || link.place(other).is_none()))
+        linkage
+            .traced
+            .iter()
+            .all(|&other| hung.links.iter().all(|link| other == joint || link.position(other).is_none()))
     );
     assert_eq!(hung.joints[joint].name, "M3");
 }
@@ -261,16 +269,16 @@ fn what_has_no_cognates_says_why() {
     let bars = |along, across| PlacedFourBar {
         pivots: [Point::origin(), Point::new(4.0, 0.0)],
         lengths: FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 },
-        point: Vector::new(along, across),
+        coupler_point: Vector::new(along, across),
     };
-    assert_eq!(Cognates::of(bars(0.0, 0.0)), Err(NoCognates::OnPin { pin: "crank" }));
-    assert_eq!(Cognates::of(bars(3.0, 1e-14)), Err(NoCognates::OnPin { pin: "rocker" }));
-    let linkage = bars(1.0, 1.0).linkage(Side::Left, all()).unwrap();
-    let pin = |joint: usize| PlacedFourBar::of(&linkage, joint);
-    assert_eq!(pin(0), Err(NoCognates::NotOnCoupler { joint: "O".to_owned() }));
-    assert_eq!(Cognates::hung(&linkage, 2).unwrap_err(), NoCognates::OnPin { pin: "crank" });
+    assert_eq!(Cognates::from_four_bar(bars(0.0, 0.0)), Err(CognateError::CouplerPointOnPin { pin: "crank" }));
+    assert_eq!(Cognates::from_four_bar(bars(3.0, 1e-14)), Err(CognateError::CouplerPointOnPin { pin: "rocker" }));
+    let linkage = bars(1.0, 1.0).to_linkage(Side::Left, all()).unwrap();
+    let pin = |joint: usize| PlacedFourBar::from_linkage(&linkage, joint);
+    assert_eq!(pin(0), Err(CognateError::NotOnCoupler { joint: "O".to_owned() }));
+    assert_eq!(Cognates::assemble(&linkage, 2).unwrap_err(), CognateError::CouplerPointOnPin { pin: "crank" });
     let klann = crate::catalogue::defaults("klann");
-    assert_eq!(PlacedFourBar::of(&klann, klann.traced[0]), Err(NoCognates::NoFourBar));
+    assert_eq!(PlacedFourBar::from_linkage(&klann, klann.traced[0]), Err(CognateError::NotFourBar));
 }
 
 /// Chebyshev's linkage, driven by its coupler, has Evans's at half size for its cognates: crank 1/2, frame p/2, coupler and
@@ -285,27 +293,36 @@ fn chebyshevs_cognate_is_evanss_at_half_size() {
         let chebyshev = chebyshev.linkage(&[p, a, a, 1.0, 0.5]).unwrap();
         let evans = evans.linkage(&[p, 1.0, a, a, 2.0]).unwrap();
         let [of_chebyshev, of_evans] =
-            [&chebyshev, &evans].map(|linkage| PlacedFourBar::of(linkage, linkage.traced[0]).unwrap());
+            [&chebyshev, &evans].map(|linkage| PlacedFourBar::from_linkage(linkage, linkage.traced[0]).unwrap());
         let close = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * (x.abs() + y.abs());
         let is_scaled = |one: &PlacedFourBar, other: &PlacedFourBar, by: f64| {
             let list = |b: &PlacedFourBar| {
-                [b.lengths.frame, b.lengths.crank, b.lengths.coupler, b.lengths.rocker, b.point.x, b.point.y]
+                [
+                    b.lengths.frame,
+                    b.lengths.crank,
+                    b.lengths.coupler,
+                    b.lengths.rocker,
+                    b.coupler_point.x,
+                    b.coupler_point.y,
+                ]
             };
             list(one).into_iter().zip(list(other)).all(|(x, y)| close(x, by * y))
         };
-        let cognates = Cognates::of(of_chebyshev).unwrap();
+        let cognates = Cognates::from_four_bar(of_chebyshev).unwrap();
         assert!(close(cognates.third_pivot.x, p / 2.0) && cognates.third_pivot.y == 0.0);
         for cognate in cognates.others {
             assert!(is_scaled(&cognate.four_bar, &of_evans, 0.5), "p = {p}: {cognate:?}");
-            assert_eq!(cognate.turns_as[0], Bar::Coupler, "crank-driven where Chebyshev's coupler turns");
-            assert_eq!(cognate.four_bar.lengths.class(), Class::CrankRocker);
+            assert_eq!(cognate.counterparts[0], MovingLink::Coupler, "crank-driven where Chebyshev's coupler turns");
+            assert_eq!(cognate.four_bar.lengths.class(), FourBarClass::CrankRocker);
         }
-        let back = Cognates::of(of_evans).unwrap().others[0];
+        let back = Cognates::from_four_bar(of_evans).unwrap().others[0];
         assert!(is_scaled(&back.four_bar, &of_chebyshev, 2.0), "p = {p}: {back:?}");
         // And so they are drawn: twice the half-size Evans is Evans.
-        let [one, other] =
-            [chebyshev.clone(), cognates.others[0].linkage(poses(&chebyshev, 90), &chebyshev.travel).unwrap()]
-                .map(|linkage| drawn(&linkage));
+        let [one, other] = [
+            chebyshev.clone(),
+            cognates.others[0].to_linkage(poses(&chebyshev, 90), &chebyshev.motion_options).unwrap(),
+        ]
+        .map(|linkage| drawn(&linkage));
         assert!(same(&one, &other), "p = {p}");
     }
 }

@@ -183,7 +183,7 @@ proptest! {
             is_placed(Expression::parse(&text).and_then(|read| read.check(&["p"], |_| None)), &text);
             is_placed(Caption::parse(&text), &text);
             is_placed(Quantity::parse(&text, Dimension::Angle), &text);
-            is_placed(Quantity::parse(&text, Dimension::Paper), &text);
+            is_placed(Quantity::parse(&text, Dimension::PaperLength), &text);
             if let Ok(read) = Expression::parse(&text) {
                 read.evaluate(|_| 1.5);
             }

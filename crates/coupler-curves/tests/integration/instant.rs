@@ -1,21 +1,21 @@
 //! The geometry of a coupler's motion at an instant, against what is known of it in closed form.
 
 use coupler_curves::geometry::{Point, Vector, cross, trig};
-use coupler_curves::linkage::{Assembly, Circuits, Linkage, Side, Travel};
-use coupler_curves::measure::{column, take_columns};
-use coupler_curves::motion::{Circuit, Instant, Motion, Sampler, Sampling};
+use coupler_curves::linkage::{CircuitSelection, Linkage, LinkageBuilder, MotionOptions, Side};
+use coupler_curves::measure::{compute_columns, find_column};
+use coupler_curves::motion::{Circuit, InstantaneousMotion, Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
 /// Joints: O, C, A, B and a coupler point M.
 fn four_bar([frame, crank, coupler, rocker]: [f64; 4], along: f64, across: f64) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", Point::new(0.0, 0.0));
     let c = assembly.fixed("C", Point::new(frame, 0.0));
     let a = assembly.crank("A", o, crank).unwrap();
     let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
     let m = assembly.point("M", [a, b], along, across).unwrap();
-    let travel = Travel { circuits: Circuits::All, ..Travel::default() };
-    assembly.finish(vec![m], None, travel).unwrap()
+    let travel = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
+    assembly.build(vec![m], None, travel).unwrap()
 }
 
 const O: usize = 0;
@@ -25,11 +25,11 @@ const B: usize = 3;
 const M: usize = 4;
 
 fn motion(linkage: &Linkage, samples: usize) -> Motion {
-    Motion::of(linkage, &Sampler::new(Sampling::Samples(samples)))
+    Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)))
 }
 
-fn at(linkage: &Linkage, circuit: &Circuit, sample: usize) -> Instant {
-    Instant::of_joint(linkage, &circuit.jets(linkage, sample), M).unwrap()
+fn at(linkage: &Linkage, circuit: &Circuit, sample: usize) -> InstantaneousMotion {
+    InstantaneousMotion::from_joint(linkage, &circuit.derivatives(linkage, sample), M).unwrap()
 }
 
 proptest! {
@@ -40,13 +40,13 @@ proptest! {
         lengths in prop::array::uniform4(0.5f64..4.0), (along, across) in (-2.0f64..2.0, -2.0f64..2.0),
     ) {
         let linkage = four_bar(lengths, along, across);
-        let columns = ["curvature", "curvature_rate"].map(|name| column(name).unwrap());
+        let columns = ["curvature", "curvature_rate"].map(|name| find_column(name).unwrap());
         for circuit in &motion(&linkage, 24).circuits {
             for sample in 0..circuit.len() {
-                let jets = circuit.jets(&linkage, sample);
+                let jets = circuit.derivatives(&linkage, sample);
                 let (Some(instant), Some(by_rates)) =
-                    (Instant::of_joint(&linkage, &jets, M), Instant::of_link(&jets, [A, B])) else { continue };
-                let p = |joint| circuit.places.point(joint, sample);
+                    (InstantaneousMotion::from_joint(&linkage, &jets, M), InstantaneousMotion::from_link(&jets, [A, B])) else { continue };
+                let p = |joint| circuit.positions.point(joint, sample);
                 // Kennedy: the pole is on the lines of crank and rocker.
                 let size = (instant.pole - p(O)).norm() + 10.0;
                 prop_assert!(cross(p(A) - p(O), instant.pole - p(O)).abs() < 1e-9 * size * size);
@@ -58,7 +58,7 @@ proptest! {
                 }
                 let near = |a: f64, b: f64, unit: f64| (a - b).abs() <= 1e-7 * (a.abs() + unit);
                 prop_assert!((instant.pole - by_rates.pole).norm() < 1e-9 * size);
-                prop_assert!((instant.diameter - by_rates.diameter).norm() < 1e-8 * (instant.diameter.norm() + size));
+                prop_assert!((instant.inflection_diameter - by_rates.inflection_diameter).norm() < 1e-8 * (instant.inflection_diameter.norm() + size));
                 // Beside the pole a path has a cusp: what is divided by there goes with the sixth power of the distance.
                 for point in [p(A), p(B), p(M)].into_iter().filter(|p| (p - instant.pole).norm() > 0.3) {
                     prop_assert!(near(instant.curvature_rate(point), by_rates.curvature_rate(point), 1.0));
@@ -71,13 +71,13 @@ proptest! {
                         prop_assert!(instant.curvature_rate(p(pin)).abs() < 1e-6);
                     }
                 }
-                let taken = take_columns(&columns, &linkage, (circuit, M), sample);
+                let taken = compute_columns(&columns, &linkage, (circuit, M), sample);
                 if (p(M) - instant.pole).norm() > 0.1 {
                     prop_assert!(near(instant.curvature(p(M)), taken[0], 1.0), "{} {}", instant.curvature(p(M)), taken[0]);
                     prop_assert!(near(instant.curvature_rate(p(M)), taken[1], 1.0));
                 }
                 // Points of the inflection circle go straight, those of the cubic have a still curvature, Ball's both.
-                let d = instant.diameter;
+                let d = instant.inflection_diameter;
                 if d.norm() < 0.05 {
                     continue;
                 }
@@ -115,16 +115,16 @@ fn centrodes_roll_on_each_other() {
     for sample in (1..3599).step_by(50) {
         let [before, here, after] = [sample - 1, sample, sample + 1].map(|k| at(&linkage, circuit, k));
         let angle = |k: usize| {
-            let arm = circuit.places.point(B, k) - circuit.places.point(A, k);
+            let arm = circuit.positions.point(B, k) - circuit.positions.point(A, k);
             trig::atan2(arm.y, arm.x)
         };
         // Central differences, good to the square of the step of a tenth of a degree.
         let turned = angle(sample + 1) - angle(sample - 1);
         let fixed = (after.pole - before.pole) / turned;
         let moving = (after.moving_pole - before.moving_pole) / turned;
-        let size = here.tangent().norm();
+        let size = here.pole_tangent().norm();
         if turned.abs() > 1e-5 && size < 50.0 {
-            assert!((fixed + here.tangent()).norm() < 1e-3 * (size + 1.0), "{fixed} {}", here.tangent());
+            assert!((fixed + here.pole_tangent()).norm() < 1e-3 * (size + 1.0), "{fixed} {}", here.pole_tangent());
             assert!((moving.norm() - size).abs() < 1e-3 * (size + 1.0), "{} {size}", moving.norm());
         }
     }
@@ -138,7 +138,7 @@ fn the_centrodes_of_an_antiparallelogram_are_ellipses() {
     let mut seen = 0;
     for circuit in &motion(&linkage, 90).circuits {
         for sample in 0..circuit.len() {
-            let p = |joint| circuit.places.point(joint, sample);
+            let p = |joint| circuit.positions.point(joint, sample);
             let is_parallel = (p(A) - p(O) - (p(B) - p(C))).norm() < 1e-6;
             if is_parallel || cross(p(A) - p(O), p(B) - p(C)).abs() < 1e-3 {
                 continue;
@@ -158,12 +158,12 @@ fn at_a_limit_the_coupler_turns_about_the_crank_pin() {
     let linkage = four_bar([4.0, 2.0, 2.0, 2.0], 1.0, 0.7);
     let motion = motion(&linkage, 40);
     let circuit = &motion.circuits[0];
-    let limit = (0..circuit.len()).find(|&k| circuit.input[k] == circuit.passes[0].to.stop.at).unwrap();
+    let limit = (0..circuit.len()).find(|&k| circuit.inputs[k] == circuit.passes[0].to.input.value).unwrap();
     let instant = at(&linkage, circuit, limit);
-    assert!((instant.pole - circuit.places.point(A, limit)).norm() < 1e-9);
+    assert!((instant.pole - circuit.positions.point(A, limit)).norm() < 1e-9);
     let names = ["pole_x", "pole_y", "moving_pole_x", "moving_pole_y", "inflection_x", "inflection_y"];
-    let taken = take_columns(&names.map(|name| column(name).unwrap()), &linkage, (circuit, M), limit);
-    let pole = circuit.places.point(A, limit);
+    let taken = compute_columns(&names.map(|name| find_column(name).unwrap()), &linkage, (circuit, M), limit);
+    let pole = circuit.positions.point(A, limit);
     assert!((taken[0] - pole.x).abs() < 1e-9 && (taken[1] - pole.y).abs() < 1e-9);
     assert!(Vector::new(taken[2], taken[3]).norm() < 1e-9 && taken[4].is_finite() && taken[5].is_finite());
 }

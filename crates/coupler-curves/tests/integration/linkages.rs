@@ -1,17 +1,19 @@
 //! Linkages of several dyads: their limits are found between samples, and their circuits keep every length.
 
 use coupler_curves::geometry::{Point, Vector, trig};
-use coupler_curves::linkage::{Assembly, Circuits, Coincident, Linkage, Side, Step, Travel};
+use coupler_curves::linkage::{
+    CircuitSelection, CoincidentDyads, JointKind, Linkage, LinkageBuilder, MotionOptions, Side,
+};
 use coupler_curves::motion::{Motion, Pass, Sampler, Sampling};
 use proptest::prelude::*;
 
-fn all() -> Travel {
-    Travel { circuits: Circuits::All, ..Travel::default() }
+fn all() -> MotionOptions {
+    MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }
 }
 
 /// A Watt six-bar: a second dyad on a point of the rocker and a third fixed pivot.
 fn six_bar([frame, crank, coupler, rocker, arm, link, output, pivot]: [f64; 8]) -> Option<Linkage> {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [frame, 0.0].into());
     let d = assembly.fixed("D", [frame + pivot, 0.5].into());
@@ -19,25 +21,26 @@ fn six_bar([frame, crank, coupler, rocker, arm, link, output, pivot]: [f64; 8]) 
     let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).ok()?;
     let e = assembly.point("E", [c, b], arm, 0.4).ok()?;
     let f = assembly.dyad("F", [e, d], [link, output], Side::Left).ok()?;
-    assembly.finish(vec![f], None, all()).ok()
+    assembly.build(vec![f], None, all()).ok()
 }
 
 fn check(linkage: &Linkage, step: f64) -> Result<(), TestCaseError> {
-    check_motion(linkage, &Motion::of(linkage, &Sampler::new(Sampling::Step(step))))
+    check_motion(linkage, &Motion::solve(linkage, &Sampler::new(Sampling::Step(step))))
 }
 
 /// Every link keeps its length, and every pass begins where the one before it ends.
 pub fn check_motion(linkage: &Linkage, motion: &Motion) -> Result<(), TestCaseError> {
     for circuit in &motion.circuits {
-        let ends: Vec<f64> = circuit.passes.iter().flat_map(|pass| [pass.from.stop.at, pass.to.stop.at]).collect();
+        let ends: Vec<f64> =
+            circuit.passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]).collect();
         for i in 0..circuit.len() {
             // Where two dyads have their limits close together, the base of the second moves so fast that no input
             // a float can name lays it flat to better than this.
-            let tolerance = if ends.contains(&circuit.input[i]) { 1e-10 } else { 1e-12 };
+            let tolerance = if ends.contains(&circuit.inputs[i]) { 1e-10 } else { 1e-12 };
             for link in &linkage.links {
                 for pair in link.joints.windows(2) {
                     let length = (pair[0].1 - pair[1].1).norm();
-                    let found = (circuit.places.point(pair[0].0, i) - circuit.places.point(pair[1].0, i)).norm();
+                    let found = (circuit.positions.point(pair[0].0, i) - circuit.positions.point(pair[1].0, i)).norm();
                     // Places are of the size of the linkage: a short link keeps as many digits fewer.
                     prop_assert!((found - length).abs() <= tolerance * length.max(0.1), "{found} {length}");
                 }
@@ -45,10 +48,10 @@ pub fn check_motion(linkage: &Linkage, motion: &Motion) -> Result<(), TestCaseEr
         }
         for k in 0..circuit.passes.len() {
             let next = (k + 1) % circuit.passes.len();
-            if next > k || circuit.closed {
+            if next > k || circuit.is_closed {
                 let (pass, after) = (&circuit.passes[k], &circuit.passes[next]);
                 // A pass goes over into the next at one pose.
-                let (end, begin) = (pass.to.stop, after.from.stop);
+                let (end, begin) = (pass.to.input, after.from.input);
                 prop_assert!((end.cos - begin.cos).abs() < 1e-15 && (end.sin - begin.sin).abs() < 1e-15);
             }
         }
@@ -73,7 +76,7 @@ proptest! {
     fn six_bars_move_wherever_they_close(lengths in prop::array::uniform8(0.3f64..3.0)) {
         let Some(linkage) = six_bar(lengths) else { return Ok(()) };
         let [frame, crank, coupler, rocker, arm, link, output, pivot] = lengths;
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(8)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(8)));
         let (c, d) = (Point::new(frame, 0.0), Point::new(frame + pivot, 0.5));
         for (k, signs) in (0..1440).flat_map(|k| [(1, 1), (1, -1), (-1, 1), (-1, -1)].map(|signs| (k, signs))) {
             let deg = 0.25 * f64::from(k) + 0.1;
@@ -88,8 +91,8 @@ proptest! {
                 continue;
             }
             let is_here = |pass: &Pass| {
-                let low = pass.from.stop.at.min(pass.to.stop.at);
-                (pass.signs.get(0), pass.signs.get(1)) == signs && (deg - low).rem_euclid(360.0) <= pass.length()
+                let low = pass.from.input.value.min(pass.to.input.value);
+                (pass.mode.sign(0), pass.mode.sign(1)) == signs && (deg - low).rem_euclid(360.0) <= pass.input_length()
             };
             let found = motion.circuits.iter().flat_map(|circuit| &circuit.passes).filter(|pass| is_here(pass)).count();
             prop_assert_eq!(found, usize::from(room > 0.0), "at {} with {:?}: {}", deg, signs, room);
@@ -107,7 +110,7 @@ proptest! {
 /// A crank-rocker, and a second dyad of these lengths to a pivot at (2, 0): it hangs on a coupler point that coincides
 /// with the crank pin, so that its limits are sampled and yet known in closed form.
 fn second_dyad_on_the_crank_pin(lengths: [f64; 2]) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [4.0, 0.0].into());
     let a = assembly.crank("A", o, 1.0).unwrap();
@@ -115,23 +118,23 @@ fn second_dyad_on_the_crank_pin(lengths: [f64; 2]) -> Linkage {
     let p = assembly.point("P", [a, b], 0.0, 0.0).unwrap();
     let d = assembly.fixed("D", [2.0, 0.0].into());
     let f = assembly.dyad("F", [p, d], lengths, Side::Left).unwrap();
-    assembly.finish(vec![f], None, all()).unwrap()
+    assembly.build(vec![f], None, all()).unwrap()
 }
 
 #[test]
 fn limits_between_samples_are_found_to_the_last_bits() {
     let linkage = second_dyad_on_the_crank_pin([0.9, 1.0]);
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(10.0)));
     // 1 + 4 - 4 cos = 1.9^2
     let limit = trig::degrees(trig::acos((5.0 - 1.9 * 1.9) / 4.0));
     assert_eq!(motion.circuits.len(), 2, "one for each side of the first dyad");
     for circuit in &motion.circuits {
-        let reached = circuit.input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let reached = circuit.inputs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         assert!((reached - limit).abs() < 1e-12, "{reached} {limit}");
-        assert!(circuit.closed && circuit.passes.len() == 2);
+        assert!(circuit.is_closed && circuit.passes.len() == 2);
         // The second dyad changes its side at the limit, the first keeps it.
-        assert_eq!(circuit.passes[0].signs.get(0), circuit.passes[1].signs.get(0));
-        assert_ne!(circuit.passes[0].signs.get(1), circuit.passes[1].signs.get(1));
+        assert_eq!(circuit.passes[0].mode.sign(0), circuit.passes[1].mode.sign(0));
+        assert_ne!(circuit.passes[0].mode.sign(1), circuit.passes[1].mode.sign(1));
     }
 }
 
@@ -139,7 +142,7 @@ fn limits_between_samples_are_found_to_the_last_bits() {
 fn second_dyad_towards(direction_deg: f64, lengths: [f64; 2]) -> Linkage {
     let (cos, sin) = trig::cos_sin_deg(direction_deg);
     let mut linkage = second_dyad_on_the_crank_pin(lengths);
-    linkage.joints[5].step = Step::Fixed([2.0 * cos, 2.0 * sin].into());
+    linkage.joints[5].kind = JointKind::Fixed([2.0 * cos, 2.0 * sin].into());
     linkage
 }
 
@@ -160,15 +163,15 @@ fn gaps_and_windows_are_found_down_to_rounding() {
                 off.min(360.0 - off) <= edge_deg
             };
             let gap = second_dyad_towards(direction, [1.5 - less, 1.5]);
-            for circuit in Motion::of(&gap, &Sampler::new(Sampling::Step(10.0))).circuits {
-                let (low, high) = (circuit.passes[0].from.stop.at, circuit.passes[0].to.stop.at);
+            for circuit in Motion::solve(&gap, &Sampler::new(Sampling::Step(10.0))).circuits {
+                let (low, high) = (circuit.passes[0].from.input.value, circuit.passes[0].to.input.value);
                 assert!(near(low, 1.0) && near(high, -1.0), "gap of {half_width_deg} at {opposite}: {low} to {high}");
             }
             let window = second_dyad_towards(direction, [4.0 - less, 1.0]);
-            let motion = Motion::of(&window, &Sampler::new(Sampling::Step(10.0)));
+            let motion = Motion::solve(&window, &Sampler::new(Sampling::Step(10.0)));
             assert_eq!(motion.circuits.len(), 2, "window of {half_width_deg} at {opposite}");
             for circuit in motion.circuits {
-                let (low, high) = (circuit.passes[0].from.stop.at, circuit.passes[0].to.stop.at);
+                let (low, high) = (circuit.passes[0].from.input.value, circuit.passes[0].to.input.value);
                 assert!(
                     near(low, -1.0) && near(high, 1.0),
                     "window of {half_width_deg} at {opposite}: {low} to {high}"
@@ -182,29 +185,30 @@ fn gaps_and_windows_are_found_down_to_rounding() {
 #[test]
 fn what_misses_by_rounding_only_is_a_change_point() {
     let touch = second_dyad_towards(37.123_456_7, [1.5, 1.5]);
-    let motion = Motion::of(&touch, &Sampler::new(Sampling::Step(10.0)));
+    let motion = Motion::solve(&touch, &Sampler::new(Sampling::Step(10.0)));
     // Two turns each, for the second dyad changes its side after the first.
-    let turns: Vec<f64> = motion.circuits.iter().map(|c| c.passes.iter().map(|pass| pass.length()).sum()).collect();
+    let turns: Vec<f64> =
+        motion.circuits.iter().map(|c| c.passes.iter().map(|pass| pass.input_length()).sum()).collect();
     assert_eq!(turns, [720.0, 720.0]);
-    assert!(motion.circuits.iter().all(|circuit| circuit.closed));
+    assert!(motion.circuits.iter().all(|circuit| circuit.is_closed));
 }
 
 #[test]
 fn limits_do_not_depend_on_where_the_linkage_stands() {
     // The same four-bar on its frame line and turned by 30 degrees about a pivot elsewhere.
     let four_bar = |o: [f64; 2], c: [f64; 2]| {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", o.into());
         let c = assembly.fixed("C", c.into());
         let a = assembly.crank("A", o, 3.0).unwrap();
         let b = assembly.dyad("B", [a, c], [1.0, 3.0], Side::Left).unwrap();
-        Motion::of(&assembly.finish(vec![b], None, all()).unwrap(), &Sampler::new(Sampling::Samples(40)))
+        Motion::solve(&assembly.build(vec![b], None, all()).unwrap(), &Sampler::new(Sampling::Samples(40)))
     };
     let (plain, turned) =
         (four_bar([0.0, 0.0], [4.0, 0.0]), four_bar([1.0, 2.0], [1.0 + 4.0 * trig::cos(trig::radians(30.0)), 4.0]));
     assert_eq!(plain.circuits.len(), turned.circuits.len());
     for (plain, turned) in plain.circuits.iter().zip(&turned.circuits) {
-        for (a, b) in plain.input.iter().zip(&turned.input) {
+        for (a, b) in plain.inputs.iter().zip(&turned.inputs) {
             assert!((a + 30.0 - b).abs() < 1e-12, "{a} {b}");
         }
     }
@@ -214,23 +218,23 @@ fn limits_do_not_depend_on_where_the_linkage_stands() {
 #[test]
 fn dyads_that_lie_flat_together_go_on_together() {
     for (g, r) in [(4.0, 1.0), (0.3, 0.1), (1.0, 0.7)] {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", [0.0, 0.0].into());
         let c = assembly.fixed("C", [g, 0.0].into());
         let d = assembly.fixed("D", [2.0 * g, 0.0].into());
         let a = assembly.crank("A", o, r).unwrap();
         let b = assembly.dyad("B", [a, c], [g, r], Side::Left).unwrap();
         let e = assembly.dyad("E", [b, d], [g, r], Side::Left).unwrap();
-        let linkage = assembly.finish(vec![e], None, all()).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+        let linkage = assembly.build(vec![e], None, all()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(10.0)));
         assert_eq!(motion.circuits.len(), 4, "{g} {r}: parallel or crossed, twice");
         // In the one that starts with both to the left, both rods stay parallel all the way round.
         let circuit = &motion.circuits[0];
-        assert!(circuit.closed && circuit.len() == 36);
+        assert!(circuit.is_closed && circuit.len() == 36);
         for i in 0..circuit.len() {
-            let crank = circuit.places.point(a, i) - circuit.places.point(o, i);
-            let wheel = circuit.places.point(e, i) - circuit.places.point(d, i);
-            assert!((crank - wheel).norm() < 1e-12, "{g} {r} at {}: {crank} {wheel}", circuit.input[i]);
+            let crank = circuit.positions.point(a, i) - circuit.positions.point(o, i);
+            let wheel = circuit.positions.point(e, i) - circuit.positions.point(d, i);
+            assert!((crank - wheel).norm() < 1e-12, "{g} {r} at {}: {crank} {wheel}", circuit.inputs[i]);
         }
     }
 }
@@ -239,45 +243,49 @@ fn dyads_that_lie_flat_together_go_on_together() {
 #[test]
 fn which_of_coincident_dyads_change_sides_can_be_said() {
     let modes = |coincident| -> Vec<[i8; 2]> {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", [0.0, 0.0].into());
         let c = assembly.fixed("C", [4.0, 0.0].into());
         let a = assembly.crank("A", o, 2.0).unwrap();
         let b = assembly.dyad("B", [a, c], [2.0, 2.0], Side::Left).unwrap();
         let d = assembly.dyad("D", [a, c], [2.5, 1.5], Side::Right).unwrap();
-        let linkage = assembly.finish(vec![b, d], None, Travel { coincident, ..Travel::default() }).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(24)));
+        let linkage =
+            assembly.build(vec![b, d], None, MotionOptions { coincident, ..MotionOptions::default() }).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(24)));
         check_motion(&linkage, &motion).unwrap();
         let circuit = &motion.circuits[0];
-        assert!(circuit.closed);
-        circuit.passes.iter().map(|pass| [pass.signs.get(0), pass.signs.get(1)]).collect()
+        assert!(circuit.is_closed);
+        circuit.passes.iter().map(|pass| [pass.mode.sign(0), pass.mode.sign(1)]).collect()
     };
-    assert_eq!(modes(Coincident::Together), [[1, -1], [-1, 1]]);
-    assert_eq!(modes(Coincident::First), [[1, -1], [-1, -1]]);
-    assert_eq!(modes(Coincident::Last), [[1, 1], [1, -1]]);
+    assert_eq!(modes(CoincidentDyads::Together), [[1, -1], [-1, 1]]);
+    assert_eq!(modes(CoincidentDyads::First), [[1, -1], [-1, -1]]);
+    assert_eq!(modes(CoincidentDyads::Last), [[1, 1], [1, -1]]);
 }
 
 #[test]
 fn a_geared_circuit_takes_the_turns_it_needs() {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let p = assembly.fixed("P", [3.0, 0.0].into());
     let a = assembly.crank("A", o, 1.0).unwrap();
     let g = assembly.gear("G", (p, 0.8), [-4.0, 6.0], 30.0).unwrap();
     let b = assembly.dyad("B", [a, g], [3.0, 3.0], Side::Left).unwrap();
-    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let linkage = assembly.build(vec![b], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(10.0)));
     let circuit = &motion.circuits[0];
     // Two thirds of a turn to each: back after three.
-    assert!(circuit.closed);
-    assert_eq!((circuit.len(), circuit.passes[0].to.stop.at), (108, 1080.0));
+    assert!(circuit.is_closed);
+    assert_eq!((circuit.len(), circuit.passes[0].to.input.value), (108, 1080.0));
     for i in 0..circuit.len() {
-        let angle = 30.0 - circuit.input[i] * 2.0 / 3.0;
+        let angle = 30.0 - circuit.inputs[i] * 2.0 / 3.0;
         let (cos, sin) = trig::cos_sin_deg(angle);
-        let gear = circuit.places.point(g, i);
+        let gear = circuit.positions.point(g, i);
         assert!((gear.x - 3.0 - 0.8 * cos).abs() < 1e-13 && (gear.y - 0.8 * sin).abs() < 1e-13);
         let next = (i + 1) % circuit.len();
-        assert!((circuit.places.point(b, next) - circuit.places.point(b, i)).norm() < 1.0, "no jump where it closes");
+        assert!(
+            (circuit.positions.point(b, next) - circuit.positions.point(b, i)).norm() < 1.0,
+            "no jump where it closes"
+        );
     }
 }
 
@@ -286,23 +294,23 @@ fn an_actuator_drives_its_crank_from_limit_to_limit_and_back() {
     use coupler_curves::linkage::InvertedSliderCrank;
     let (g, r) = (2.0, 1.0);
     for e in [0.0, 0.5, 1.5] {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let c = assembly.fixed("C", [g, 0.0].into());
         let o = assembly.fixed("O", [0.0, 0.0].into());
         let a = assembly.piston("A", [c, o], (r, e), Side::Left).unwrap();
-        let linkage = assembly.finish(vec![a], None, all()).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
+        let linkage = assembly.build(vec![a], None, all()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
         let formulas = InvertedSliderCrank { g, r, e };
         let [least, greatest] = formulas.slide_range().unwrap();
         for circuit in &motion.circuits {
-            let low = circuit.input.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = circuit.input.iter().copied().fold(0.0, f64::max);
+            let low = circuit.inputs.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = circuit.inputs.iter().copied().fold(0.0, f64::max);
             assert!((low - least).abs() < 1e-12 && (high - greatest).abs() < 1e-12, "{e}: {low} {high}");
             // Beyond the nearest the actuator can still shorten to nothing, where it ends.
-            assert_eq!(circuit.closed, e < g - r);
+            assert_eq!(circuit.is_closed, e < g - r);
             for i in 0..circuit.len() {
-                let theta = formulas.theta(circuit.input[i]).unwrap();
-                let place = circuit.places.point(a, i);
+                let theta = formulas.theta(circuit.inputs[i]).unwrap();
+                let place = circuit.positions.point(a, i);
                 assert!((place.x - r * trig::cos(theta)).abs() < 1e-12, "{e} {i}: {place} {theta}");
                 assert!((place.coords.norm() - r).abs() < 1e-12, "{e} {i}: {place}");
             }
@@ -317,7 +325,7 @@ fn what_hangs_on_a_kite_goes_on_with_it() {
     for direction in [0.0, 57.3] {
         let (cos, sin) = trig::cos_sin_deg(direction);
         let turned = |x: f64, y: f64| Point::new(cos * x - sin * y, sin * x + cos * y);
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", turned(0.0, 0.0));
         let c = assembly.fixed("C", turned(2.0, 0.0));
         let e = assembly.fixed("E", turned(4.0, 1.0));
@@ -327,18 +335,18 @@ fn what_hangs_on_a_kite_goes_on_with_it() {
         let m = assembly.point("M", [a, b], 1.0, 0.5).unwrap();
         let d = assembly.dyad("D", [m, e], [6.0, 5.0], Side::Left).unwrap();
         let s = assembly.slide("S", (m, 9.0), ([e, q], 0.0), Side::Left).unwrap();
-        let linkage = assembly.finish(vec![d, s], None, all()).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(2.0)));
+        let linkage = assembly.build(vec![d, s], None, all()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(2.0)));
         check_motion(&linkage, &motion).unwrap();
         assert_eq!(motion.circuits.len(), 4, "each side of the two dyads that never lie flat");
         for circuit in &motion.circuits {
-            let length: f64 = circuit.passes.iter().map(|pass| pass.length()).sum();
-            assert!(circuit.closed && (length - 720.0).abs() < 1e-9, "{length}");
+            let length: f64 = circuit.passes.iter().map(|pass| pass.input_length()).sum();
+            assert!(circuit.is_closed && (length - 720.0).abs() < 1e-9, "{length}");
             for i in 0..circuit.len() {
                 let next = (i + 1) % circuit.len();
                 for joint in [d, s] {
-                    let moved = circuit.places.point(joint, next) - circuit.places.point(joint, i);
-                    assert!(moved.norm() < 1.0, "from {}: {moved}", circuit.input[i]);
+                    let moved = circuit.positions.point(joint, next) - circuit.positions.point(joint, i);
+                    assert!(moved.norm() < 1.0, "from {}: {moved}", circuit.inputs[i]);
                 }
             }
         }
@@ -348,24 +356,24 @@ fn what_hangs_on_a_kite_goes_on_with_it() {
 /// A turning block whose crank is as long as the frame: its line turns half as fast as the crank, through the pivot.
 #[test]
 fn a_slot_without_offset_goes_on_through_its_pivot() {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [1.0, 0.0].into());
     let a = assembly.crank("A", o, 1.0).unwrap();
     assembly.slot("B", [c, a], 0.0, Side::Right).unwrap();
     let m = assembly.point("M", [c, a], 2.0, 0.3).unwrap();
-    let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let linkage = assembly.build(vec![m], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(10.0)));
     let circuit = &motion.circuits[0];
-    assert!(circuit.closed && circuit.len() == 72, "{}", circuit.len());
+    assert!(circuit.is_closed && circuit.len() == 72, "{}", circuit.len());
     // At the start, half a turn round, it points from C to A. Circuits begin on branch 1, and so a turn before that.
-    let at_start = |k: &usize| circuit.input[*k] == 540.0 && circuit.signs(*k).get(0) == -1;
+    let at_start = |k: &usize| circuit.inputs[*k] == 540.0 && circuit.mode_at(*k).sign(0) == -1;
     let start = (0..circuit.len()).find(at_start).unwrap();
     for i in 0..circuit.len() {
-        let (cos, sin) = trig::cos_sin_deg(180.0 + (circuit.input[i] - circuit.input[start]) / 2.0);
+        let (cos, sin) = trig::cos_sin_deg(180.0 + (circuit.inputs[i] - circuit.inputs[start]) / 2.0);
         let expected = Point::new(1.0 + 2.0 * cos - 0.3 * sin, 2.0 * sin + 0.3 * cos);
-        let found = circuit.places.point(m, i);
-        assert!((found - expected).norm() < 1e-12, "at {}: {found} {expected}", circuit.input[i]);
+        let found = circuit.positions.point(m, i);
+        assert!((found - expected).norm() < 1e-12, "at {}: {found} {expected}", circuit.inputs[i]);
     }
 }
 
@@ -373,29 +381,31 @@ fn a_slot_without_offset_goes_on_through_its_pivot() {
 #[test]
 fn actuators_are_the_same_at_every_size() {
     for scale in [1e-13, 1e-6, 1.0, 1e9] {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let c = assembly.fixed("C", [3.0 * scale, 0.0].into());
         let o = assembly.fixed("O", [0.0, 0.0].into());
         let a = assembly.piston("A", [c, o], (scale, 0.0), Side::Left).unwrap();
-        let linkage = assembly.finish(vec![a], None, Travel::default()).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(5)));
+        let linkage = assembly.build(vec![a], None, MotionOptions::default()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(5)));
         let pass = &motion.circuits[0].passes[0];
-        assert!((pass.from.stop.at / scale - 2.0).abs() < 1e-12 && (pass.to.stop.at / scale - 4.0).abs() < 1e-12);
+        assert!(
+            (pass.from.input.value / scale - 2.0).abs() < 1e-12 && (pass.to.input.value / scale - 4.0).abs() < 1e-12
+        );
         check_motion(&linkage, &motion).unwrap();
     }
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let c = assembly.fixed("C", [1.7493, -0.0615].into());
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let a = assembly.piston("A", [c, o], (2.1108, 0.4292), Side::Left).unwrap();
     let m = assembly.point("M", [c, a], -1.8888, 0.7281).unwrap();
-    let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(9)));
+    let linkage = assembly.build(vec![m], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(9)));
     let circuit = &motion.circuits[0];
-    let none = circuit.input.iter().position(|s| *s == 0.0).unwrap();
+    let none = circuit.inputs.iter().position(|s| *s == 0.0).unwrap();
     // From an evaluation in 40 digits.
     let expected = Point::new(0.002_994_337_146_540, -1.085_273_208_228_237);
-    assert!((circuit.places.point(m, none) - expected).norm() < 1e-11, "{}", circuit.places.point(m, none));
-    let jets = circuit.jets(&linkage, none);
+    assert!((circuit.positions.point(m, none) - expected).norm() < 1e-11, "{}", circuit.positions.point(m, none));
+    let jets = circuit.derivatives(&linkage, none);
     assert!((jets.velocity(m) - Vector::new(-2.385_31, 4.068_75)).norm() < 1e-5, "{}", jets.velocity(m));
     assert!((jets.acceleration(m) - Vector::new(-0.3137, 22.263)).norm() < 1e-3, "{}", jets.acceleration(m));
 }
@@ -405,21 +415,21 @@ fn actuators_are_the_same_at_every_size() {
 #[test]
 fn a_slot_on_a_foot_keeps_its_direction_at_the_limit() {
     use coupler_curves::motion::pose;
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [2.0771, -0.2512].into());
     let a = assembly.crank("A", o, 1.9228).unwrap();
     let foot = assembly.slot("B", [a, c], 0.3218, Side::Left).unwrap();
     assembly.slot("D", [foot, c], 0.0, Side::Right).unwrap();
     let p = assembly.point("P", [foot, c], 1.0913, -0.6834).unwrap();
-    let linkage = assembly.finish(vec![p], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(10.0)));
+    let linkage = assembly.build(vec![p], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(10.0)));
     for pass in &motion.circuits[0].passes {
-        for (end, inwards) in [(pass.from, pass.heading()), (pass.to, -pass.heading())] {
+        for (end, inwards) in [(pass.from, pass.input_direction()), (pass.to, -pass.input_direction())] {
             let at = |input: f64| pose(&linkage, pass, input)[p];
             // It comes there with the root of the input: over 1e-10 degrees, by some 1e-5.
-            let off = (at(end.stop.at) - at(end.stop.at + inwards * 1e-10)).norm();
-            assert!(off < 1e-4, "at {}: {off}", end.stop.at);
+            let off = (at(end.input.value) - at(end.input.value + inwards * 1e-10)).norm();
+            assert!(off < 1e-4, "at {}: {off}", end.input.value);
         }
     }
 }

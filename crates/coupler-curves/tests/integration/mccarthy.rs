@@ -1,12 +1,14 @@
 //! McCarthy's formulas against each other, against the thesis's vector solution, and against the kernels.
 
 use coupler_curves::geometry::{Point, Vector, trig};
-use coupler_curves::linkage::{Assembly, Circuits, Flat, FourBar, InvertedSliderCrank, JointId, Linkage, Side, Travel};
-use coupler_curves::motion::{Circuit, Jets, Motion, Sampler, Sampling, Stop};
+use coupler_curves::linkage::{
+    CircuitSelection, DyadSet, FourBar, InvertedSliderCrank, JointId, Linkage, LinkageBuilder, MotionOptions, Side,
+};
+use coupler_curves::motion::{Circuit, InputPosition, JointDerivatives, Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
-fn all() -> Travel {
-    Travel { circuits: Circuits::All, ..Travel::default() }
+fn all() -> MotionOptions {
+    MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }
 }
 
 /// The difference of two angles, brought into [-pi, pi].
@@ -20,12 +22,12 @@ fn direction(v: Vector) -> f64 {
 }
 
 fn four_bar(bar: FourBar) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", Point::origin());
     let c = assembly.fixed("C", Point::new(bar.frame, 0.0));
     let a = assembly.crank("A", o, bar.crank).unwrap();
     let b = assembly.dyad("B", [a, c], [bar.coupler, bar.rocker], Side::Left).unwrap();
-    assembly.finish(vec![b], None, all()).unwrap()
+    assembly.build(vec![b], None, all()).unwrap()
 }
 
 proptest! {
@@ -60,19 +62,19 @@ proptest! {
     #[test]
     fn the_inverted_slider_crank_is_mccarthys(g in 0.3f64..3.0, r in 0.3f64..3.0, e in 0.05f64..2.0) {
         let formulas = InvertedSliderCrank { g, r, e };
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", Point::origin());
         let c = assembly.fixed("C", Point::new(g, 0.0));
         let a = assembly.crank("A", o, r).unwrap();
         let b = assembly.slot("B", [c, a], e, Side::Right).unwrap();
         let m = assembly.point("M", [c, a], 1.0, 0.25).unwrap();
-        let linkage = assembly.finish(vec![m], None, all()).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(7.0)));
+        let linkage = assembly.build(vec![m], None, all()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(7.0)));
         prop_assert_eq!(motion.is_assembled(), formulas.crank_range().is_some());
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let at = |j: JointId| circuit.places.point(j, i);
-                let theta = trig::radians(circuit.input[i]);
+                let at = |j: JointId| circuit.positions.point(j, i);
+                let theta = trig::radians(circuit.inputs[i]);
                 let cb = at(b) - at(c);
                 prop_assert!((cb.norm() - e).abs() < 1e-12);
                 prop_assert!(cb.dot(&(at(a) - at(b))).abs() < 1e-12 * (g + r) * (g + r));
@@ -81,7 +83,7 @@ proptest! {
                     continue;
                 }
                 // McCarthy's slide is positive where the foot is right of C -> A.
-                let s = -f64::from(circuit.signs(i).get(0)) * size;
+                let s = -f64::from(circuit.mode_at(i).sign(0)) * size;
                 prop_assert!(((at(a) - at(b)).norm() - size).abs() < 1e-10);
                 prop_assert!(apart(formulas.psi(theta, s), direction(cb)) < 1e-10);
                 prop_assert!((formulas.b(s) - (at(a) - at(c)).norm()).abs() < 1e-12);
@@ -91,8 +93,8 @@ proptest! {
                 let expected = at(c) + line - cb / e * 0.25;
                 prop_assert!((at(m) - expected).norm() < 1e-12);
             }
-            if let (Some([least, _]), true) = (formulas.crank_range(), circuit.passes[0].from.flat.has(0)) {
-                let reached = trig::radians(circuit.passes[0].from.stop.at);
+            if let (Some([least, _]), true) = (formulas.crank_range(), circuit.passes[0].from.flat_dyads.contains(0)) {
+                let reached = trig::radians(circuit.passes[0].from.input.value);
                 prop_assert!((reached.abs() - least).abs() < 1e-7 || (g - r).abs() - e < 1e-12);
             }
         }
@@ -100,27 +102,27 @@ proptest! {
 
     #[test]
     fn a_slider_stays_on_its_line(crank in 0.2f64..2.0, coupler in 0.2f64..3.0, offset in -2.0f64..2.0, turn in 0.0f64..6.0) {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", Point::new(0.3, -0.2));
         let (cos, sin) = (trig::cos(turn), trig::sin(turn));
         let p = assembly.fixed("P", Point::new(0.3, -0.2));
         let q = assembly.fixed("Q", Point::new(0.3 + 2.0 * cos, -0.2 + 2.0 * sin));
         let a = assembly.crank("A", o, crank).unwrap();
         let b = assembly.slide("B", (a, coupler), ([p, q], offset), Side::Left).unwrap();
-        let linkage = assembly.finish(vec![b], None, all()).unwrap();
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(5.0)));
+        let linkage = assembly.build(vec![b], None, all()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(5.0)));
         prop_assert_eq!(motion.is_assembled(), offset.abs() < crank + coupler);
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let from_o = circuit.places.point(b, i) - circuit.places.point(o, i);
+                let from_o = circuit.positions.point(b, i) - circuit.positions.point(o, i);
                 prop_assert!((cos * from_o.y - sin * from_o.x - offset).abs() < 1e-12);
-                let link = (circuit.places.point(b, i) - circuit.places.point(a, i)).norm();
+                let link = (circuit.positions.point(b, i) - circuit.positions.point(a, i)).norm();
                 prop_assert!((link - coupler).abs() < 1e-12 * (crank + coupler));
             }
             for k in 0..circuit.passes.len() {
-                if circuit.passes[k].to.flat.has(0) && circuit.closed {
+                if circuit.passes[k].to.flat_dyads.contains(0) && circuit.is_closed {
                     // A limit: the link stands square to the line.
-                    let theta = trig::radians(circuit.passes[k].to.stop.at);
+                    let theta = trig::radians(circuit.passes[k].to.input.value);
                     let distance = offset - crank * trig::sin(theta - turn);
                     prop_assert!((distance.abs() - coupler).abs() < 1e-7);
                 }
@@ -134,15 +136,15 @@ proptest! {
         let linkage = match kind {
             0 => four_bar(FourBar { frame: l[0], crank: l[1], coupler: l[2], rocker: l[3] }),
             1 => {
-                let mut assembly = Assembly::default();
+                let mut assembly = LinkageBuilder::default();
                 let o = assembly.fixed("O", Point::origin());
                 let x = assembly.fixed("X", Point::new(1.0, 0.4));
                 let a = assembly.crank("A", o, l[1]).unwrap();
                 let b = assembly.slide("B", (a, l[2] + 1.0), ([o, x], 0.3), Side::Left).unwrap();
-                assembly.finish(vec![b], None, all()).unwrap()
+                assembly.build(vec![b], None, all()).unwrap()
             }
             _ => {
-                let mut assembly = Assembly::default();
+                let mut assembly = LinkageBuilder::default();
                 let o = assembly.fixed("O", Point::origin());
                 let c = assembly.fixed("C", Point::new(l[0], 0.0));
                 let a = assembly.crank("A", o, l[1]).unwrap();
@@ -150,18 +152,18 @@ proptest! {
                 let m = assembly.point("M", [c, a], l[2], 0.3).unwrap();
                 // Seen from the turning link, everything else moves.
                 let b = 3;
-                assembly.finish(vec![m], Some([c, b]), all()).unwrap()
+                assembly.build(vec![m], Some([c, b]), all()).unwrap()
             }
         };
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(0.5)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(0.5)));
         let Some(circuit) = motion.circuits.first() else { return Ok(()) };
-        let inside = |i: usize| (0..=8).all(|k| i + k < circuit.len() && circuit.signs(i + k) == circuit.signs(i));
-        prop_assume!(circuit.passes[0].from.flat.is_none() && inside(at % circuit.len()));
+        let inside = |i: usize| (0..=8).all(|k| i + k < circuit.len() && circuit.mode_at(i + k) == circuit.mode_at(i));
+        prop_assume!(circuit.passes[0].from.flat_dyads.is_empty() && inside(at % circuit.len()));
         let i = at % circuit.len() + 4;
-        let jets = Jets::of(&linkage, Stop::angle(circuit.input[i]), circuit.signs(i), Flat::NONE);
+        let jets = JointDerivatives::new(&linkage, InputPosition::from_degrees(circuit.inputs[i]), circuit.mode_at(i), DyadSet::EMPTY);
         let h = trig::radians(0.5);
         for &joint in &linkage.traced {
-            prop_assert!((jets.place(joint) - circuit.places.point(joint, i)).norm() < 1e-12);
+            prop_assert!((jets.position(joint) - circuit.positions.point(joint, i)).norm() < 1e-12);
             // Where a joint all but turns round, eight orders of a step are not enough.
             prop_assume!(jets.jerk(joint).norm() < 30.0);
             for (found, expected) in [
@@ -184,31 +186,31 @@ const JERK: [f64; 9] =
     [-7.0 / 240.0, 0.3, -169.0 / 120.0, 61.0 / 30.0, 0.0, -61.0 / 30.0, 169.0 / 120.0, -0.3, 7.0 / 240.0];
 
 fn difference(circuit: &Circuit, joint: JointId, i: usize, weights: &[f64; 9]) -> Vector {
-    (0..9).map(|k| circuit.places.point(joint, i + k - 4).coords * weights[k]).sum()
+    (0..9).map(|k| circuit.positions.point(joint, i + k - 4).coords * weights[k]).sum()
 }
 
 #[test]
 fn rates_at_a_limit_are_unbounded() {
     let linkage = four_bar(FourBar { frame: 4.0, crank: 2.0, coupler: 2.0, rocker: 2.0 });
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(60)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
     let end = motion.circuits[0].passes[0].to;
-    let jets = Jets::of(&linkage, end.stop, motion.circuits[0].passes[0].signs, end.flat);
+    let jets = JointDerivatives::new(&linkage, end.input, motion.circuits[0].passes[0].mode, end.flat_dyads);
     assert!(jets.velocity(2).norm().is_finite(), "the crank turns on");
     assert_eq!(jets.velocity(3), Vector::new(f64::INFINITY, f64::INFINITY));
 }
 
 #[test]
 fn columns_are_mccarthys_angles() {
-    use coupler_curves::measure::{column, take_columns};
+    use coupler_curves::measure::{compute_columns, find_column};
     let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
     let linkage = four_bar(bar);
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(5.0)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(5.0)));
     let names = ["psi_deg", "phi_deg", "mu_deg", "solvability", "speed", "psi_ratio", "s"];
-    let columns = names.map(|name| column(name).unwrap());
+    let columns = names.map(|name| find_column(name).unwrap());
     for (k, circuit) in motion.circuits.iter().enumerate() {
         for i in 0..circuit.len() {
-            let theta = trig::radians(circuit.input[i]);
-            let values = take_columns(&columns, &linkage, (circuit, 3), i);
+            let theta = trig::radians(circuit.inputs[i]);
+            let values = compute_columns(&columns, &linkage, (circuit, 3), i);
             let psi = bar.output_angles(theta).unwrap()[k];
             assert!(apart(trig::radians(values[0]), psi) < 1e-12);
             assert!(apart(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);

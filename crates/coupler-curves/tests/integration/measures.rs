@@ -1,8 +1,10 @@
 //! Measures against closed forms, and what they must not depend on.
 
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{Assembly, Circuits, Continuation, FourBar, Linkage, Placement, Side, Travel};
-use coupler_curves::measure::{self, Straight, Subject, Value};
+use coupler_curves::linkage::{
+    CircuitSelection, Continuation, FourBar, Linkage, LinkageBuilder, MotionOptions, Orientation, Side,
+};
+use coupler_curves::measure::{self, StraightCriterion, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
@@ -10,21 +12,21 @@ use crate::catalogue::defaults;
 
 /// A four-bar with its pins A and B and a coupler point M traced.
 fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", Point::new(0.0, 0.0));
     let c = assembly.fixed("C", Point::new(frame, 0.0));
     let a = assembly.crank("A", o, crank).unwrap();
     let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
     let m = assembly.point("M", [a, b], along, across).unwrap();
-    let travel = Travel { circuits: Circuits::All, ..Travel::default() };
-    assembly.finish(vec![a, b, m], None, travel).unwrap()
+    let travel = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
+    assembly.build(vec![a, b, m], None, travel).unwrap()
 }
 
 /// The measures of a traced joint on a circuit, by name.
 fn measured(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
-    let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(samples)));
-    let subject = Subject::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
-    let values = measure::take(&subject);
+    let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)));
+    let subject = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
+    let values = measure::compute_all(&subject);
     move |name| values[measure::ALL.iter().position(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))]
 }
 
@@ -60,7 +62,7 @@ fn measures_are_of_the_curve_however_few_its_samples() {
     // Over change points the branch stays, and curves have corners there.
     let own = |bar, point| {
         let mut linkage = four_bar(bar, point);
-        linkage.travel.continuation = Continuation::Branch;
+        linkage.motion_options.continuation = Continuation::Branch;
         (linkage, 2)
     };
     let linkages = [
@@ -128,9 +130,9 @@ fn types_say_where_the_links_go() {
     let names = ["00 double-rocker", "0π double-rocker", "π0 double-rocker", "ππ double-rocker"];
     for (lengths, kind) in all.into_iter().zip(kinds).chain(rockers.into_iter().zip(names)) {
         let [frame, crank, coupler, rocker] = lengths;
-        let found = FourBar { frame, crank, coupler, rocker }.kind();
+        let found = FourBar { frame, crank, coupler, rocker }.mccarthy_type();
         let linkage = four_bar(lengths, (1.0, 1.0));
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(360)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
         let circuit = &motion.circuits[0];
         let turns = circuit.passes.len() == 1;
         let goes_to = |at: Point, pivot: f64, way: f64| ((at.x - pivot) * way > 0.0) && at.y.abs() < 0.05;
@@ -154,7 +156,7 @@ fn types_say_where_the_links_go() {
 fn a_lemniscate_is_measured_as_one() {
     let root = 2f64.sqrt();
     let linkage = four_bar([2.0, root, 2.0, root], (1.0, 0.0));
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(360)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
     // Of the parallelogram and the antiparallelogram, the one whose middle does not go on a circle.
     let eight =
         (0..2).find(|&k| motion.circuits[k].points(4).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5)).unwrap();
@@ -180,11 +182,11 @@ fn hoekens_box_is_that_of_its_crossings() {
 /// A coupler point on the moving centrode has a cusp where it comes to the pole.
 #[test]
 fn a_point_of_the_moving_centrode_has_a_cusp() {
-    use coupler_curves::motion::Instant;
+    use coupler_curves::motion::InstantaneousMotion;
     let plain = four_bar([4.0, 1.0, 3.0, 3.5], (1.0, 1.0));
-    let motion = Motion::of(&plain, &Sampler::new(Sampling::Samples(360)));
-    let jets = motion.circuits[0].jets(&plain, 100);
-    let pole = Instant::of_link(&jets, [2, 3]).unwrap().moving_pole;
+    let motion = Motion::solve(&plain, &Sampler::new(Sampling::Samples(360)));
+    let jets = motion.circuits[0].derivatives(&plain, 100);
+    let pole = InstantaneousMotion::from_link(&jets, [2, 3]).unwrap().moving_pole;
     let value = measured(&four_bar([4.0, 1.0, 3.0, 3.5], (pole.x, pole.y)), 2, 0, 77);
     assert_eq!((value("cusps"), value("curvature_max")), (Value::Number(1.0), Value::Number(f64::INFINITY)));
     assert_eq!(value("crunodes"), Value::Number(0.0));
@@ -201,10 +203,10 @@ proptest! {
     ) {
         let plain = four_bar(lengths, (along, across));
         let moved = Linkage {
-            placement: Placement::new(mirrored, turn),
+            placement: Orientation::new(mirrored, turn),
             ..four_bar(lengths.map(|l| l * scale), (along * scale, across * scale))
         };
-        let motion = Motion::of(&plain, &Sampler::new(Sampling::Samples(60)));
+        let motion = Motion::solve(&plain, &Sampler::new(Sampling::Samples(60)));
         let rocks: Vec<bool> = motion.circuits.iter().map(|circuit| circuit.passes.len() > 1).collect();
         for (circuit, rocks) in rocks.iter().enumerate() {
             let (before, after) = (measured(&plain, 2, circuit, 60), measured(&moved, 2, circuit, 60));
@@ -271,16 +273,17 @@ fn the_straight_portion_of_a_circle_is_that_of_its_strip() {
 #[test]
 fn a_portion_of_a_given_span_may_begin_about_the_first_sample() {
     let linkage = four_bar([3.211, 2.818, 3.872, 0.787], (1.753, 0.0));
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(120)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(120)));
     for circuit in &motion.circuits {
-        let portion = |asked: Straight| {
-            let subject = Subject::new(&linkage, &motion, circuit, linkage.traced[2]).asking(asked);
+        let portion = |asked: StraightCriterion| {
+            let subject =
+                TracedCurve::new(&linkage, &motion, circuit, linkage.traced[2]).with_straight_criterion(asked);
             subject.straight().cloned().expect("a portion")
         };
         for span in [20.0, 60.0] {
-            let by_input = portion(Straight::Input(span));
-            assert!((by_input.input - span).abs() < 1e-9, "{by_input:?}");
-            let far = portion(Straight::Length(by_input.length));
+            let by_input = portion(StraightCriterion::Input(span));
+            assert!((by_input.input_span - span).abs() < 1e-9, "{by_input:?}");
+            let far = portion(StraightCriterion::Length(by_input.length));
             // One that is as long and straighter may span another input.
             assert!(far.deviation <= by_input.deviation * (1.0 + 1e-6), "{far:?} {by_input:?}");
         }
@@ -291,8 +294,8 @@ fn a_portion_of_a_given_span_may_begin_about_the_first_sample() {
 #[test]
 fn a_straight_line_is_straight_from_end_to_end() {
     let linkage = defaults("peaucellier-lipkin");
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(120)));
-    let limit = motion.circuits[0].passes[0].to.stop.at;
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(120)));
+    let limit = motion.circuits[0].passes[0].to.input.value;
     let ends = motion.circuits[0].points(linkage.traced[0]).map(|p| p.y.abs()).fold(0.0, f64::max);
     let value = measured(&linkage, 0, 0, 120);
     assert!((number(value("straight_length")) - 2.0 * ends).abs() < 1e-9);
@@ -306,7 +309,7 @@ fn no_portion_is_longer_than_the_one_found() {
     for (id, samples) in [("hoeken", 180), ("jansen", 180), ("klann", 360)] {
         let linkage = defaults(id);
         let value = measured(&linkage, 0, 0, samples);
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
         let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
         // Every portion from sample to sample, its strip by the chord's own and all other directions.
         let mut longest: f64 = 0.0;
@@ -369,8 +372,8 @@ fn no_circular_portion_spans_more_than_the_one_found() {
     for id in ["hoeken", "jansen", "hrones-nelson"] {
         let linkage = defaults(id);
         let samples = 90;
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
-        let subject = Subject::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let subject = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
         let dwell = subject.dwell().expect("a dwell");
         let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
         let extent = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
@@ -379,7 +382,7 @@ fn no_circular_portion_spans_more_than_the_one_found() {
         assert!((ring(&dwell.points, dwell.centre) - 2.0 * dwell.deviation).abs() < 1e-9 * extent, "{id}");
         assert!(dwell.deviation <= 0.000_505 * extent, "{id}: {} {extent}", dwell.deviation);
         // No portion one sample longer fits: from the centre found, a pattern search for a narrower ring ends above.
-        let span = (dwell.input / 360.0 * samples as f64).floor() as usize + 1;
+        let span = (dwell.input_span / 360.0 * samples as f64).floor() as usize + 1;
         for from in 0..samples {
             let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
             let circle = {
@@ -416,10 +419,10 @@ proptest! {
         (along, across) in (-4.0f64..4.0, prop_oneof![Just(0.0), -4.0f64..4.0]), samples in 2usize..400,
     ) {
         let linkage = four_bar(lengths, (along, across));
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
         for circuit in &motion.circuits {
             for &joint in &linkage.traced {
-                for (measure, value) in measure::ALL.iter().zip(measure::take(&Subject::new(&linkage, &motion, circuit, joint))) {
+                for (measure, value) in measure::ALL.iter().zip(measure::compute_all(&TracedCurve::new(&linkage, &motion, circuit, joint))) {
                     if let Value::Number(value) = value {
                         prop_assert!(!value.is_nan(), "{}", measure.name);
                         let may_be_unbounded = matches!(measure.name, "curvature_max" | "speed_ratio");
@@ -435,15 +438,15 @@ proptest! {
 #[test]
 fn the_theorems_of_chapter_7_are_recognised() {
     let axis = |linkage: &Linkage, circuit: usize| {
-        let motion = Motion::of(linkage, &Sampler::new(Sampling::Samples(180)));
-        let subject = Subject::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
+        let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(180)));
+        let subject = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
         let symmetry = *subject.symmetry().expect("a curve");
         (symmetry.theorem, symmetry.axis.expect("an axis"), symmetry.residual)
     };
     for height in [0.0, 0.7, -1.3] {
         let (theorem, axis, residual) = axis(&four_bar([2.0, 2.5, 1.0, 2.5], (0.5, height)), 0);
         assert_eq!(theorem, Some("theorem 1"), "{height} {axis:?} {residual}");
-        assert!((axis.deg() - 90.0).abs() < 1e-12 && (axis.through.x - 1.0).abs() < 1e-15, "{axis:?}");
+        assert!((axis.direction_deg() - 90.0).abs() < 1e-12 && (axis.point.x - 1.0).abs() < 1e-15, "{axis:?}");
         assert!(residual < 1e-6, "{residual}");
     }
     for beta in [40.0, 100.0, 180.0, -75.0] {
@@ -451,10 +454,10 @@ fn the_theorems_of_chapter_7_are_recognised() {
         let (cos, sin) = trig::cos_sin_deg(180.0 - beta);
         let (theorem, axis, residual) = axis(&four_bar([2.0, 1.0, 2.5, 2.5], (2.5 + 2.5 * cos, -2.5 * sin)), 0);
         assert_eq!(theorem, Some("theorem 2"), "{beta}");
-        assert!((axis.through - Point::new(2.0, 0.0)).norm() < 1e-12);
+        assert!((axis.point - Point::new(2.0, 0.0)).norm() < 1e-12);
         // (7.8) and (7.12): the axis is turned from the frame by half of beta.
-        let off = [-0.5, 0.5].map(|part| (axis.deg() + part * beta + 1.0).rem_euclid(180.0) - 1.0);
-        assert!(off.iter().any(|off| off.abs() < 1e-9), "{beta}: {}", axis.deg());
+        let off = [-0.5, 0.5].map(|part| (axis.direction_deg() + part * beta + 1.0).rem_euclid(180.0) - 1.0);
+        assert!(off.iter().any(|off| off.abs() < 1e-9), "{beta}: {}", axis.direction_deg());
         assert!(residual < 1e-6, "{beta}: {residual}");
     }
 }
@@ -463,26 +466,27 @@ fn the_theorems_of_chapter_7_are_recognised() {
 #[test]
 fn other_symmetrical_curves_are_found_by_their_shape() {
     let measured = |across: f64, turn: f64| {
-        let mut assembly = Assembly::default();
+        let mut assembly = LinkageBuilder::default();
         let o = assembly.fixed("O", Point::new(0.0, 0.0));
         let p = assembly.fixed("P", Point::new(1.0, 0.0));
         let a = assembly.crank("A", o, 1.0).unwrap();
         let b = assembly.slide("B", (a, 2.5), ([o, p], 0.0), Side::Left).unwrap();
         let m = assembly.point("M", [a, b], 1.0, across).unwrap();
-        let linkage = assembly.finish(vec![m], None, Travel::default()).unwrap();
-        let linkage = Linkage { placement: Placement::new(false, turn), ..linkage };
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(180)));
-        *Subject::new(&linkage, &motion, &motion.circuits[0], m).symmetry().expect("a curve")
+        let linkage = assembly.build(vec![m], None, MotionOptions::default()).unwrap();
+        let linkage = Linkage { placement: Orientation::new(false, turn), ..linkage };
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(180)));
+        *TracedCurve::new(&linkage, &motion, &motion.circuits[0], m).symmetry().expect("a curve")
     };
     for turn in [0.0, 33.0] {
         let found = measured(0.0, turn);
         assert!(found.residual < 1e-7 && found.theorem.is_none(), "{found:?}");
-        assert!((found.axis.expect("an axis").deg() - turn).abs() < 1e-5, "{found:?}");
+        assert!((found.axis.expect("an axis").direction_deg() - turn).abs() < 1e-5, "{found:?}");
         assert!(measured(0.5, turn).residual > 0.002);
     }
     // A circle has no axis of its own.
     let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(180)));
-    let circle = *Subject::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(180)));
+    let circle =
+        *TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
     assert_eq!((circle.axis, circle.residual), (None, 0.0));
 }

@@ -5,9 +5,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use coupler_curves::geometry::{Point, Vector, trig};
 use coupler_curves::linkage::{
-    Assembly, Circuits, Flat, JointId, LineIs, Linkage, Placement, Side, Signs, Step, Travel,
+    AssemblyMode, CircuitSelection, DyadSet, JointId, JointKind, LineDirection, Linkage, LinkageBuilder, MotionOptions,
+    Orientation, Side,
 };
-use coupler_curves::motion::{Jets, Motion, Sampler, Sampling, Stop};
+use coupler_curves::motion::{InputPosition, JointDerivatives, Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
 /// A number and its derivative; of duals, its second derivative too, and so on.
@@ -92,7 +93,7 @@ fn orders(x: Third) -> [f64; 4] {
 }
 
 /// Every joint by its step, the input in radians or as a length.
-fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
+fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2]> {
     let n = Third::of;
     let minus = |a: [Third; 2], b: [Third; 2]| [a[0] - b[0], a[1] - b[1]];
     let dot = |a: [Third; 2], b: [Third; 2]| a[0] * b[0] + a[1] * b[1];
@@ -112,20 +113,20 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
     };
     let mut at: Vec<[Third; 2]> = Vec::new();
     for joint in &linkage.joints {
-        let side = |index| f64::from(signs.get(index));
-        let place = match joint.step {
-            Step::Fixed(p) => [n(p.x), n(p.y)],
-            Step::Crank { pivot, length } => moved(at[pivot], input.cos_sin(), n(length), n(0.0)),
-            Step::Gear { pivot, length, ratio: [turns, of], phase_deg } => {
+        let side = |index| f64::from(signs.sign(index));
+        let place = match joint.kind {
+            JointKind::Fixed(p) => [n(p.x), n(p.y)],
+            JointKind::Crank { pivot, length } => moved(at[pivot], input.cos_sin(), n(length), n(0.0)),
+            JointKind::Gear { pivot, length, ratio: [turns, of], phase_deg } => {
                 let angle = input * n(turns as f64 / of as f64) + n(trig::radians(phase_deg));
                 moved(at[pivot], angle.cos_sin(), n(length), n(0.0))
             }
-            Step::Piston { base: [p, q], length, offset, index } => {
+            JointKind::Piston { base: [p, q], length, offset, index } => {
                 let reach = (input * input + n(offset * offset)).sqrt();
                 cut(at[p], at[q], [reach, n(length)], side(index))
             }
-            Step::Dyad { base: [p, q], lengths, index } => cut(at[p], at[q], lengths.map(n), side(index)),
-            Step::Slide { from, length, line: [p, q], offset, index } => {
+            JointKind::Dyad { base: [p, q], lengths, index } => cut(at[p], at[q], lengths.map(n), side(index)),
+            JointKind::Slide { from, length, line: [p, q], offset, index } => {
                 // Along the line from its foot below the hanging joint.
                 let u = unit(minus(at[q], at[p]));
                 let arm = minus(at[from], at[p]);
@@ -133,14 +134,14 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
                 let along = (n(length * length) - off * off).sqrt();
                 moved(at[p], u, dot(u, arm) + n(side(index)) * along, n(offset))
             }
-            Step::Slot { base: [p, q], offset, index } => {
+            JointKind::Slot { base: [p, q], offset, index } => {
                 // The foot is on Thales' circle over the base, so far from the pivot.
                 let base = minus(at[q], at[p]);
                 let d = dot(base, base).sqrt();
                 let cos = n(offset) / d;
                 moved(at[p], unit(base), n(offset) * cos, n(side(index) * offset) * (n(1.0) - cos * cos).sqrt())
             }
-            Step::Yoke { from, line: [p, q], offset, slot } => {
+            JointKind::Yoke { from, line: [p, q], offset, slot_direction: slot } => {
                 // Cramer's rule for p + t u + offset n = from - w slot.
                 let u = unit(minus(at[q], at[p]));
                 let w = moved([n(0.0); 2], u, n(slot.x), n(slot.y));
@@ -148,8 +149,8 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
                 let to = minus(at[from], start);
                 moved(start, u, (to[0] * w[1] - to[1] * w[0]) / (u[0] * w[1] - u[1] * w[0]), n(0.0))
             }
-            Step::Directed { from, line: [p, q], offset, line_is, along, across } => {
-                let sense = if let LineIs::Turned(index) = line_is { -side(index) } else { 1.0 };
+            JointKind::Aligned { from, line: [p, q], offset, direction: line_is, along, across } => {
+                let sense = if let LineDirection::BySide(index) = line_is { -side(index) } else { 1.0 };
                 let [along, across] = [along * sense, across * sense];
                 // The base's direction, turned to the right until the line through q runs beside p.
                 let base = minus(at[q], at[p]);
@@ -157,8 +158,8 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
                 let direction = moved([n(0.0); 2], unit(base), (n(1.0) - sin * sin).sqrt(), -sin);
                 moved(at[from], direction, n(along), n(across))
             }
-            Step::Parallelogram { corners: [p, q, r] } => std::array::from_fn(|k| at[p][k] + at[r][k] - at[q][k]),
-            Step::Rigid { base: [p, q], along, across } => moved(at[p], minus(at[q], at[p]), n(along), n(across)),
+            JointKind::Parallelogram { corners: [p, q, r] } => std::array::from_fn(|k| at[p][k] + at[r][k] - at[q][k]),
+            JointKind::Rigid { base: [p, q], along, across } => moved(at[p], minus(at[q], at[p]), n(along), n(across)),
         };
         at.push(place);
     }
@@ -167,7 +168,7 @@ fn places(linkage: &Linkage, input: Third, signs: Signs) -> Vec<[Third; 2]> {
 
 /// A linkage with a joint of every kind but the piston, each hanging on moving ones.
 fn everything([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [4.0, 0.5].into());
     let f = assembly.fixed("F", [-3.0, 1.0].into());
@@ -185,24 +186,24 @@ fn everything([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
     let end = assembly.point("E", [c, arm], 2.0, 0.3).unwrap();
     let corner = assembly.parallelogram("R", [o, pin, dyad]).unwrap();
     assembly.point("W", [corner, dyad], 0.5, 0.4).unwrap();
-    assembly.finish(vec![slot, plain, end], None, Travel::default()).unwrap()
+    assembly.build(vec![slot, plain, end], None, MotionOptions::default()).unwrap()
 }
 
 fn actuated(offset: f64) -> Linkage {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let c = assembly.fixed("C", [2.0, 0.3].into());
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let a = assembly.piston("A", [c, o], (1.0, offset), Side::Left).unwrap();
     let p = assembly.point("P", [c, a], 0.7, 0.2).unwrap();
-    assembly.finish(vec![p], None, Travel::default()).unwrap()
+    assembly.build(vec![p], None, MotionOptions::default()).unwrap()
 }
 
 /// The jets at an input against dual numbers, relative to how large each derivative gets in the linkage.
-fn compare(linkage: &Linkage, stop: Stop, variable: Third, signs: Signs) -> Result<(), TestCaseError> {
-    let jets = Jets::of(linkage, stop, signs, Flat::NONE);
+fn compare(linkage: &Linkage, stop: InputPosition, variable: Third, signs: AssemblyMode) -> Result<(), TestCaseError> {
+    let jets = JointDerivatives::new(linkage, stop, signs, DyadSet::EMPTY);
     let expected = places(linkage, variable, signs);
     for joint in 0..linkage.joints.len() {
-        let found = [jets.place(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
+        let found = [jets.position(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
         for axis in 0..2 {
             let expected = orders(expected[joint][axis]);
             for order in 0..4 {
@@ -226,30 +227,30 @@ proptest! {
         (offset, phase, deg) in (0.1f64..0.6, 0.0f64..360.0, 0.0f64..720.0),
     ) {
         let linkage = everything([crank, a, b, offset, phase]);
-        compare(&linkage, Stop::angle(deg), variable(trig::radians(deg)), linkage.travel.signs)?;
+        compare(&linkage, InputPosition::from_degrees(deg), variable(trig::radians(deg)), linkage.motion_options.mode)?;
         let actuated = actuated(offset);
         let s = 1.3 + deg / 720.0;
-        let stop = Stop { at: s, cos: 0.0, sin: 0.0 };
-        compare(&actuated, stop, variable(s), actuated.travel.signs)?;
+        let stop = InputPosition { value: s, cos: 0.0, sin: 0.0 };
+        compare(&actuated, stop, variable(s), actuated.motion_options.mode)?;
     }
 
     /// The kernels place every joint where the jets do, in every placement, and bodies keep their shapes.
     #[test]
     fn kernels_and_jets_agree_however_the_linkage_is_placed(turn in -360.0f64..360.0, mirrored: bool, offset in 0.1f64..0.6) {
         for linkage in [everything([0.8, 3.5, 3.0, offset, 20.0]), actuated(offset)] {
-            let placement = Placement::new(mirrored, turn);
+            let placement = Orientation::new(mirrored, turn);
             let placed = Linkage { placement, ..linkage.clone() };
             let sampler = Sampler::new(Sampling::Samples(20));
-            let (plain, placed_motion) = (Motion::of(&linkage, &sampler), Motion::of(&placed, &sampler));
+            let (plain, placed_motion) = (Motion::solve(&linkage, &sampler), Motion::solve(&placed, &sampler));
             prop_assert!(plain.is_assembled());
             for (before, after) in plain.circuits.iter().zip(&placed_motion.circuits) {
-                prop_assert_eq!(&before.input, &after.input);
+                prop_assert_eq!(&before.inputs, &after.inputs);
                 for i in 0..after.len() {
-                    let jets = after.jets(&placed, i);
+                    let jets = after.derivatives(&placed, i);
                     for joint in 0..placed.joints.len() {
-                        let place = after.places.point(joint, i);
-                        prop_assert!((jets.place(joint) - place).norm() < 1e-11);
-                        prop_assert!((placement.point(before.places.point(joint, i)) - place).norm() < 1e-14 * 16.0);
+                        let place = after.positions.point(joint, i);
+                        prop_assert!((jets.position(joint) - place).norm() < 1e-11);
+                        prop_assert!((placement.transform_point(before.positions.point(joint, i)) - place).norm() < 1e-14 * 16.0);
                     }
                 }
             }
@@ -264,22 +265,22 @@ fn find(linkage: &Linkage, name: &str) -> JointId {
 /// A Scotch yoke goes with the cosine of its crank.
 #[test]
 fn a_scotch_yoke_goes_with_the_cosine() {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let q = assembly.fixed("Q", [1.0, 0.0].into());
     let a = assembly.crank("A", o, 2.0).unwrap();
     let y = assembly.yoke("Y", a, ([o, q], 0.5), 90.0).unwrap();
     let leaning = assembly.yoke("Z", a, ([o, q], 0.5), 45.0).unwrap();
     let arm = assembly.point("P", [y, q], 3.0, 1.0).unwrap();
-    let linkage = assembly.finish(vec![y, leaning, arm], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(15.0)));
+    let linkage = assembly.build(vec![y, leaning, arm], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(15.0)));
     let circuit = &motion.circuits[0];
-    assert!(circuit.closed && circuit.len() == 24);
+    assert!(circuit.is_closed && circuit.len() == 24);
     for i in 0..circuit.len() {
-        let (cos, sin) = trig::cos_sin_deg(circuit.input[i]);
-        assert!((circuit.places.point(y, i) - Point::new(2.0 * cos, 0.5)).norm() < 1e-15);
-        assert!((circuit.places.point(leaning, i) - Point::new(2.0 * cos - (2.0 * sin - 0.5), 0.5)).norm() < 1e-15);
-        assert!((circuit.places.point(arm, i) - Point::new(2.0 * cos + 3.0, 1.5)).norm() < 1e-14);
+        let (cos, sin) = trig::cos_sin_deg(circuit.inputs[i]);
+        assert!((circuit.positions.point(y, i) - Point::new(2.0 * cos, 0.5)).norm() < 1e-15);
+        assert!((circuit.positions.point(leaning, i) - Point::new(2.0 * cos - (2.0 * sin - 0.5), 0.5)).norm() < 1e-15);
+        assert!((circuit.positions.point(arm, i) - Point::new(2.0 * cos + 3.0, 1.5)).norm() < 1e-14);
     }
 }
 
@@ -288,10 +289,10 @@ fn a_scotch_yoke_goes_with_the_cosine() {
 fn points_of_an_actuator_go_with_its_line() {
     for offset in [0.0, 0.5, -0.4] {
         let linkage = actuated(offset);
-        let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(30)));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(30)));
         for i in 0..motion.circuits[0].len() {
-            let at = |name: &str| motion.circuits[0].places.point(find(&linkage, name), i);
-            let (arm, pin, s) = (at("P") - at("C"), at("A") - at("C"), motion.circuits[0].input[i]);
+            let at = |name: &str| motion.circuits[0].positions.point(find(&linkage, name), i);
+            let (arm, pin, s) = (at("P") - at("C"), at("A") - at("C"), motion.circuits[0].inputs[i]);
             assert!((arm.norm_squared() - (0.7 * 0.7 + 0.2 * 0.2)).abs() < 1e-14);
             // In the frame of the line the pin is s along, and the offset to the right: McCarthy's beta is atan2(s, e).
             let along = (arm.dot(&pin), arm.x * pin.y - arm.y * pin.x);
@@ -304,20 +305,20 @@ fn points_of_an_actuator_go_with_its_line() {
 /// The slide, its angles and their rates are McCarthy's without offset too, and of the actuator.
 #[test]
 fn columns_know_sliders_without_offset_and_actuators() {
-    use coupler_curves::measure::{column, take_columns};
-    let columns = ["s", "b", "beta_deg", "psi_deg", "psi_ratio"].map(|name| column(name).unwrap());
+    use coupler_curves::measure::{compute_columns, find_column};
+    let columns = ["s", "b", "beta_deg", "psi_deg", "psi_ratio"].map(|name| find_column(name).unwrap());
     let (g, r) = (2.0, 1.0);
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [g, 0.0].into());
     let a = assembly.crank("A", o, r).unwrap();
     let b = assembly.slot("B", [c, a], 0.0, Side::Right).unwrap();
-    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(30.0)));
+    let linkage = assembly.build(vec![b], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(30.0)));
     for i in 0..motion.circuits[0].len() {
         let [s, length, beta, psi, ratio] =
-            take_columns(&columns, &linkage, (&motion.circuits[0], b), i).try_into().unwrap();
-        let (cos, sin) = trig::cos_sin_deg(motion.circuits[0].input[i]);
+            compute_columns(&columns, &linkage, (&motion.circuits[0], b), i).try_into().unwrap();
+        let (cos, sin) = trig::cos_sin_deg(motion.circuits[0].inputs[i]);
         let arm = Vector::new(r * cos - g, r * sin);
         assert!((s - arm.norm()).abs() < 1e-14 && (length - s).abs() < 1e-14 && beta == 90.0);
         let angle = trig::degrees(trig::atan2(arm.y, arm.x)) - 90.0;
@@ -328,11 +329,12 @@ fn columns_know_sliders_without_offset_and_actuators() {
     // The other way round the same angles belong to the same slides.
     let linkage = actuated(0.3);
     let a = find(&linkage, "A");
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(12)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
     for i in 0..motion.circuits[0].len() {
         let circuit = &motion.circuits[0];
-        let [s, length, beta, _, _]: [f64; 5] = take_columns(&columns, &linkage, (circuit, a), i).try_into().unwrap();
-        assert!(s == circuit.input[i] && (length - (s * s + 0.09).sqrt()).abs() < 1e-13);
+        let [s, length, beta, _, _]: [f64; 5] =
+            compute_columns(&columns, &linkage, (circuit, a), i).try_into().unwrap();
+        assert!(s == circuit.inputs[i] && (length - (s * s + 0.09).sqrt()).abs() < 1e-13);
         assert!((beta - trig::degrees(trig::atan2(s, 0.3))).abs() < 1e-12);
     }
 }
@@ -340,14 +342,14 @@ fn columns_know_sliders_without_offset_and_actuators() {
 /// A slider on a fixed line has unbounded rates along it at its limit, and none across.
 #[test]
 fn rates_at_a_limit_are_bounded_across_a_fixed_line() {
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let q = assembly.fixed("Q", [1.0, 0.0].into());
     let a = assembly.crank("A", o, 2.0).unwrap();
     let b = assembly.slide("B", (a, 1.0), ([o, q], 0.0), Side::Left).unwrap();
-    let linkage = assembly.finish(vec![b], None, Travel::default()).unwrap();
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(10)));
-    let jets = motion.circuits[0].jets(&linkage, 0);
+    let linkage = assembly.build(vec![b], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(10)));
+    let jets = motion.circuits[0].derivatives(&linkage, 0);
     assert_eq!(jets.velocity(b), Vector::new(f64::INFINITY, 0.0));
     assert_eq!(jets.jerk(b), Vector::new(f64::INFINITY, 0.0));
 }
@@ -356,7 +358,7 @@ fn rates_at_a_limit_are_bounded_across_a_fixed_line() {
 /// flat at once, and of Cardan's trammel, crank and link of one length.
 #[test]
 fn rates_go_on_through_change_points() {
-    let mut wheels = Assembly::default();
+    let mut wheels = LinkageBuilder::default();
     let o = wheels.fixed("O", [0.0, 0.0].into());
     let c = wheels.fixed("C", [3.0, 0.0].into());
     let d = wheels.fixed("D", [5.0, 0.0].into());
@@ -364,27 +366,27 @@ fn rates_go_on_through_change_points() {
     let b = wheels.dyad("B", [a, c], [3.0, 1.0], Side::Left).unwrap();
     let e = wheels.dyad("E", [b, d], [2.0, 1.0], Side::Left).unwrap();
     // Of their circuits the first keeps the rods parallel.
-    let all = Travel { circuits: Circuits::All, ..Travel::default() };
-    let wheels = wheels.finish(vec![b, e], None, all).unwrap();
-    let mut trammel = Assembly::default();
+    let all = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
+    let wheels = wheels.build(vec![b, e], None, all).unwrap();
+    let mut trammel = LinkageBuilder::default();
     let o = trammel.fixed("O", [0.0, 0.0].into());
     let q = trammel.fixed("Q", [1.0, 0.0].into());
     let pin = trammel.crank("A", o, 1.0).unwrap();
     let slide = trammel.slide("B", (pin, 1.0), ([o, q], 0.0), Side::Right).unwrap();
-    let trammel = trammel.finish(vec![slide], None, Travel::default()).unwrap();
+    let trammel = trammel.build(vec![slide], None, MotionOptions::default()).unwrap();
     let mut flat = 0;
     for (linkage, joints) in [(&wheels, vec![a, b, e]), (&trammel, vec![slide])] {
-        let motion = Motion::of(linkage, &Sampler::new(Sampling::Step(15.0)));
+        let motion = Motion::solve(linkage, &Sampler::new(Sampling::Step(15.0)));
         for i in 0..motion.circuits[0].len() {
             let circuit = &motion.circuits[0];
-            let jets = circuit.jets(linkage, i);
-            let (cos, sin) = trig::cos_sin_deg(circuit.input[i]);
-            flat += usize::from(circuit.passes.iter().any(|pass| pass.to.stop.at == circuit.input[i]));
+            let jets = circuit.derivatives(linkage, i);
+            let (cos, sin) = trig::cos_sin_deg(circuit.inputs[i]);
+            flat += usize::from(circuit.passes.iter().any(|pass| pass.to.input.value == circuit.inputs[i]));
             for &joint in &joints {
                 let found = [jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
                 let slides = joint == slide && linkage.joints.len() == 4;
                 // The trammel's slider stands still on one of its circuits' halves, and goes twice the cosine on the other.
-                let size = if slides { jets.place(joint).x / if cos.abs() > 1e-9 { cos } else { 1.0 } } else { 1.0 };
+                let size = if slides { jets.position(joint).x / if cos.abs() > 1e-9 { cos } else { 1.0 } } else { 1.0 };
                 if slides && cos.abs() < 1e-9 {
                     assert!(found[0].x.abs() < 1e-12 || (found[0].x.abs() - 2.0).abs() < 1e-12, "{}", found[0]);
                     continue;
@@ -395,7 +397,7 @@ fn rates_go_on_through_change_points() {
                     [Vector::new(-sin, cos), Vector::new(-cos, -sin), Vector::new(sin, -cos)]
                 };
                 for (found, expected) in found.iter().zip(expected) {
-                    assert!((found - expected).norm() < 1e-9, "at {}: {found} {expected}", circuit.input[i]);
+                    assert!((found - expected).norm() < 1e-9, "at {}: {found} {expected}", circuit.inputs[i]);
                 }
             }
         }

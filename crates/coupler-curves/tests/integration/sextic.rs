@@ -1,25 +1,29 @@
 //! The coupler curve's own equation.
 
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::{Assembly, Circuits, FourBar, Linkage, Node, Sextic, Side, Travel};
+use coupler_curves::linkage::{
+    CircuitSelection, DoublePointKind, FourBar, Linkage, LinkageBuilder, MotionOptions, Sextic, Side,
+};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
 fn linkage(four_bar: FourBar, point: Vector) -> Linkage {
     let FourBar { frame, crank, coupler, rocker } = four_bar;
-    let mut assembly = Assembly::default();
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", [0.0, 0.0].into());
     let c = assembly.fixed("C", [frame, 0.0].into());
     let a = assembly.crank("A", o, crank).unwrap();
     let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
     let m = assembly.point("M", [a, b], point.x, point.y).unwrap();
-    assembly.finish(vec![m], None, Travel { circuits: Circuits::All, ..Travel::default() }).unwrap()
+    assembly
+        .build(vec![m], None, MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() })
+        .unwrap()
 }
 
 /// Every sample of both circuits.
 fn curve(four_bar: FourBar, point: Vector, samples: usize) -> Vec<Point> {
     let linkage = linkage(four_bar, point);
-    let motion = Motion::of(&linkage, &Sampler::new(Sampling::Samples(samples)));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
     motion.circuits.iter().flat_map(|circuit| circuit.points(linkage.traced[0]).collect::<Vec<_>>()).collect()
 }
 
@@ -38,10 +42,10 @@ proptest! {
     #[test]
     fn every_sample_satisfies_its_equation(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0), flat: bool) {
         let point = Vector::new(along, if flat { 0.0 } else { across });
-        let Some(sextic) = Sextic::of(bar, point) else { return Ok(()) };
+        let Some(sextic) = Sextic::from_four_bar(bar, point) else { return Ok(()) };
         prop_assert_eq!(sextic.circularity(), 3);
         for p in curve(bar, point, 40) {
-            let [value, terms] = sextic.at(p);
+            let [value, terms] = sextic.evaluate(p);
             // Sixty-odd terms of the sixth degree, through coefficients that have lost a few digits themselves.
             prop_assert!(value.abs() <= 1e-11 * terms, "{} at {}: {} of {}", along, p, value, terms);
         }
@@ -51,10 +55,10 @@ proptest! {
     #[test]
     fn a_line_meets_the_curve_in_its_points(bar in lengths(), (along, across) in (-3.0f64..3.0, 0.2f64..3.0)) {
         let point = Vector::new(along, across);
-        let Some(sextic) = Sextic::of(bar, point) else { return Ok(()) };
+        let Some(sextic) = Sextic::from_four_bar(bar, point) else { return Ok(()) };
         let direction = Vector::new(0.8, 0.6);
         for p in curve(bar, point, 7) {
-            let found = sextic.on_line(p + direction * 0.37, direction);
+            let found = sextic.line_intersections(p + direction * 0.37, direction);
             prop_assert!(found.len() <= 6);
             let near = found.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
             // Where the line touches the curve the root is double, and known to half its digits.
@@ -64,7 +68,7 @@ proptest! {
                 prop_assert!(near < 1e-6, "{p}: {found:?}");
             }
             for q in found {
-                let [value, terms] = sextic.at(q);
+                let [value, terms] = sextic.evaluate(q);
                 prop_assert!(value.abs() <= 1e-9 * terms);
             }
         }
@@ -74,12 +78,12 @@ proptest! {
     #[test]
     fn double_points_are_singular(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0)) {
         let point = Vector::new(along, across);
-        let Some(sextic) = Sextic::of(bar, point) else { return Ok(()) };
+        let Some(sextic) = Sextic::from_four_bar(bar, point) else { return Ok(()) };
         let found = sextic.double_points();
         prop_assert!(found.len() <= 3);
         for double in &found {
-            let beside = sextic.gradient(double.at + Vector::new(0.1, 0.1)).norm();
-            prop_assert!(sextic.gradient(double.at).norm() <= 1e-6 * beside.max(1.0), "{:?}", double);
+            let beside = sextic.gradient(double.point + Vector::new(0.1, 0.1)).norm();
+            prop_assert!(sextic.gradient(double.point).norm() <= 1e-6 * beside.max(1.0), "{:?}", double);
         }
     }
 }
@@ -199,9 +203,9 @@ fn compare(sextic: &Sextic, terms: &[Term], [a, p, r]: [f64; 3]) {
 fn the_equations_of_evans_and_chebyshev_are_special_cases() {
     for (a, p, r) in [(2.6, 2.0, 1.0), (4.0, 3.0, 1.2), (1.7, 0.8, 0.9)] {
         let evans = FourBar { frame: p, crank: r, coupler: a, rocker: a };
-        compare(&Sextic::of(evans, Vector::new(2.0 * a, 0.0)).unwrap(), &EVANS, [a, p, r]);
+        compare(&Sextic::from_four_bar(evans, Vector::new(2.0 * a, 0.0)).unwrap(), &EVANS, [a, p, r]);
         let chebyshev = FourBar { frame: p, crank: r, coupler: 2.0 * a, rocker: r };
-        compare(&Sextic::of(chebyshev, Vector::new(a, 0.0)).unwrap(), &CHEBYSHEV, [a, p, r]);
+        compare(&Sextic::from_four_bar(chebyshev, Vector::new(a, 0.0)).unwrap(), &CHEBYSHEV, [a, p, r]);
     }
 }
 
@@ -210,10 +214,13 @@ fn a_lemniscate_crosses_itself_in_its_middle() {
     // Watt's curve with frame 2c, cranks c sqrt 2 and coupler 2c is Bernoulli's lemniscate.
     let c = 1.3;
     let bar = FourBar { frame: 2.0 * c, crank: c * 2f64.sqrt(), coupler: 2.0 * c, rocker: c * 2f64.sqrt() };
-    let sextic = Sextic::of(bar, Vector::new(c, 0.0)).unwrap();
+    let sextic = Sextic::from_four_bar(bar, Vector::new(c, 0.0)).unwrap();
     let middle = Point::new(c, 0.0);
     let doubles = sextic.double_points();
-    assert!(doubles.iter().any(|d| (d.at - middle).norm() < 1e-9 && d.kind == Node::Crunode), "{doubles:?}");
+    assert!(
+        doubles.iter().any(|d| (d.point - middle).norm() < 1e-9 && d.kind == DoublePointKind::Crunode),
+        "{doubles:?}"
+    );
     // (x^2 + y^2)^2 = 2 c^2 (x^2 - y^2) about the middle, and a circle about it: along 45 degrees it goes off level.
     for p in curve(bar, Vector::new(c, 0.0), 40) {
         let q = p - middle;
@@ -227,11 +234,11 @@ fn a_lemniscate_crosses_itself_in_its_middle() {
 #[test]
 fn a_change_point_is_a_double_point() {
     let bar = FourBar { frame: 4.0, crank: 1.5, coupler: 2.5, rocker: 3.0 };
-    let sextic = Sextic::of(bar, Vector::new(-1.0, 1.0)).unwrap();
+    let sextic = Sextic::from_four_bar(bar, Vector::new(-1.0, 1.0)).unwrap();
     let at = Point::new(-2.5, 1.0);
     let doubles = sextic.double_points();
     assert_eq!(doubles.len(), 4);
-    assert!(doubles.iter().any(|double| double.at == at && double.kind == Node::Crunode), "{doubles:?}");
+    assert!(doubles.iter().any(|double| double.point == at && double.kind == DoublePointKind::Crunode), "{doubles:?}");
     // The terms of the gradient are of the size of 1e4 there.
     assert!(sextic.gradient(at).norm() < 1e-9, "{}", sextic.gradient(at));
 }
@@ -239,5 +246,8 @@ fn a_change_point_is_a_double_point() {
 #[test]
 fn pins_have_no_sextic() {
     let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
-    assert!(Sextic::of(bar, Vector::zeros()).is_none() && Sextic::of(bar, Vector::new(3.0, 0.0)).is_none());
+    assert!(
+        Sextic::from_four_bar(bar, Vector::zeros()).is_none()
+            && Sextic::from_four_bar(bar, Vector::new(3.0, 0.0)).is_none()
+    );
 }

@@ -2,19 +2,19 @@
 
 use coupler_curves::catalogue;
 use coupler_curves::geometry::{Point, Vector, distance_to_segment, trig};
-use coupler_curves::linkage::{Sextic, Symmetrical};
+use coupler_curves::linkage::{Sextic, SymmetricalFourBar};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 
-const BOTH: [Symmetrical; 2] = [Symmetrical::Evans, Symmetrical::Chebyshev];
+const BOTH: [SymmetricalFourBar; 2] = [SymmetricalFourBar::Evans, SymmetricalFourBar::Chebyshev];
 
 /// From 1.1 to 10 by tenths.
 fn range() -> impl Iterator<Item = f64> {
     (11..=100).map(|k| f64::from(k) / 10.0)
 }
 
-fn sextic(kind: Symmetrical, [frame, short, long]: [f64; 3]) -> Sextic {
+fn sextic(kind: SymmetricalFourBar, [frame, short, long]: [f64; 3]) -> Sextic {
     let (four_bar, point) = kind.four_bar(frame, short, long);
-    Sextic::of(four_bar, point).unwrap()
+    Sextic::from_four_bar(four_bar, point).unwrap()
 }
 
 /// (8.10) and (8.19), and in any size (8.8) and (8.16).
@@ -23,16 +23,23 @@ fn the_conditions_are_those_of_the_thesis() {
     for kind in BOTH {
         for p in range() {
             for size in [1.0, 0.37, 12.0] {
-                let derived = kind.straight(p * size, size).unwrap() / size;
+                let derived = kind.straight_long_length(p * size, size).unwrap() / size;
                 let closed = trig::pow(1.0 + p, 1.5) / 2.0;
                 // The sum of 28 terms of the sixth degree, through coefficients of as many digits.
                 assert!((derived - closed).abs() <= 2e-13 * closed, "{kind:?} {p} {size}: {derived} {closed}");
             }
         }
         // The figure of the thesis with p = 3: a = 4.
-        assert!((kind.straight(3.0, 1.0).unwrap() - 4.0).abs() < 1e-12);
-        assert_eq!([kind.straight(0.0, 1.0), kind.straight(2.0, -1.0), kind.straight(f64::NAN, 1.0)], [None; 3]);
-        assert_eq!(kind.straight(f64::INFINITY, 1.0), None);
+        assert!((kind.straight_long_length(3.0, 1.0).unwrap() - 4.0).abs() < 1e-12);
+        assert_eq!(
+            [
+                kind.straight_long_length(0.0, 1.0),
+                kind.straight_long_length(2.0, -1.0),
+                kind.straight_long_length(f64::NAN, 1.0)
+            ],
+            [None; 3]
+        );
+        assert_eq!(kind.straight_long_length(f64::INFINITY, 1.0), None);
     }
 }
 
@@ -45,7 +52,7 @@ fn the_curve_is_level_at_its_axis_and_straight_at_the_condition() {
             let straight = trig::pow(1.0 + p, 1.5) / 2.0;
             for (factor, sign) in [(0.9, 1.0), (1.0, 0.0), (1.1, -1.0)] {
                 let long = straight * factor;
-                let Some([slope, second]) = kind.course(p, 1.0, long) else {
+                let Some([slope, second]) = kind.crossing_derivatives(p, 1.0, long) else {
                     assert!(2.0 * long <= 1.0 + p, "{kind:?} {p}");
                     continue;
                 };
@@ -62,14 +69,14 @@ fn the_curve_is_level_at_its_axis_and_straight_at_the_condition() {
 fn the_second_derivatives_are_those_of_the_thesis() {
     for (p, short, long) in [(2.0, 1.0, 2.6), (3.0, 0.7, 3.1), (5.0, 1.3, 8.0), (1.5, 1.0, 1.4)] {
         for kind in BOTH {
-            let [_, crossing] = kind.crossings(p, short, long);
+            let [_, crossing] = kind.axis_crossings(p, short, long);
             let [xx, _, _] = sextic(kind, [p, short, long]).second_derivatives(crossing.unwrap());
             let (sum, l2) = (p + short, long * long);
             let cubic = sum * sum * sum - 4.0 * l2 * short;
             // Evans in (8.8): p, r = short, a = long. Chebyshev in (8.16): 2 a = short, r = long, and (8.11) leads with 4.
             let expected = match kind {
-                Symmetrical::Evans => 8.0 * p * cubic,
-                Symmetrical::Chebyshev => 2.0 * p * cubic / 4.0,
+                SymmetricalFourBar::Evans => 8.0 * p * cubic,
+                SymmetricalFourBar::Chebyshev => 2.0 * p * cubic / 4.0,
             };
             assert!((xx - expected).abs() <= 1e-11 * (long * long * l2 + xx.abs()), "{kind:?}: {xx} {expected}");
         }
@@ -86,13 +93,13 @@ fn crossings_are_where_the_curve_meets_its_axis() {
             for factor in [0.97, 1.0, 1.2] {
                 let lengths = [p, 1.0, factor * trig::pow(1.0 + p, 1.5) / 2.0];
                 let sextic = sextic(kind, lengths);
-                let crossings = kind.crossings(p, 1.0, lengths[2]);
-                let axis = Point::new(kind.axis(p), 0.0);
-                let met = sextic.on_line(axis, Vector::new(0.0, 1.0));
+                let crossings = kind.axis_crossings(p, 1.0, lengths[2]);
+                let axis = Point::new(kind.axis_x(p), 0.0);
+                let met = sextic.line_intersections(axis, Vector::new(0.0, 1.0));
                 let above: Vec<&Point> = met.iter().filter(|q| q.y > 1e-4).collect();
                 assert_eq!(above.len(), crossings.iter().flatten().count(), "{kind:?} {p}: {met:?}");
                 for crossing in crossings.into_iter().flatten() {
-                    let [value, terms] = sextic.at(crossing);
+                    let [value, terms] = sextic.evaluate(crossing);
                     assert!(value.abs() <= 1e-13 * terms, "{kind:?} {p}: {value} of {terms}");
                     // Through coefficients of the sixth degree in lengths up to forty.
                     let near = above.iter().map(|q| (*q - crossing).norm()).fold(f64::INFINITY, f64::min);
@@ -110,13 +117,13 @@ fn the_linkages_come_to_the_crossings() {
         for kind in BOTH {
             let (id, values) = match kind {
                 // p, r, a, s, k and p, r, s, a.
-                Symmetrical::Evans => ("evans", vec![p, 1.0, long, long, 2.0]),
-                Symmetrical::Chebyshev => ("chebyshev", vec![p, long, long, 1.0, 0.5]),
+                SymmetricalFourBar::Evans => ("evans", vec![p, 1.0, long, long, 2.0]),
+                SymmetricalFourBar::Chebyshev => ("chebyshev", vec![p, long, long, 1.0, 0.5]),
             };
             let linkage = catalogue::find(id).unwrap().linkage(&values).unwrap();
-            let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(0.1)));
+            let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(0.1)));
             let path: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
-            for crossing in kind.crossings(p, 1.0, long).into_iter().flatten() {
+            for crossing in kind.axis_crossings(p, 1.0, long).into_iter().flatten() {
                 let chords = path.windows(2).map(|pair| distance_to_segment(crossing, pair[0], pair[1]));
                 // A step of a tenth of a degree is a chord 1e-6 off at most, of a crank of 1.
                 let near = chords.fold(f64::INFINITY, f64::min);

@@ -1,7 +1,7 @@
 //! The programs of the thesis's Appendix B, less their slips, against our samples at the same input and branch.
 
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{Assembly, Linkage, Side, Travel};
+use coupler_curves::linkage::{Linkage, LinkageBuilder, MotionOptions, Side};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 
 /// `r2` of Natesan (9.1), branch 1, and (9.2), branch -1: from the crank pin to the rocker pin.
@@ -23,15 +23,19 @@ struct Figure {
     sampling: Sampling,
 }
 
-fn four_bar([p, r, a, s]: [f64; 4], point: impl Fn(&mut Assembly, usize, usize) -> usize, inverted: bool) -> Linkage {
-    let mut assembly = Assembly::default();
+fn four_bar(
+    [p, r, a, s]: [f64; 4],
+    point: impl Fn(&mut LinkageBuilder, usize, usize) -> usize,
+    inverted: bool,
+) -> Linkage {
+    let mut assembly = LinkageBuilder::default();
     let o = assembly.fixed("O", Point::new(0.0, 0.0));
     let c = assembly.fixed("C", Point::new(p, 0.0));
     let pin = assembly.crank("A", o, r).unwrap();
     let b = assembly.dyad("B", [pin, c], [a, s], Side::Left).unwrap();
     // Seen from the link C-B, the coupler point sits on the crank O-A.
     let m = if inverted { point(&mut assembly, o, pin) } else { point(&mut assembly, pin, b) };
-    assembly.finish(vec![m], inverted.then_some([c, b]), Travel::default()).unwrap()
+    assembly.build(vec![m], inverted.then_some([c, b]), MotionOptions::default()).unwrap()
 }
 
 fn evans(p: f64, s: f64) -> Figure {
@@ -80,7 +84,11 @@ fn watt(p: f64, r: f64, a: f64) -> Figure {
 fn roberts(p: f64, r: f64, a: f64, b: f64) -> Figure {
     let lengths = [p, r, a, r];
     Figure {
-        linkage: four_bar(lengths, |l, pin, q| l.distances("M", [pin, q], [b, b], Side::Right).unwrap(), false),
+        linkage: four_bar(
+            lengths,
+            |l, pin, q| l.point_at_distances("M", [pin, q], [b, b], Side::Right).unwrap(),
+            false,
+        ),
         lengths,
         program: Box::new(move |w, branch| {
             let [x, y] = r2(lengths, w, branch);
@@ -136,7 +144,7 @@ fn size(circuit: &Circuit, joint: usize) -> f64 {
 #[test]
 fn every_sample_is_the_programs() {
     for (number, figure) in figures() {
-        let motion = Motion::of(&figure.linkage, &Sampler::new(figure.sampling));
+        let motion = Motion::solve(&figure.linkage, &Sampler::new(figure.sampling));
         assert_eq!(motion.circuits.len(), 1, "figure {number}");
         let circuit = &motion.circuits[0];
         let joint = figure.linkage.traced[0];
@@ -144,16 +152,16 @@ fn every_sample_is_the_programs() {
         let size = size(circuit, joint);
         let [p, r, a, s] = figure.lengths;
         for sample in 0..circuit.len() {
-            let w = trig::radians(circuit.input[sample]);
+            let w = trig::radians(circuit.inputs[sample]);
             let rd = (p * p + r * r - 2.0 * p * r * trig::cos(w)).sqrt();
             let foot = (s * s - a * a + rd * rd) / (2.0 * rd);
             let height = (s * s - foot * foot).max(0.0).sqrt();
             // Away from a limit 1e-12 of the curve's size; nearer one the reference loses digits in proportion.
             let tolerance =
                 if height > 1e-3 * a.min(s) { 1e-12 * size } else { 1e-15 * size * size / height.max(1e-9) + 1e-7 };
-            let branch = f64::from(circuit.signs(sample).get(0));
+            let branch = f64::from(circuit.mode_at(sample).sign(0));
             let expected = (figure.program)(w, branch);
-            let found = circuit.places.point(joint, sample);
+            let found = circuit.positions.point(joint, sample);
             assert!((found - expected).norm() <= tolerance, "figure {number} sample {sample}: {found} {expected}");
         }
     }
@@ -162,11 +170,11 @@ fn every_sample_is_the_programs() {
 #[test]
 fn watt_and_roberts_reach_their_limits() {
     for (number, figure) in figures().into_iter().filter(|(n, _)| *n > 20) {
-        let circuit = &Motion::of(&figure.linkage, &Sampler::new(figure.sampling)).circuits[0];
+        let circuit = &Motion::solve(&figure.linkage, &Sampler::new(figure.sampling)).circuits[0];
         let [p, r, a, s] = figure.lengths;
         // Natesan (4.6), (4.9).
         let limit = trig::degrees(trig::acos((p * p + r * r - (s + a) * (s + a)) / (2.0 * p * r)));
-        let upper = circuit.input.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let upper = circuit.inputs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         assert!((upper - limit).abs() < 1e-12 * limit, "figure {number}: {upper} {limit}");
     }
 }
@@ -175,12 +183,13 @@ fn watt_and_roberts_reach_their_limits() {
 fn links_keep_their_lengths_at_every_sample() {
     for (number, figure) in figures() {
         let linkage = &figure.linkage;
-        for circuit in Motion::of(linkage, &Sampler::new(figure.sampling)).circuits {
+        for circuit in Motion::solve(linkage, &Sampler::new(figure.sampling)).circuits {
             for link in &linkage.links {
                 for pair in link.joints.windows(2) {
                     let length = (pair[0].1 - pair[1].1).norm();
                     for sample in 0..circuit.len() {
-                        let found = circuit.places.point(pair[0].0, sample) - circuit.places.point(pair[1].0, sample);
+                        let found =
+                            circuit.positions.point(pair[0].0, sample) - circuit.positions.point(pair[1].0, sample);
                         assert!((found.norm() - length).abs() <= 1e-12 * length, "figure {number} sample {sample}");
                     }
                 }

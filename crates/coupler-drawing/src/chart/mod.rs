@@ -1,21 +1,21 @@
 //! What a chart shows, as plain numbers: quantities of every curve of a family, or of every sample of its curves.
 //!
-//! A [`Chart`] is expressions over the names of [`scope`]. [`Chart::take`] reads off one solved cell what they come to
-//! there, and [`Gathering`] joins that to [`Series`], the lines of the chart. Nothing of a cell is kept but those numbers.
+//! A [`Chart`] is expressions over the names of [`scope`]. [`Chart::sample_cell`] reads off one solved cell what they come to
+//! there, and [`ChartBuilder`] joins that to [`Series`], the lines of the chart. Nothing of a cell is kept but those numbers.
 
-mod gathering;
+mod builder;
+mod sample;
 mod scope;
-mod taking;
 
-pub use gathering::{Gathered, Gathering, MOST_NUMBERS, Series};
-pub use scope::{definition, is_of_samples, scope, unit};
-pub use taking::Taken;
+pub use builder::{ChartBuilder, ChartData, MAX_NUMBERS, Series};
+pub use sample::ChartSample;
+pub use scope::{definition, is_per_sample, scope, unit};
 
-use coupler_curves::expression::Bound;
+use coupler_curves::expression::CompiledExpression;
 
 /// What there is a point for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Over {
+pub enum PointSource {
     /// Each curve: each row of `cells.csv`.
     Curves,
     /// Each sample of each curve: each row of `points.csv`.
@@ -32,7 +32,7 @@ pub struct Quantity {
     /// What it is, in words; may be empty.
     pub definition: &'static str,
     /// Its value, over [`scope`].
-    pub value: Bound,
+    pub expression: CompiledExpression,
     /// Whether it is drawn by its logarithm.
     pub is_log: bool,
     /// The least and the greatest value drawn; as the data has them where none is given.
@@ -43,13 +43,13 @@ pub struct Quantity {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// What there is a point for.
-    pub over: Over,
+    pub point_source: PointSource,
     /// What goes to the right.
     pub x: Quantity,
     /// What goes up, each on a chart of its own.
     pub y: Vec<Quantity>,
     /// The names, by their places in [`coupler_curves::family::Family::names`], that tell lines apart.
-    pub by: Vec<usize>,
+    pub group_by: Vec<usize>,
     /// Whether a line goes in the order of x; otherwise in that of the cells or samples.
-    pub in_order_of_x: bool,
+    pub is_ordered_by_x: bool,
 }

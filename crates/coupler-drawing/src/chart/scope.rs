@@ -1,24 +1,24 @@
 //! The names a chart's expressions may use.
 
-use coupler_curves::expression::{Bound, Kind};
+use coupler_curves::expression::{CompiledExpression, Kind};
 use coupler_curves::family::Family;
 use coupler_curves::measure;
 
 /// The names of a sample itself, before the columns: the input goes by its own name.
-pub(super) const OF_SAMPLES: [&str; 4] = ["x", "y", "input_deg", "arc"];
+pub(super) const SAMPLE_NAMES: [&str; 4] = ["x", "y", "input_deg", "arc"];
 
 /// The names a chart's expressions may use: those of [`Family::scope`], and those of a single sample, `x`, `y`, the
 /// input, `arc` and the columns. A family's own name goes before a sample's that is the same.
 pub fn scope(names: &[String], is_driven_by_length: bool) -> Vec<(&str, Kind)> {
     let input = if is_driven_by_length { "input_length" } else { "input_deg" };
-    let own = OF_SAMPLES.map(|name| if name == "input_deg" { input } else { name });
+    let own = SAMPLE_NAMES.map(|name| if name == "input_deg" { input } else { name });
     let columns = measure::COLUMNS.iter().map(|column| column.name);
     let of_samples = own.into_iter().chain(columns).map(|name| (name, Kind::Number));
     Family::scope(names).into_iter().chain(of_samples).collect()
 }
 
 /// Whether an expression over [`scope`] has a value for each sample, and not for each curve.
-pub fn is_of_samples(value: &Bound, names: &[String]) -> bool {
+pub fn is_per_sample(value: &CompiledExpression, names: &[String]) -> bool {
     let of_curves = Family::scope(names).len();
     value.slots().iter().any(|&slot| slot >= of_curves)
 }

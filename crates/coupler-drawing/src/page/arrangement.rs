@@ -4,18 +4,18 @@ use coupler_curves::geometry::{Bounds, Point, Vector};
 
 /// A box of the panel, in millimetres from its upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
+pub(super) struct Rect {
     pub corner: Point,
     pub size: Vector,
 }
 
-impl Frame {
+impl Rect {
     pub fn centre(&self) -> Point {
         self.corner + self.size / 2.0
     }
 
     /// The scale at which `bounds` fills the frame, in millimetres to a unit.
-    pub fn scale(&self, bounds: Bounds) -> f64 {
+    pub fn fit_scale(&self, bounds: Bounds) -> f64 {
         let size = bounds.size();
         let across = if size.x > 0.0 { self.size.x / size.x } else { f64::INFINITY };
         let down = if size.y > 0.0 { self.size.y / size.y } else { f64::INFINITY };
@@ -27,9 +27,9 @@ impl Frame {
     }
 
     /// The frame less a border all round.
-    pub fn inset(&self, by: f64) -> Frame {
+    pub fn inset(&self, by: f64) -> Rect {
         let by = Vector::new(by.min(self.size.x / 3.0), by.min(self.size.y / 3.0));
-        Frame { corner: self.corner + by, size: self.size - by * 2.0 }
+        Rect { corner: self.corner + by, size: self.size - by * 2.0 }
     }
 }
 
@@ -37,11 +37,11 @@ impl Frame {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Arrangement {
     /// Curve and linkage on one figure, at one scale.
-    Together,
+    Combined,
     /// The curve above its key, with that part of the height.
     Stacked(f64),
     /// The curve to the left of its key, with that part of the width.
-    Beside(f64),
+    SideBySide(f64),
 }
 
 /// What a panel has to show.
@@ -50,46 +50,46 @@ pub(super) struct Extents {
     /// The curves.
     pub curve: Bounds,
     /// The linkage in its pose, with the curves.
-    pub key: Bounds,
+    pub linkage: Bounds,
 }
 
 impl Arrangement {
     /// The frames of the curve and of the key; both the whole where they are together.
-    pub fn frames(self, whole: Frame) -> [Frame; 2] {
+    pub fn rects(self, whole: Rect) -> [Rect; 2] {
         let (corner, size) = (whole.corner, whole.size);
-        let part = |x: f64, y: f64, w: f64, h: f64| Frame {
+        let part = |x: f64, y: f64, w: f64, h: f64| Rect {
             corner: corner + Vector::new(x * size.x, y * size.y),
             size: Vector::new(w * size.x, h * size.y),
         };
         match self {
-            Arrangement::Together => [whole, whole],
+            Arrangement::Combined => [whole, whole],
             Arrangement::Stacked(f) => [part(0.0, 0.0, 1.0, f), part(0.0, f, 1.0, 1.0 - f)],
-            Arrangement::Beside(f) => [part(0.0, 0.0, f, 1.0), part(f, 0.0, 1.0 - f, 1.0)],
+            Arrangement::SideBySide(f) => [part(0.0, 0.0, f, 1.0), part(f, 0.0, 1.0 - f, 1.0)],
         }
     }
 
     /// How well a panel shows: the curve's size against the largest it could have, and, half as much, the key's.
-    fn merit(self, whole: Frame, gap: f64, extents: &Extents) -> f64 {
+    fn merit(self, whole: Rect, gap: f64, extents: &Extents) -> f64 {
         let best = whole.inset(gap);
-        let [curve, key] = self.frames(whole).map(|frame| frame.inset(gap));
+        let [curve, key] = self.rects(whole).map(|frame| frame.inset(gap));
         let (curve, key) = match self {
             // One figure is easier to read than two, and should not be given up for a small gain.
-            Arrangement::Together => return 1.25 * key.scale(extents.key) / best.scale(extents.curve),
-            _ => (curve.scale(extents.curve), key.scale(extents.key)),
+            Arrangement::Combined => return 1.25 * key.fit_scale(extents.linkage) / best.fit_scale(extents.curve),
+            _ => (curve.fit_scale(extents.curve), key.fit_scale(extents.linkage)),
         };
-        curve / best.scale(extents.curve) * (key / best.scale(extents.key)).sqrt()
+        curve / best.fit_scale(extents.curve) * (key / best.fit_scale(extents.linkage)).sqrt()
     }
 
     /// The arrangement that serves all panels of a page: the one whose worst panel shows best.
-    pub fn best(whole: Frame, gap: f64, panels: &[Extents]) -> Arrangement {
+    pub fn best(whole: Rect, gap: f64, panels: &[Extents]) -> Arrangement {
         const PARTS: [f64; 7] = [0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55];
-        let candidates = std::iter::once(Arrangement::Together)
+        let candidates = std::iter::once(Arrangement::Combined)
             .chain(PARTS.map(Arrangement::Stacked))
-            .chain(PARTS.map(Arrangement::Beside));
+            .chain(PARTS.map(Arrangement::SideBySide));
         let worst = |arrangement: Arrangement| {
             panels.iter().map(|extents| arrangement.merit(whole, gap, extents)).fold(f64::INFINITY, f64::min)
         };
-        let mut best = (Arrangement::Together, f64::NEG_INFINITY);
+        let mut best = (Arrangement::Combined, f64::NEG_INFINITY);
         for candidate in candidates {
             let merit = worst(candidate);
             if merit > best.1 {
@@ -105,16 +105,16 @@ mod tests {
     use super::*;
 
     fn bounds(x: f64, y: f64, w: f64, h: f64) -> Bounds {
-        Bounds::of([Point::new(x, y), Point::new(x + w, y + h)])
+        Bounds::from_points([Point::new(x, y), Point::new(x + w, y + h)])
     }
 
     #[test]
     fn a_small_curve_is_set_apart_and_a_large_one_is_not() {
-        let whole = Frame { corner: Point::origin(), size: Vector::new(76.0, 90.0) };
+        let whole = Rect { corner: Point::origin(), size: Vector::new(76.0, 90.0) };
         // Evans at p = 6: 4 wide and 0.4 high on a linkage of 8 by 20.
-        let small = Extents { curve: bounds(2.0, 19.0, 4.0, 0.4), key: bounds(-1.0, 0.0, 8.0, 20.0) };
+        let small = Extents { curve: bounds(2.0, 19.0, 4.0, 0.4), linkage: bounds(-1.0, 0.0, 8.0, 20.0) };
         assert!(matches!(Arrangement::best(whole, 2.0, &[small]), Arrangement::Stacked(_)));
-        let large = Extents { curve: bounds(0.0, -2.0, 3.0, 4.0), key: bounds(-1.0, -2.0, 5.0, 4.0) };
-        assert_eq!(Arrangement::best(whole, 2.0, &[large]), Arrangement::Together);
+        let large = Extents { curve: bounds(0.0, -2.0, 3.0, 4.0), linkage: bounds(-1.0, -2.0, 5.0, 4.0) };
+        assert_eq!(Arrangement::best(whole, 2.0, &[large]), Arrangement::Combined);
     }
 }

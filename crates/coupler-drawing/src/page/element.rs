@@ -7,9 +7,11 @@ use plotters::drawing::DrawingArea;
 use plotters::element::{Drawable, PointCollection};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
 
-use crate::scene::{Anchor, Canvas, Circle, Color, Face, Group, Item, Line, Moving, Path, Run, Stroke, Text, Typeface};
+use crate::scene::{
+    Anchor, Animation, Canvas, Circle, Color, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
+};
 use coupler_curves::geometry::{Point, Similarity, Vector};
-use coupler_curves::motion::{self, Dashes};
+use coupler_curves::motion::{self, DashPattern};
 
 /// A part of the page: its lengths are in 1/100 mm, its origin the upper left corner.
 pub(super) type Area<'s> = DrawingArea<Canvas<'s>, Shift>;
@@ -27,7 +29,7 @@ where
 /// Width and height of an area in millimetres.
 pub(super) fn size(area: &Area) -> Vector {
     let (width, height) = area.dim_in_pixel();
-    Canvas::millimetres((width as i32, height as i32)).coords
+    Canvas::to_millimetres((width as i32, height as i32)).coords
 }
 
 /// An element whose geometry is in millimetres from the origin of the area it is drawn on.
@@ -50,7 +52,7 @@ macro_rules! anchored_at_origin {
                 _: (u32, u32),
             ) -> Result<(), DrawingErrorKind<std::convert::Infallible>> {
                 if let Some(origin) = origin.next() {
-                    canvas.record(self.item(Canvas::millimetres(origin).coords));
+                    canvas.record(self.to_item(Canvas::to_millimetres(origin).coords));
                 }
                 Ok(())
             }
@@ -60,8 +62,8 @@ macro_rules! anchored_at_origin {
 
 anchored_at_origin!(CouplerCurve);
 anchored_at_origin!(Drawing);
-anchored_at_origin!(Tagged);
-anchored_at_origin!(Words);
+anchored_at_origin!(GroupElement);
+anchored_at_origin!(TextLine);
 
 /// A coupler curve: a group of its own, with an id, a title and the facts about it.
 pub(super) struct CouplerCurve {
@@ -72,43 +74,43 @@ pub(super) struct CouplerCurve {
     /// From the plane to millimetres of the area.
     pub page_from_plane: Similarity,
     /// How the curve is cut into dashes.
-    pub dashes: Dashes,
+    pub dashes: DashPattern,
     /// The dashes, already in millimetres of the area.
-    pub strokes: Vec<motion::Stroke>,
+    pub dash_lines: Vec<motion::Dash>,
     /// What belongs to the figure, and what is drawn beside it.
-    pub weights: [Stroke; 2],
+    pub stroke_styles: [Stroke; 2],
     /// Marks on the curve.
     pub marks: Vec<Circle>,
 }
 
 impl CouplerCurve {
-    fn item(&self, origin: Vector) -> Item {
-        let lines = |figure: bool| -> Vec<Line> {
-            let ours = self.strokes.iter().filter(|stroke| stroke.figure == figure && stroke.points.len() > 1);
+    fn to_item(&self, origin: Vector) -> Item {
+        let lines = |figure: bool| -> Vec<Polyline> {
+            let ours = self.dash_lines.iter().filter(|stroke| stroke.is_in_figure == figure && stroke.points.len() > 1);
             let moved = |p: &Point| p + origin;
-            ours.map(|s| Line { points: s.points.iter().map(moved).collect(), closed: false }).collect()
+            ours.map(|s| Polyline { points: s.points.iter().map(moved).collect(), is_closed: false }).collect()
         };
         let path = |(figure, stroke): (bool, Stroke)| {
             let lines = lines(figure);
-            (!lines.is_empty()).then_some(Item::Path(Path { lines, stroke: Some(stroke), fill: None }))
+            (!lines.is_empty()).then_some(Item::Path(Path { polylines: lines, stroke: Some(stroke), fill: None }))
         };
-        let [figure, beside] = self.weights;
+        let [figure, beside] = self.stroke_styles;
         let paths = [(false, beside), (true, figure)].into_iter().filter_map(path);
-        let marks = self.marks.iter().map(|mark| moved(&Item::Circle(mark.clone()), origin));
+        let marks = self.marks.iter().map(|mark| translated(&Item::Circle(mark.clone()), origin));
         Item::Group(Group {
             id: self.id.clone(),
             class: self.class,
             title: self.title.clone(),
-            data: self.data.iter().cloned().chain(self.drawing(origin)).collect(),
+            data: self.data.iter().cloned().chain(self.drawing_data(origin)).collect(),
             items: paths.chain(marks).collect(),
         })
     }
 
     /// How it was drawn: what it takes to compare the drawing with the samples. Numbers read back to the same f64.
-    fn drawing(&self, origin: Vector) -> [(&'static str, String); 3] {
+    fn drawing_data(&self, origin: Vector) -> [(&'static str, String); 3] {
         let Similarity { scale, origin: at, .. } = self.page_from_plane;
         let at = at + origin;
-        let Dashes { period, drawn } = self.dashes;
+        let DashPattern { period, dash_span: drawn } = self.dashes;
         [("scale", scale.to_string()), ("origin", format!("{} {}", at.x, at.y)), ("dash", format!("{period} {drawn}"))]
     }
 }
@@ -121,62 +123,63 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
-    fn item(&self, origin: Vector) -> Item {
-        let items = self.items.iter().map(|item| moved(item, origin)).collect();
+    fn to_item(&self, origin: Vector) -> Item {
+        let items = self.items.iter().map(|item| translated(item, origin)).collect();
         Item::Group(Group { class: self.class, title: self.title.clone(), items, ..Group::default() })
     }
 }
 
 /// A group with an id and facts of its own.
-pub(super) struct Tagged {
+pub(super) struct GroupElement {
     pub group: Group,
 }
 
-impl Tagged {
-    fn item(&self, origin: Vector) -> Item {
-        moved(&Item::Group(self.group.clone()), origin)
+impl GroupElement {
+    fn to_item(&self, origin: Vector) -> Item {
+        translated(&Item::Group(self.group.clone()), origin)
     }
 }
 
-fn moved(item: &Item, by: Vector) -> Item {
+fn translated(item: &Item, by: Vector) -> Item {
     match item {
         Item::Group(group) => {
-            let items = group.items.iter().map(|item| moved(item, by)).collect();
+            let items = group.items.iter().map(|item| translated(item, by)).collect();
             Item::Group(Group { items, ..group.clone() })
         }
         Item::Path(path) => {
-            let line = |line: &Line| Line { points: line.points.iter().map(|p| p + by).collect(), ..line.clone() };
-            Item::Path(Path { lines: path.lines.iter().map(line).collect(), ..path.clone() })
+            let line =
+                |line: &Polyline| Polyline { points: line.points.iter().map(|p| p + by).collect(), ..line.clone() };
+            Item::Path(Path { polylines: path.polylines.iter().map(line).collect(), ..path.clone() })
         }
         Item::Circle(circle) => Item::Circle(Circle { centre: circle.centre + by, ..circle.clone() }),
-        Item::Text(text) => Item::Text(Text { at: text.at + by, ..text.clone() }),
-        Item::Moving(moving) => {
-            let frame = |items: &Vec<Item>| items.iter().map(|item| moved(item, by)).collect();
-            Item::Moving(Moving { frames: moving.frames.iter().map(frame).collect(), ..moving.clone() })
+        Item::Text(text) => Item::Text(Text { position: text.position + by, ..text.clone() }),
+        Item::Animation(moving) => {
+            let frame = |items: &Vec<Item>| items.iter().map(|item| translated(item, by)).collect();
+            Item::Animation(Animation { frames: moving.frames.iter().map(frame).collect(), ..moving.clone() })
         }
     }
 }
 
 /// A line of text in a room of its own.
-pub(super) struct Words {
+pub(super) struct TextLine {
     pub text: Text,
 }
 
-impl Words {
+impl TextLine {
     /// A line of text at a place of the area.
-    pub fn new(text: &str, typeface: Typeface, at: Point, anchor: Anchor, (size, color): (f64, Color)) -> Words {
-        let runs = vec![Run { text: text.to_owned(), face: typeface.regular() }];
-        Words { text: Text { at, anchor, size, color, runs, quarter_turns: 0 } }
+    pub fn new(text: &str, typeface: Typeface, at: Point, anchor: Anchor, (size, color): (f64, Color)) -> TextLine {
+        let runs = vec![TextRun { text: text.to_owned(), face: typeface.regular() }];
+        TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
     }
 
     /// The same with the words that are `symbols` in italics.
-    pub fn italic(mut self, symbols: &[String]) -> Words {
+    pub fn with_italics(mut self, symbols: &[String]) -> TextLine {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<TextRun> = Vec::new();
         let typeface = self.text.runs.first().map_or(Typeface::default(), |run| run.face.typeface);
         let mut push = |text: &str, is_italic| match runs.last_mut() {
             Some(last) if last.face.is_italic == is_italic => last.text.push_str(text),
-            _ => runs.push(Run { text: text.to_owned(), face: Face { typeface, is_italic } }),
+            _ => runs.push(TextRun { text: text.to_owned(), face: Face { typeface, is_italic } }),
         };
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
         let mut rest = text.as_str();
@@ -194,13 +197,13 @@ impl Words {
     }
 
     /// The same in no more than `width`: set smaller, to two thirds, and then cut short.
-    pub fn fitted(self, width: f64) -> Words {
-        self.fitted_before("", width)
+    pub fn fit_width(self, width: f64) -> TextLine {
+        self.fit_width_with_suffix("", width)
     }
 
     /// The same with an `end`, in no more than `width`: set smaller, to two thirds, and then cut short before the end,
     /// which stays whole while there is room for it.
-    pub fn fitted_before(mut self, end: &str, width: f64) -> Words {
+    pub fn fit_width_with_suffix(mut self, end: &str, width: f64) -> TextLine {
         // What fits to rounding fits: a room may have been made for this very text.
         let width = width * (1.0 + 1e-9);
         let face = self.text.runs.last().map(|run| run.face);
@@ -210,21 +213,22 @@ impl Words {
             self.text.size *= (width / natural).max(2.0 / 3.0);
         }
         if !end.is_empty() {
-            self.cut(width - taken(self.text.size));
+            self.truncate(width - taken(self.text.size));
             match self.text.runs.last_mut() {
                 Some(run) => run.text.push_str(end),
                 // What parts an end from nothing is left out.
-                None => {
-                    self.text.runs.extend(face.map(|face| Run { text: end.trim_start_matches(" · ").to_owned(), face }))
-                }
+                None => self
+                    .text
+                    .runs
+                    .extend(face.map(|face| TextRun { text: end.trim_start_matches(" · ").to_owned(), face })),
             }
         }
-        self.cut(width);
+        self.truncate(width);
         self
     }
 
     /// Cuts what is wider than `width`.
-    fn cut(&mut self, width: f64) {
+    fn truncate(&mut self, width: f64) {
         while self.text.width() > width {
             match self.text.runs.last_mut() {
                 Some(run) if run.text.chars().count() > 1 => {
@@ -244,7 +248,7 @@ impl Words {
     }
 
     /// The text in lines no wider than `width`, broken between words.
-    pub fn wrapped(&self, width: f64) -> Vec<String> {
+    pub fn wrap(&self, width: f64) -> Vec<String> {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let is_wider =
             |line: &str| self.text.runs.first().is_some_and(|run| run.face.width(line, self.text.size) > width);
@@ -263,8 +267,8 @@ impl Words {
         lines.iter().map(|line| line.trim_start().to_owned()).collect()
     }
 
-    fn item(&self, origin: Vector) -> Item {
-        moved(&Item::Text(self.text.clone()), origin)
+    fn to_item(&self, origin: Vector) -> Item {
+        translated(&Item::Text(self.text.clone()), origin)
     }
 }
 
@@ -272,14 +276,14 @@ impl Words {
 mod tests {
     use super::*;
 
-    fn words(text: &str) -> Words {
-        Words::new(text, Typeface::Sans, Point::origin(), Anchor::Start, (3.0, Color(0, 0, 0)))
+    fn words(text: &str) -> TextLine {
+        TextLine::new(text, Typeface::Sans, Point::origin(), Anchor::Start, (3.0, Color(0, 0, 0)))
     }
 
     #[test]
     fn single_letters_that_are_parameters_are_italic() {
         let symbols = ["p".to_owned(), "frame".to_owned()];
-        let runs = words("p = 2, prop frame's p's").italic(&symbols).text.runs;
+        let runs = words("p = 2, prop frame's p's").with_italics(&symbols).text.runs;
         let texts: Vec<(&str, Face)> = runs.iter().map(|run| (run.text.as_str(), run.face)).collect();
         assert_eq!(texts, [("p", Typeface::Sans.italic()), (" = 2, prop frame's p's", Typeface::Sans.regular())]);
     }
@@ -287,18 +291,18 @@ mod tests {
     #[test]
     fn a_long_line_is_set_smaller_and_then_cut() {
         let natural = words("a line of some length").text.width();
-        let smaller = words("a line of some length").fitted(0.9 * natural).text;
+        let smaller = words("a line of some length").fit_width(0.9 * natural).text;
         assert!(smaller.width() <= 0.9 * natural * 1.000_001 && smaller.runs[0].text.ends_with("length"));
-        let cut = words("a line of some length").fitted(0.3 * natural).text;
+        let cut = words("a line of some length").fit_width(0.3 * natural).text;
         assert!(cut.width() <= 0.3 * natural && cut.runs[0].text.ends_with('…'));
-        assert!(words("a").fitted(0.0).text.runs.is_empty());
-        let ended = words("a line of some length").fitted_before(", page 1", 0.6 * natural).text;
+        assert!(words("a").fit_width(0.0).text.runs.is_empty());
+        let ended = words("a line of some length").fit_width_with_suffix(", page 1", 0.6 * natural).text;
         assert!(ended.width() <= 0.6 * natural && ended.runs[0].text.ends_with("…, page 1"), "{ended:?}");
         // In a room of its own width it stays whole, however that was come by.
         for k in 1..200 {
             let before = 0.37 * f64::from(k);
             let room = (before + natural) - before;
-            assert_eq!(words("a line of some length").fitted(room).text, words("a line of some length").text, "{k}");
+            assert_eq!(words("a line of some length").fit_width(room).text, words("a line of some length").text, "{k}");
         }
     }
 }

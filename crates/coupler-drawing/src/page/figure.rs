@@ -1,52 +1,52 @@
 //! The figure of a cell: its curves, and the linkage that draws them.
 
-use super::arrangement::{Arrangement, Extents, Frame};
+use super::arrangement::{Arrangement, Extents, Rect};
 use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::marks;
 use super::mechanism::Mechanism;
-use super::plot::{Plot, round_number};
+use super::plot::{Plot, round_number_below};
 use super::pose;
 use super::theme::Theme;
-use super::{Options, Panel, Sheet, View};
-use crate::scene::{Circle, Color, Item, Moving, Path};
+use super::{Options, Panel, PanelPage, PoseChoice};
+use crate::scene::{Animation, Circle, Color, Item, Path};
 use coupler_curves::geometry::{Bounds, Point, Similarity};
 use coupler_curves::linkage::{Input, JointId};
-use coupler_curves::motion::{self, Circuit, Dashes};
-use coupler_curves::solve::{Curve, Solved};
+use coupler_curves::motion::{self, Circuit, DashPattern};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// A chord is nowhere further than this from its curve, in millimetres on paper: with the rounding to 1/1000 mm, a page
 /// can be compared with its samples to 0.01 mm.
-pub(super) const CHORD_ERROR: f64 = 0.009;
+pub(super) const MAX_CHORD_ERROR: f64 = 0.009;
 
 /// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
-pub(super) fn dash(solved: &Solved, options: &Options) -> f64 {
+pub(super) fn dash_period(solved: &SolvedCell, options: &Options) -> f64 {
     if solved.linkage.input() != Input::Length {
         return options.dash_deg;
     }
     let passes = solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
-    round_number(passes.map(|pass| pass.length()).fold(0.0, f64::max) / 20.0)
+    round_number_below(passes.map(|pass| pass.input_length()).fold(0.0, f64::max) / 20.0)
 }
 
 /// The paths of some curves of a cell on the page, in their order, the k-th in `dashes(k)`; those of one circuit in like
 /// dashes are found together.
-pub(super) fn paths(
-    solved: &Solved,
+pub(super) fn curve_paths(
+    solved: &SolvedCell,
     curves: &[usize],
     page_from_plane: Similarity,
-    dashes: impl Fn(usize) -> Dashes,
-) -> Vec<motion::Path> {
-    let tolerance = CHORD_ERROR / page_from_plane.scale;
+    dashes: impl Fn(usize) -> DashPattern,
+) -> Vec<motion::JointPath> {
+    let tolerance = MAX_CHORD_ERROR / page_from_plane.scale;
     let on_page = |points: &mut [Point]| points.iter_mut().for_each(|p| *p = page_from_plane.apply(*p));
-    let mut out = vec![motion::Path::default(); curves.len()];
+    let mut out = vec![motion::JointPath::default(); curves.len()];
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
         let mut left: Vec<usize> = (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
         while let Some(&first) = left.first() {
             let alike = dashes(first);
             let (ours, others) = left.into_iter().partition::<Vec<_>, _>(|&k| dashes(k) == alike);
             let joints: Vec<JointId> = ours.iter().map(|&k| solved.curves[curves[k]].joint).collect();
-            let paths = motion::paths(&solved.linkage, circuit, &joints, alike, tolerance);
+            let paths = motion::joint_paths(&solved.linkage, circuit, &joints, alike, tolerance);
             for (k, mut path) in ours.into_iter().zip(paths) {
-                on_page(&mut path.whole);
+                on_page(&mut path.points);
                 path.dashes.iter_mut().for_each(|dash| on_page(&mut dash.points));
                 out[k] = path;
             }
@@ -59,7 +59,7 @@ pub(super) fn paths(
 /// A cell with the poses its linkage is drawn in.
 pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
-    solved: &'a Solved,
+    solved_cell: &'a SolvedCell,
     /// The linkage in one pose, or in all it goes through.
     mechanisms: Vec<Mechanism<'a>>,
     /// How long it takes to go through them.
@@ -69,27 +69,28 @@ pub(super) struct Figure<'a> {
 
 impl<'a> Figure<'a> {
     /// The figure of a cell; `None` where it has no curve.
-    pub fn of(panel: &'a Panel<'a>) -> Option<Figure<'a>> {
-        let solved = panel.solved;
+    pub fn from_panel(panel: &'a Panel<'a>) -> Option<Figure<'a>> {
+        let solved = panel.solved_cell;
         let first = solved.curves.first()?;
         let circuit = solved.circuit(first);
-        let (poses, seconds) = match &panel.view {
-            View::Clearest => (vec![pose::clearest(&solved.linkage, circuit)], 0.0),
-            View::At(pose) => (vec![pose.clone()], 0.0),
-            View::Moving { poses, seconds } => (poses.clone(), *seconds),
+        let (poses, seconds) = match &panel.pose {
+            PoseChoice::Clearest => (vec![pose::clearest_pose(&solved.linkage, circuit)], 0.0),
+            PoseChoice::Fixed(pose) => (vec![pose.clone()], 0.0),
+            PoseChoice::Animated { poses, seconds } => (poses.clone(), *seconds),
         };
-        let mechanism = |pose| Mechanism::new(&solved.linkage, circuit, pose, &panel.inks);
+        let mechanism = |pose| Mechanism::new(&solved.linkage, circuit, pose, &panel.link_inks);
         let mechanisms: Vec<Mechanism> = poses.into_iter().map(mechanism).collect();
-        let curve = Bounds::of(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
+        let curve =
+            Bounds::from_points(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
         let key = mechanisms.iter().fold(curve, |key, mechanism| key.union(mechanism.bounds()));
-        Some(Figure { panel, solved, mechanisms, seconds, extents: Extents { curve, key } })
+        Some(Figure { panel, solved_cell: solved, mechanisms, seconds, extents: Extents { curve, linkage: key } })
     }
 
     /// What is drawn of the linkage in its pose, or moves with it.
-    fn posed(&self, items: impl Fn(&Mechanism) -> Vec<Item>) -> Vec<Item> {
+    fn posed_items(&self, items: impl Fn(&Mechanism) -> Vec<Item>) -> Vec<Item> {
         match &self.mechanisms[..] {
             [only] => items(only),
-            all => vec![Item::Moving(Moving { frames: all.iter().map(items).collect(), seconds: self.seconds })],
+            all => vec![Item::Animation(Animation { frames: all.iter().map(items).collect(), seconds: self.seconds })],
         }
     }
 
@@ -97,148 +98,150 @@ impl<'a> Figure<'a> {
     pub fn draw(
         &self,
         area: &Area,
-        whole: Frame,
+        whole: Rect,
         arrangement: Arrangement,
-        sheet: &Sheet,
+        sheet: &PanelPage,
         (options, theme): (&Options, &Theme),
     ) {
-        let [curve, key] = arrangement.frames(whole).map(|frame| Plot::new(frame, theme));
-        let period = dash(self.solved, options);
+        let [curve, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
+        let period = dash_period(self.solved_cell, options);
         let in_dashes = |plot: &Plot| {
             let paths = self.paths(plot, period, theme);
-            self.trail(area, &paths, theme.hair, theme);
-            self.marks(area, plot, theme);
-            self.curves(area, plot, sheet, (paths, period), theme);
+            self.draw_solid_curves(area, &paths, theme.hair_width, theme);
+            self.draw_marks(area, plot, theme);
+            self.draw_curves(area, plot, sheet, (paths, period), theme);
         };
-        let key = key.of(self.extents.key);
-        key.bar(area, theme);
-        self.underlay(area, &key, theme);
-        if arrangement == Arrangement::Together {
+        let key = key.fitted_to(self.extents.linkage);
+        key.draw_scale_bar(area, theme);
+        self.draw_underlay(area, &key, theme);
+        if arrangement == Arrangement::Combined {
             in_dashes(&key);
-            self.linkage(area, &key, theme);
+            self.draw_linkage(area, &key, theme);
         } else {
-            self.trail(area, &self.paths(&key, period, theme), theme.fine, theme);
-            self.linkage(area, &key, theme);
-            let curve = curve.of(self.extents.curve);
-            curve.bar(area, theme);
+            self.draw_solid_curves(area, &self.paths(&key, period, theme), theme.fine_width, theme);
+            self.draw_linkage(area, &key, theme);
+            let curve = curve.fitted_to(self.extents.curve);
+            curve.draw_scale_bar(area, theme);
             in_dashes(&curve);
         }
     }
 
     /// The curves in dashes, each with its coupler point.
-    fn curves(
+    fn draw_curves(
         &self,
         area: &Area,
         plot: &Plot,
-        sheet: &Sheet,
-        (paths, period): (Vec<motion::Path>, f64),
+        sheet: &PanelPage,
+        (paths, period): (Vec<motion::JointPath>, f64),
         theme: &Theme,
     ) {
         let limits = self.limit_poses();
-        for (curve, path) in self.solved.curves.iter().zip(paths) {
-            let stroke = theme.curve_stroke(self.place(curve));
+        for (curve, path) in self.solved_cell.curves.iter().zip(paths) {
+            let stroke = theme.curve_stroke(self.style_index(curve));
             let ink = stroke.color;
-            let Curve { trace, circuit, joint, .. } = curve;
+            let MeasuredCurve { trace, circuit, joint, .. } = curve;
             let dot = |pose: &Vec<Point>| Circle {
                 centre: plot.page_from_plane.apply(pose[*joint]),
-                radius: 0.5 * theme.joint,
+                radius: 0.5 * theme.joint_radius,
                 stroke: None,
                 fill: Some(ink),
             };
-            let cell = self.solved.cell.number;
+            let cell = self.solved_cell.cell.number;
             let element = CouplerCurve {
-                id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family),
+                id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family_id),
                 class: "curve",
-                title: format!("{}, no. {cell}: {}", sheet.heading.title, self.panel.caption),
+                title: format!("{}, no. {cell}: {}", sheet.heading.family_title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 page_from_plane: plot.page_from_plane,
                 dashes: self.dashes(curve, period, theme),
-                strokes: path.dashes,
-                weights: [stroke, theme.stroke(theme.faded(ink), theme.fine)],
+                dash_lines: path.dashes,
+                stroke_styles: [stroke, theme.stroke(theme.faded(ink), theme.fine_width)],
                 // A dot at each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
             };
             draw(area, &element);
         }
-        let points = self.traced_points(plot, theme);
+        let points = self.coupler_point_items(plot, theme);
         draw(area, &Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
     /// The curves as light unbroken lines: beside the linkage, and under the dashes to lead the eye over their gaps.
-    fn trail(&self, area: &Area, paths: &[motion::Path], weight: f64, theme: &Theme) {
-        let trail = |(curve, path): (&Curve, &motion::Path)| {
-            let ink = theme.faded(self.ink(curve, theme));
-            Item::Path(Path::stroked(path.whole.clone(), theme.stroke(ink, weight)))
+    fn draw_solid_curves(&self, area: &Area, paths: &[motion::JointPath], weight: f64, theme: &Theme) {
+        let trail = |(curve, path): (&MeasuredCurve, &motion::JointPath)| {
+            let ink = theme.faded(self.curve_ink(curve, theme));
+            Item::Path(Path::stroked(path.points.clone(), theme.stroke(ink, weight)))
         };
-        let items = self.solved.curves.iter().zip(paths).map(trail).collect();
+        let items = self.solved_cell.curves.iter().zip(paths).map(trail).collect();
         draw(area, &Drawing { class: "trail", title: String::new(), items });
     }
 
     /// What is marked of the curves: axes of symmetry, straight portions.
-    fn marks(&self, area: &Area, plot: &Plot, theme: &Theme) {
-        let axes = marks::axes(self.solved, plot, theme);
+    fn draw_marks(&self, area: &Area, plot: &Plot, theme: &Theme) {
+        let axes = marks::symmetry_axis_items(self.solved_cell, plot, theme);
         draw(area, &Drawing { class: "axis", title: String::new(), items: axes });
-        let portion = |curve| marks::portion(self.solved, curve, self.ink(curve, theme), plot, theme);
-        let items = self.solved.curves.iter().filter_map(portion).collect();
+        let portion =
+            |curve| marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme);
+        let items = self.solved_cell.curves.iter().filter_map(portion).collect();
         draw(area, &Drawing { class: "straight", title: String::new(), items });
     }
 
     /// The path of every curve, in the order of the curves.
-    fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<motion::Path> {
-        let all: Vec<usize> = (0..self.solved.curves.len()).collect();
-        let dashes = |k: usize| self.dashes(&self.solved.curves[k], period, theme);
-        paths(self.solved, &all, plot.page_from_plane, dashes)
+    fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<motion::JointPath> {
+        let all: Vec<usize> = (0..self.solved_cell.curves.len()).collect();
+        let dashes = |k: usize| self.dashes(&self.solved_cell.curves[k], period, theme);
+        curve_paths(self.solved_cell, &all, plot.page_from_plane, dashes)
     }
 
     /// The dashes of a curve: a dash is the first part of its period, of 5 degrees, as a rule, the first 3.
-    fn dashes(&self, curve: &Curve, period: f64, theme: &Theme) -> Dashes {
-        Dashes { period, drawn: theme.curve_drawn(self.place(curve)) * period }
+    fn dashes(&self, curve: &MeasuredCurve, period: f64, theme: &Theme) -> DashPattern {
+        DashPattern { period, dash_span: theme.curve_dash_fraction(self.style_index(curve)) * period }
     }
 
     /// Which ink and manner a curve has: curves of one traced joint are told apart by circuit, those of several by trace.
-    fn place(&self, curve: &Curve) -> usize {
-        let one_trace = self.solved.linkage.traced.len() == 1;
+    fn style_index(&self, curve: &MeasuredCurve) -> usize {
+        let one_trace = self.solved_cell.linkage.traced.len() == 1;
         if one_trace { curve.circuit - 1 } else { curve.trace - 1 }
     }
 
-    fn ink(&self, curve: &Curve, theme: &Theme) -> Color {
-        theme.curve_ink(self.place(curve))
+    fn curve_ink(&self, curve: &MeasuredCurve, theme: &Theme) -> Color {
+        theme.curve_ink(self.style_index(curve))
     }
 
     /// The poses at the limits of the input, circuit by circuit.
     fn limit_poses(&self) -> Vec<Vec<Vec<Point>>> {
         let poses = |circuit: &Circuit| {
             let passes = &circuit.passes;
-            let pose = |k: usize| motion::pose(&self.solved.linkage, &passes[k], passes[k].to.stop.at);
-            (0..passes.len()).filter(|&k| circuit.turns_after(k)).map(pose).collect()
+            let pose = |k: usize| motion::pose(&self.solved_cell.linkage, &passes[k], passes[k].to.input.value);
+            (0..passes.len()).filter(|&k| circuit.reverses_after(k)).map(pose).collect()
         };
-        self.solved.motion.circuits.iter().map(poses).collect()
+        self.solved_cell.motion.circuits.iter().map(poses).collect()
     }
 
-    fn traced_points(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
-        let mut curves: Vec<&Curve> = Vec::new();
-        for curve in self.solved.curves.iter().filter(|curve| curve.circuit == self.solved.curves[0].circuit) {
+    fn coupler_point_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
+        let mut curves: Vec<&MeasuredCurve> = Vec::new();
+        for curve in self.solved_cell.curves.iter().filter(|curve| curve.circuit == self.solved_cell.curves[0].circuit)
+        {
             if curves.iter().all(|done| done.joint != curve.joint) {
                 curves.push(curve);
             }
         }
-        let circle = |curve: &Curve, mechanism: &Mechanism| {
-            let stroke = Some(theme.stroke(self.ink(curve, theme), theme.fine));
+        let circle = |curve: &MeasuredCurve, mechanism: &Mechanism| {
+            let stroke = Some(theme.stroke(self.curve_ink(curve, theme), theme.fine_width));
             let centre = plot.page_from_plane.apply(mechanism.pose[curve.joint]);
-            Item::Circle(Circle { centre, radius: theme.joint, stroke, fill: Some(theme.paper) })
+            Item::Circle(Circle { centre, radius: theme.joint_radius, stroke, fill: Some(theme.paper) })
         };
-        self.posed(|mechanism| curves.iter().map(|curve| circle(curve, mechanism)).collect())
+        self.posed_items(|mechanism| curves.iter().map(|curve| circle(curve, mechanism)).collect())
     }
 
-    fn underlay(&self, area: &Area, plot: &Plot, theme: &Theme) {
-        let items = self.posed(|mechanism| mechanism.underlay(plot, theme));
+    fn draw_underlay(&self, area: &Area, plot: &Plot, theme: &Theme) {
+        let items = self.posed_items(|mechanism| mechanism.underlay_items(plot, theme));
         draw(area, &Drawing { class: "underlay", title: String::new(), items });
     }
 
-    fn linkage(&self, area: &Area, plot: &Plot, theme: &Theme) {
-        let traced = |joint| self.solved.curves.iter().find(|curve| curve.joint == joint);
-        let ink = |joint| traced(joint).map_or(theme.ink, |curve| self.ink(curve, theme));
-        let items = self.posed(|mechanism| mechanism.items(plot, theme, ink));
+    fn draw_linkage(&self, area: &Area, plot: &Plot, theme: &Theme) {
+        let traced = |joint| self.solved_cell.curves.iter().find(|curve| curve.joint == joint);
+        let ink = |joint| traced(joint).map_or(theme.ink, |curve| self.curve_ink(curve, theme));
+        let items = self.posed_items(|mechanism| mechanism.linkage_items(plot, theme, ink));
         draw(area, &Drawing { class: "linkage", title: String::new(), items });
     }
 }

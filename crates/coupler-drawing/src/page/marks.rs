@@ -2,45 +2,45 @@
 
 use super::plot::Plot;
 use super::theme::Theme;
-use crate::scene::{Color, Item, Line, Path};
+use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::geometry::Bounds;
 use coupler_curves::linkage::Input;
-use coupler_curves::measure::{Axis, Portion, Symmetry, Value};
-use coupler_curves::solve::{Curve, Solved};
+use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// The measures that pages tell of, and the index of a book; what captions tell of is their own affair.
-pub const MEASURES: [&str; 6] = ["class", "mu_min_deg", "mu_max_deg", "length", "straight_length", "symmetry"];
+pub const PAGE_MEASURES: [&str; 6] = ["class", "mu_min_deg", "mu_max_deg", "length", "straight_length", "symmetry"];
 
 /// The facts of a cell: its class and the range of its transmission angle; its longest straight portion. Either may be empty.
-pub fn facts(solved: &Solved) -> [String; 2] {
+pub fn cell_facts(solved: &SolvedCell) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };
     let mut parts = Vec::new();
-    if let Value::Word(class) = first.measure("class") {
+    if let Value::Word(class) = first.value("class") {
         parts.push(class.to_owned());
     }
-    if let (Value::Number(least), Value::Number(most)) = (first.measure("mu_min_deg"), first.measure("mu_max_deg")) {
+    if let (Value::Number(least), Value::Number(most)) = (first.value("mu_min_deg"), first.value("mu_max_deg")) {
         parts.push(format!("μ {least:.1}°–{most:.1}°"));
     }
     let portions = solved.curves.iter().filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = if solved.linkage.input() == Input::Length { "" } else { "°" };
-        let (length, deviation) = (digits(portion.length, 4), digits(portion.deviation, 2));
+        let (length, deviation) = (format_significant(portion.length, 4), format_significant(portion.deviation, 2));
         let of = if solved.linkage.traced.len() > 1 { format!(" (curve {})", curve.trace) } else { String::new() };
-        format!("straight {length} ± {deviation} over {:.1}{unit}{of}", portion.input)
+        format!("straight {length} ± {deviation} over {:.1}{unit}{of}", portion.input_span)
     });
     [parts.join(" · "), straight]
 }
 
 /// The straight portion of a curve, if it is long enough to be seen: a fiftieth of the curve at least.
-fn marked<'a>(solved: &'a Solved, curve: &'a Curve) -> Option<&'a Portion> {
-    let bounds = Bounds::of(solved.circuit(curve).points(curve.joint));
+fn visible_straight_portion<'a>(solved: &'a SolvedCell, curve: &'a MeasuredCurve) -> Option<&'a StraightPortion> {
+    let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
     let extent = bounds.size().x.max(bounds.size().y);
     curve.straight.as_ref().filter(|portion| portion.length >= 0.02 * extent)
 }
 
 /// A number in so many significant digits.
-pub(super) fn digits(value: f64, count: i32) -> String {
+pub(super) fn format_significant(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
@@ -54,48 +54,55 @@ pub(super) fn digits(value: f64, count: i32) -> String {
 }
 
 /// A curve's straight portion as a broad light band under its dashes.
-pub(super) fn portion(solved: &Solved, curve: &Curve, ink: Color, plot: &Plot, theme: &Theme) -> Option<Item> {
-    let portion = marked(solved, curve)?;
+pub(super) fn straight_portion_item(
+    solved: &SolvedCell,
+    curve: &MeasuredCurve,
+    ink: Color,
+    plot: &Plot,
+    theme: &Theme,
+) -> Option<Item> {
+    let portion = visible_straight_portion(solved, curve)?;
     let points = portion.points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
-    let stroke = Some(theme.stroke(theme.faded(ink), 3.0 * theme.curve));
-    Some(Item::Path(Path { lines: vec![Line { points, closed: false }], stroke, fill: None }))
+    let stroke = Some(theme.stroke(theme.faded(ink), 3.0 * theme.curve_width));
+    Some(Item::Path(Path { polylines: vec![Polyline { points, is_closed: false }], stroke, fill: None }))
 }
 
 /// The lines about which curves are symmetrical, in dashes and dots, a little longer than the curves.
-pub(super) fn axes(solved: &Solved, plot: &Plot, theme: &Theme) -> Vec<Item> {
-    let mut drawn: Vec<Axis> = Vec::new();
+pub(super) fn symmetry_axis_items(solved: &SolvedCell, plot: &Plot, theme: &Theme) -> Vec<Item> {
+    let mut drawn: Vec<SymmetryAxis> = Vec::new();
     for curve in &solved.curves {
-        let axis = curve.symmetry.as_ref().and_then(Symmetry::of_symmetrical);
-        let is_like = |other: &Axis, axis: &Axis| {
-            (other.deg() - axis.deg()).abs() < 1e-6 && (other.mirror(axis.through) - axis.through).norm() < 1e-6
+        let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric);
+        let is_like = |other: &SymmetryAxis, axis: &SymmetryAxis| {
+            (other.direction_deg() - axis.direction_deg()).abs() < 1e-6
+                && (other.mirror(axis.point) - axis.point).norm() < 1e-6
         };
         // A straight line is symmetrical about itself: that is not to be seen.
         let seen = axis.filter(|axis| drawn.iter().all(|other| !is_like(other, axis)));
-        drawn.extend(seen.filter(|axis| across(solved, curve, axis)));
+        drawn.extend(seen.filter(|axis| crosses_axis(solved, curve, axis)));
     }
-    drawn.iter().filter_map(|axis| chain_line(solved, axis, plot, theme)).collect()
+    drawn.iter().filter_map(|axis| symmetry_axis_item(solved, axis, plot, theme)).collect()
 }
 
 /// Whether a curve goes to both sides of an axis, and not only along it.
-fn across(solved: &Solved, curve: &Curve, axis: &Axis) -> bool {
+fn crosses_axis(solved: &SolvedCell, curve: &MeasuredCurve, axis: &SymmetryAxis) -> bool {
     let (mut along, mut off) = (0.0f64, 0.0f64);
     for p in solved.circuit(curve).points(curve.joint) {
-        let by = p - axis.through;
+        let by = p - axis.point;
         along = along.max(by.norm());
         off = off.max((axis.mirror(p) - p).norm());
     }
     off > 1e-3 * along
 }
 
-fn chain_line(solved: &Solved, axis: &Axis, plot: &Plot, theme: &Theme) -> Option<Item> {
+fn symmetry_axis_item(solved: &SolvedCell, axis: &SymmetryAxis, plot: &Plot, theme: &Theme) -> Option<Item> {
     let points = solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
-    let reach = points.map(|p| axis.along.dot(&(p - axis.through)));
+    let reach = points.map(|p| axis.direction.dot(&(p - axis.point)));
     let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
-    let beyond = 1.6 * theme.joint / plot.page_from_plane.scale;
-    let end = |s: f64| plot.page_from_plane.apply(axis.through + axis.along * s);
+    let beyond = 1.6 * theme.joint_radius / plot.page_from_plane.scale;
+    let end = |s: f64| plot.page_from_plane.apply(axis.point + axis.direction * s);
     let (from, to) = (end(low - beyond), end(high + beyond));
     let whole = (to - from).norm();
-    let unit = 4.0 * theme.joint;
+    let unit = 4.0 * theme.joint_radius;
     if !whole.is_finite() || whole <= unit {
         return None;
     }
@@ -103,12 +110,12 @@ fn chain_line(solved: &Solved, axis: &Axis, plot: &Plot, theme: &Theme) -> Optio
     let periods = (whole / unit - 0.6).ceil().max(1.0);
     let unit = whole / (periods + 0.6);
     let at = |s: f64| from + (to - from) * (s * unit / whole);
-    let line = |a: f64, b: f64| Line { points: vec![at(a), at(b)], closed: false };
-    let mut lines: Vec<Line> = Vec::new();
+    let line = |a: f64, b: f64| Polyline { points: vec![at(a), at(b)], is_closed: false };
+    let mut lines: Vec<Polyline> = Vec::new();
     for k in 0..periods as usize {
         let start = k as f64;
         lines.extend([line(start, start + 0.6), line(start + 0.78, start + 0.82)]);
     }
     lines.push(line(periods, periods + 0.6));
-    Some(Item::Path(Path { lines, stroke: Some(theme.stroke(theme.grey, theme.hair)), fill: None }))
+    Some(Item::Path(Path { polylines: lines, stroke: Some(theme.stroke(theme.grey, theme.hair_width)), fill: None }))
 }

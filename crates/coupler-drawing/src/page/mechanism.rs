@@ -2,9 +2,9 @@
 
 use super::plot::Plot;
 use super::theme::Theme;
-use crate::scene::{Circle, Color, Item, Line, Path, Stroke};
+use crate::scene::{Circle, Color, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal, trig};
-use coupler_curves::linkage::{JointId, LinkOutline, Linkage, Step, is_plate};
+use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage, is_plate};
 use coupler_curves::motion::Circuit;
 
 /// A linkage in a pose.
@@ -16,7 +16,7 @@ pub(super) struct Mechanism<'a> {
     guides: Vec<[Point; 2]>,
     slots: Vec<Slot>,
     /// The links that have an ink of their own, and which.
-    inks: &'a [(usize, usize)],
+    link_inks: &'a [(usize, usize)],
 }
 
 /// A slot: what a joint uses of the line it slides along, on a link that moves.
@@ -32,27 +32,27 @@ struct Slot {
 impl<'a> Mechanism<'a> {
     /// A linkage in one pose of a circuit, some of its links in inks of their own.
     pub fn new(linkage: &'a Linkage, circuit: &Circuit, pose: Vec<Point>, inks: &'a [(usize, usize)]) -> Mechanism<'a> {
-        let guides = (0..linkage.joints.len()).filter_map(|joint| guide(linkage, circuit, joint)).collect();
-        let slots = (0..linkage.joints.len()).filter_map(|joint| slot(linkage, circuit, &pose, joint)).collect();
-        Mechanism { linkage, pose, guides, slots, inks }
+        let guides = (0..linkage.joints.len()).filter_map(|joint| find_guide(linkage, circuit, joint)).collect();
+        let slots = (0..linkage.joints.len()).filter_map(|joint| find_slot(linkage, circuit, &pose, joint)).collect();
+        Mechanism { linkage, pose, guides, slots, link_inks: inks }
     }
 
     /// The ink of a link, if it has one of its own.
-    fn ink(&self, link: usize, theme: &Theme) -> Option<Color> {
-        self.inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
+    fn link_ink(&self, link: usize, theme: &Theme) -> Option<Color> {
+        self.link_inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
     }
 
     /// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
     /// which is not drawn: they are kept apart.
     fn pitch_circles(&self) -> Vec<(Point, f64)> {
         let joints = &self.linkage.joints;
-        let crank = joints.iter().find_map(|joint| match joint.step {
-            Step::Crank { pivot, .. } => Some(pivot),
+        let crank = joints.iter().find_map(|joint| match joint.kind {
+            JointKind::Crank { pivot, .. } => Some(pivot),
             _ => None,
         });
         let mut circles = Vec::new();
         for joint in joints {
-            if let (Step::Gear { pivot, ratio: [turns, of], .. }, Some(first)) = (joint.step, crank) {
+            if let (JointKind::Gear { pivot, ratio: [turns, of], .. }, Some(first)) = (joint.kind, crank) {
                 let distance = (self.pose[pivot] - self.pose[first]).norm();
                 let apart = if turns < 0 { 1.0 } else { 0.8 };
                 // The slower wheel is the larger.
@@ -74,87 +74,99 @@ impl<'a> Mechanism<'a> {
             self.linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).chain(self.linkage.pivots());
         let joints = joints.map(|joint| self.pose[joint]);
         let slots = self.slots.iter().flat_map(|slot| slot.ends);
-        Bounds::of(joints.chain(self.guides.iter().flatten().copied()).chain(wheels).chain(slots))
+        Bounds::from_points(joints.chain(self.guides.iter().flatten().copied()).chain(wheels).chain(slots))
     }
 
     /// What lies under the curves: the bodies of plates, the frame as a hairline, guides.
-    pub fn underlay(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
+    pub fn underlay_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
         let at = |joint: &JointId| plot.page_from_plane.apply(self.pose[*joint]);
         let mut items = Vec::new();
         for LinkOutline { link, joints } in self.linkage.link_outlines() {
             let points: Vec<Point> = joints.iter().map(at).collect();
             if is_plate(&points) {
-                let body = self.ink(link, theme).map_or(theme.hairline, |ink| theme.faded(ink));
+                let body = self.link_ink(link, theme).map_or(theme.hairline, |ink| theme.faded(ink));
                 let fill = Some(theme.faded(theme.faded(body)));
-                items.push(Item::Path(Path { lines: vec![Line { points, closed: true }], stroke: None, fill }));
+                items.push(Item::Path(Path {
+                    polylines: vec![Polyline { points, is_closed: true }],
+                    stroke: None,
+                    fill,
+                }));
             }
         }
         let points: Vec<Point> = self.linkage.pivots().iter().map(at).collect();
         if points.len() > 1 {
-            let stroke = Some(theme.stroke(theme.hairline, theme.hair));
+            let stroke = Some(theme.stroke(theme.hairline, theme.hair_width));
             // Three pivots are on a frame that is a plate like any other.
             let closed = is_plate(&points);
-            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
+            items.push(Item::Path(Path {
+                polylines: vec![Polyline { points, is_closed: closed }],
+                stroke,
+                fill: None,
+            }));
         }
         for (centre, radius) in self.pitch_circles() {
             let (centre, radius) = (plot.page_from_plane.apply(centre), radius * plot.page_from_plane.scale);
-            let stroke = Some(theme.stroke(theme.grey, theme.hair));
+            let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
             items.push(Item::Circle(Circle { centre, radius, stroke, fill: None }));
         }
         for guide in &self.guides {
             let [a, b] = guide.map(|p| plot.page_from_plane.apply(p));
-            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.4 * theme.joint);
-            items.push(Item::Path(Path::stroked(vec![a - over, b + over], theme.stroke(theme.ink, theme.fine))));
+            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.4 * theme.joint_radius);
+            items.push(Item::Path(Path::stroked(vec![a - over, b + over], theme.stroke(theme.ink, theme.fine_width))));
         }
         items
     }
 
     /// The linkage in ink; `ink` is the colour of a joint.
-    pub fn items(&self, plot: &Plot, theme: &Theme, ink: impl Fn(JointId) -> Color) -> Vec<Item> {
+    pub fn linkage_items(&self, plot: &Plot, theme: &Theme, ink: impl Fn(JointId) -> Color) -> Vec<Item> {
         let page = |p: Point| plot.page_from_plane.apply(p);
         let at = |joint: JointId| page(self.pose[joint]);
         let ground = self.linkage.pivots();
         let mut items = Vec::new();
         let links = self.linkage.link_outlines();
-        let heavy = Stroke { round: true, ..theme.stroke(theme.ink, theme.link) };
+        let heavy = Stroke { has_round_ends: true, ..theme.stroke(theme.ink, theme.link_width) };
         let mut blocks = Vec::new();
         for (id, joint) in self.linkage.joints.iter().enumerate() {
-            match joint.step {
-                Step::Slide { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
-                Step::Yoke { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
-                Step::Piston { base: [pivot, _], .. } => items.extend(actuator(at(pivot), at(id), theme)),
+            match joint.kind {
+                JointKind::Slide { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
+                JointKind::Yoke { line: [p, q], .. } => blocks.push((at(id), at(q) - at(p))),
+                JointKind::Piston { base: [pivot, _], .. } => items.extend(actuator_items(at(pivot), at(id), theme)),
                 _ => {}
             }
         }
         for LinkOutline { link, joints } in &links {
             let points: Vec<Point> = joints.iter().map(|&joint| at(joint)).collect();
             let closed = is_plate(&points);
-            let stroke = Some(Stroke { color: self.ink(*link, theme).unwrap_or(theme.ink), ..heavy });
-            items.push(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill: None }));
+            let stroke = Some(Stroke { color: self.link_ink(*link, theme).unwrap_or(theme.ink), ..heavy });
+            items.push(Item::Path(Path {
+                polylines: vec![Polyline { points, is_closed: closed }],
+                stroke,
+                fill: None,
+            }));
         }
         for Slot { ends, foot, block } in &self.slots {
             let ends = ends.map(page);
             items.push(Item::Path(Path::stroked(vec![page(*foot), ends[0], ends[1]], heavy)));
-            items.push(slotted(ends, theme));
+            items.push(slot_item(ends, theme));
             blocks.push((page(*block), ends[1] - ends[0]));
         }
-        items.extend(blocks.into_iter().map(|(centre, along)| block(centre, along, theme)));
+        items.extend(blocks.into_iter().map(|(centre, along)| block_item(centre, along, theme)));
         let mut joints: Vec<JointId> = links.iter().flat_map(|outline| outline.joints.iter().copied()).collect();
         joints.extend(&ground);
         joints.sort_unstable();
         joints.dedup();
         // The foot of a slot without offset is its pivot.
-        joints.retain(|&joint| !matches!(self.linkage.joints[joint].step, Step::Slot { offset: 0.0, .. }));
+        joints.retain(|&joint| !matches!(self.linkage.joints[joint].kind, JointKind::Slot { offset: 0.0, .. }));
         let circle = |centre, radius, color| {
-            let stroke = Some(theme.stroke(color, theme.fine));
+            let stroke = Some(theme.stroke(color, theme.fine_width));
             Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
         };
         for joint in joints {
             if ground.contains(&joint) {
-                items.push(circle(at(joint), 1.5 * theme.joint, ink(joint)));
-                items.push(circle(at(joint), 0.7 * theme.joint, ink(joint)));
+                items.push(circle(at(joint), 1.5 * theme.joint_radius, ink(joint)));
+                items.push(circle(at(joint), 0.7 * theme.joint_radius, ink(joint)));
             } else {
-                items.push(circle(at(joint), theme.joint, ink(joint)));
+                items.push(circle(at(joint), theme.joint_radius, ink(joint)));
             }
         }
         items
@@ -163,55 +175,57 @@ impl<'a> Mechanism<'a> {
 
 /// The joints of the line of a slot or an actuator, if `joint` is placed by one.
 pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<[JointId; 2]> {
-    match linkage.joints[joint].step {
-        Step::Slot { base: [_, through], .. } => Some([joint, through]),
-        Step::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
-        Step::Yoke { from, .. } => Some([joint, from]),
+    match linkage.joints[joint].kind {
+        JointKind::Slot { base: [_, through], .. } => Some([joint, through]),
+        JointKind::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
+        JointKind::Yoke { from, .. } => Some([joint, from]),
         _ => None,
     }
 }
 
 /// A linear actuator: its rod, and its cylinder on the nearer half.
-fn actuator(from: Point, to: Point, theme: &Theme) -> [Item; 2] {
+fn actuator_items(from: Point, to: Point, theme: &Theme) -> [Item; 2] {
     let along = to - from;
-    let across = left_normal(along).try_normalize(0.0).unwrap_or(Vector::zeros()) * (1.2 * theme.joint);
+    let across = left_normal(along).try_normalize(0.0).unwrap_or(Vector::zeros()) * (1.2 * theme.joint_radius);
     let (near, far) = (from + along * 0.1, from + along * 0.6);
     let points = vec![near - across, far - across, far + across, near + across];
-    let stroke = Some(theme.stroke(theme.ink, theme.fine));
-    let rod = Path::stroked(vec![from, to], theme.stroke(theme.ink, theme.link));
-    let cylinder = Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) };
+    let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
+    let rod = Path::stroked(vec![from, to], theme.stroke(theme.ink, theme.link_width));
+    let cylinder = Path { polylines: vec![Polyline { points, is_closed: true }], stroke, fill: Some(theme.paper) };
     [Item::Path(rod), Item::Path(cylinder)]
 }
 
 /// A sliding block, along a direction.
-fn block(centre: Point, along: Vector, theme: &Theme) -> Item {
+fn block_item(centre: Point, along: Vector, theme: &Theme) -> Item {
     let u = along.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
-    let (u, n) = (u * (2.4 * theme.joint), left_normal(u) * (1.5 * theme.joint));
+    let (u, n) = (u * (2.4 * theme.joint_radius), left_normal(u) * (1.5 * theme.joint_radius));
     let points = vec![centre - u - n, centre + u - n, centre + u + n, centre - u + n];
-    let stroke = Some(theme.stroke(theme.ink, theme.fine));
-    Item::Path(Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) })
+    let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
+    Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke, fill: Some(theme.paper) })
 }
 
 /// What a slider uses of a line on the frame.
-fn guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
-    let (Step::Slide { line, .. } | Step::Yoke { line, .. }) = linkage.joints[joint].step else { return None };
-    let along = fixed_direction(linkage, circuit, line)?;
+fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
+    let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = linkage.joints[joint].kind else {
+        return None;
+    };
+    let along = fixed_line_direction(linkage, circuit, line)?;
     let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
     Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
 }
 
 /// The slot whose foot or yoke a joint is, in a pose.
-fn slot(linkage: &Linkage, circuit: &Circuit, pose: &[Point], joint: JointId) -> Option<Slot> {
+fn find_slot(linkage: &Linkage, circuit: &Circuit, pose: &[Point], joint: JointId) -> Option<Slot> {
     // The line's direction follows the base: that of a slot its pivot and foot, that of a yoke its guide, that of a slot
     // without offset the line itself.
-    let ([from, to], through) = match linkage.joints[joint].step {
-        Step::Slot { base: [pivot, through], offset: 0.0, .. } => ([pivot, through], through),
-        Step::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
-        Step::Yoke { from, line, .. } => (line, from),
+    let ([from, to], through) = match linkage.joints[joint].kind {
+        JointKind::Slot { base: [pivot, through], offset: 0.0, .. } => ([pivot, through], through),
+        JointKind::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
+        JointKind::Yoke { from, line, .. } => (line, from),
         _ => return None,
     };
     let turned = |base: Vector, arm: Vector| Vector::new(base.dot(&arm), cross(base, arm)) / base.norm();
-    let point = |joint, sample| circuit.places.point(joint, sample);
+    let point = |joint, sample| circuit.positions.point(joint, sample);
     let arm = |i: usize| turned(point(to, i) - point(from, i), point(through, i) - point(joint, i));
     let arms: Vec<Vector> = (0..circuit.len()).map(arm).filter(|arm| arm.x.is_finite() && arm.y.is_finite()).collect();
     let longest = arms.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
@@ -223,12 +237,12 @@ fn slot(linkage: &Linkage, circuit: &Circuit, pose: &[Point], joint: JointId) ->
 }
 
 /// The hole of a slot, as wide as a block, with round ends.
-fn slotted([a, b]: [Point; 2], theme: &Theme) -> Item {
+fn slot_item([a, b]: [Point; 2], theme: &Theme) -> Item {
     const TO_AN_END: usize = 12;
-    let radius = 1.5 * theme.joint;
+    let radius = 1.5 * theme.joint_radius;
     let along = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
     // The block has room for its own length at both ends.
-    let over = along * (2.4 * theme.joint - radius);
+    let over = along * (2.4 * theme.joint_radius - radius);
     let round = |centre: Point, from: Vector| {
         (0..=TO_AN_END).map(move |k| {
             let (cos, sin) = trig::cos_sin_deg(180.0 * k as f64 / TO_AN_END as f64);
@@ -237,13 +251,13 @@ fn slotted([a, b]: [Point; 2], theme: &Theme) -> Item {
     };
     let normal = left_normal(along);
     let points = round(b + over, -normal).chain(round(a - over, normal)).collect();
-    let stroke = Some(theme.stroke(theme.ink, theme.fine));
-    Item::Path(Path { lines: vec![Line { points, closed: true }], stroke, fill: Some(theme.paper) })
+    let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
+    Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke, fill: Some(theme.paper) })
 }
 
 /// The direction of a line on the frame.
-fn fixed_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 2]) -> Option<Vector> {
+fn fixed_line_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 2]) -> Option<Vector> {
     let ground = linkage.ground();
-    (ground.place(p).is_some() && ground.place(q).is_some()).then_some(())?;
-    Some(circuit.places.point(q, 0) - circuit.places.point(p, 0))
+    (ground.position(p).is_some() && ground.position(q).is_some()).then_some(())?;
+    Some(circuit.positions.point(q, 0) - circuit.positions.point(p, 0))
 }

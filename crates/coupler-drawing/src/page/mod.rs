@@ -16,13 +16,13 @@ mod pose;
 mod theme;
 
 pub use heading::Heading;
-pub use marks::{MEASURES, facts};
-pub use theme::{Manner, Named as NamedTheme, Theme};
+pub use marks::{PAGE_MEASURES, cell_facts};
+pub use theme::{CurveStyle, NamedTheme, Theme};
 
 use crate::chart::{Chart, Series};
 use crate::scene::Scene;
 use coupler_curves::geometry::Point;
-use coupler_curves::solve::Solved;
+use coupler_curves::solve::SolvedCell;
 
 /// The size of the paper, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ impl Paper {
     ];
 
     /// The least and the greatest side a page may have.
-    pub const SIDES: [f64; 2] = [50.0, 2000.0];
+    pub const SIDE_RANGE: [f64; 2] = [50.0, 2000.0];
 }
 
 /// How a family's cells are laid out on pages.
@@ -69,7 +69,7 @@ pub enum Layout {
 
 impl Layout {
     /// How many traced points a page of a coupler grid shows.
-    pub const POINTS: usize = 10;
+    pub const POINTS_PER_PAGE: usize = 10;
 
     /// Every layout's name and what it shows.
     pub const ALL: [(&'static str, &'static str); 3] = [
@@ -82,18 +82,18 @@ impl Layout {
     ];
 
     /// The most columns and rows of panels that a page has room for.
-    pub fn most_panels(options: &Options) -> [usize; 2] {
-        panels::most(options.paper, &options.theme.for_paper(options.paper))
+    pub fn max_panels(options: &Options) -> [usize; 2] {
+        panels::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
     /// The most columns and rows of charts that a page has room for.
-    pub fn most_charts(options: &Options) -> [usize; 2] {
-        chart::most(options.paper, &options.theme.for_paper(options.paper))
+    pub fn max_charts(options: &Options) -> [usize; 2] {
+        chart::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
     /// The layout in which that many charts show best: as many to a page as can well be read.
-    pub fn of_charts(options: &Options, count: usize) -> Layout {
-        let [columns, rows] = chart::balanced(options.paper, &options.theme.for_paper(options.paper), count);
+    pub fn for_charts(options: &Options, count: usize) -> Layout {
+        let [columns, rows] = chart::balanced_grid(options.paper, &options.theme.for_paper(options.paper), count);
         Layout::Chart { columns, rows }
     }
 
@@ -106,7 +106,7 @@ impl Layout {
     }
 
     /// How many panels or charts a page holds.
-    pub fn cells(self) -> usize {
+    pub fn cells_per_page(self) -> usize {
         let [columns, rows] = self.grid();
         columns * rows
     }
@@ -125,14 +125,14 @@ pub struct Options {
 
 impl Options {
     /// Those of a paper where nothing else is asked for: dashes of 5 degrees, ink on cream.
-    pub fn on(paper: Paper) -> Options {
+    pub fn for_paper(paper: Paper) -> Options {
         Options { paper, dash_deg: 5.0, theme: Theme::default() }
     }
 }
 
 /// A page to be composed.
 #[derive(Clone, Debug)]
-pub struct Sheet<'a> {
+pub struct PanelPage<'a> {
     /// What stands round the contents.
     pub heading: Heading<'a>,
     /// How the cells are laid out.
@@ -148,26 +148,26 @@ pub struct Panel<'a> {
     pub caption: String,
     /// A smaller line under that; may be empty.
     pub note: String,
-    /// What is known of the cell, as [`facts`] has it; may be empty.
+    /// What is known of the cell, as [`cell_facts`] has it; may be empty.
     pub facts: [String; 2],
     /// The cell.
-    pub solved: &'a Solved,
+    pub solved_cell: &'a SolvedCell,
     /// The pose its linkage is drawn in.
-    pub view: View,
+    pub pose: PoseChoice,
     /// The links that are drawn in the ink of a curve, by their places in the linkage, and which; the others in black.
-    pub inks: Vec<(usize, usize)>,
+    pub link_inks: Vec<(usize, usize)>,
 }
 
 /// The pose a linkage is drawn in; a pose is the places of all its joints.
 #[derive(Clone, Debug, Default)]
-pub enum View {
+pub enum PoseChoice {
     /// The clearest of the first circuit.
     #[default]
     Clearest,
     /// This one.
-    At(Vec<Point>),
+    Fixed(Vec<Point>),
     /// All of these one after the other, again and again.
-    Moving {
+    Animated {
         /// The poses at equal steps of time, the first once more at the end.
         poses: Vec<Vec<Point>>,
         /// How long it takes from the first to the last.
@@ -177,35 +177,35 @@ pub enum View {
 
 /// A page of a coupler grid to be composed.
 #[derive(Clone, Debug)]
-pub struct GridSheet<'a> {
+pub struct CouplerGridPage<'a> {
     /// What stands round the contents.
     pub heading: Heading<'a>,
     /// The cell.
     pub panel: Panel<'a>,
     /// Which of its curves are on this page, by their places.
-    pub shown: Vec<usize>,
+    pub curve_indices: Vec<usize>,
     /// The letters of its links.
-    pub labels: &'a [Label],
+    pub labels: &'a [LinkLabel],
 }
 
 /// What a link is called: a letter for its length, or the length itself.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Label {
+pub struct LinkLabel {
     /// The joints at its ends, by their places in the linkage.
-    pub ends: [usize; 2],
+    pub joints: [usize; 2],
     /// Its letter.
     pub text: String,
 }
 
 /// The places of all joints of a cell's linkage in the pose in which it is seen best; `None` where it has no curve.
-pub fn clearest_pose(solved: &Solved) -> Option<Vec<Point>> {
+pub fn clearest_pose(solved: &SolvedCell) -> Option<Vec<Point>> {
     let circuit = solved.circuit(solved.curves.first()?);
-    Some(pose::clearest(&solved.linkage, circuit))
+    Some(pose::clearest_pose(&solved.linkage, circuit))
 }
 
 /// A page of charts to be composed.
 #[derive(Clone, Debug)]
-pub struct ChartSheet<'a> {
+pub struct ChartPage<'a> {
     /// What stands round the contents.
     pub heading: Heading<'a>,
     /// How the charts are laid out.
@@ -213,34 +213,34 @@ pub struct ChartSheet<'a> {
     /// What the charts show.
     pub chart: &'a Chart,
     /// Which of its quantities are on this page, by their places.
-    pub shown: std::ops::Range<usize>,
+    pub quantity_range: std::ops::Range<usize>,
     /// The lines of all charts.
     pub series: &'a [Series],
 }
 
 /// A page to be composed on which a curve lies over one that was recorded.
 #[derive(Clone, Debug)]
-pub struct OverlaySheet<'a> {
+pub struct OverlayPage<'a> {
     /// What stands at its head.
     pub title: &'a str,
     /// What stands under that.
-    pub lines: Vec<String>,
+    pub details: Vec<String>,
     /// What stands at its foot.
-    pub foot: &'a str,
+    pub footer: &'a str,
     /// The recorded samples.
-    pub was: Vec<Point>,
+    pub recorded: Vec<Point>,
     /// The present samples.
-    pub is: Vec<Point>,
+    pub current: Vec<Point>,
     /// The present curve between its samples.
-    pub path: Vec<Point>,
+    pub current_path: Vec<Point>,
     /// Whether it comes back to where it began.
-    pub closed: bool,
+    pub is_closed: bool,
     /// The places that are furthest from where they were.
-    pub worst: Vec<Point>,
+    pub worst_points: Vec<Point>,
 }
 
 /// Draws a curve over one that was recorded.
-pub fn compose_overlay(sheet: &OverlaySheet, options: &Options) -> Scene {
+pub fn compose_overlay(sheet: &OverlayPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, sheet.title.to_owned());
@@ -250,32 +250,32 @@ pub fn compose_overlay(sheet: &OverlaySheet, options: &Options) -> Scene {
 }
 
 /// Draws a page of panels.
-pub fn compose(sheet: &Sheet, options: &Options) -> Scene {
+pub fn compose_panels(sheet: &PanelPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = blank(&sheet.heading, options, &theme);
+    let mut scene = empty_scene(&sheet.heading, options, &theme);
     let [columns, rows] = sheet.layout.grid();
     panels::compose(&mut scene, sheet, (columns, rows), options, &theme);
     scene
 }
 
 /// Draws a page of a coupler grid.
-pub fn compose_grid(sheet: &GridSheet, options: &Options) -> Scene {
+pub fn compose_coupler_grid(sheet: &CouplerGridPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = blank(&sheet.heading, options, &theme);
+    let mut scene = empty_scene(&sheet.heading, options, &theme);
     coupler_grid::compose(&mut scene, sheet, options, &theme);
     scene
 }
 
 /// Draws a page of charts.
-pub fn compose_charts(sheet: &ChartSheet, options: &Options) -> Scene {
+pub fn compose_charts(sheet: &ChartPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = blank(&sheet.heading, options, &theme);
+    let mut scene = empty_scene(&sheet.heading, options, &theme);
     chart::compose(&mut scene, sheet, &theme);
     scene
 }
 
-fn blank(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
+fn empty_scene(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
     let Paper { width, height } = options.paper;
-    let (paper, typeface, title) = (theme.paper, theme.typeface, heading.name());
+    let (paper, typeface, title) = (theme.paper, theme.typeface, heading.page_title());
     Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
 }

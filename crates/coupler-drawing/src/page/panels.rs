@@ -2,137 +2,144 @@
 
 use plotters::drawing::IntoDrawingArea;
 
-use super::arrangement::{Arrangement, Extents, Frame};
+use super::arrangement::{Arrangement, Extents, Rect};
 use super::element::{Area, Drawing, draw, size};
 use super::figure::Figure;
 use super::heading::margins;
 use super::theme::Theme;
-use super::{Options, Panel, Paper, Sheet};
+use super::{Options, Panel, PanelPage, Paper};
 use crate::scene::{Anchor, Canvas, Color, Item, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
-pub(super) fn compose(scene: &mut Scene, sheet: &Sheet, grid: (usize, usize), options: &Options, theme: &Theme) {
+pub(super) fn compose(scene: &mut Scene, sheet: &PanelPage, grid: (usize, usize), options: &Options, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
     sheet.heading.draw(&root, theme);
-    panels(&root, sheet, grid, options, theme);
+    draw_panels(&root, sheet, grid, options, theme);
 }
 
-fn panels(root: &Area, sheet: &Sheet, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
-    let [top, bottom, side] = margins(theme).map(Canvas::pixels);
+fn draw_panels(root: &Area, sheet: &PanelPage, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
+    let [top, bottom, side] = margins(theme).map(Canvas::to_pixels);
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
-    let theme = &theme.for_panels(size(&areas[0]));
-    let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::of).collect();
-    let facts = Facts::of(sheet, size(&areas[0]).x - 1.2 * theme.caption, theme);
-    let has_notes = sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved.motion.shortfall.is_some());
-    let lines = f64::from(u8::from(has_notes) + facts.lines());
-    let foot = theme.caption * 1.5 + lines * theme.note * 1.5 + 2.2 * theme.caption;
+    let theme = &theme.for_panel_size(size(&areas[0]));
+    let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::from_panel).collect();
+    let facts = FactsLayout::for_page(sheet, size(&areas[0]).x - 1.2 * theme.caption_size, theme);
+    let has_notes =
+        sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.incomplete_reason.is_some());
+    let lines = f64::from(u8::from(has_notes) + facts.line_count());
+    let foot = theme.caption_size * 1.5 + lines * theme.note_size * 1.5 + 2.2 * theme.caption_size;
     // The figure's frame is that of any panel: plotters splits a page to within a hundredth of a millimetre.
     let room = |area: &Area| {
-        let gap = 1.2 * theme.caption;
+        let gap = 1.2 * theme.caption_size;
         let size = size(area) - Vector::new(gap, 0.0) - Vector::new(gap, foot);
-        Frame { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
+        Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
-    let arrangement = Arrangement::best(room(&areas[0]), 2.0 * theme.joint, &extents);
+    let arrangement = Arrangement::best(room(&areas[0]), 2.0 * theme.joint_radius, &extents);
     for ((panel, figure), area) in sheet.panels.iter().zip(&figures).zip(&areas) {
         let frame = room(area);
         match figure {
             Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
             None => {
-                let reason = panel.solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
-                draw_reason(area, frame, reason, theme);
+                let reason = panel.solved_cell.motion.incomplete_reason.as_deref().unwrap_or("no curve is kept");
+                draw_not_assembled(area, frame, reason, theme);
             }
         }
-        caption(area, (foot, facts), panel, sheet.heading.symbols, theme);
+        draw_caption(area, (foot, facts), panel, sheet.heading.symbols, theme);
     }
 }
 
 /// How the facts of the cells of a page are set: all in as many lines.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Facts {
+enum FactsLayout {
     None,
     OneLine,
     TwoLines,
 }
 
-impl Facts {
+impl FactsLayout {
     /// One line, if every panel's fits a width without being set much smaller.
-    fn of(sheet: &Sheet, width: f64, theme: &Theme) -> Facts {
+    fn for_page(sheet: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
         const SMALLER: f64 = 0.85;
-        let texts = || sheet.panels.iter().flat_map(|panel| Facts::OneLine.texts(panel));
-        let natural =
-            |text: String| theme.words(&text, Point::origin(), Anchor::Middle, theme.note, theme.grey).text.width();
+        let texts = || sheet.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
+        let natural = |text: String| {
+            theme.text_line(&text, Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text.width()
+        };
         match texts().map(natural).fold(0.0, f64::max) {
-            0.0 => Facts::None,
-            widest if SMALLER * widest <= width => Facts::OneLine,
-            _ => Facts::TwoLines,
+            0.0 => FactsLayout::None,
+            widest if SMALLER * widest <= width => FactsLayout::OneLine,
+            _ => FactsLayout::TwoLines,
         }
     }
 
-    fn lines(self) -> u8 {
+    fn line_count(self) -> u8 {
         match self {
-            Facts::None => 0,
-            Facts::OneLine => 1,
-            Facts::TwoLines => 2,
+            FactsLayout::None => 0,
+            FactsLayout::OneLine => 1,
+            FactsLayout::TwoLines => 2,
         }
     }
 
     /// The lines of a panel.
-    fn texts(self, panel: &Panel) -> Vec<String> {
+    fn panel_lines(self, panel: &Panel) -> Vec<String> {
         let parts = panel.facts.iter().filter(|part| !part.is_empty()).cloned();
         match self {
-            Facts::None => Vec::new(),
-            Facts::OneLine => vec![parts.collect::<Vec<_>>().join(" · ")],
-            Facts::TwoLines => parts.collect(),
+            FactsLayout::None => Vec::new(),
+            FactsLayout::OneLine => vec![parts.collect::<Vec<_>>().join(" · ")],
+            FactsLayout::TwoLines => parts.collect(),
         }
     }
 }
 
 /// The most columns and rows: set as small as it may be, a panel has four lines under a figure of five.
-pub(super) fn most(paper: Paper, theme: &Theme) -> [usize; 2] {
+pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
     let [top, bottom, side] = margins(theme);
-    let theme = theme.for_panels(Vector::zeros());
+    let theme = theme.for_panel_size(Vector::zeros());
     let fit = |room: f64, least: f64| ((room / least).floor() as usize).max(1);
-    [fit(paper.width - 2.0 * side, 5.0 * theme.caption), fit(paper.height - top - bottom, 10.5 * theme.caption)]
+    [
+        fit(paper.width - 2.0 * side, 5.0 * theme.caption_size),
+        fit(paper.height - top - bottom, 10.5 * theme.caption_size),
+    ]
 }
 
 /// The cell's number at its upper left, and its lines below.
-fn caption(area: &Area, (foot, facts): (f64, Facts), panel: &Panel, symbols: &[String], theme: &Theme) {
+fn draw_caption(area: &Area, (foot, facts): (f64, FactsLayout), panel: &Panel, symbols: &[String], theme: &Theme) {
     let page = size(area);
-    let number = panel.solved.cell.number.to_string();
-    let at = Point::new(0.8 * theme.caption, theme.note);
-    draw(area, &theme.words(&number, at, Anchor::Start, theme.note, theme.grey));
-    let width = page.x - 1.2 * theme.caption;
-    let mut y = page.y - foot + 1.5 * theme.caption;
+    let number = panel.solved_cell.cell.number.to_string();
+    let at = Point::new(0.8 * theme.caption_size, theme.note_size);
+    draw(area, &theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
+    let width = page.x - 1.2 * theme.caption_size;
+    let mut y = page.y - foot + 1.5 * theme.caption_size;
     let mut line = |text: &str, size: f64, color, symbols: &[String]| {
-        let words = theme.words(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color);
-        draw(area, &words.italic(symbols).fitted(width));
-        y += 1.45 * theme.note;
+        let words = theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color);
+        draw(area, &words.with_italics(symbols).fit_width(width));
+        y += 1.45 * theme.note_size;
     };
-    line(&panel.caption, theme.caption, theme.ink, symbols);
+    line(&panel.caption, theme.caption_size, theme.ink, symbols);
     if !panel.note.is_empty() {
-        line(&panel.note, theme.note, theme.grey, symbols);
+        line(&panel.note, theme.note_size, theme.grey, symbols);
     }
-    for text in facts.texts(panel) {
-        line(&text, theme.note, theme.grey, &[]);
+    for text in facts.panel_lines(panel) {
+        line(&text, theme.note_size, theme.grey, &[]);
     }
-    if let (Some(reason), true) = (&panel.solved.motion.shortfall, panel.solved.motion.is_assembled()) {
-        line(reason, theme.note, theme.curve_ink(0), &[]);
+    if let (Some(reason), true) = (&panel.solved_cell.motion.incomplete_reason, panel.solved_cell.motion.is_assembled())
+    {
+        line(reason, theme.note_size, theme.curve_ink(0), &[]);
     }
 }
 
 /// Where there is no curve to draw: that it cannot be assembled, and why.
-pub(super) fn draw_reason(area: &Area, frame: Frame, reason: &str, theme: &Theme) {
+pub(super) fn draw_not_assembled(area: &Area, frame: Rect, reason: &str, theme: &Theme) {
     let centre = frame.centre();
-    let words =
-        |text: &str, size: f64, color: Color| theme.words(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color);
-    let mut lines = vec![words("not assembled", theme.caption, theme.curve_ink(0)).text];
-    let reason = words(reason, theme.note, theme.grey).wrapped(0.9 * frame.size.x);
-    lines.extend(reason.iter().map(|line| words(line, theme.note, theme.grey).text));
-    let step = 1.5 * theme.note;
+    let words = |text: &str, size: f64, color: Color| {
+        theme.text_line(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color)
+    };
+    let mut lines = vec![words("not assembled", theme.caption_size, theme.curve_ink(0)).text];
+    let reason = words(reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
+    lines.extend(reason.iter().map(|line| words(line, theme.note_size, theme.grey).text));
+    let step = 1.5 * theme.note_size;
     let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;
     for (k, text) in lines.iter_mut().enumerate() {
-        text.at.y = first + step * k as f64;
+        text.position.y = first + step * k as f64;
     }
     let items = lines.into_iter().map(Item::Text).collect();
     draw(area, &Drawing { class: "not-assembled", title: String::new(), items });

@@ -1,71 +1,72 @@
-use super::arrangement::Frame;
+use super::arrangement::Rect;
 use super::element::{Area, Drawing, draw};
 use super::theme::Theme;
-use crate::scene::{Anchor, Item, Line, Path, Text};
+use crate::scene::{Anchor, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 
 /// A frame in which something is drawn to scale, and its scale bar.
 pub(super) struct Plot {
-    frame: Frame,
+    rect: Rect,
     /// From the plane to millimetres of the area.
     pub page_from_plane: Similarity,
 }
 
 impl Plot {
     /// A plot in a frame, with room for the scale bar at its foot.
-    pub fn new(frame: Frame, theme: &Theme) -> Plot {
-        let foot = 1.6 * theme.note;
+    pub fn new(frame: Rect, theme: &Theme) -> Plot {
+        let foot = 1.6 * theme.note_size;
         // A frame that is all foot still has a positive size.
-        let inner = Frame { size: Vector::new(frame.size.x, (frame.size.y - foot).max(0.2 * frame.size.y)), ..frame };
+        let inner = Rect { size: Vector::new(frame.size.x, (frame.size.y - foot).max(0.2 * frame.size.y)), ..frame };
         Plot {
-            frame: inner.inset(2.0 * theme.joint),
+            rect: inner.inset(2.0 * theme.joint_radius),
             page_from_plane: Similarity::page_from_plane(Bounds::EMPTY, frame.centre(), 1.0),
         }
     }
 
     /// The plot with something in the middle of its frame.
-    pub fn of(self, bounds: Bounds) -> Plot {
-        let scale = self.frame.scale(bounds);
-        Plot { page_from_plane: Similarity::page_from_plane(bounds, self.frame.centre(), scale), ..self }
+    pub fn fitted_to(self, bounds: Bounds) -> Plot {
+        let scale = self.rect.fit_scale(bounds);
+        Plot { page_from_plane: Similarity::page_from_plane(bounds, self.rect.centre(), scale), ..self }
     }
 
     /// The frame less its foot, where the scale bar stands, and with what is kept free round the figure.
-    pub fn above_bar(&self, theme: &Theme) -> Frame {
-        let free = Vector::repeat(2.0 * theme.joint);
-        Frame { corner: self.frame.corner - free, size: self.frame.size + free * 2.0 }
+    pub fn rect_above_scale_bar(&self, theme: &Theme) -> Rect {
+        let free = Vector::repeat(2.0 * theme.joint_radius);
+        Rect { corner: self.rect.corner - free, size: self.rect.size + free * 2.0 }
     }
 
     /// A scale bar under the frame: a round number of units, about a fifth of the frame's width.
-    pub fn bar(&self, area: &Area, theme: &Theme) {
+    pub fn draw_scale_bar(&self, area: &Area, theme: &Theme) {
         let scale = self.page_from_plane.scale;
-        let units = round_number(0.2 * self.frame.size.x / scale);
+        let units = round_number_below(0.2 * self.rect.size.x / scale);
         let length = units * scale;
         let label = units.to_string();
-        let size = 0.75 * theme.note;
-        let at = Point::new(self.frame.centre().x, self.frame.corner.y + self.frame.size.y + 2.2 * theme.joint + size);
-        let words = theme.words(&label, Point::origin(), Anchor::Start, size, theme.grey);
+        let size = 0.75 * theme.note_size;
+        let at =
+            Point::new(self.rect.centre().x, self.rect.corner.y + self.rect.size.y + 2.2 * theme.joint_radius + size);
+        let words = theme.text_line(&label, Point::origin(), Anchor::Start, size, theme.grey);
         let gap = 0.4 * size;
         let left = at.x - (length + gap + words.text.width()) / 2.0;
         let tick = 0.3 * size;
         let y = at.y - 0.35 * size;
-        let line = |a: (f64, f64), b: (f64, f64)| Line {
+        let line = |a: (f64, f64), b: (f64, f64)| Polyline {
             points: vec![Point::new(a.0, a.1), Point::new(b.0, b.1)],
-            closed: false,
+            is_closed: false,
         };
         let lines = vec![
             line((left, y), (left + length, y)),
             line((left, y - tick), (left, y + tick)),
             line((left + length, y - tick), (left + length, y + tick)),
         ];
-        let stroke = Some(theme.stroke(theme.grey, theme.hair));
-        let bar = Item::Path(Path { lines, stroke, fill: None });
-        let text = Item::Text(Text { at: Point::new(left + length + gap, at.y), ..words.text });
+        let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
+        let bar = Item::Path(Path { polylines: lines, stroke, fill: None });
+        let text = Item::Text(Text { position: Point::new(left + length + gap, at.y), ..words.text });
         draw(area, &Drawing { class: "scale", title: format!("a bar of {label}"), items: vec![bar, text] });
     }
 }
 
 /// The nearest of 1, 2 and 5 with a power of ten, not above `x`; 1 where `x` is none to go by.
-pub(super) fn round_number(x: f64) -> f64 {
+pub(super) fn round_number_below(x: f64) -> f64 {
     if !(1e-12..=1e12).contains(&x) {
         return 1.0;
     }
@@ -82,7 +83,7 @@ mod tests {
     #[test]
     fn scale_bars_are_round() {
         for (x, round) in [(1.0, 1.0), (1.9, 1.0), (0.7, 0.5), (27.0, 20.0), (0.0, 1.0), (f64::NAN, 1.0)] {
-            assert_eq!(round_number(x), round);
+            assert_eq!(round_number_below(x), round);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::mechanism::sliding_line;
 use coupler_curves::geometry::{Point, cross, distance_to_segment};
-use coupler_curves::linkage::{Linkage, Step};
+use coupler_curves::linkage::{JointKind, Linkage};
 use coupler_curves::motion::Circuit;
 
 /// The places of all joints in the clearest pose of a circuit.
@@ -10,7 +10,7 @@ use coupler_curves::motion::Circuit;
 /// A pose is clear when no two joints, and no joint and link, come near each other, and when no two links that meet
 /// lie on one line: its clarity is the least of those distances, times the least sine of those angles. Poses within
 /// a hundredth of the clearest are as good; the first of them is taken.
-pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
+pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     /// More samples than this make no difference to the eye.
     const CANDIDATES: usize = 360;
     let stride = circuit.len().div_ceil(CANDIDATES).max(1);
@@ -20,7 +20,7 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     for joint in 0..linkage.joints.len() {
         let Some([foot, through]) = sliding_line(linkage, joint) else { continue };
         // The link with a slot goes on to what slides in it; the line of an actuator is a link of its own.
-        let is_slot = matches!(linkage.joints[joint].step, Step::Slot { .. } | Step::Yoke { .. });
+        let is_slot = matches!(linkage.joints[joint].kind, JointKind::Slot { .. } | JointKind::Yoke { .. });
         let carrier = links.iter_mut().filter(|_| is_slot);
         match carrier.into_iter().find_map(|link| Some((link.iter().position(|joint| *joint == foot)?, link))) {
             Some((at, carrier)) if !carrier.contains(&through) => carrier.insert(at + 1, through),
@@ -28,12 +28,12 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
             None => links.push(vec![foot, through]),
         }
     }
-    joined(&mut links, circuit);
+    merge_coincident_joints(&mut links, circuit);
     let pose = |sample: usize| -> Vec<Point> {
-        (0..linkage.joints.len()).map(|joint| circuit.places.point(joint, sample)).collect()
+        (0..linkage.joints.len()).map(|joint| circuit.positions.point(joint, sample)).collect()
     };
     let clarity = |at: &[Point]| {
-        let clarity = clearance(&links, at) * straightest(&links, at);
+        let clarity = clearance(&links, at) * min_link_angle_sine(&links, at);
         if clarity.is_finite() { clarity } else { 0.0 }
     };
     let all: Vec<(usize, f64)> =
@@ -43,11 +43,11 @@ pub(super) fn clearest(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
 }
 
 /// Gives joints that are one point all the way one number: their distance tells nothing of the pose.
-fn joined(links: &mut [Vec<usize>], circuit: &Circuit) {
+fn merge_coincident_joints(links: &mut [Vec<usize>], circuit: &Circuit) {
     let samples = [0, circuit.len() / 3, circuit.len() / 2];
     let is_one = |a: usize, b: usize| {
         samples.iter().all(|&sample| {
-            let (a, b) = (circuit.places.point(a, sample), circuit.places.point(b, sample));
+            let (a, b) = (circuit.positions.point(a, sample), circuit.positions.point(b, sample));
             (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
         })
     };
@@ -84,7 +84,7 @@ fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
 }
 
 /// The least sine of the angles at which links meet.
-fn straightest(links: &[Vec<usize>], at: &[Point]) -> f64 {
+fn min_link_angle_sine(links: &[Vec<usize>], at: &[Point]) -> f64 {
     let mut least: f64 = 1.0;
     for (k, link) in links.iter().enumerate() {
         for other in &links[..k] {

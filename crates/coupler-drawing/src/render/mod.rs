@@ -26,7 +26,7 @@ impl Format {
     pub const ALL: [Format; 3] = [Format::Svg, Format::Png, Format::Pdf];
 
     /// The format of the files of single pages; none where all pages are in one book.
-    pub fn of_pages(self) -> Option<PageFormat> {
+    pub fn page_format(self) -> Option<PageFormat> {
         match self {
             Format::Svg => Some(PageFormat::Svg),
             Format::Png => Some(PageFormat::Png),

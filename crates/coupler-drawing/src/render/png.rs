@@ -2,14 +2,14 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Transform};
 
-use crate::scene::{Circle, Color, Path, Scene, Segment, Shape, Stroke, Text};
+use crate::scene::{Circle, Color, OutlineSegment, Path, Scene, Shape, Stroke, Text};
 
 /// Why a scene makes no image.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// There are too many pixels, or none.
     #[error("a page of {width} by {height} pixels cannot be held in memory")]
-    Size {
+    InvalidSize {
         /// Pixels across.
         width: u32,
         /// Pixels down.
@@ -22,7 +22,7 @@ pub enum Error {
 
 /// A page is drawn in strips of about this many bytes, which the processor's caches hold, and not on one sheet: at 300
 /// pixels to the inch a tabloid page would take 67 million.
-const STRIP: usize = 1 << 22;
+const STRIP_BYTES: usize = 1 << 22;
 
 /// A scene as a PNG image of `dpi` pixels to the inch, which the file records.
 ///
@@ -32,61 +32,61 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let scale = dpi / 25.4;
     let pixels = |mm: f64| (mm * scale).round().max(1.0) as u32;
     let (width, height) = (pixels(scene.width), pixels(scene.height));
-    let too_large = Error::Size { width, height };
+    let too_large = Error::InvalidSize { width, height };
     let pixels = (width as usize).checked_mul(height as usize);
     let pixels = pixels.filter(|pixels| *pixels <= isize::MAX as usize / 3).ok_or(too_large.clone())?;
-    let rows = (STRIP / (4 * width as usize)).clamp(1, height as usize) as u32;
+    let rows = (STRIP_BYTES / (4 * width as usize)).clamp(1, height as usize) as u32;
     let shapes = scene.shapes();
     let mut rgb: Vec<[u8; 3]> = Vec::with_capacity(pixels);
     for top in (0..height).step_by(rows as usize) {
-        let paper = paper(scene.paper, (width, rows.min(height - top)));
-        let mut raster = Raster { pixmap: paper.ok_or(too_large.clone())?, scale, top };
-        shapes.iter().for_each(|shape| raster.shape(*shape));
+        let paper = blank_pixmap(scene.paper, (width, rows.min(height - top)));
+        let mut raster = Strip { pixmap: paper.ok_or(too_large.clone())?, scale, top_row: top };
+        shapes.iter().for_each(|shape| raster.draw_shape(*shape));
         // The paper covers the page, so that every pixel is opaque and premultiplied colours are plain ones.
         let (strip, _) = raster.pixmap.data().as_chunks();
         rgb.extend(strip.iter().map(|[r, g, b, _]| [*r, *g, *b]));
     }
-    encode(rgb.as_flattened(), (width, height), dpi)
+    encode_rgb(rgb.as_flattened(), (width, height), dpi)
 }
 
 /// Pixels on which nothing is drawn.
-fn paper(Color(r, g, b): Color, (width, height): (u32, u32)) -> Option<Pixmap> {
+fn blank_pixmap(Color(r, g, b): Color, (width, height): (u32, u32)) -> Option<Pixmap> {
     let pixels = vec![[r, g, b, 255]; width as usize * height as usize];
     Pixmap::from_vec(pixels.into_flattened(), IntSize::from_wh(width, height)?)
 }
 
 /// A strip of a page.
-struct Raster {
+struct Strip {
     pixmap: Pixmap,
     /// Pixels to a millimetre.
     scale: f64,
     /// The row of the page that is the strip's first.
-    top: u32,
+    top_row: u32,
 }
 
-impl Raster {
-    fn shape(&mut self, shape: Shape) {
+impl Strip {
+    fn draw_shape(&mut self, shape: Shape) {
         match shape {
-            Shape::Path(path) => self.path(path),
-            Shape::Circle(circle) => self.circle(circle),
-            Shape::Text(text) => self.text(text),
+            Shape::Path(path) => self.draw_path(path),
+            Shape::Circle(circle) => self.draw_circle(circle),
+            Shape::Text(text) => self.draw_text(text),
         }
     }
 
     /// From the page to the strip.
     fn strip_from_page(&self) -> Transform {
-        Transform::from_row(self.scale as f32, 0.0, 0.0, self.scale as f32, 0.0, -(self.top as f32))
+        Transform::from_row(self.scale as f32, 0.0, 0.0, self.scale as f32, 0.0, -(self.top_row as f32))
     }
 
     /// Whether anything between two heights of the page, in millimetres, can be seen on the strip.
-    fn shows(&self, high: f64, low: f64) -> bool {
+    fn is_visible(&self, high: f64, low: f64) -> bool {
         // Half a pixel more is touched by what is smoothed, and a pixel by the thinnest line.
         const MARGIN: f64 = 2.0;
-        let (top, bottom) = (f64::from(self.top), f64::from(self.top + self.pixmap.height()));
+        let (top, bottom) = (f64::from(self.top_row), f64::from(self.top_row + self.pixmap.height()));
         low * self.scale >= top - MARGIN && high * self.scale <= bottom + MARGIN
     }
 
-    fn draw(&mut self, path: Option<tiny_skia::Path>, stroke: Option<Stroke>, fill: Option<Color>) {
+    fn paint_path(&mut self, path: Option<tiny_skia::Path>, stroke: Option<Stroke>, fill: Option<Color>) {
         let Some(path) = path else { return };
         let transform = self.strip_from_page();
         if let Some(fill) = fill {
@@ -95,7 +95,7 @@ impl Raster {
         if let Some(stroke) = stroke {
             let style = tiny_skia::Stroke {
                 width: stroke.width as f32,
-                line_cap: if stroke.round { LineCap::Round } else { LineCap::Butt },
+                line_cap: if stroke.has_round_ends { LineCap::Round } else { LineCap::Butt },
                 line_join: LineJoin::Round,
                 ..tiny_skia::Stroke::default()
             };
@@ -103,38 +103,40 @@ impl Raster {
         }
     }
 
-    fn path(&mut self, path: &Path) {
-        let heights = || path.lines.iter().flat_map(|line| &line.points).map(|point| point.y);
+    fn draw_path(&mut self, path: &Path) {
+        let heights = || path.polylines.iter().flat_map(|line| &line.points).map(|point| point.y);
         let (high, low) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
         let width = path.stroke.map_or(0.0, |stroke| stroke.width);
-        if !self.shows(high - width, low + width) {
+        if !self.is_visible(high - width, low + width) {
             return;
         }
         let mut builder = PathBuilder::new();
-        for line in &path.lines {
+        for line in &path.polylines {
             for (k, point) in line.points.iter().enumerate() {
                 let (x, y) = (point.x as f32, point.y as f32);
                 if k == 0 { builder.move_to(x, y) } else { builder.line_to(x, y) }
             }
-            if line.closed {
+            if line.is_closed {
                 builder.close();
             }
         }
-        self.draw(builder.finish(), path.stroke, path.fill);
+        self.paint_path(builder.finish(), path.stroke, path.fill);
     }
 
-    fn circle(&mut self, circle: &Circle) {
+    fn draw_circle(&mut self, circle: &Circle) {
         let reach = circle.radius + circle.stroke.map_or(0.0, |stroke| stroke.width);
-        if !self.shows(circle.centre.y - reach, circle.centre.y + reach) {
+        if !self.is_visible(circle.centre.y - reach, circle.centre.y + reach) {
             return;
         }
         let (x, y, radius) = (circle.centre.x as f32, circle.centre.y as f32, circle.radius as f32);
-        self.draw(PathBuilder::from_circle(x, y, radius), circle.stroke, circle.fill);
+        self.paint_path(PathBuilder::from_circle(x, y, radius), circle.stroke, circle.fill);
     }
 
-    fn text(&mut self, text: &Text) {
+    fn draw_text(&mut self, text: &Text) {
         // Letters are no higher than twice their em; a text that is turned may go anywhere.
-        if text.quarter_turns == 0 && !self.shows(text.at.y - 2.0 * text.size, text.at.y + 2.0 * text.size) {
+        if text.quarter_turns == 0
+            && !self.is_visible(text.position.y - 2.0 * text.size, text.position.y + 2.0 * text.size)
+        {
             return;
         }
         let mut builder = PathBuilder::new();
@@ -144,23 +146,23 @@ impl Raster {
                 let place = |[x, y]: [f64; 2]| ((at.x + x * text.size) as f32, (at.y - y * text.size) as f32);
                 for segment in run.face.outline(c).iter().copied() {
                     match segment {
-                        Segment::Move(p) => builder.move_to(place(p).0, place(p).1),
-                        Segment::Line(p) => builder.line_to(place(p).0, place(p).1),
-                        Segment::Quad(c, p) => builder.quad_to(place(c).0, place(c).1, place(p).0, place(p).1),
-                        Segment::Cubic(c, d, p) => {
+                        OutlineSegment::Move(p) => builder.move_to(place(p).0, place(p).1),
+                        OutlineSegment::Line(p) => builder.line_to(place(p).0, place(p).1),
+                        OutlineSegment::Quad(c, p) => builder.quad_to(place(c).0, place(c).1, place(p).0, place(p).1),
+                        OutlineSegment::Cubic(c, d, p) => {
                             let ((cx, cy), (dx, dy), (px, py)) = (place(c), place(d), place(p));
                             builder.cubic_to(cx, cy, dx, dy, px, py);
                         }
-                        Segment::Close => builder.close(),
+                        OutlineSegment::Close => builder.close(),
                     }
                 }
                 at.x += run.face.advance(c) * text.size;
             }
         }
         let angle = f32::from(text.quarter_turns) * 90.0;
-        let turned = Transform::from_rotate_at(angle, text.at.x as f32, text.at.y as f32);
+        let turned = Transform::from_rotate_at(angle, text.position.x as f32, text.position.y as f32);
         let path = builder.finish().and_then(|path| if angle == 0.0 { Some(path) } else { path.transform(turned) });
-        self.draw(path, None, Some(text.color));
+        self.paint_path(path, None, Some(text.color));
     }
 }
 
@@ -170,19 +172,19 @@ fn paint(Color(r, g, b): Color) -> Paint<'static> {
     paint
 }
 
-fn encode(rgb: &[u8], (width, height): (u32, u32), dpi: f64) -> Result<Vec<u8>, Error> {
+fn encode_rgb(rgb: &[u8], (width, height): (u32, u32), dpi: f64) -> Result<Vec<u8>, Error> {
     let mut out = Vec::new();
     // Most of a page is paper, and what is drawn on it does not resemble its neighbours: filters make such an image larger.
     // The first level takes little more than half the time of the third, to files a quarter larger.
     PngEncoder::new_with_quality(&mut out, CompressionType::Level(1), FilterType::NoFilter)
         .write_image(rgb, width, height, ExtendedColorType::Rgb8)
         .map_err(|error| Error::Encoding(error.to_string()))?;
-    record_resolution(&mut out, dpi);
+    insert_resolution(&mut out, dpi);
     Ok(out)
 }
 
 /// Puts a `pHYs` chunk after the header, which the encoder cannot write: pixels to the metre, both ways.
-fn record_resolution(png: &mut Vec<u8>, dpi: f64) {
+fn insert_resolution(png: &mut Vec<u8>, dpi: f64) {
     const SIGNATURE_AND_HEADER: usize = 8 + 25;
     let per_metre = ((dpi / 0.0254).round() as u32).to_be_bytes();
     let body = [&b"pHYs"[..], &per_metre, &per_metre, &[1]].concat();

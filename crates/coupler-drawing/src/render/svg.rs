@@ -1,74 +1,74 @@
 use std::fmt::Write;
 
 use super::TextMode;
-use crate::scene::{Anchor, Circle, Color, Group, Item, Moving, Path, Scene, Segment, Stroke, Text};
+use crate::scene::{Anchor, Animation, Circle, Color, Group, Item, OutlineSegment, Path, Scene, Stroke, Text};
 use coupler_curves::geometry::Point;
 
 /// A scene as an SVG document, in millimetres to 1/1000 mm.
 pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
-    let mut out = Writer { out: String::with_capacity(64 * 1024), text };
-    let (w, h) = (Number(micrometres(scene.width)), Number(micrometres(scene.height)));
-    out.raw(format_args!(
+    let mut out = SvgWriter { output: String::with_capacity(64 * 1024), text_mode: text };
+    let (w, h) = (Number(to_micrometres(scene.width)), Number(to_micrometres(scene.height)));
+    out.write(format_args!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
          font-family=\"{}\" font-kerning=\"none\" style=\"font-variant-ligatures:none\" \
          stroke-linejoin=\"round\" fill=\"none\">\n",
-        scene.typeface.families()
+        scene.typeface.fallback_families()
     ));
-    out.raw(format_args!("<title>{}</title>\n", Escaped(&scene.title)));
-    out.raw(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", scene.paper));
+    out.write(format_args!("<title>{}</title>\n", Escaped(&scene.title)));
+    out.write(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", scene.paper));
     for item in &scene.items {
-        out.item(item);
+        out.write_item(item);
     }
-    out.out.push_str("</svg>\n");
-    out.out.into_bytes()
+    out.output.push_str("</svg>\n");
+    out.output.into_bytes()
 }
 
-struct Writer {
-    out: String,
-    text: TextMode,
+struct SvgWriter {
+    output: String,
+    text_mode: TextMode,
 }
 
-impl Writer {
-    fn raw(&mut self, arguments: std::fmt::Arguments) {
+impl SvgWriter {
+    fn write(&mut self, arguments: std::fmt::Arguments) {
         // Writing to a string cannot fail.
-        let _ = self.out.write_fmt(arguments);
+        let _ = self.output.write_fmt(arguments);
     }
 
-    fn item(&mut self, item: &Item) {
+    fn write_item(&mut self, item: &Item) {
         match item {
-            Item::Group(group) => self.group(group),
-            Item::Path(path) => self.path(path, None),
-            Item::Circle(circle) => self.circle(circle, None),
-            Item::Moving(moving) => self.moving(moving),
-            Item::Text(text) if self.text == TextMode::Outlines => self.outlines(text),
-            Item::Text(text) => self.text(text),
+            Item::Group(group) => self.write_group(group),
+            Item::Path(path) => self.write_path(path, None),
+            Item::Circle(circle) => self.write_circle(circle, None),
+            Item::Animation(moving) => self.write_animation(moving),
+            Item::Text(text) if self.text_mode == TextMode::Outlines => self.write_outlines(text),
+            Item::Text(text) => self.write_text(text),
         }
     }
 
-    fn group(&mut self, group: &Group) {
-        self.out.push_str("<g");
+    fn write_group(&mut self, group: &Group) {
+        self.output.push_str("<g");
         if !group.id.is_empty() {
-            self.raw(format_args!(" id=\"{}\"", Escaped(&group.id)));
+            self.write(format_args!(" id=\"{}\"", Escaped(&group.id)));
         }
         if !group.class.is_empty() {
-            self.raw(format_args!(" class=\"{}\"", group.class));
+            self.write(format_args!(" class=\"{}\"", group.class));
         }
         for (name, value) in &group.data {
-            self.raw(format_args!(" data-{name}=\"{}\"", Escaped(value)));
+            self.write(format_args!(" data-{name}=\"{}\"", Escaped(value)));
         }
-        self.out.push('>');
+        self.output.push('>');
         if !group.title.is_empty() {
-            self.raw(format_args!("<title>{}</title>", Escaped(&group.title)));
+            self.write(format_args!("<title>{}</title>", Escaped(&group.title)));
         }
-        self.out.push('\n');
+        self.output.push('\n');
         for item in &group.items {
-            self.item(item);
+            self.write_item(item);
         }
-        self.out.push_str("</g>\n");
+        self.output.push_str("</g>\n");
     }
 
     /// Each item of the first frame, with its places in all of them.
-    fn moving(&mut self, moving: &Moving) {
+    fn write_animation(&mut self, moving: &Animation) {
         let Some(first) = moving.frames.first() else { return };
         for (k, item) in first.iter().enumerate() {
             let frames = || moving.frames.iter().filter_map(|frame| frame.get(k));
@@ -77,24 +77,24 @@ impl Writer {
                 || frames().filter_map(|item| if let Item::Circle(circle) = item { Some(circle) } else { None });
             match item {
                 Item::Path(path) => {
-                    let values: Vec<String> = paths().map(path_data).collect();
-                    self.path(path, Some(&self.animation("d", &values, moving.seconds)));
+                    let values: Vec<String> = paths().map(absolute_path_data).collect();
+                    self.write_path(path, Some(&self.animate_element("d", &values, moving.seconds)));
                 }
                 Item::Circle(circle) => {
                     let along = |of: fn(&Circle) -> f64| -> Vec<String> {
-                        circles().map(|circle| Number(micrometres(of(circle))).to_string()).collect()
+                        circles().map(|circle| Number(to_micrometres(of(circle))).to_string()).collect()
                     };
-                    let x = self.animation("cx", &along(|circle| circle.centre.x), moving.seconds);
-                    let y = self.animation("cy", &along(|circle| circle.centre.y), moving.seconds);
-                    self.circle(circle, Some(&(x + &y)));
+                    let x = self.animate_element("cx", &along(|circle| circle.centre.x), moving.seconds);
+                    let y = self.animate_element("cy", &along(|circle| circle.centre.y), moving.seconds);
+                    self.write_circle(circle, Some(&(x + &y)));
                 }
-                _ => self.item(item),
+                _ => self.write_item(item),
             }
         }
     }
 
     /// The element that moves an attribute; nothing where it stays.
-    fn animation(&self, attribute: &str, values: &[String], seconds: f64) -> String {
+    fn animate_element(&self, attribute: &str, values: &[String], seconds: f64) -> String {
         if values.iter().all(|value| *value == values[0]) {
             return String::new();
         }
@@ -104,121 +104,123 @@ impl Writer {
         )
     }
 
-    fn paint(&mut self, stroke: Option<Stroke>, fill: Option<Color>) {
+    fn write_paint(&mut self, stroke: Option<Stroke>, fill: Option<Color>) {
         if let Some(fill) = fill {
-            self.raw(format_args!(" fill=\"{}\"", fill));
+            self.write(format_args!(" fill=\"{}\"", fill));
         }
         if let Some(stroke) = stroke {
-            let width = Number(micrometres(stroke.width));
-            self.raw(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", stroke.color));
-            if stroke.round {
-                self.out.push_str(" stroke-linecap=\"round\"");
+            let width = Number(to_micrometres(stroke.width));
+            self.write(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", stroke.color));
+            if stroke.has_round_ends {
+                self.output.push_str(" stroke-linecap=\"round\"");
             }
         }
     }
 
     /// Ends an element, with what moves it inside.
-    fn end(&mut self, name: &str, animation: Option<&String>) {
+    fn end_element(&mut self, name: &str, animation: Option<&String>) {
         match animation.filter(|animation| !animation.is_empty()) {
-            None => self.out.push_str("/>\n"),
-            Some(animation) => self.raw(format_args!(">{animation}</{name}>\n")),
+            None => self.output.push_str("/>\n"),
+            Some(animation) => self.write(format_args!(">{animation}</{name}>\n")),
         }
     }
 
-    fn path(&mut self, path: &Path, animation: Option<&String>) {
-        self.out.push_str("<path d=\"");
-        write_path(&mut self.out, path);
-        self.out.push('"');
-        self.paint(path.stroke, path.fill);
-        self.end("path", animation);
+    fn write_path(&mut self, path: &Path, animation: Option<&String>) {
+        self.output.push_str("<path d=\"");
+        write_path_data(&mut self.output, path);
+        self.output.push('"');
+        self.write_paint(path.stroke, path.fill);
+        self.end_element("path", animation);
     }
 
-    fn circle(&mut self, circle: &Circle, animation: Option<&String>) {
-        let [x, y] = [circle.centre.x, circle.centre.y].map(|c| Number(micrometres(c)));
-        let radius = Number(micrometres(circle.radius));
-        self.raw(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""));
-        self.paint(circle.stroke, circle.fill);
-        self.end("circle", animation);
+    fn write_circle(&mut self, circle: &Circle, animation: Option<&String>) {
+        let [x, y] = [circle.centre.x, circle.centre.y].map(|c| Number(to_micrometres(c)));
+        let radius = Number(to_micrometres(circle.radius));
+        self.write(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""));
+        self.write_paint(circle.stroke, circle.fill);
+        self.end_element("circle", animation);
     }
 
-    fn text(&mut self, text: &Text) {
-        let [x, y, size] = [text.at.x, text.at.y, text.size].map(|c| Number(micrometres(c)));
-        self.raw(format_args!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", text.color));
+    fn write_text(&mut self, text: &Text) {
+        let [x, y, size] = [text.position.x, text.position.y, text.size].map(|c| Number(to_micrometres(c)));
+        self.write(format_args!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", text.color));
         match text.anchor {
             Anchor::Start => {}
-            Anchor::Middle => self.out.push_str(" text-anchor=\"middle\""),
-            Anchor::End => self.out.push_str(" text-anchor=\"end\""),
+            Anchor::Middle => self.output.push_str(" text-anchor=\"middle\""),
+            Anchor::End => self.output.push_str(" text-anchor=\"end\""),
         }
         if text.quarter_turns != 0 {
-            self.raw(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
+            self.write(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
         }
         if text.runs.iter().any(|run| run.text.contains("  ")) {
             // Readers take several spaces for one.
-            self.out.push_str(" xml:space=\"preserve\"");
+            self.output.push_str(" xml:space=\"preserve\"");
         }
-        self.out.push('>');
+        self.output.push('>');
         for run in &text.runs {
             if run.face.is_italic {
-                self.raw(format_args!("<tspan font-style=\"italic\">{}</tspan>", Escaped(&run.text)));
+                self.write(format_args!("<tspan font-style=\"italic\">{}</tspan>", Escaped(&run.text)));
             } else {
-                self.raw(format_args!("{}", Escaped(&run.text)));
+                self.write(format_args!("{}", Escaped(&run.text)));
             }
         }
-        self.out.push_str("</text>\n");
+        self.output.push_str("</text>\n");
     }
 
-    fn outlines(&mut self, text: &Text) {
+    fn write_outlines(&mut self, text: &Text) {
         let words: String = text.runs.iter().map(|run| run.text.as_str()).collect();
-        self.raw(format_args!("<path role=\"img\" aria-label=\"{}\"", Escaped(&words)));
+        self.write(format_args!("<path role=\"img\" aria-label=\"{}\"", Escaped(&words)));
         if text.quarter_turns != 0 {
-            let [x, y] = [text.at.x, text.at.y].map(|c| Number(micrometres(c)));
-            self.raw(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
+            let [x, y] = [text.position.x, text.position.y].map(|c| Number(to_micrometres(c)));
+            self.write(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
         }
-        self.out.push_str(" d=\"");
-        let mut pen = Pen::default();
+        self.output.push_str(" d=\"");
+        let mut pen = PathWriter::default();
         let mut at = text.start();
         for run in &text.runs {
             for c in run.text.chars() {
                 let place = |[x, y]: [f64; 2]| Point::new(at.x + x * text.size, at.y - y * text.size);
                 for segment in run.face.outline(c).iter().copied() {
                     match segment {
-                        Segment::Move(p) => pen.to(&mut self.out, 'm', &[place(p)]),
-                        Segment::Line(p) => pen.to(&mut self.out, 'l', &[place(p)]),
-                        Segment::Quad(c, p) => pen.to(&mut self.out, 'q', &[place(c), place(p)]),
-                        Segment::Cubic(c, d, p) => pen.to(&mut self.out, 'c', &[place(c), place(d), place(p)]),
-                        Segment::Close => pen.close(&mut self.out),
+                        OutlineSegment::Move(p) => pen.write_command(&mut self.output, 'm', &[place(p)]),
+                        OutlineSegment::Line(p) => pen.write_command(&mut self.output, 'l', &[place(p)]),
+                        OutlineSegment::Quad(c, p) => pen.write_command(&mut self.output, 'q', &[place(c), place(p)]),
+                        OutlineSegment::Cubic(c, d, p) => {
+                            pen.write_command(&mut self.output, 'c', &[place(c), place(d), place(p)])
+                        }
+                        OutlineSegment::Close => pen.close(&mut self.output),
                     }
                 }
                 at.x += run.face.advance(c) * text.size;
             }
         }
-        self.out.push('"');
-        self.paint(None, Some(text.color));
-        self.end("path", None);
+        self.output.push('"');
+        self.write_paint(None, Some(text.color));
+        self.end_element("path", None);
     }
 }
 
-fn write_path(out: &mut String, path: &Path) {
-    let mut pen = Pen::default();
-    for line in &path.lines {
+fn write_path_data(out: &mut String, path: &Path) {
+    let mut pen = PathWriter::default();
+    for line in &path.polylines {
         for (k, &point) in line.points.iter().enumerate() {
-            pen.to(out, if k == 0 { 'm' } else { 'l' }, &[point]);
+            pen.write_command(out, if k == 0 { 'm' } else { 'l' }, &[point]);
         }
-        if line.closed {
+        if line.is_closed {
             pen.close(out);
         }
     }
 }
 
 /// A path in absolute coordinates: values between two frames are then places between them.
-fn path_data(path: &Path) -> String {
+fn absolute_path_data(path: &Path) -> String {
     let mut out = String::new();
-    for line in &path.lines {
+    for line in &path.polylines {
         for (k, point) in line.points.iter().enumerate() {
-            let [x, y] = [point.x, point.y].map(|c| Number(micrometres(c)));
+            let [x, y] = [point.x, point.y].map(|c| Number(to_micrometres(c)));
             let _ = write!(out, "{}{x} {y}", if k == 0 { 'M' } else { 'L' });
         }
-        if line.closed {
+        if line.is_closed {
             out.push('Z');
         }
     }
@@ -228,54 +230,54 @@ fn path_data(path: &Path) -> String {
 /// Writes path data in relative coordinates. Places are rounded to micrometres before they are subtracted, so that
 /// no error adds up.
 #[derive(Default)]
-struct Pen {
-    at: [i64; 2],
+struct PathWriter {
+    current: [i64; 2],
     start: [i64; 2],
-    last: Option<char>,
+    last_command: Option<char>,
 }
 
-impl Pen {
-    fn to(&mut self, out: &mut String, command: char, points: &[Point]) {
-        let begin = self.at;
-        if self.last == Some(command) && command != 'm' || self.last == Some('m') && command == 'l' {
+impl PathWriter {
+    fn write_command(&mut self, out: &mut String, command: char, points: &[Point]) {
+        let begin = self.current;
+        if self.last_command == Some(command) && command != 'm' || self.last_command == Some('m') && command == 'l' {
             // A repeated command is not written again, and what follows a move is a line.
-            self.last = Some(command);
-            self.pair(out, begin, points[0], true);
+            self.last_command = Some(command);
+            self.write_point(out, begin, points[0], true);
         } else {
             // A move that opens a path is from the origin, and what follows it is relative, as after any other.
             out.push(command);
-            self.last = Some(command);
-            self.pair(out, begin, points[0], false);
+            self.last_command = Some(command);
+            self.write_point(out, begin, points[0], false);
         }
         for &point in &points[1..] {
-            self.pair(out, begin, point, true);
+            self.write_point(out, begin, point, true);
         }
         if command == 'm' {
-            self.start = self.at;
+            self.start = self.current;
         }
     }
 
-    fn pair(&mut self, out: &mut String, from: [i64; 2], point: Point, parted: bool) {
-        self.at = [micrometres(point.x), micrometres(point.y)];
-        let (x, y) = (self.at[0] - from[0], self.at[1] - from[1]);
+    fn write_point(&mut self, out: &mut String, from: [i64; 2], point: Point, parted: bool) {
+        self.current = [to_micrometres(point.x), to_micrometres(point.y)];
+        let (x, y) = (self.current[0] - from[0], self.current[1] - from[1]);
         if parted && x >= 0 {
             out.push(' ');
         }
-        out.push_str(Number(x).text(&mut [0; 24]));
+        out.push_str(Number(x).format_into(&mut [0; 24]));
         if y >= 0 {
             out.push(' ');
         }
-        out.push_str(Number(y).text(&mut [0; 24]));
+        out.push_str(Number(y).format_into(&mut [0; 24]));
     }
 
     fn close(&mut self, out: &mut String) {
         out.push('z');
-        self.at = self.start;
-        self.last = Some('z');
+        self.current = self.start;
+        self.last_command = Some('z');
     }
 }
 
-fn micrometres(mm: f64) -> i64 {
+fn to_micrometres(mm: f64) -> i64 {
     (mm * 1000.0).round() as i64
 }
 
@@ -285,7 +287,7 @@ struct Number(i64);
 
 impl Number {
     /// Its text, at the end of a buffer. Most of what an SVG has are numbers, over which the formatter takes its time.
-    fn text(self, buffer: &mut [u8; 24]) -> &str {
+    fn format_into(self, buffer: &mut [u8; 24]) -> &str {
         let (mut whole, mut part) = (self.0.unsigned_abs() / 1000, self.0.unsigned_abs() % 1000);
         let mut at = buffer.len();
         let mut push = |byte: u8| {
@@ -319,7 +321,7 @@ impl Number {
 
 impl std::fmt::Display for Number {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.text(&mut [0; 24]))
+        f.write_str(self.format_into(&mut [0; 24]))
     }
 }
 
@@ -366,13 +368,13 @@ mod tests {
     #[test]
     fn path_data_is_relative_and_adds_up() {
         let mut out = String::new();
-        let mut pen = Pen::default();
+        let mut pen = PathWriter::default();
         let at = Point::new;
         for (command, point) in [('m', at(1.0, 2.0)), ('l', at(1.5, 1.0)), ('l', at(1.4, 1.0)), ('m', at(0.0, 0.0))] {
-            pen.to(&mut out, command, &[point]);
+            pen.write_command(&mut out, command, &[point]);
         }
         pen.close(&mut out);
-        pen.to(&mut out, 'l', &[at(3.0, -1.0)]);
+        pen.write_command(&mut out, 'l', &[at(3.0, -1.0)]);
         assert_eq!(out, "m1 2 .5-1-.1 0m-1.4-1zl3-1");
     }
 

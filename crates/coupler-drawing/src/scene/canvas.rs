@@ -6,7 +6,7 @@ use plotters_backend::{
     FontTransform,
 };
 
-use super::{Anchor, Circle, Color, Face, Item, Line, Path, Run, Scene, Stroke, Text, Typeface};
+use super::{Anchor, Circle, Color, Face, Item, Path, Polyline, Scene, Stroke, Text, TextRun, Typeface};
 use coupler_curves::geometry::Point;
 
 /// A plotters backend that records a [`Scene`]; its pixel is 1/100 mm.
@@ -15,10 +15,10 @@ pub struct Canvas<'s> {
     scene: &'s mut Scene,
 }
 
-type Drawn = Result<(), DrawingErrorKind<Infallible>>;
+type DrawResult = Result<(), DrawingErrorKind<Infallible>>;
 
 /// Pixels of the backend to a millimetre.
-const PIXELS: f64 = 100.0;
+const PIXELS_PER_MM: f64 = 100.0;
 
 impl<'s> Canvas<'s> {
     /// A canvas that records into a scene.
@@ -32,17 +32,17 @@ impl<'s> Canvas<'s> {
     }
 
     /// Millimetres to the backend's pixels.
-    pub fn pixels(mm: f64) -> i32 {
-        (mm * PIXELS).round() as i32
+    pub fn to_pixels(mm: f64) -> i32 {
+        (mm * PIXELS_PER_MM).round() as i32
     }
 
     /// The place of a backend coordinate in millimetres.
-    pub fn millimetres((x, y): BackendCoord) -> Point {
-        Point::new(f64::from(x) / PIXELS, f64::from(y) / PIXELS)
+    pub fn to_millimetres((x, y): BackendCoord) -> Point {
+        Point::new(f64::from(x) / PIXELS_PER_MM, f64::from(y) / PIXELS_PER_MM)
     }
 
     /// The colour over the paper: a translucent one is mixed here, so that no format need know of it.
-    fn color(&self, color: BackendColor) -> Color {
+    fn blend(&self, color: BackendColor) -> Color {
         let Color(r, g, b) = self.scene.paper;
         let mix = |over: u8, under: u8| {
             (f64::from(over) * color.alpha + f64::from(under) * (1.0 - color.alpha)).round() as u8
@@ -50,15 +50,19 @@ impl<'s> Canvas<'s> {
         Color(mix(color.rgb.0, r), mix(color.rgb.1, g), mix(color.rgb.2, b))
     }
 
-    fn stroke<S: BackendStyle>(&self, style: &S) -> Stroke {
-        Stroke { color: self.color(style.color()), width: f64::from(style.stroke_width()) / PIXELS, round: false }
+    fn to_stroke<S: BackendStyle>(&self, style: &S) -> Stroke {
+        Stroke {
+            color: self.blend(style.color()),
+            width: f64::from(style.stroke_width()) / PIXELS_PER_MM,
+            has_round_ends: false,
+        }
     }
 
-    fn path<S: BackendStyle>(&mut self, points: Vec<Point>, closed: bool, style: &S, fill: bool) -> Drawn {
+    fn record_path<S: BackendStyle>(&mut self, points: Vec<Point>, closed: bool, style: &S, fill: bool) -> DrawResult {
         if style.color().alpha > 0.0 {
             let (stroke, fill) =
-                if fill { (None, Some(self.color(style.color()))) } else { (Some(self.stroke(style)), None) };
-            self.record(Item::Path(Path { lines: vec![Line { points, closed }], stroke, fill }));
+                if fill { (None, Some(self.blend(style.color()))) } else { (Some(self.to_stroke(style)), None) };
+            self.record(Item::Path(Path { polylines: vec![Polyline { points, is_closed: closed }], stroke, fill }));
         }
         Ok(())
     }
@@ -68,49 +72,53 @@ impl DrawingBackend for Canvas<'_> {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
-        (Canvas::pixels(self.scene.width) as u32, Canvas::pixels(self.scene.height) as u32)
+        (Canvas::to_pixels(self.scene.width) as u32, Canvas::to_pixels(self.scene.height) as u32)
     }
 
-    fn ensure_prepared(&mut self) -> Drawn {
+    fn ensure_prepared(&mut self) -> DrawResult {
         Ok(())
     }
 
-    fn present(&mut self) -> Drawn {
+    fn present(&mut self) -> DrawResult {
         Ok(())
     }
 
-    fn draw_pixel(&mut self, at: BackendCoord, color: BackendColor) -> Drawn {
+    fn draw_pixel(&mut self, at: BackendCoord, color: BackendColor) -> DrawResult {
         self.draw_rect(at, (at.0 + 1, at.1 + 1), &color, true)
     }
 
-    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Drawn {
+    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> DrawResult {
         self.draw_path([from, to], style)
     }
 
-    fn draw_rect<S: BackendStyle>(&mut self, a: BackendCoord, b: BackendCoord, style: &S, fill: bool) -> Drawn {
-        let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(Canvas::millimetres);
-        self.path(corners.to_vec(), true, style, fill)
+    fn draw_rect<S: BackendStyle>(&mut self, a: BackendCoord, b: BackendCoord, style: &S, fill: bool) -> DrawResult {
+        let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(Canvas::to_millimetres);
+        self.record_path(corners.to_vec(), true, style, fill)
     }
 
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
-        self.path(path.into_iter().map(Canvas::millimetres).collect(), false, style, false)
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> DrawResult {
+        self.record_path(path.into_iter().map(Canvas::to_millimetres).collect(), false, style, false)
     }
 
-    fn draw_circle<S: BackendStyle>(&mut self, centre: BackendCoord, radius: u32, style: &S, fill: bool) -> Drawn {
+    fn draw_circle<S: BackendStyle>(&mut self, centre: BackendCoord, radius: u32, style: &S, fill: bool) -> DrawResult {
         let (stroke, fill) =
-            if fill { (None, Some(self.color(style.color()))) } else { (Some(self.stroke(style)), None) };
-        let (centre, radius) = (Canvas::millimetres(centre), f64::from(radius) / PIXELS);
+            if fill { (None, Some(self.blend(style.color()))) } else { (Some(self.to_stroke(style)), None) };
+        let (centre, radius) = (Canvas::to_millimetres(centre), f64::from(radius) / PIXELS_PER_MM);
         self.record(Item::Circle(Circle { centre, radius, stroke, fill }));
         Ok(())
     }
 
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
-        self.path(path.into_iter().map(Canvas::millimetres).collect(), true, style, true)
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> DrawResult {
+        self.record_path(path.into_iter().map(Canvas::to_millimetres).collect(), true, style, true)
     }
 
-    fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> Drawn {
-        let (face, size) = (face(self.scene.typeface, style), style.size() / PIXELS);
-        let (above, below) = face.extents();
+    fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> DrawResult {
+        let (face, size) = (face_for_style(self.scene.typeface, style), style.size() / PIXELS_PER_MM);
+        let (above, below) = face.ascent_and_descent();
         // From the anchored height of the line's box down to its baseline.
         let drop = match style.anchor().v_pos {
             VPos::Top => above,
@@ -122,16 +130,16 @@ impl DrawingBackend for Canvas<'_> {
             HPos::Center => Anchor::Middle,
             HPos::Right => Anchor::End,
         };
-        let at = Canvas::millimetres(at);
+        let at = Canvas::to_millimetres(at);
         let (quarter_turns, at) = match style.transform() {
             FontTransform::None => (0, Point::new(at.x, at.y + drop)),
             FontTransform::Rotate90 => (1, Point::new(at.x - drop, at.y)),
             FontTransform::Rotate180 => (2, Point::new(at.x, at.y - drop)),
             FontTransform::Rotate270 => (3, Point::new(at.x + drop, at.y)),
         };
-        let color = self.color(style.color());
-        let runs = vec![Run { text: text.to_owned(), face }];
-        self.record(Item::Text(Text { at, anchor, size, color, runs, quarter_turns }));
+        let color = self.blend(style.color());
+        let runs = vec![TextRun { text: text.to_owned(), face }];
+        self.record(Item::Text(Text { position: at, anchor, size, color, runs, quarter_turns }));
         Ok(())
     }
 
@@ -140,14 +148,14 @@ impl DrawingBackend for Canvas<'_> {
         text: &str,
         style: &T,
     ) -> Result<(u32, u32), DrawingErrorKind<Infallible>> {
-        let face = face(self.scene.typeface, style);
-        let (above, below) = face.extents();
+        let face = face_for_style(self.scene.typeface, style);
+        let (above, below) = face.ascent_and_descent();
         let (width, height) = (face.width(text, style.size()), (above + below) * style.size());
         Ok((width.ceil() as u32, height.ceil() as u32))
     }
 }
 
-fn face<T: BackendTextStyle>(typeface: Typeface, style: &T) -> Face {
+fn face_for_style<T: BackendTextStyle>(typeface: Typeface, style: &T) -> Face {
     match style.style() {
         FontStyle::Italic | FontStyle::Oblique => typeface.italic(),
         FontStyle::Normal | FontStyle::Bold => typeface.regular(),

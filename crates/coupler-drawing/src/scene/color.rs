@@ -20,7 +20,7 @@ impl Color {
     }
 
     /// Red, green and blue as parts of the light of white.
-    fn linear(self) -> [f64; 3] {
+    fn to_linear(self) -> [f64; 3] {
         [self.0, self.1, self.2].map(|channel| match f64::from(channel) / 255.0 {
             c if c <= 0.04045 => c / 12.92,
             c => trig::pow((c + 0.055) / 1.055, 2.4),
@@ -29,7 +29,7 @@ impl Color {
 
     /// The relative luminance, 0 of black to 1 of white (WCAG 2.2).
     pub fn luminance(self) -> f64 {
-        let [r, g, b] = self.linear();
+        let [r, g, b] = self.to_linear();
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
@@ -40,8 +40,8 @@ impl Color {
     }
 
     /// L*, a* and b* of CIELAB under daylight, D65.
-    fn lab(self) -> [f64; 3] {
-        let [r, g, b] = self.linear();
+    fn to_lab(self) -> [f64; 3] {
+        let [r, g, b] = self.to_linear();
         // X and Z over those of white.
         let x = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505;
         let z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089;
@@ -54,25 +54,25 @@ impl Color {
 
     /// The lightness L* of CIELAB, 0 of black to 100 of white.
     pub fn lightness(self) -> f64 {
-        self.lab()[0]
+        self.to_lab()[0]
     }
 
     /// How far another colour is off in CIELAB: 2 can just be seen side by side, 100 is from black to white (CIE 1976).
     pub fn difference(self, other: Color) -> f64 {
-        let [a, b] = [self.lab(), other.lab()];
+        let [a, b] = [self.to_lab(), other.to_lab()];
         (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
     }
 
     /// The grey nearest to a lightness.
-    pub fn of_lightness(lightness: f64) -> Color {
+    pub fn from_lightness(lightness: f64) -> Color {
         let off = |grey: &Color| (grey.lightness() - lightness).abs();
         let greys = (0..=u8::MAX).map(|level| Color(level, level, level));
         greys.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(Color(0, 0, 0))
     }
 
     /// The grey of the same lightness.
-    pub fn grey(self) -> Color {
-        Color::of_lightness(self.lightness())
+    pub fn to_grey(self) -> Color {
+        Color::from_lightness(self.lightness())
     }
 }
 
@@ -104,10 +104,10 @@ mod tests {
         assert!(Color(0x76, 0x76, 0x76).contrast(white) >= 4.5 && Color(0x77, 0x77, 0x77).contrast(white) < 4.5);
         assert!(black.lightness().abs() < 1e-9 && (white.lightness() - 100.0).abs() < 1e-9);
         // L* of a luminance of 0.184187 is 50.
-        assert_eq!(Color::of_lightness(50.0), Color(0x77, 0x77, 0x77));
+        assert_eq!(Color::from_lightness(50.0), Color(0x77, 0x77, 0x77));
         assert!((black.difference(white) - 100.0).abs() < 0.1);
         // The L*, a* and b* of pure red are 53.2, 80.1 and 67.2: from black 117.3 in all.
         assert!((Color(255, 0, 0).difference(black) - 117.3).abs() < 0.1);
-        assert_eq!(Color(12, 12, 12).grey(), Color(12, 12, 12));
+        assert_eq!(Color(12, 12, 12).to_grey(), Color(12, 12, 12));
     }
 }

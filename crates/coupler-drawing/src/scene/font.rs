@@ -42,7 +42,7 @@ impl Typeface {
     }
 
     /// What a text is set in where this very typeface is not to be had: families of like width, in order.
-    pub fn families(self) -> &'static str {
+    pub fn fallback_families(self) -> &'static str {
         match self {
             Typeface::Serif => "'DejaVu Serif','Bitstream Vera Serif',Georgia,'Noto Serif',serif",
             Typeface::SerifCondensed => {
@@ -68,7 +68,7 @@ pub struct Face {
 
 /// A part of a glyph's outline: in ems, y up, from the glyph's origin on the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Segment {
+pub enum OutlineSegment {
     /// A new contour begins.
     Move([f64; 2]),
     /// A straight line.
@@ -96,28 +96,28 @@ struct Glyph {
     index: u32,
     /// In ems.
     advance: f64,
-    outline: Vec<Segment>,
+    outline: Vec<OutlineSegment>,
 }
 
 /// Latin, Greek and Cyrillic, punctuation, arrows and the signs of mathematics are before this character.
-const KEPT: usize = 0x2300;
+const CACHED_CHARACTERS: usize = 0x2300;
 
 impl Font {
     fn new(bytes: &'static [u8]) -> Font {
         let font = FontRef::new(bytes).expect("the dejavu crate ships whole fonts");
         let units_per_em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
-        Font { bytes, font, units_per_em, glyphs: vec![OnceLock::new(); KEPT] }
+        Font { bytes, font, units_per_em, glyphs: vec![OnceLock::new(); CACHED_CHARACTERS] }
     }
 
     fn glyph(&self, character: char) -> Cow<'_, Glyph> {
         match self.glyphs.get(character as usize) {
-            Some(kept) => Cow::Borrowed(kept.get_or_init(|| self.read(character))),
-            None => Cow::Owned(self.read(character)),
+            Some(kept) => Cow::Borrowed(kept.get_or_init(|| self.read_glyph(character))),
+            None => Cow::Owned(self.read_glyph(character)),
         }
     }
 
     /// The glyph of a character; a box for one the face does not have.
-    fn read(&self, character: char) -> Glyph {
+    fn read_glyph(&self, character: char) -> Glyph {
         let id = self.font.charmap().map(character).unwrap_or(GlyphId::NOTDEF);
         let advance = self.font.glyph_metrics(Size::unscaled(), LocationRef::default()).advance_width(id);
         let mut pen = Pen { units_per_em: self.units_per_em, segments: Vec::new() };
@@ -170,14 +170,14 @@ impl Face {
     }
 
     /// How far the face reaches above and below its baseline, in ems, both positive.
-    pub fn extents(self) -> (f64, f64) {
+    pub fn ascent_and_descent(self) -> (f64, f64) {
         let Font { font, units_per_em, .. } = self.font();
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         (f64::from(metrics.ascent) / units_per_em, f64::from(-metrics.descent) / units_per_em)
     }
 
     /// The outline of a character; a box for one the face does not have.
-    pub fn outline(self, character: char) -> Cow<'static, [Segment]> {
+    pub fn outline(self, character: char) -> Cow<'static, [OutlineSegment]> {
         match self.font().glyph(character) {
             Cow::Borrowed(glyph) => Cow::Borrowed(&glyph.outline),
             Cow::Owned(glyph) => Cow::Owned(glyph.outline),
@@ -192,7 +192,7 @@ impl Face {
 
 struct Pen {
     units_per_em: f64,
-    segments: Vec<Segment>,
+    segments: Vec<OutlineSegment>,
 }
 
 impl Pen {
@@ -203,23 +203,23 @@ impl Pen {
 
 impl OutlinePen for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.segments.push(Segment::Move(self.ems(x, y)));
+        self.segments.push(OutlineSegment::Move(self.ems(x, y)));
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        self.segments.push(Segment::Line(self.ems(x, y)));
+        self.segments.push(OutlineSegment::Line(self.ems(x, y)));
     }
 
     fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.segments.push(Segment::Quad(self.ems(cx, cy), self.ems(x, y)));
+        self.segments.push(OutlineSegment::Quad(self.ems(cx, cy), self.ems(x, y)));
     }
 
     fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        self.segments.push(Segment::Cubic(self.ems(cx0, cy0), self.ems(cx1, cy1), self.ems(x, y)));
+        self.segments.push(OutlineSegment::Cubic(self.ems(cx0, cy0), self.ems(cx1, cy1), self.ems(x, y)));
     }
 
     fn close(&mut self) {
-        self.segments.push(Segment::Close);
+        self.segments.push(OutlineSegment::Close);
     }
 }
 

@@ -9,10 +9,10 @@ mod canvas;
 mod color;
 mod font;
 
-pub use book::{Entry, Label, Link};
+pub use book::{OutlineEntry, PageLink, PageNumber};
 pub use canvas::Canvas;
 pub use color::Color;
-pub use font::{Face, Segment, Typeface};
+pub use font::{Face, OutlineSegment, Typeface};
 
 use coupler_curves::geometry::Point;
 
@@ -32,7 +32,7 @@ pub struct Scene {
     /// What is drawn, from back to front.
     pub items: Vec<Item>,
     /// What leads to other pages, where it is a page of a book; elsewhere nothing does.
-    pub links: Vec<Link>,
+    pub links: Vec<PageLink>,
 }
 
 /// Something drawn.
@@ -47,7 +47,7 @@ pub enum Item {
     /// A line of text.
     Text(Text),
     /// Items that move.
-    Moving(Moving),
+    Animation(Animation),
 }
 
 /// An item without parts.
@@ -78,7 +78,7 @@ pub struct Group {
 
 /// Items that go from place to place, again and again. Where nothing can move they stand as in the first frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Moving {
+pub struct Animation {
     /// The items at equal steps of time, the first once more at the end where they come back to it. They differ in their
     /// places only.
     pub frames: Vec<Vec<Item>>,
@@ -90,7 +90,7 @@ pub struct Moving {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// The polylines.
-    pub lines: Vec<Line>,
+    pub polylines: Vec<Polyline>,
     /// How they are stroked.
     pub stroke: Option<Stroke>,
     /// The colour they are filled with.
@@ -99,11 +99,11 @@ pub struct Path {
 
 /// A polyline.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct Polyline {
     /// Its points.
     pub points: Vec<Point>,
     /// Whether the last is joined to the first.
-    pub closed: bool,
+    pub is_closed: bool,
 }
 
 /// How a line is stroked; joins are round.
@@ -114,7 +114,7 @@ pub struct Stroke {
     /// The width in millimetres.
     pub width: f64,
     /// Whether the ends are round; otherwise they are cut square at the last point.
-    pub round: bool,
+    pub has_round_ends: bool,
 }
 
 /// A circle.
@@ -134,7 +134,7 @@ pub struct Circle {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     /// Where it stands, on its baseline.
-    pub at: Point,
+    pub position: Point,
     /// Which part of it stands there.
     pub anchor: Anchor,
     /// The size of the em in millimetres.
@@ -142,14 +142,14 @@ pub struct Text {
     /// The colour.
     pub color: Color,
     /// Its pieces, each in a face.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TextRun>,
     /// Quarter turns clockwise about `at`.
     pub quarter_turns: u8,
 }
 
 /// A piece of text in one face.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Run {
+pub struct TextRun {
     /// The text.
     pub text: String,
     /// The face.
@@ -171,19 +171,19 @@ impl Scene {
     /// What is drawn where nothing can move, from back to front.
     pub fn shapes(&self) -> Vec<Shape<'_>> {
         let mut shapes = Vec::new();
-        gather(&self.items, &mut shapes);
+        collect_shapes(&self.items, &mut shapes);
         shapes
     }
 }
 
-fn gather<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
+fn collect_shapes<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
     for item in items {
         match item {
-            Item::Group(group) => gather(&group.items, shapes),
+            Item::Group(group) => collect_shapes(&group.items, shapes),
             Item::Path(path) => shapes.push(Shape::Path(path)),
             Item::Circle(circle) => shapes.push(Shape::Circle(circle)),
             Item::Text(text) => shapes.push(Shape::Text(text)),
-            Item::Moving(moving) => moving.frames.iter().take(1).for_each(|first| gather(first, shapes)),
+            Item::Animation(moving) => moving.frames.iter().take(1).for_each(|first| collect_shapes(first, shapes)),
         }
     }
 }
@@ -201,13 +201,13 @@ impl Text {
             Anchor::Middle => self.width() / 2.0,
             Anchor::End => self.width(),
         };
-        Point::new(self.at.x - shift, self.at.y)
+        Point::new(self.position.x - shift, self.position.y)
     }
 }
 
 impl Path {
     /// A stroked polyline.
     pub fn stroked(points: Vec<Point>, stroke: Stroke) -> Path {
-        Path { lines: vec![Line { points, closed: false }], stroke: Some(stroke), fill: None }
+        Path { polylines: vec![Polyline { points, is_closed: false }], stroke: Some(stroke), fill: None }
     }
 }

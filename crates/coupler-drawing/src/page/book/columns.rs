@@ -3,11 +3,11 @@
 use plotters::drawing::IntoDrawingArea;
 
 use super::super::Options;
-use super::super::element::{Area, Drawing, Words, draw, size};
+use super::super::element::{Area, Drawing, TextLine, draw, size};
 use super::super::heading;
 use super::super::theme::Theme;
-use super::{Atlas, Volume, blank, number};
-use crate::scene::{Anchor, Canvas, Item, Label, Line, Link, Path, Scene, Text};
+use super::{Atlas, Volume, draw_page_number, empty_scene};
+use crate::scene::{Anchor, Canvas, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A line of a list. Pages are those of the atlas, from 1.
@@ -36,46 +36,48 @@ pub(super) struct Entry<'a> {
 
 impl Entry<'_> {
     /// What it says at a place, in one line.
-    fn words(&self, at: Point, theme: &Theme) -> Words {
+    fn text_line(&self, at: Point, theme: &Theme) -> TextLine {
         let family = self.family.map_or(String::new(), |family| format!("{family} · "));
-        let mut says = words(&family, at, Anchor::Start, theme.note, theme);
+        let mut says = text_line(&family, at, Anchor::Start, theme.note_size, theme);
         // Only in the caption are there words that stand for values.
-        says.text.runs.extend(words(self.caption, at, Anchor::Start, theme.note, theme).italic(self.symbols).text.runs);
+        says.text.runs.extend(
+            text_line(self.caption, at, Anchor::Start, theme.note_size, theme).with_italics(self.symbols).text.runs,
+        );
         says.text.runs.retain(|run| !run.text.is_empty());
         says
     }
 
-    fn curve(&self) -> String {
+    fn curve_label(&self) -> String {
         self.curve.map_or(String::new(), |curve| format!("curve {curve}"))
     }
 }
 
 /// What the pages of a list have in common.
-pub(super) struct Leaf<'a> {
+pub(super) struct ListHeader<'a> {
     pub title: &'static str,
     pub atlas: &'a Atlas<'a>,
     pub volume: &'a Volume,
     /// The Roman numeral of the first.
-    pub first: usize,
+    pub first_number: usize,
 }
 
 /// The measures of a column, in millimetres.
-struct Columns {
+struct ColumnLayout {
     corner: Point,
     /// Of one column.
-    size: Vector,
+    column_size: Vector,
     gutter: f64,
     count: usize,
     /// From one line to the next.
-    line: f64,
+    line_height: f64,
     /// The widths that pages, values and curves' numbers take.
-    page: f64,
-    value: f64,
-    curve: f64,
+    page_width: f64,
+    value_width: f64,
+    curve_width: f64,
 }
 
 /// A line with its place: from the top of a column, on the baseline.
-struct Placed<'r> {
+struct PlacedLine<'r> {
     row: &'r Row<'r>,
     /// Of a heading or a note the line it is, of others nothing.
     text: Option<String>,
@@ -86,180 +88,200 @@ struct Placed<'r> {
 }
 
 /// Sets rows on pages. `front` gives, of the number of pages set, how much front matter there is in all.
-pub(super) fn set(
+pub(super) fn compose_list(
     rows: &[Row],
-    leaf: &Leaf,
+    leaf: &ListHeader,
     front: impl Fn(usize) -> usize,
     (options, theme): (&Options, &Theme),
 ) -> Vec<Scene> {
-    let columns = Columns::fit(rows, options, theme);
-    let placed = columns.place(rows, theme);
-    let pages: Vec<&[Placed]> = placed.chunk_by(|a, b| a.column / columns.count == b.column / columns.count).collect();
+    let columns = ColumnLayout::fit(rows, options, theme);
+    let placed = columns.place_rows(rows, theme);
+    let pages: Vec<&[PlacedLine]> =
+        placed.chunk_by(|a, b| a.column / columns.count == b.column / columns.count).collect();
     let front = front(pages.len());
-    let page = |(k, placed): (usize, &&[Placed])| {
-        let mut scene = blank(format!("{}: {}", leaf.title, leaf.atlas.title), options, theme);
+    let page = |(k, placed): (usize, &&[PlacedLine])| {
+        let mut scene = empty_scene(format!("{}: {}", leaf.title, leaf.atlas.title), options, theme);
         let root = Canvas::new(&mut scene).into_drawing_area();
-        heading::border(&root, theme);
-        let at = heading::title(&root, leaf.title, theme);
+        heading::draw_border(&root, theme);
+        let at = heading::draw_title(&root, leaf.title, theme);
         let says =
             leaf.volume.name().map_or(leaf.atlas.title.to_owned(), |name| format!("{} · {name}", leaf.atlas.title));
-        let words = theme.words(&says, at, Anchor::Start, theme.source, theme.grey);
-        draw(&root, &words.fitted(size(&root).x - 2.0 * at.x));
-        let leaders = columns.draw(&root, placed, theme);
+        let words = theme.text_line(&says, at, Anchor::Start, theme.source_size, theme.grey);
+        draw(&root, &words.fit_width(size(&root).x - 2.0 * at.x));
+        let leaders = columns.draw_lines(&root, placed, theme);
         draw(&root, &Drawing { class: "leaders", title: String::new(), items: leaders });
         drop(root);
-        scene.links = placed.iter().filter_map(|placed| columns.link(placed, leaf.volume, front)).collect();
-        number(&mut scene, Label::Roman(u32::try_from(leaf.first + k).unwrap_or(u32::MAX)), options);
+        scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, leaf.volume, front)).collect();
+        draw_page_number(
+            &mut scene,
+            PageNumber::Roman(u32::try_from(leaf.first_number + k).unwrap_or(u32::MAX)),
+            options,
+        );
         scene
     };
     pages.iter().enumerate().map(page).collect()
 }
 
-fn words(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> Words {
-    theme.words(text, at, anchor, size, theme.ink)
+fn text_line(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> TextLine {
+    theme.text_line(text, at, anchor, size, theme.ink)
 }
 
-fn heading(text: &str, theme: &Theme) -> Words {
-    words(text, Point::origin(), Anchor::Start, theme.caption, theme)
+fn heading_line(text: &str, theme: &Theme) -> TextLine {
+    text_line(text, Point::origin(), Anchor::Start, theme.caption_size, theme)
 }
 
-fn note(text: &str, theme: &Theme) -> Words {
-    theme.words(text, Point::origin(), Anchor::Start, theme.note, theme.grey)
+fn note_line(text: &str, theme: &Theme) -> TextLine {
+    theme.text_line(text, Point::origin(), Anchor::Start, theme.note_size, theme.grey)
 }
 
-fn width(text: &str, theme: &Theme) -> f64 {
-    words(text, Point::origin(), Anchor::Start, theme.note, theme).text.width()
+fn text_width(text: &str, theme: &Theme) -> f64 {
+    text_line(text, Point::origin(), Anchor::Start, theme.note_size, theme).text.width()
 }
 
-impl Columns {
+impl ColumnLayout {
     /// As many columns as the widest entry allows, eight at most and two where one is very wide.
-    fn fit(rows: &[Row], options: &Options, theme: &Theme) -> Columns {
+    fn fit(rows: &[Row], options: &Options, theme: &Theme) -> ColumnLayout {
         let [top, bottom, _] = heading::margins(theme);
         let left = theme.border + theme.margin;
         let whole = Vector::new(options.paper.width - 2.0 * left, options.paper.height - top - bottom);
         let [mut text, mut value, mut curve, mut page] = [0.0f64; 4];
         for row in rows {
             if let Row::Entry(entry) = row {
-                text = text.max(entry.words(Point::origin(), theme).text.width());
-                value = value.max(width(&entry.value, theme));
-                curve = curve.max(width(&entry.curve(), theme));
-                page = page.max(width(&entry.page.to_string(), theme));
+                text = text.max(entry.text_line(Point::origin(), theme).text.width());
+                value = value.max(text_width(&entry.value, theme));
+                curve = curve.max(text_width(&entry.curve_label(), theme));
+                page = page.max(text_width(&entry.page.to_string(), theme));
             }
         }
-        let gap = 1.2 * theme.note;
+        let gap = 1.2 * theme.note_size;
         let with_gap = |width: f64| if width > 0.0 { width + gap } else { 0.0 };
         let (page, value, curve) = (with_gap(page) + gap, with_gap(value), with_gap(curve));
-        let gutter = 5.0 * theme.note;
-        let natural = (text + curve + value + page).max(20.0 * theme.note);
+        let gutter = 5.0 * theme.note_size;
+        let natural = (text + curve + value + page).max(20.0 * theme.note_size);
         let count = (((whole.x + gutter) / (natural + gutter)).floor() as usize).clamp(2, 8);
-        let size = Vector::new((whole.x + gutter) / count as f64 - gutter, whole.y.max(8.0 * theme.note));
-        Columns { corner: Point::new(left, top), size, gutter, count, line: 1.5 * theme.note, page, value, curve }
+        let size = Vector::new((whole.x + gutter) / count as f64 - gutter, whole.y.max(8.0 * theme.note_size));
+        ColumnLayout {
+            corner: Point::new(left, top),
+            column_size: size,
+            gutter,
+            count,
+            line_height: 1.5 * theme.note_size,
+            page_width: page,
+            value_width: value,
+            curve_width: curve,
+        }
     }
 
     /// The rows from column to column; a heading stays with what follows it.
-    fn place<'r>(&self, rows: &'r [Row<'r>], theme: &Theme) -> Vec<Placed<'r>> {
-        let mut placed: Vec<Placed> = Vec::new();
+    fn place_rows<'r>(&self, rows: &'r [Row<'r>], theme: &Theme) -> Vec<PlacedLine<'r>> {
+        let mut placed: Vec<PlacedLine> = Vec::new();
         let (mut column, mut y) = (0, 0.0);
         for row in rows {
-            let before = if matches!(row, Row::Heading { .. }) && y > 0.0 { self.line } else { 0.0 };
+            let before = if matches!(row, Row::Heading { .. }) && y > 0.0 { self.line_height } else { 0.0 };
             // A heading with its note and an entry takes some five lines.
             let room = if matches!(row, Row::Heading { .. }) { 6.0 } else { 1.0 };
-            if y > 0.0 && y + before + room * self.line > self.size.y {
+            if y > 0.0 && y + before + room * self.line_height > self.column_size.y {
                 (column, y) = (column + 1, 0.0);
             } else {
                 y += before;
             }
             let texts = match row {
                 Row::Heading { text, page } => {
-                    heading(text, theme).wrapped(self.beside(*page)).into_iter().map(Some).collect()
+                    heading_line(text, theme).wrap(self.heading_width(*page)).into_iter().map(Some).collect()
                 }
-                Row::Note(text) => note(text, theme).wrapped(self.size.x).into_iter().map(Some).collect(),
+                Row::Note(text) => note_line(text, theme).wrap(self.column_size.x).into_iter().map(Some).collect(),
                 Row::Entry(_) => vec![None],
             };
             for (k, text) in texts.into_iter().enumerate() {
-                if y > 0.0 && y + self.line > self.size.y {
+                if y > 0.0 && y + self.line_height > self.column_size.y {
                     (column, y) = (column + 1, 0.0);
                 }
-                y += self.line;
-                placed.push(Placed { row, text, is_first: k == 0, column, y });
+                y += self.line_height;
+                placed.push(PlacedLine { row, text, is_first: k == 0, column, y });
             }
         }
         placed
     }
 
     /// The width that is left beside a heading's page.
-    fn beside(&self, page: Option<usize>) -> f64 {
-        self.size.x - page.map_or(0.0, |_| self.page)
+    fn heading_width(&self, page: Option<usize>) -> f64 {
+        self.column_size.x - page.map_or(0.0, |_| self.page_width)
     }
 
     /// Where a line begins on its page.
-    fn start(&self, placed: &Placed) -> Point {
+    fn line_start(&self, placed: &PlacedLine) -> Point {
         let column = (placed.column % self.count) as f64;
-        self.corner + Vector::new(column * (self.size.x + self.gutter), placed.y)
+        self.corner + Vector::new(column * (self.column_size.x + self.gutter), placed.y)
     }
 
     /// Draws lines, and gives the dots that lead from what they say to their numbers.
-    fn draw(&self, root: &Area, placed: &[Placed], theme: &Theme) -> Vec<Item> {
+    fn draw_lines(&self, root: &Area, placed: &[PlacedLine], theme: &Theme) -> Vec<Item> {
         let mut leaders = Vec::new();
         for line in placed {
-            let at = self.start(line);
-            let end = at + Vector::new(self.size.x, 0.0);
+            let at = self.line_start(line);
+            let end = at + Vector::new(self.column_size.x, 0.0);
             let says = line.text.as_deref().unwrap_or_default();
-            let at_place = |words: Words| Words { text: Text { at, ..words.text } };
+            let at_place = |words: TextLine| TextLine { text: Text { position: at, ..words.text } };
             match line.row {
                 Row::Heading { page, .. } => {
-                    draw(root, &at_place(heading(says, theme)).fitted(self.beside(*page)));
+                    draw(root, &at_place(heading_line(says, theme)).fit_width(self.heading_width(*page)));
                     if let Some(page) = page.filter(|_| line.is_first) {
-                        draw(root, &words(&page.to_string(), end, Anchor::End, theme.note, theme));
+                        draw(root, &text_line(&page.to_string(), end, Anchor::End, theme.note_size, theme));
                     }
                 }
-                Row::Note(_) => draw(root, &at_place(note(says, theme)).fitted(self.size.x)),
-                Row::Entry(entry) => leaders.extend(self.entry(root, entry, at, theme)),
+                Row::Note(_) => draw(root, &at_place(note_line(says, theme)).fit_width(self.column_size.x)),
+                Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, at, theme)),
             }
         }
-        let stroke = Some(theme.stroke(theme.hairline, theme.fine));
-        vec![Item::Path(Path { lines: leaders, stroke, fill: None })]
+        let stroke = Some(theme.stroke(theme.hairline, theme.fine_width));
+        vec![Item::Path(Path { polylines: leaders, stroke, fill: None })]
     }
 
     /// Draws an entry, and gives its dots.
-    fn entry(&self, root: &Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Line> {
-        let right = at.x + self.size.x;
-        let says = entry.words(at, theme).fitted(self.size.x - self.page - self.value - self.curve);
+    fn draw_entry(&self, root: &Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Polyline> {
+        let right = at.x + self.column_size.x;
+        let says = entry
+            .text_line(at, theme)
+            .fit_width(self.column_size.x - self.page_width - self.value_width - self.curve_width);
         let from = at.x + says.text.width();
         draw(root, &says);
         let numbers = [
             (entry.page.to_string(), right, theme.ink),
-            (entry.value.clone(), right - self.page, theme.ink),
-            (entry.curve(), right - self.page - self.value, theme.grey),
+            (entry.value.clone(), right - self.page_width, theme.ink),
+            (entry.curve_label(), right - self.page_width - self.value_width, theme.grey),
         ];
         let mut to = right;
         for (says, x, ink) in numbers.into_iter().filter(|(says, ..)| !says.is_empty()) {
-            let says = theme.words(&says, Point::new(x, at.y), Anchor::End, theme.note, ink);
+            let says = theme.text_line(&says, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
             to = says.text.start().x;
             draw(root, &says);
         }
-        dots(from, to, at.y, theme)
+        leader_dots(from, to, at.y, theme)
     }
 
     /// The box of a line that leads to a page of its volume.
-    fn link(&self, placed: &Placed, volume: &Volume, front: usize) -> Option<Link> {
+    fn line_link(&self, placed: &PlacedLine, volume: &Volume, front: usize) -> Option<PageLink> {
         let page = match placed.row {
             Row::Heading { page, .. } => (*page)?,
             Row::Entry(entry) => entry.page,
             Row::Note(_) => return None,
         };
-        let corner = self.start(placed) - Vector::new(0.0, 0.75 * self.line);
-        Some(Link { corner, size: Vector::new(self.size.x, self.line), page: volume.place(page, front)? })
+        let corner = self.line_start(placed) - Vector::new(0.0, 0.75 * self.line_height);
+        Some(PageLink {
+            corner,
+            size: Vector::new(self.column_size.x, self.line_height),
+            page_index: volume.page_index(page, front)?,
+        })
     }
 }
 
 /// Dots on a baseline between two words, which stand under one another from line to line.
-fn dots(from: f64, to: f64, y: f64, theme: &Theme) -> Vec<Line> {
-    let step = 0.9 * theme.note;
+fn leader_dots(from: f64, to: f64, y: f64, theme: &Theme) -> Vec<Polyline> {
+    let step = 0.9 * theme.note_size;
     let (first, last) = ((from / step + 0.7).ceil() as i64, (to / step - 0.9).floor() as i64);
     let dot = |k: i64| {
         let x = k as f64 * step;
-        Line { points: vec![Point::new(x, y), Point::new(x + theme.fine, y)], closed: false }
+        Polyline { points: vec![Point::new(x, y), Point::new(x + theme.fine_width, y)], is_closed: false }
     };
     (first..=last).map(dot).collect()
 }

@@ -1,20 +1,20 @@
 use std::cmp::Ordering;
 
 use super::columns::{Entry, Row};
-use super::geometry::Found;
-use super::{Atlas, Geometry, Volume};
+use super::index_entry::IndexValue;
+use super::{Atlas, IndexEntry, Volume};
 
 /// The most entries under a measure.
-const MOST: usize = 2000;
+const MAX_ENTRIES: usize = 2000;
 
-type Entries<'g> = Vec<(&'g Geometry, Found)>;
+type RankedEntries<'g> = Vec<(&'g IndexEntry, IndexValue)>;
 
 /// What the index of a volume says: of every measure what it is, and the geometries, the best first.
-pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry]) -> Vec<Row<'a>> {
-    let here = |(_, found): &(&Geometry, Found)| volume.range().contains(&found.page);
-    let ranked = |pick: fn(&Geometry) -> Option<Found>, order: fn(f64, f64) -> Ordering| {
+pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [IndexEntry]) -> Vec<Row<'a>> {
+    let here = |(_, found): &(&IndexEntry, IndexValue)| volume.page_range().contains(&found.page);
+    let ranked = |pick: fn(&IndexEntry) -> Option<IndexValue>, order: fn(f64, f64) -> Ordering| {
         let picked = found.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
-        let mut entries: Entries = picked.filter(here).collect();
+        let mut entries: RankedEntries = picked.filter(here).collect();
         entries.sort_by(|(_, a), (_, b)| order(a.value, b.value).then(a.page.cmp(&b.page)));
         entries
     };
@@ -28,7 +28,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry])
             unit: " %",
             scale: 100.0,
             decimals: 1,
-            entries: ranked(|geometry| geometry.straight, greatest),
+            entries: ranked(|geometry| geometry.straightness, greatest),
         },
         Section {
             title: "By transmission angle",
@@ -36,7 +36,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry])
             unit: "°",
             scale: 1.0,
             decimals: 1,
-            entries: ranked(|geometry| geometry.transmission, greatest),
+            entries: ranked(|geometry| geometry.transmission_angle, greatest),
         },
         Section {
             title: "By symmetry",
@@ -45,7 +45,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [Geometry])
             unit: " %",
             scale: 100.0,
             decimals: 2,
-            entries: ranked(|geometry| geometry.symmetry, least),
+            entries: ranked(|geometry| geometry.asymmetry, least),
         },
     ];
     sections.iter().flat_map(|section| section.rows(atlas)).collect()
@@ -58,7 +58,7 @@ struct Section<'a> {
     unit: &'static str,
     scale: f64,
     decimals: u32,
-    entries: Entries<'a>,
+    entries: RankedEntries<'a>,
 }
 
 impl<'a> Section<'a> {
@@ -69,10 +69,10 @@ impl<'a> Section<'a> {
             return Vec::new();
         }
         let mut rows = vec![Row::Heading { text: title.to_owned(), page: None }, Row::Note(note.to_owned())];
-        if entries.len() > MOST {
-            rows.push(Row::Note(format!("the first {MOST} of {}", entries.len())));
+        if entries.len() > MAX_ENTRIES {
+            rows.push(Row::Note(format!("the first {MAX_ENTRIES} of {}", entries.len())));
         }
-        rows.extend(entries.iter().take(MOST).map(|(geometry, found)| {
+        rows.extend(entries.iter().take(MAX_ENTRIES).map(|(geometry, found)| {
             let chapter = atlas.chapters.get(geometry.chapter);
             let (fine, decimals) = (f64::from(10_u32.pow(decimals)), decimals as usize);
             Row::Entry(Entry {

@@ -3,32 +3,32 @@
 //! A book of many pages is parted into volumes, each a book of its own that leads to its own pages only. Pages are
 //! numbered through all volumes. A volume is made in this order, and no more than one page of it need be held:
 //!
-//! 1. As soon as the number of pages of every family is known, [`Atlas::volumes`] parts them, and [`front`] composes title
+//! 1. As soon as the number of pages of every family is known, [`Atlas::volumes`] parts them, and [`compose_front_matter`] composes title
 //!    page and contents.
-//! 2. The pages are composed, in parallel and in any order; [`number`] writes their numbers on them. Of each cell,
-//!    [`Geometry::of`] keeps what the index will say. The scenes are handed to the book in order.
+//! 2. The pages are composed, in parallel and in any order; [`draw_page_number`] writes their numbers on them. Of each cell,
+//!    [`IndexEntry::from_solved_cell`] keeps what the index will say. The scenes are handed to the book in order.
 //! 3. [`index`] composes the pages of the index, and [`outline`] tells what leads where.
 //!
 //! The place of a page in a volume's file is that of its front matter and its place among the volume's pages:
-//! [`Volume::place`]. Its label is [`label`]'s.
+//! [`Volume::page_index`]. Its with_label is [`page_number`]'s.
 
 mod columns;
 mod contents;
-mod geometry;
 mod index;
+mod index_entry;
 mod title;
 
 use std::ops::Range;
 
 use plotters::drawing::IntoDrawingArea;
 
-pub use geometry::Geometry;
+pub use index_entry::IndexEntry;
 
 use super::element::{draw, size};
 use super::theme::Theme;
-use super::{Options, Sheet};
-use crate::scene::{Anchor, Canvas, Entry, Label, Scene};
-use columns::Leaf;
+use super::{Options, PanelPage};
+use crate::scene::{Anchor, Canvas, OutlineEntry, PageNumber, Scene};
+use columns::ListHeader;
 use coupler_curves::geometry::Point;
 
 /// An atlas as a book.
@@ -50,16 +50,16 @@ pub struct Chapter<'a> {
     /// Words that stand for values, set in italics.
     pub symbols: &'a [String],
     /// How many curves it has, if that is known.
-    pub curves: Option<usize>,
+    pub curve_count: Option<usize>,
     /// How many pages it has.
-    pub pages: usize,
+    pub page_count: usize,
     /// Its cells, in the order of its pages.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<CellEntry>,
 }
 
 /// A cell of a family, as contents have it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cell {
+pub struct CellEntry {
     /// The line under it.
     pub caption: String,
     /// Its first page among those of its family, from 1.
@@ -72,142 +72,161 @@ pub struct Volume {
     /// Its number, from 1.
     pub number: usize,
     /// How many volumes there are.
-    pub of: usize,
+    pub volume_count: usize,
     /// The number of its first page in the atlas, from 1.
-    pub first: usize,
+    pub first_page: usize,
     /// How many pages it has, without what stands before and after them.
-    pub pages: usize,
+    pub page_count: usize,
 }
 
 impl Atlas<'_> {
     /// How many pages it has, without what stands before and after them.
-    pub fn pages(&self) -> usize {
-        self.chapters.iter().map(|chapter| chapter.pages).sum()
+    pub fn page_count(&self) -> usize {
+        self.chapters.iter().map(|chapter| chapter.page_count).sum()
     }
 
     /// Its volumes, of `most` pages each but for the last; one, where all pages go into one.
     pub fn volumes(&self, most: usize) -> Vec<Volume> {
-        let (pages, most) = (self.pages(), most.max(1));
+        let (pages, most) = (self.page_count(), most.max(1));
         let of = pages.div_ceil(most).max(1);
-        let volume = |k: usize| Volume { number: k + 1, of, first: k * most + 1, pages: most.min(pages - k * most) };
+        let volume = |k: usize| Volume {
+            number: k + 1,
+            volume_count: of,
+            first_page: k * most + 1,
+            page_count: most.min(pages - k * most),
+        };
         (0..of).map(volume).collect()
     }
 
     /// The chapters, each with how many pages stand before it.
-    fn placed(&self) -> impl Iterator<Item = (usize, &Chapter<'_>)> {
+    fn chapters_with_offset(&self) -> impl Iterator<Item = (usize, &Chapter<'_>)> {
         self.chapters.iter().scan(0, |before, chapter| {
-            *before += chapter.pages;
-            Some((*before - chapter.pages, chapter))
+            *before += chapter.page_count;
+            Some((*before - chapter.page_count, chapter))
         })
     }
 }
 
 impl Chapter<'_> {
     /// How many geometries, curves and pages it has, as far as there are any and their number is known.
-    fn counts(&self, separator: &str) -> String {
-        let cells = (!self.cells.is_empty()).then(|| count(self.cells.len(), "geometry", "geometries"));
-        let curves = self.curves.map(|curves| count(curves, "curve", "curves"));
-        let pages = count(self.pages, "page", "pages");
+    fn format_counts(&self, separator: &str) -> String {
+        let cells = (!self.cells.is_empty()).then(|| format_count(self.cells.len(), "geometry", "geometries"));
+        let curves = self.curve_count.map(|curves| format_count(curves, "curve", "curves"));
+        let pages = format_count(self.page_count, "page", "pages");
         cells.into_iter().chain(curves).chain([pages]).collect::<Vec<_>>().join(separator)
     }
 }
 
 impl Volume {
     /// The numbers of its pages in the atlas.
-    pub fn range(&self) -> Range<usize> {
-        self.first..self.first + self.pages
+    pub fn page_range(&self) -> Range<usize> {
+        self.first_page..self.first_page + self.page_count
     }
 
     /// The place of a page of the atlas in the volume's file, from 0, behind so much front matter; none where it is in
     /// another volume.
-    pub fn place(&self, page: usize, front: usize) -> Option<usize> {
-        self.range().contains(&page).then(|| page - self.first + front)
+    pub fn page_index(&self, page: usize, front: usize) -> Option<usize> {
+        self.page_range().contains(&page).then(|| page - self.first_page + front)
     }
 
     /// What it is called beside the atlas's title; nothing where it is the only one.
     fn name(&self) -> Option<String> {
-        let Range { start, end } = self.range();
-        (self.of > 1).then(|| format!("volume {} of {}, pages {start}–{}", self.number, self.of, end - 1))
+        let Range { start, end } = self.page_range();
+        (self.volume_count > 1)
+            .then(|| format!("volume {} of {}, pages {start}–{}", self.number, self.volume_count, end - 1))
     }
 }
 
 /// Title page and contents of a volume. The title page shows the first cell of a sheet, if it is given one.
-pub fn front(atlas: &Atlas, volume: &Volume, frontispiece: Option<&Sheet>, options: &Options) -> Vec<Scene> {
+pub fn compose_front_matter(
+    atlas: &Atlas,
+    volume: &Volume,
+    frontispiece: Option<&PanelPage>,
+    options: &Options,
+) -> Vec<Scene> {
     let theme = options.theme.for_paper(options.paper);
-    let mut first = blank(atlas.title.to_owned(), options, &theme);
+    let mut first = empty_scene(atlas.title.to_owned(), options, &theme);
     title::compose(&mut first, atlas, volume, frontispiece, (options, &theme));
     let rows = contents::rows(atlas, volume);
-    let leaf = Leaf { title: "Contents", atlas, volume, first: 2 };
-    let pages = columns::set(&rows, &leaf, |pages| 1 + pages, (options, &theme));
+    let leaf = ListHeader { title: "Contents", atlas, volume, first_number: 2 };
+    let pages = columns::compose_list(&rows, &leaf, |pages| 1 + pages, (options, &theme));
     std::iter::once(first).chain(pages).collect()
 }
 
 /// The index of a volume behind so much front matter: the geometries on its pages by straightness, by transmission angle
 /// and by symmetry. Nothing, where there is none.
-pub fn index(atlas: &Atlas, volume: &Volume, front: usize, found: &[Geometry], options: &Options) -> Vec<Scene> {
+pub fn compose_index(
+    atlas: &Atlas,
+    volume: &Volume,
+    front: usize,
+    found: &[IndexEntry],
+    options: &Options,
+) -> Vec<Scene> {
     let theme = options.theme.for_paper(options.paper);
     let rows = index::rows(atlas, volume, found);
-    let leaf = Leaf { title: "Index of geometries", atlas, volume, first: front + 1 };
-    columns::set(&rows, &leaf, |_| front, (options, &theme))
+    let leaf = ListHeader { title: "Index of geometries", atlas, volume, first_number: front + 1 };
+    columns::compose_list(&rows, &leaf, |_| front, (options, &theme))
 }
 
 /// The outline of a volume: contents, each family with its cells, the index; with so many pages before and after.
-pub fn outline(atlas: &Atlas, volume: &Volume, [front, index]: [usize; 2]) -> Vec<Entry> {
-    let leaf = |title: &str, page| Entry { title: title.to_owned(), page, children: Vec::new() };
+pub fn outline(atlas: &Atlas, volume: &Volume, [front, index]: [usize; 2]) -> Vec<OutlineEntry> {
+    let leaf = |title: &str, page| OutlineEntry { title: title.to_owned(), page_index: page, children: Vec::new() };
     let mut entries = vec![leaf(atlas.title, 0)];
     if front > 1 {
         entries.push(leaf("Contents", 1));
     }
-    for (before, chapter) in atlas.placed() {
-        let first = (before + 1).max(volume.first);
-        let Some(page) = volume.place(first, front).filter(|_| first <= before + chapter.pages) else { continue };
-        let (cells, _) = contents::named(before, chapter, volume);
-        let child = |cell: &&Cell| Some(leaf(&cell.caption, volume.place(before + cell.page, front)?));
-        entries.push(Entry {
+    for (before, chapter) in atlas.chapters_with_offset() {
+        let first = (before + 1).max(volume.first_page);
+        let Some(page) = volume.page_index(first, front).filter(|_| first <= before + chapter.page_count) else {
+            continue;
+        };
+        let (cells, _) = contents::listed_cells(before, chapter, volume);
+        let child = |cell: &&CellEntry| Some(leaf(&cell.caption, volume.page_index(before + cell.page, front)?));
+        entries.push(OutlineEntry {
             title: chapter.title.to_owned(),
-            page,
+            page_index: page,
             children: cells.iter().filter_map(child).collect(),
         });
     }
     if index > 0 {
-        entries.push(leaf("Index of geometries", front + volume.pages));
+        entries.push(leaf("Index of geometries", front + volume.page_count));
     }
     entries
 }
 
 /// What the page at a place of a volume's file is called: the atlas's pages by their numbers, those before and after them
 /// in Roman numerals.
-pub fn label(volume: &Volume, front: usize, place: usize) -> Label {
+pub fn page_number(volume: &Volume, front: usize, place: usize) -> PageNumber {
     let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     match place.checked_sub(front) {
-        None => Label::Roman(number(place + 1)),
-        Some(page) if page < volume.pages => Label::Arabic(number(volume.first + page)),
-        Some(page) => Label::Roman(number(front + 1 + page - volume.pages)),
+        None => PageNumber::Roman(number(place + 1)),
+        Some(page) if page < volume.page_count => PageNumber::Arabic(number(volume.first_page + page)),
+        Some(page) => PageNumber::Roman(number(front + 1 + page - volume.page_count)),
     }
 }
 
 /// Writes the number a page has in its book under its border.
-pub fn number(scene: &mut Scene, label: Label, options: &Options) {
+pub fn draw_page_number(scene: &mut Scene, label: PageNumber, options: &Options) {
     let theme = options.theme.for_paper(options.paper);
     let says = match label {
-        Label::Roman(number) => roman(number),
-        Label::Arabic(number) => number.to_string(),
+        PageNumber::Roman(number) => to_roman(number),
+        PageNumber::Arabic(number) => number.to_string(),
     };
     let root = Canvas::new(scene).into_drawing_area();
     let page = size(&root);
-    let at = Point::new(page.x / 2.0, page.y - 0.5 * theme.border + 0.35 * theme.source);
-    draw(&root, &theme.words(&says, at, Anchor::Middle, theme.source, theme.grey));
+    let at = Point::new(page.x / 2.0, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
+    draw(&root, &theme.text_line(&says, at, Anchor::Middle, theme.source_size, theme.grey));
 }
 
-fn blank(title: String, options: &Options, theme: &Theme) -> Scene {
+fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {
     let super::Paper { width, height } = options.paper;
     let (paper, typeface) = (theme.paper, theme.typeface);
     Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
 }
 
 /// A number in small Roman numerals; in Arabic ones from 4000.
-fn roman(number: u32) -> String {
-    const SIGNS: [(u32, &str); 13] = [
+fn to_roman(number: u32) -> String {
+    const NUMERALS: [(u32, &str); 13] = [
         (1000, "m"),
         (900, "cm"),
         (500, "d"),
@@ -226,7 +245,7 @@ fn roman(number: u32) -> String {
         return number.to_string();
     }
     let (mut rest, mut said) = (number, String::new());
-    for (value, sign) in SIGNS {
+    for (value, sign) in NUMERALS {
         while rest >= value {
             said.push_str(sign);
             rest -= value;
@@ -236,7 +255,7 @@ fn roman(number: u32) -> String {
 }
 
 /// A count of things in words.
-fn count(count: usize, one: &str, many: &str) -> String {
+fn format_count(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
@@ -248,7 +267,7 @@ mod tests {
     fn roman_numerals() {
         let pairs = [(1, "i"), (4, "iv"), (9, "ix"), (14, "xiv"), (49, "xlix"), (1951, "mcmli"), (3999, "mmmcmxcix")];
         for (number, said) in pairs {
-            assert_eq!(roman(number), said);
+            assert_eq!(to_roman(number), said);
         }
     }
 }

@@ -3,8 +3,8 @@
 //! plotters draws axes, ticks and grids; the lines are elements of our own that keep full precision.
 
 mod figure;
-mod keys;
 mod line;
+mod line_labels;
 mod number;
 mod scale;
 
@@ -13,69 +13,70 @@ use plotters::drawing::IntoDrawingArea;
 use super::element::{Area, size};
 use super::heading::margins;
 use super::theme::Theme;
-use super::{ChartSheet, Paper};
+use super::{ChartPage, Paper};
 use crate::scene::{Canvas, Group, Item, Scene};
 use coupler_curves::geometry::Vector;
-use figure::Figure;
+use figure::ChartFigure;
 
 /// Draws a page of charts.
-pub(super) fn compose(scene: &mut Scene, sheet: &ChartSheet, theme: &Theme) {
+pub(super) fn compose(scene: &mut Scene, sheet: &ChartPage, theme: &Theme) {
     let [columns, rows] = sheet.layout.grid();
     sheet.heading.draw(&Canvas::new(scene).into_drawing_area(), theme);
-    for (place, shown) in sheet.shown.clone().enumerate() {
+    for (place, shown) in sheet.quantity_range.clone().enumerate() {
         // What plotters draws is gathered to a group.
         let before = scene.items.len();
         let data = {
-            let areas = areas(scene, [columns, rows], theme);
+            let areas = chart_areas(scene, [columns, rows], theme);
             let Some(area) = areas.get(place) else { continue };
-            let theme = theme.for_panels(size(area));
-            let figures: Vec<Figure> = sheet.shown.clone().map(|k| Figure::of(sheet, k, size(area), &theme)).collect();
+            let theme = theme.for_panel_size(size(area));
+            let figures: Vec<ChartFigure> =
+                sheet.quantity_range.clone().map(|k| ChartFigure::new(sheet, k, size(area), &theme)).collect();
             // All charts of a page have their frames at the same places.
-            let margin = figures.iter().map(Figure::margin).fold(0.0, f64::max);
+            let margin = figures.iter().map(ChartFigure::left_margin).fold(0.0, f64::max);
             figures[place].draw(area, margin, &theme)
         };
         let items = scene.items.split_off(before);
         let quantity = &sheet.chart.y[shown];
         let title = format!("{} over {}", quantity.text, sheet.chart.x.text);
-        let id = format!("{}-chart-{}", sheet.heading.family, shown + 1);
+        let id = format!("{}-chart-{}", sheet.heading.family_id, shown + 1);
         scene.items.push(Item::Group(Group { id, class: "chart", title, data, items }));
     }
 }
 
 /// The areas of the charts, row by row.
-fn areas<'s>(scene: &'s mut Scene, [columns, rows]: [usize; 2], theme: &Theme) -> Vec<Area<'s>> {
-    let [top, bottom, _] = margins(theme).map(Canvas::pixels);
+fn chart_areas<'s>(scene: &'s mut Scene, [columns, rows]: [usize; 2], theme: &Theme) -> Vec<Area<'s>> {
+    let [top, bottom, _] = margins(theme).map(Canvas::to_pixels);
     // The charts stand in line with the title and the folio.
-    let side = Canvas::pixels(theme.border + theme.margin);
+    let side = Canvas::to_pixels(theme.border + theme.margin);
     let root = Canvas::new(scene).into_drawing_area();
     root.margin(top, bottom, side, side).split_evenly((rows, columns))
 }
 
 /// The room for all charts of a page.
-fn whole(paper: Paper, theme: &Theme) -> Vector {
+fn contents_size(paper: Paper, theme: &Theme) -> Vector {
     let [top, bottom, _] = margins(theme);
     Vector::new(paper.width - 2.0 * (theme.border + theme.margin), paper.height - top - bottom)
 }
 
 /// The most columns and rows: set as small as it may be, a chart is of eighteen letters by twelve.
-pub(super) fn most(paper: Paper, theme: &Theme) -> [usize; 2] {
-    let room = whole(paper, theme);
-    let least = theme.for_panels(Vector::zeros()).caption;
+pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
+    let room = contents_size(paper, theme);
+    let least = theme.for_panel_size(Vector::zeros()).caption_size;
     let fit = |room: f64, least: f64| ((room / least).floor() as usize).max(1);
     [fit(room.x, 18.0 * least), fit(room.y, 12.0 * least)]
 }
 
 /// The columns and rows for that many charts: no more than six to a page, and each about half as wide again as high.
-pub(super) fn balanced(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
-    const MOST: usize = 6;
-    const SHAPE: f64 = 1.5;
-    let count = count.clamp(1, MOST);
-    let room = whole(paper, theme);
-    let [most_columns, most_rows] = most(paper, theme);
+pub(super) fn balanced_grid(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
+    const MAX_CHARTS: usize = 6;
+    const ASPECT_RATIO: f64 = 1.5;
+    let count = count.clamp(1, MAX_CHARTS);
+    let room = contents_size(paper, theme);
+    let [most_columns, most_rows] = max_grid(paper, theme);
     let shapes = (1..=count.min(most_columns)).map(|columns| [columns, count.div_ceil(columns).min(most_rows)]);
     // How far the shape of a chart is from the one wanted, and how many places stay empty.
     let cost = |&[columns, rows]: &[usize; 2]| {
-        let shape = (room.x / columns as f64) / (room.y / rows as f64) / SHAPE;
+        let shape = (room.x / columns as f64) / (room.y / rows as f64) / ASPECT_RATIO;
         let empty = (columns * rows).saturating_sub(count) as f64 / count as f64;
         shape.max(1.0 / shape) * (1.0 + empty)
     };
@@ -89,7 +90,7 @@ mod tests {
     #[test]
     fn charts_are_arranged_to_be_read() {
         let [letter, tabloid, ..] = Paper::NAMED.map(|(_, paper)| paper);
-        let of = |paper, count| balanced(paper, &Theme::default().for_paper(paper), count);
+        let of = |paper, count| balanced_grid(paper, &Theme::default().for_paper(paper), count);
         assert_eq!([1, 2, 4, 6, 40].map(|count| of(tabloid, count)), [[1, 1], [2, 1], [2, 2], [3, 2], [3, 2]]);
         assert_eq!(of(letter, 1), [1, 1]);
         let slip = Paper { width: 50.0, height: 2000.0 };

@@ -7,19 +7,19 @@ pub(super) fn decimal(digits: f64, power: i32) -> f64 {
 }
 
 /// The power of ten of the first digit of a positive number; 0 for what is none.
-pub(super) fn exponent(value: f64) -> i32 {
+pub(super) fn decimal_exponent(value: f64) -> i32 {
     format!("{:e}", value.abs()).split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
 }
 
 /// A number with that many decimals, none where negative, and a true minus sign.
-pub(super) fn written(value: f64, decimals: i32) -> String {
+pub(super) fn format_fixed(value: f64, decimals: i32) -> String {
     let decimals = decimals.clamp(0, 17) as usize;
     // Adding 0 makes a negative zero positive.
     format!("{:.decimals$}", value + 0.0).replace('-', "−")
 }
 
 /// A number as a multiple of a power of ten, with that many decimals: `2.5×10⁻⁷`; zero is `0`.
-pub(super) fn power_label(value: f64, power: i32, decimals: i32) -> String {
+pub(super) fn format_scientific(value: f64, power: i32, decimals: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -29,18 +29,18 @@ pub(super) fn power_label(value: f64, power: i32, decimals: i32) -> String {
     };
     let power_of_ten: String = format!("10{}", power.to_string().chars().map(digits).collect::<String>());
     // The decimal point moves in the text of the number, where nothing is rounded but what is not shown.
-    let (mantissa, own) = split(value);
-    let mantissa = written(decimal_of(&mantissa, own - power), decimals);
+    let (mantissa, own) = split_exponent(value);
+    let mantissa = format_fixed(parse_decimal(&mantissa, own - power), decimals);
     if mantissa == "1" { power_of_ten } else { format!("{mantissa}×{power_of_ten}") }
 }
 
-fn split(value: f64) -> (String, i32) {
+fn split_exponent(value: f64) -> (String, i32) {
     let text = format!("{value:e}");
     let (mantissa, power) = text.split_once('e').unwrap_or((&text, "0"));
     (mantissa.to_owned(), power.parse().unwrap_or(0))
 }
 
-fn decimal_of(mantissa: &str, power: i32) -> f64 {
+fn parse_decimal(mantissa: &str, power: i32) -> f64 {
     format!("{mantissa}e{power}").parse().unwrap_or(f64::NAN)
 }
 
@@ -50,12 +50,15 @@ mod tests {
 
     #[test]
     fn numbers_are_written_as_in_print() {
-        assert_eq!(written(-0.25, 2), "−0.25");
-        assert_eq!(written(-0.0, 1), "0.0");
-        assert_eq!(power_label(1e-6, -6, 0), "10⁻⁶");
-        assert_eq!(power_label(2.5e12, 12, 1), "2.5×10¹²");
-        assert_eq!(power_label(-5e-7, -6, 1), "−0.5×10⁻⁶");
-        assert_eq!([exponent(1.0), exponent(0.0999), exponent(1e300), exponent(0.0)], [0, -2, 300, 0]);
+        assert_eq!(format_fixed(-0.25, 2), "−0.25");
+        assert_eq!(format_fixed(-0.0, 1), "0.0");
+        assert_eq!(format_scientific(1e-6, -6, 0), "10⁻⁶");
+        assert_eq!(format_scientific(2.5e12, 12, 1), "2.5×10¹²");
+        assert_eq!(format_scientific(-5e-7, -6, 1), "−0.5×10⁻⁶");
+        assert_eq!(
+            [decimal_exponent(1.0), decimal_exponent(0.0999), decimal_exponent(1e300), decimal_exponent(0.0)],
+            [0, -2, 300, 0]
+        );
         assert_eq!(decimal(3.0, -1), 0.3);
     }
 }

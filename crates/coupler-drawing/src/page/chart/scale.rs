@@ -4,37 +4,37 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-use super::number::{decimal, exponent, power_label, written};
+use super::number::{decimal, decimal_exponent, format_fixed, format_scientific};
 use coupler_curves::geometry::trig;
 
 /// Values further from zero than this are as good as infinite, and its inverse as good as zero.
-const MOST: f64 = 1e300;
+const MAX_MAGNITUDE: f64 = 1e300;
 
 /// What differs by less than this part of itself is one value and rounding.
 const ROUNDING: f64 = 1e-11;
 
 /// How a scale is laid out.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wish {
+pub(super) struct ScaleOptions {
     /// Whether it goes by the logarithm.
     pub is_log: bool,
     /// Whether its values are degrees.
-    pub in_degrees: bool,
+    pub is_in_degrees: bool,
     /// What it reaches from and to; as the values have it where not given.
     pub range: Option<[f64; 2]>,
     /// Where it ends where it is not given its range.
-    pub ends: Ends,
+    pub ends: RangeEnds,
     /// About how many ticks there is room for, 2 at least.
-    pub ticks: usize,
+    pub target_ticks: usize,
 }
 
 /// Where a scale ends that is not given its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Ends {
+pub(super) enum RangeEnds {
     /// At the next round numbers.
     Round,
     /// This part of its length beyond the values.
-    Beyond(f64),
+    Padded(f64),
 }
 
 /// The scale of an axis.
@@ -46,60 +46,60 @@ pub(super) struct Scale {
     /// The values that are labelled, ascending.
     pub ticks: Vec<f64>,
     /// Values between them that have a line of their own.
-    minor: Vec<f64>,
+    minor_ticks: Vec<f64>,
     /// The power of ten of the last decimal place.
-    place: i32,
+    last_decimal_exponent: i32,
 }
 
 /// Whether a value can be drawn.
-pub(super) fn is_drawn(value: f64, is_log: bool) -> bool {
-    value.abs() <= MOST && (value >= 1.0 / MOST || !is_log)
+pub(super) fn is_drawable(value: f64, is_log: bool) -> bool {
+    value.abs() <= MAX_MAGNITUDE && (value >= 1.0 / MAX_MAGNITUDE || !is_log)
 }
 
 impl Scale {
     /// The scale for some values; `None` where none of them can be drawn.
-    pub fn of(values: impl Iterator<Item = f64>, wish: &Wish) -> Option<Scale> {
-        let drawn = values.filter(|&value| is_drawn(value, wish.is_log));
+    pub fn from_values(values: impl Iterator<Item = f64>, wish: &ScaleOptions) -> Option<Scale> {
+        let drawn = values.filter(|&value| is_drawable(value, wish.is_log));
         let (low, high) = drawn.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         if low > high {
             return None;
         }
         let mut scale = if wish.is_log { Scale::logarithmic(low, high, wish) } else { Scale::linear(low, high, wish) };
         scale.ticks.retain(|tick| (scale.low..=scale.high).contains(tick));
-        scale.minor.retain(|tick| (scale.low..=scale.high).contains(tick));
+        scale.minor_ticks.retain(|tick| (scale.low..=scale.high).contains(tick));
         Some(scale)
     }
 
-    fn linear(low: f64, high: f64, wish: &Wish) -> Scale {
-        let [mut low, mut high] = wish.range.unwrap_or_else(|| widened(low, high));
-        if let (Ends::Beyond(part), None) = (wish.ends, wish.range) {
+    fn linear(low: f64, high: f64, wish: &ScaleOptions) -> Scale {
+        let [mut low, mut high] = wish.range.unwrap_or_else(|| widen_range(low, high));
+        if let (RangeEnds::Padded(part), None) = (wish.ends, wish.range) {
             let by = part * (high - low);
             (low, high) = (low - by, high + by);
         }
-        let step = step(high - low, wish);
-        let first = |x: f64| (step.of(x) - 1e-9).ceil();
-        let last = |x: f64| (step.of(x) + 1e-9).floor();
+        let step = round_step(high - low, wish);
+        let first = |x: f64| (step.steps_from_zero(x) - 1e-9).ceil();
+        let last = |x: f64| (step.steps_from_zero(x) + 1e-9).floor();
         let (mut from, mut to) = (first(low), last(high));
-        if let (Ends::Round, None) = (wish.ends, wish.range) {
+        if let (RangeEnds::Round, None) = (wish.ends, wish.range) {
             // Zero is near enough to be shown.
             let reaches_zero = |near: f64, far: f64| near * far > 0.0 && near.abs() < 0.25 * far.abs();
             (from, to) = (last(low), first(high));
             from = if reaches_zero(low, high) && low > 0.0 { 0.0 } else { from };
             to = if reaches_zero(high, low) && high < 0.0 { 0.0 } else { to };
-            (low, high) = (low.min(step.times(from)), high.max(step.times(to)));
+            (low, high) = (low.min(step.multiple(from)), high.max(step.multiple(to)));
         }
         // Where a step is lost in rounding there are the ends only.
         let count = (to - from).clamp(-1.0, 100.0) as usize;
         let ticks: Vec<f64> =
-            if to >= from { (0..=count).map(|k| step.times(from + k as f64)).collect() } else { Vec::new() };
-        Scale { low, high, is_log: false, ticks, minor: Vec::new(), place: step.place }
+            if to >= from { (0..=count).map(|k| step.multiple(from + k as f64)).collect() } else { Vec::new() };
+        Scale { low, high, is_log: false, ticks, minor_ticks: Vec::new(), last_decimal_exponent: step.exponent }
     }
 
-    fn logarithmic(low: f64, high: f64, wish: &Wish) -> Scale {
+    fn logarithmic(low: f64, high: f64, wish: &ScaleOptions) -> Scale {
         let given = wish.range;
         let [low, high] = given.unwrap_or([low, high]);
-        let bottom = exponent(low);
-        let top = exponent(high) + 1;
+        let bottom = decimal_exponent(low);
+        let top = decimal_exponent(high) + 1;
         let of = |digits: &[u32]| -> Vec<f64> {
             (bottom..=top).flat_map(|power| digits.iter().map(move |&digit| decimal(f64::from(digit), power))).collect()
         };
@@ -113,18 +113,18 @@ impl Scale {
         let within = |tick: &f64| (low..=high).contains(tick);
         let powers: Vec<f64> = of(&[1]).into_iter().filter(within).collect();
         let some = round.iter().copied().filter(within).count();
-        let (ticks, minor) = if powers.len() >= 2 && some > wish.ticks.max(2) + 2 {
-            let stride = powers.len().div_ceil(wish.ticks.max(2));
+        let (ticks, minor) = if powers.len() >= 2 && some > wish.target_ticks.max(2) + 2 {
+            let stride = powers.len().div_ceil(wish.target_ticks.max(2));
             let minor = if stride > 1 { powers.clone() } else { of(&[2, 3, 4, 5, 6, 7, 8, 9]) };
             (powers.into_iter().step_by(stride).collect(), minor)
         } else {
             (round, of(&[3, 4, 6, 7, 8, 9]))
         };
-        Scale { low, high, is_log: true, ticks, minor, place: bottom }
+        Scale { low, high, is_log: true, ticks, minor_ticks: minor, last_decimal_exponent: bottom }
     }
 
     /// How far along the axis a value is: 0 at its beginning, 1 at its end. Within a million axes' lengths.
-    pub fn part(&self, value: f64) -> f64 {
+    pub fn fraction(&self, value: f64) -> f64 {
         let part = if self.is_log {
             let [low, high, value] = [self.low, self.high, value].map(trig::log10);
             (value - low) / (high - low)
@@ -135,27 +135,31 @@ impl Scale {
     }
 
     /// A tick as it is written: `0.25`, `−3`, and `2×10⁻⁷` where it is far from one.
-    pub fn label(&self, tick: f64) -> String {
+    pub fn tick_label(&self, tick: f64) -> String {
         let most = self.ticks.iter().fold(0.0, |most: f64, tick| most.max(tick.abs()));
         if self.is_log {
             let least = self.ticks.first().copied().unwrap_or(1.0);
-            let is_plain = exponent(least) >= -4 && exponent(most) <= 4;
-            return if is_plain { written(tick, -exponent(tick)) } else { power_label(tick, exponent(tick), 0) };
+            let is_plain = decimal_exponent(least) >= -4 && decimal_exponent(most) <= 4;
+            return if is_plain {
+                format_fixed(tick, -decimal_exponent(tick))
+            } else {
+                format_scientific(tick, decimal_exponent(tick), 0)
+            };
         }
-        let power = if most > 0.0 { exponent(most) } else { 0 };
+        let power = if most > 0.0 { decimal_exponent(most) } else { 0 };
         // 2, 4, … 10 rather than 0.2, 0.4, … 1.0.
-        let is_ten = power - self.place == 1 && most == decimal(1.0, power);
-        let power = if is_ten && !(-4..=5).contains(&power) { self.place } else { power };
+        let is_ten = power - self.last_decimal_exponent == 1 && most == decimal(1.0, power);
+        let power = if is_ten && !(-4..=5).contains(&power) { self.last_decimal_exponent } else { power };
         if (-4..=5).contains(&power) {
-            written(tick, -self.place)
+            format_fixed(tick, -self.last_decimal_exponent)
         } else {
-            power_label(tick, power, power - self.place)
+            format_scientific(tick, power, power - self.last_decimal_exponent)
         }
     }
 }
 
 /// A range that has a length: a single value gets a tenth of itself on both sides.
-fn widened(low: f64, high: f64) -> [f64; 2] {
+fn widen_range(low: f64, high: f64) -> [f64; 2] {
     let size = low.abs().max(high.abs());
     if high - low > ROUNDING * size && high - low > 1e-290 {
         return [low, high];
@@ -165,36 +169,36 @@ fn widened(low: f64, high: f64) -> [f64; 2] {
 }
 
 /// A round step: so many units of a power of ten.
-struct Step {
+struct TickStep {
     units: f64,
-    place: i32,
+    exponent: i32,
 }
 
-impl Step {
+impl TickStep {
     /// How many steps a value is from zero.
-    fn of(&self, value: f64) -> f64 {
-        value / decimal(self.units, self.place)
+    fn steps_from_zero(&self, value: f64) -> f64 {
+        value / decimal(self.units, self.exponent)
     }
 
     /// That many steps, as the decimals say.
-    fn times(&self, steps: f64) -> f64 {
-        decimal(steps * self.units, self.place)
+    fn multiple(&self, steps: f64) -> f64 {
+        decimal(steps * self.units, self.exponent)
     }
 }
 
 /// The least round step that makes no more ticks than wished.
-fn step(length: f64, wish: &Wish) -> Step {
+fn round_step(length: f64, wish: &ScaleOptions) -> TickStep {
     const DEGREES: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0];
-    let least = length / wish.ticks.max(2) as f64;
+    let least = length / wish.target_ticks.max(2) as f64;
     let in_degrees = DEGREES.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
-    if let (true, true, Some(units)) = (wish.in_degrees, least >= 0.5, in_degrees) {
-        return Step { units, place: 0 };
+    if let (true, true, Some(units)) = (wish.is_in_degrees, least >= 0.5, in_degrees) {
+        return TickStep { units, exponent: 0 };
     }
-    let place = exponent(least);
+    let place = decimal_exponent(least);
     let fits = |units: &f64| decimal(*units, place) >= least * (1.0 - 1e-9);
     match [1.0, 2.0, 5.0].into_iter().find(fits) {
-        Some(units) => Step { units, place },
-        None => Step { units: 1.0, place: place + 1 },
+        Some(units) => TickStep { units, exponent: place },
+        None => TickStep { units: 1.0, exponent: place + 1 },
     }
 }
 
@@ -203,11 +207,11 @@ impl Ranged for Scale {
     type ValueType = f64;
 
     fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        from + (self.part(*value) * f64::from(to - from)).round() as i32
+        from + (self.fraction(*value) * f64::from(to - from)).round() as i32
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        if hint.weight().allow_light_points() { self.minor.clone() } else { self.ticks.clone() }
+        if hint.weight().allow_light_points() { self.minor_ticks.clone() } else { self.ticks.clone() }
     }
 
     fn range(&self) -> Range<f64> {
@@ -217,7 +221,7 @@ impl Ranged for Scale {
 
 impl ValueFormatter<f64> for Scale {
     fn format_ext(&self, value: &f64) -> String {
-        self.label(*value)
+        self.tick_label(*value)
     }
 }
 
@@ -225,12 +229,13 @@ impl ValueFormatter<f64> for Scale {
 mod tests {
     use super::*;
 
-    fn labels(values: &[f64], wish: Wish) -> Vec<String> {
-        let scale = Scale::of(values.iter().copied(), &wish).unwrap();
-        scale.ticks.iter().map(|tick| scale.label(*tick)).collect()
+    fn labels(values: &[f64], wish: ScaleOptions) -> Vec<String> {
+        let scale = Scale::from_values(values.iter().copied(), &wish).unwrap();
+        scale.ticks.iter().map(|tick| scale.tick_label(*tick)).collect()
     }
 
-    const ROUND: Wish = Wish { is_log: false, in_degrees: false, range: None, ends: Ends::Round, ticks: 6 };
+    const ROUND: ScaleOptions =
+        ScaleOptions { is_log: false, is_in_degrees: false, range: None, ends: RangeEnds::Round, target_ticks: 6 };
 
     #[test]
     fn ticks_are_round_and_written_as_a_reader_expects() {
@@ -240,39 +245,41 @@ mod tests {
         assert_eq!(labels(&[2.0e-12, 9.7e-12], ROUND), ["0", "2×10⁻¹²", "4×10⁻¹²", "6×10⁻¹²", "8×10⁻¹²", "10×10⁻¹²"]);
         assert_eq!(labels(&[0.0, 3.0e12], ROUND).last().unwrap(), "3.0×10¹²");
         assert_eq!(labels(&[1.0, 1.0 + 4e-10], ROUND)[1], "1.0000000001");
-        let degrees = Wish { in_degrees: true, ends: Ends::Beyond(0.0), ..ROUND };
+        let degrees = ScaleOptions { is_in_degrees: true, ends: RangeEnds::Padded(0.0), ..ROUND };
         assert_eq!(labels(&[0.0, 360.0], degrees), ["0", "60", "120", "180", "240", "300", "360"]);
         assert_eq!(labels(&[35.2, 98.0], degrees), ["45", "60", "75", "90"]);
     }
 
     #[test]
     fn a_logarithmic_scale_has_powers_of_ten() {
-        let wish = Wish { is_log: true, ..ROUND };
+        let wish = ScaleOptions { is_log: true, ..ROUND };
         assert_eq!(labels(&[3e-7, 4e-3], wish), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³"]);
         assert_eq!(labels(&[0.002, 40.0], wish), ["0.01", "0.1", "1", "10"]);
         assert_eq!(labels(&[0.02, 0.4], wish), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
         assert_eq!(labels(&[30.0, 40.0], wish), ["20", "50"]);
         assert_eq!(labels(&[1e-30, 1.0], wish).len(), 6, "every sixth power of 31");
         // What is not above zero has no logarithm.
-        assert_eq!(Scale::of([0.0, -1.0].into_iter(), &wish), None);
-        let scale = Scale::of([0.0, 0.01, 10.0].into_iter(), &wish).unwrap();
-        assert_eq!([0.01, 0.1, 1.0, 10.0].map(|v| (scale.part(v) * 3.0).round()), [0.0, 1.0, 2.0, 3.0]);
+        assert_eq!(Scale::from_values([0.0, -1.0].into_iter(), &wish), None);
+        let scale = Scale::from_values([0.0, 0.01, 10.0].into_iter(), &wish).unwrap();
+        assert_eq!([0.01, 0.1, 1.0, 10.0].map(|v| (scale.fraction(v) * 3.0).round()), [0.0, 1.0, 2.0, 3.0]);
     }
 
     #[test]
     fn no_values_make_it_panic() {
         let hard =
             [0.0, -0.0, 1.0, -1.0, f64::MAX, f64::MIN, f64::MIN_POSITIVE, 5e-324, f64::NAN, f64::INFINITY, 1e300];
-        let wishes = [false, true].map(|is_log| Wish { is_log, ..ROUND });
+        let wishes = [false, true].map(|is_log| ScaleOptions { is_log, ..ROUND });
         for &a in &hard {
             for &b in &hard {
-                for wish in wishes.iter().flat_map(|w| [*w, Wish { ends: Ends::Beyond(0.03), in_degrees: true, ..*w }])
+                for wish in wishes
+                    .iter()
+                    .flat_map(|w| [*w, ScaleOptions { ends: RangeEnds::Padded(0.03), is_in_degrees: true, ..*w }])
                 {
-                    let Some(scale) = Scale::of([a, b].into_iter(), &wish) else { continue };
+                    let Some(scale) = Scale::from_values([a, b].into_iter(), &wish) else { continue };
                     assert!(scale.low < scale.high, "{a} {b} {wish:?}: {scale:?}");
-                    assert!(scale.ticks.iter().all(|tick| !scale.label(*tick).is_empty()));
-                    for value in [a, b].into_iter().filter(|v| is_drawn(*v, wish.is_log)) {
-                        assert!((-1e-9..=1.0 + 1e-9).contains(&scale.part(value)), "{a} {b} {wish:?}: {scale:?}");
+                    assert!(scale.ticks.iter().all(|tick| !scale.tick_label(*tick).is_empty()));
+                    for value in [a, b].into_iter().filter(|v| is_drawable(*v, wish.is_log)) {
+                        assert!((-1e-9..=1.0 + 1e-9).contains(&scale.fraction(value)), "{a} {b} {wish:?}: {scale:?}");
                     }
                 }
             }
@@ -282,8 +289,8 @@ mod tests {
     #[test]
     fn a_single_value_is_in_the_middle() {
         for value in [0.0, 5.0, -3e-9, 2e12] {
-            let scale = Scale::of([value, value * (1.0 + 1e-15)].into_iter(), &ROUND).unwrap();
-            assert!((0.2..0.8).contains(&scale.part(value)), "{scale:?}");
+            let scale = Scale::from_values([value, value * (1.0 + 1e-15)].into_iter(), &ROUND).unwrap();
+            assert!((0.2..0.8).contains(&scale.fraction(value)), "{scale:?}");
         }
     }
 }

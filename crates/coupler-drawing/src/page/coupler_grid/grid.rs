@@ -2,72 +2,74 @@
 
 use super::super::plot::Plot;
 use super::super::theme::Theme;
-use crate::scene::{Item, Line, Path};
+use crate::scene::{Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Vector, left_normal};
-use coupler_curves::linkage::{JointId, Linkage, Step};
+use coupler_curves::linkage::{JointId, JointKind, Linkage};
 
 /// The grids of a linkage: traced points by coordinates on one base.
-pub(super) struct Grid {
-    sheets: Vec<Sheet>,
+pub(super) struct PointGrids {
+    grids: Vec<PointGrid>,
 }
 
 /// The points on one base.
-struct Sheet {
+struct PointGrid {
     base: [JointId; 2],
     /// The coordinates that occur along the base and to its left, in parts of the base.
-    stations: [Vec<f64>; 2],
+    coordinates: [Vec<f64>; 2],
 }
 
-impl Grid {
+impl PointGrids {
     /// The grids that some traced joints stand on; a joint that a link is drawn to needs none.
-    pub fn of(linkage: &Linkage, joints: impl Iterator<Item = JointId>) -> Grid {
+    pub fn from_joints(linkage: &Linkage, joints: impl Iterator<Item = JointId>) -> PointGrids {
         let drawn: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
-        let mut sheets: Vec<Sheet> = Vec::new();
+        let mut sheets: Vec<PointGrid> = Vec::new();
         for joint in joints.filter(|joint| !drawn.contains(joint)) {
-            let Step::Rigid { base, along, across } = linkage.joints[joint].step else { continue };
+            let JointKind::Rigid { base, along, across } = linkage.joints[joint].kind else { continue };
             let known = sheets.iter().position(|sheet| sheet.base == base);
             let at = known.unwrap_or_else(|| {
-                sheets.push(Sheet { base, stations: [Vec::new(), Vec::new()] });
+                sheets.push(PointGrid { base, coordinates: [Vec::new(), Vec::new()] });
                 sheets.len() - 1
             });
-            for (stations, value) in sheets[at].stations.iter_mut().zip([along, across]) {
+            for (stations, value) in sheets[at].coordinates.iter_mut().zip([along, across]) {
                 if !stations.contains(&value) {
                     stations.push(value);
                 }
             }
         }
-        for stations in sheets.iter_mut().flat_map(|sheet| &mut sheet.stations) {
+        for stations in sheets.iter_mut().flat_map(|sheet| &mut sheet.coordinates) {
             stations.sort_by(f64::total_cmp);
         }
-        Grid { sheets }
+        PointGrids { grids: sheets }
     }
 
     /// The ends of its lines in a pose.
-    pub fn points(&self, pose: &[Point]) -> Vec<Point> {
-        self.sheets.iter().flat_map(|sheet| sheet.lines(pose)).flatten().collect()
+    pub fn line_ends(&self, pose: &[Point]) -> Vec<Point> {
+        self.grids.iter().flat_map(|sheet| sheet.lines(pose)).flatten().collect()
     }
 
     /// Its lines in a pose.
     pub fn items(&self, pose: &[Point], plot: &Plot, theme: &Theme) -> Vec<Item> {
-        let on_page =
-            |ends: [Point; 2]| Line { points: ends.map(|p| plot.page_from_plane.apply(p)).to_vec(), closed: false };
-        let lines: Vec<Line> = self.sheets.iter().flat_map(|sheet| sheet.lines(pose)).map(on_page).collect();
-        let stroke = Some(theme.stroke(theme.hairline, theme.hair));
-        if lines.is_empty() { Vec::new() } else { vec![Item::Path(Path { lines, stroke, fill: None })] }
+        let on_page = |ends: [Point; 2]| Polyline {
+            points: ends.map(|p| plot.page_from_plane.apply(p)).to_vec(),
+            is_closed: false,
+        };
+        let lines: Vec<Polyline> = self.grids.iter().flat_map(|sheet| sheet.lines(pose)).map(on_page).collect();
+        let stroke = Some(theme.stroke(theme.hairline, theme.hair_width));
+        if lines.is_empty() { Vec::new() } else { vec![Item::Path(Path { polylines: lines, stroke, fill: None })] }
     }
 }
 
-impl Sheet {
+impl PointGrid {
     /// A line through all points of a station, along and across; those across begin on the axis of the link, which is
     /// drawn as far as the points reach, and from the link to them.
     fn lines(&self, pose: &[Point]) -> Vec<[Point; 2]> {
         let (origin, unit) = (pose[self.base[0]], pose[self.base[1]] - pose[self.base[0]]);
         let at = |along: f64, across: f64| origin + unit * along + left_normal(unit) * across;
         let span = |stations: &[f64]| {
-            let bounds = Bounds::of(stations.iter().map(|s| Point::from(Vector::new(*s, 0.0))));
+            let bounds = Bounds::from_points(stations.iter().map(|s| Point::from(Vector::new(*s, 0.0))));
             [bounds.min.x, bounds.max.x]
         };
-        let [alongs, acrosses] = &self.stations;
+        let [alongs, acrosses] = &self.coordinates;
         let ([first, last], [low, high]) = (span(alongs), span(acrosses));
         let (low, high) = (low.min(0.0), high.max(0.0));
         // The nearest of the link's ends where all points are beyond one of them.

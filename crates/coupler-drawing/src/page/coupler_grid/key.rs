@@ -1,88 +1,88 @@
 //! The key: the bare linkage in its pose, small, with the letters of its links.
 
-use super::super::arrangement::Frame;
-use super::super::element::{Area, Drawing, Words, draw as put};
+use super::super::arrangement::Rect;
+use super::super::element::{Area, Drawing, TextLine, draw as put};
 use super::super::mechanism::Mechanism;
 use super::super::theme::Theme;
-use super::super::{GridSheet, Label};
-use super::labels::{self, Obstacles, Spot};
-use crate::scene::{Anchor, Item, Line, Path};
+use super::super::{CouplerGridPage, LinkLabel};
+use super::labels::{self, LabelBox, Obstacles};
+use crate::scene::{Anchor, Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, is_plate};
 
 /// Draws it at the head of a column, and gives what is left of the column.
-pub(super) fn draw(area: &Area, side: Frame, sheet: &GridSheet, mechanism: &Mechanism, theme: &Theme) -> Frame {
-    let linkage = &sheet.panel.solved.linkage;
+pub(super) fn draw(area: &Area, side: Rect, sheet: &CouplerGridPage, mechanism: &Mechanism, theme: &Theme) -> Rect {
+    let linkage = &sheet.panel.solved_cell.linkage;
     let pose = |joint: &JointId| mechanism.pose[*joint];
     let (links, pivots) = (linkage.link_outlines(), linkage.pivots());
-    let bounds = Bounds::of(links.iter().flat_map(|outline| &outline.joints).chain(&pivots).map(pose));
-    let letter = 1.1 * theme.note;
+    let bounds = Bounds::from_points(links.iter().flat_map(|outline| &outline.joints).chain(&pivots).map(pose));
+    let letter = 1.1 * theme.note_size;
     let height = 0.19 * side.size.y;
     // Words stand outside the links, all round.
-    let widest = sheet.labels.iter().map(|label| words(label, theme, letter).text.width()).fold(letter, f64::max);
-    let room = Frame { corner: side.corner, size: Vector::new(side.size.x, height) };
-    let room = Frame {
+    let widest = sheet.labels.iter().map(|label| label_text(label, theme, letter).text.width()).fold(letter, f64::max);
+    let room = Rect { corner: side.corner, size: Vector::new(side.size.x, height) };
+    let room = Rect {
         corner: room.corner + Vector::new(widest + 0.6 * letter, 1.4 * letter),
         size: (room.size - Vector::new(2.0 * widest + 1.2 * letter, 2.8 * letter)).sup(&Vector::repeat(letter)),
     };
-    let page_from_plane = Similarity::page_from_plane(bounds, room.centre(), room.scale(bounds));
+    let page_from_plane = Similarity::page_from_plane(bounds, room.centre(), room.fit_scale(bounds));
     let at = |joint: &JointId| page_from_plane.apply(pose(joint));
-    let stroke = Some(theme.stroke(theme.grey, theme.fine));
-    let path = |lines| Item::Path(Path { lines, stroke, fill: None });
+    let stroke = Some(theme.stroke(theme.grey, theme.fine_width));
+    let path = |lines| Item::Path(Path { polylines: lines, stroke, fill: None });
     let pairs = |joints: &[JointId]| joints.windows(2).map(|pair| [at(&pair[0]), at(&pair[1])]).collect::<Vec<_>>();
-    let frame = pairs(&pivots).into_iter().flat_map(|[a, b]| dashed(a, b, 0.5 * letter)).collect();
+    let frame = pairs(&pivots).into_iter().flat_map(|[a, b]| dashed_line(a, b, 0.5 * letter)).collect();
     let mut items = vec![path(frame)];
     items.extend(links.iter().map(|link| {
         let points: Vec<Point> = link.joints.iter().map(at).collect();
         let closed = is_plate(&points);
-        path(vec![Line { points, closed }])
+        path(vec![Polyline { points, is_closed: closed }])
     }));
     let mut obstacles = Obstacles::default();
     obstacles.add(&items, false);
     put(area, &Drawing { class: "key", title: String::new(), items });
 
     let centre = page_from_plane.apply(bounds.centre());
-    let is_fixed = |joint: &JointId| linkage.ground().place(*joint).is_some();
+    let is_fixed = |joint: &JointId| linkage.ground().position(*joint).is_some();
     // Of the frame, only what joins two pivots is a link.
     let is_link =
-        |label: &&Label| !label.ends.iter().all(is_fixed) || label.ends.iter().all(|end| pivots.contains(end));
-    let mut placed: Vec<Spot> = Vec::new();
+        |label: &&LinkLabel| !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end));
+    let mut placed: Vec<LabelBox> = Vec::new();
     for label in sheet.labels.iter().filter(is_link) {
-        let ends = [at(&label.ends[0]), at(&label.ends[1])];
-        let mut text = words(label, theme, letter).italic(sheet.heading.symbols);
+        let ends = [at(&label.joints[0]), at(&label.joints[1])];
+        let mut text = label_text(label, theme, letter).with_italics(sheet.heading.symbols);
         let half = Vector::new(text.text.width() / 2.0, 0.36 * letter);
-        let free = |spot: &Spot| placed.iter().all(|other| spot.apart(other) > 0.25 * letter);
-        let spots = beside(ends, centre, half, 0.45 * letter).filter(free);
+        let free = |spot: &LabelBox| placed.iter().all(|other| spot.distance_to_box(other) > 0.25 * letter);
+        let spots = label_boxes(ends, centre, half, 0.45 * letter).filter(free);
         // A word that could only stand on another is left out.
-        if let Some((_, spot)) = labels::clearest(spots, |spot| obstacles.clearance(spot, 0.3 * letter)) {
+        if let Some((_, spot)) = labels::clearest_box(spots, |spot| obstacles.clearance(spot, 0.3 * letter)) {
             placed.push(spot);
-            text.text.at = spot.middle + Vector::new(0.0, half.y);
+            text.text.position = spot.centre + Vector::new(0.0, half.y);
             put(area, &text);
         }
     }
-    Frame { corner: side.corner + Vector::new(0.0, height), size: side.size - Vector::new(0.0, height) }
+    Rect { corner: side.corner + Vector::new(0.0, height), size: side.size - Vector::new(0.0, height) }
 }
 
 /// Where a word may stand beside a link, the best place first: at its middle, on the side that is away from the middle of
 /// the linkage. The box of the word touches the link, but for a `gap`, with the corner or side that is nearest.
-fn beside([a, b]: [Point; 2], centre: Point, half: Vector, gap: f64) -> impl Iterator<Item = Spot> {
+fn label_boxes([a, b]: [Point; 2], centre: Point, half: Vector, gap: f64) -> impl Iterator<Item = LabelBox> {
     let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
     let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
     let away = outward * (half.x * outward.x.abs() + half.y * outward.y.abs() + gap);
-    let spot = move |(part, away): (f64, Vector)| Spot { middle: a + (b - a) * part + away, half };
+    let spot = move |(part, away): (f64, Vector)| LabelBox { centre: a + (b - a) * part + away, half_size: half };
     [0.5, 0.35, 0.65, 0.2, 0.8].into_iter().flat_map(move |part| [(part, away), (part, -away)]).map(spot)
 }
 
-fn words(label: &Label, theme: &Theme, size: f64) -> Words {
-    theme.words(&label.text, Point::origin(), Anchor::Middle, size, theme.grey)
+fn label_text(label: &LinkLabel, theme: &Theme, size: f64) -> TextLine {
+    theme.text_line(&label.text, Point::origin(), Anchor::Middle, size, theme.grey)
 }
 
-fn line(a: Point, b: Point) -> Line {
-    Line { points: vec![a, b], closed: false }
+fn line(a: Point, b: Point) -> Polyline {
+    Polyline { points: vec![a, b], is_closed: false }
 }
 
 /// A dashed line that begins and ends with a dash.
-fn dashed(a: Point, b: Point, dash: f64) -> Vec<Line> {
+fn dashed_line(a: Point, b: Point, dash: f64) -> Vec<Polyline> {
     let dashes = (((b - a).norm() / dash).ceil().clamp(1.0, 200.0) / 2.0).floor() * 2.0 + 1.0;
     let at = |k: f64| a + (b - a) * (k / dashes);
     (0..dashes as usize).step_by(2).map(|k| line(at(k as f64), at(k as f64 + 1.0))).collect()

@@ -1,8 +1,8 @@
 //! The numbers of coupler points, each beside its point where it is furthest from all that is drawn.
 
-use super::super::arrangement::Frame;
+use super::super::arrangement::Rect;
 use super::super::theme::Theme;
-use crate::scene::{Item, Line, Text};
+use crate::scene::{Item, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
 
 /// What numbers keep clear of.
@@ -17,7 +17,7 @@ pub(super) struct Obstacles {
 struct Segment {
     ends: [Point; 2],
     /// Half its weight.
-    half: f64,
+    half_width: f64,
     /// Whether a number may stand on it where it has no better place.
     is_light: bool,
 }
@@ -29,18 +29,18 @@ impl Obstacles {
             match item {
                 Item::Path(path) => {
                     let weight = path.stroke.map_or(0.0, |stroke| stroke.width);
-                    path.lines.iter().for_each(|line| self.add_line(line, weight, is_light));
+                    path.polylines.iter().for_each(|line| self.add_line(line, weight, is_light));
                 }
                 Item::Circle(circle) => {
                     let half = circle.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
                     self.circles.push((circle.centre, circle.radius + half));
                 }
-                Item::Group(_) | Item::Text(_) | Item::Moving(_) => {}
+                Item::Group(_) | Item::Text(_) | Item::Animation(_) => {}
             }
         }
     }
 
-    fn add_line(&mut self, Line { points, closed }: &Line, weight: f64, is_light: bool) {
+    fn add_line(&mut self, Polyline { points, is_closed: closed }: &Polyline, weight: f64, is_light: bool) {
         self.add_points(points, weight, is_light);
         if let (Some(first), Some(last), true) = (points.first(), points.last(), closed) {
             self.add_points(&[*last, *first], weight, is_light);
@@ -49,12 +49,12 @@ impl Obstacles {
 
     /// Adds a line of a weight by its points.
     pub fn add_points(&mut self, points: &[Point], weight: f64, is_light: bool) {
-        let segment = |p: &[Point]| Segment { ends: [p[0], p[1]], half: weight / 2.0, is_light };
+        let segment = |p: &[Point]| Segment { ends: [p[0], p[1]], half_width: weight / 2.0, is_light };
         self.segments.extend(points.windows(2).map(segment));
     }
 
     /// Those that come as near to a point as `within`, or nearly so.
-    fn near(&self, centre: Point, within: f64) -> Obstacles {
+    fn nearby(&self, centre: Point, within: f64) -> Obstacles {
         let reach = Vector::repeat(within);
         let segments = self.segments.iter().filter(|segment| segment.is_near(centre, reach)).copied().collect();
         let circles = self.circles.iter().filter(|(at, radius)| (at - centre).norm() < 2.0 * within + radius);
@@ -62,14 +62,15 @@ impl Obstacles {
     }
 
     /// How clear a box stands, up to `enough` of what is heavy and a quarter of that of what is light.
-    pub fn clearance(&self, spot: Spot, enough: f64) -> f64 {
-        let circles = self.circles.iter().map(|(at, radius)| spot.distance(*at) - radius).fold(enough, f64::min);
+    pub fn clearance(&self, spot: LabelBox, enough: f64) -> f64 {
+        let circles =
+            self.circles.iter().map(|(at, radius)| spot.distance_to_point(*at) - radius).fold(enough, f64::min);
         let (mut heavy, mut light) = (circles, enough);
         for segment in &self.segments {
-            let reach = spot.half + Vector::repeat(enough + segment.half);
-            if segment.is_near(spot.middle, reach) {
+            let reach = spot.half_size + Vector::repeat(enough + segment.half_width);
+            if segment.is_near(spot.centre, reach) {
                 let least = if segment.is_light { &mut light } else { &mut heavy };
-                *least = least.min(spot.distance_to(segment.ends) - segment.half);
+                *least = least.min(spot.distance_to_segment(segment.ends) - segment.half_width);
             }
         }
         heavy + 0.25 * light
@@ -86,25 +87,25 @@ impl Segment {
 
 /// The box of a word or number, where it may stand.
 #[derive(Clone, Copy)]
-pub(super) struct Spot {
-    pub middle: Point,
+pub(super) struct LabelBox {
+    pub centre: Point,
     /// Half its width and height.
-    pub half: Vector,
+    pub half_size: Vector,
 }
 
-impl Spot {
+impl LabelBox {
     fn corner(&self, x: f64, y: f64) -> Point {
-        self.middle + Vector::new(x * self.half.x, y * self.half.y)
+        self.centre + Vector::new(x * self.half_size.x, y * self.half_size.y)
     }
 
     /// How far a point is from it; 0 inside.
-    fn distance(&self, p: Point) -> f64 {
-        let off = p - self.middle;
-        Vector::new((off.x.abs() - self.half.x).max(0.0), (off.y.abs() - self.half.y).max(0.0)).norm()
+    fn distance_to_point(&self, p: Point) -> f64 {
+        let off = p - self.centre;
+        Vector::new((off.x.abs() - self.half_size.x).max(0.0), (off.y.abs() - self.half_size.y).max(0.0)).norm()
     }
 
     /// How far a segment is from it; 0 where it passes through.
-    fn distance_to(&self, [a, b]: [Point; 2]) -> f64 {
+    fn distance_to_segment(&self, [a, b]: [Point; 2]) -> f64 {
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| self.corner(x, y));
         let crosses = |[c, d]: [Point; 2]| {
             let sides = |o: Point, u: Vector, p: Point, q: Point| cross(u, p - o) * cross(u, q - o) <= 0.0;
@@ -114,56 +115,62 @@ impl Spot {
         if crosses([corners[0], corners[2]]) || crosses([corners[1], corners[3]]) {
             return 0.0;
         }
-        let ends = self.distance(a).min(self.distance(b));
+        let ends = self.distance_to_point(a).min(self.distance_to_point(b));
         corners.iter().map(|corner| distance_to_segment(*corner, a, b)).fold(ends, f64::min)
     }
 
-    fn is_in(&self, frame: Frame) -> bool {
+    fn is_inside(&self, frame: Rect) -> bool {
         let (low, high, far) = (self.corner(-1.0, -1.0), self.corner(1.0, 1.0), frame.corner + frame.size);
         low.x >= frame.corner.x && low.y >= frame.corner.y && high.x <= far.x && high.y <= far.y
     }
 
     /// How far another box is from it; 0 where they meet.
-    pub fn apart(&self, other: &Spot) -> f64 {
-        Spot { half: self.half + other.half, ..*self }.distance(other.middle)
+    pub fn distance_to_box(&self, other: &LabelBox) -> f64 {
+        LabelBox { half_size: self.half_size + other.half_size, ..*self }.distance_to_point(other.centre)
     }
 }
 
 /// The numbers, each of a point on the page, in a frame. One that could only stand on another is left out.
-pub(super) fn place(numbers: Vec<(Point, Text)>, obstacles: &Obstacles, frame: Frame, theme: &Theme) -> Vec<Item> {
-    let mut placed: Vec<Spot> = Vec::new();
+pub(super) fn place_labels(
+    numbers: Vec<(Point, Text)>,
+    obstacles: &Obstacles,
+    frame: Rect,
+    theme: &Theme,
+) -> Vec<Item> {
+    let mut placed: Vec<LabelBox> = Vec::new();
     let mut items = Vec::new();
     for (centre, text) in numbers {
         let half = Vector::new(text.width() / 2.0, 0.37 * text.size);
         // What is that far from everything is as good as what is further.
-        let enough = 0.6 * theme.joint;
-        let is_free = |spot: &Spot| spot.is_in(frame) && placed.iter().all(|other| spot.apart(other) > 0.0);
-        let within = |radii: f64| (radii + 1.0) * theme.joint + 2.0 * half.x;
-        let around = obstacles.near(centre, within(RINGS[RINGS.len() - 1]));
+        let enough = 0.6 * theme.joint_radius;
+        let is_free =
+            |spot: &LabelBox| spot.is_inside(frame) && placed.iter().all(|other| spot.distance_to_box(other) > 0.0);
+        let within = |radii: f64| (radii + 1.0) * theme.joint_radius + 2.0 * half.x;
+        let around = obstacles.nearby(centre, within(RING_RADII[RING_RADII.len() - 1]));
         let ring = |radii: f64| {
             // Most numbers stand near their points: no more is looked at than is near the ring.
-            let near = around.near(centre, within(radii));
-            let clearance = |spot: Spot| {
-                let others = placed.iter().map(|other| spot.apart(other)).fold(enough, f64::min);
+            let near = around.nearby(centre, within(radii));
+            let clearance = |spot: LabelBox| {
+                let others = placed.iter().map(|other| spot.distance_to_box(other)).fold(enough, f64::min);
                 near.clearance(spot, enough).min(1.25 * others)
             };
-            clearest(round(centre, half, radii * theme.joint).filter(is_free), clearance)
+            clearest_box(boxes_around(centre, half, radii * theme.joint_radius).filter(is_free), clearance)
         };
-        let Some(spot) = best(ring, 1.25 * enough) else { continue };
+        let Some(spot) = best_box(ring, 1.25 * enough) else { continue };
         placed.push(spot);
-        items.push(Item::Text(Text { at: spot.middle + Vector::new(0.0, half.y), ..text }));
+        items.push(Item::Text(Text { position: spot.centre + Vector::new(0.0, half.y), ..text }));
     }
     items
 }
 
 /// The distances from a point at which its number may stand, in radii of a joint.
-const RINGS: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, 6.8];
+const RING_RADII: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, 6.8];
 
 /// The clearest place of the nearest ring that has one that is clear enough; of all, where none has.
-fn best(ring: impl Fn(f64) -> Option<(f64, Spot)>, enough: f64) -> Option<Spot> {
-    let mut best: Option<(f64, Spot)> = None;
-    for radii in RINGS {
-        best = [best, ring(radii)].into_iter().flatten().reduce(clearer);
+fn best_box(ring: impl Fn(f64) -> Option<(f64, LabelBox)>, enough: f64) -> Option<LabelBox> {
+    let mut best: Option<(f64, LabelBox)> = None;
+    for radii in RING_RADII {
+        best = [best, ring(radii)].into_iter().flatten().reduce(clearer_box);
         if best.is_some_and(|(clear, _)| clear >= enough * (1.0 - 1e-9)) {
             break;
         }
@@ -172,20 +179,23 @@ fn best(ring: impl Fn(f64) -> Option<(f64, Spot)>, enough: f64) -> Option<Spot> 
 }
 
 /// The first of the clearest places, and how clear it is.
-pub(super) fn clearest(places: impl IntoIterator<Item = Spot>, clearance: impl Fn(Spot) -> f64) -> Option<(f64, Spot)> {
-    places.into_iter().map(|place| (clearance(place), place)).reduce(clearer)
+pub(super) fn clearest_box(
+    places: impl IntoIterator<Item = LabelBox>,
+    clearance: impl Fn(LabelBox) -> f64,
+) -> Option<(f64, LabelBox)> {
+    places.into_iter().map(|place| (clearance(place), place)).reduce(clearer_box)
 }
 
-fn clearer(first: (f64, Spot), second: (f64, Spot)) -> (f64, Spot) {
+fn clearer_box(first: (f64, LabelBox), second: (f64, LabelBox)) -> (f64, LabelBox) {
     if second.0 > first.0 { second } else { first }
 }
 
 /// The places round a point at a distance, beginning to the right of it.
-fn round(centre: Point, half: Vector, distance: f64) -> impl Iterator<Item = Spot> {
+fn boxes_around(centre: Point, half: Vector, distance: f64) -> impl Iterator<Item = LabelBox> {
     const DIRECTIONS: i32 = 16;
     (0..DIRECTIONS).map(move |direction| {
         let (cos, sin) = trig::cos_sin_deg(360.0 / f64::from(DIRECTIONS) * f64::from(direction));
         let reach = half + Vector::repeat(distance);
-        Spot { middle: centre + Vector::new(cos * reach.x, -sin * reach.y), half }
+        LabelBox { centre: centre + Vector::new(cos * reach.x, -sin * reach.y), half_size: half }
     })
 }

@@ -3,7 +3,7 @@
 //! All pages of a cell have one pose, and each the largest scale at which linkage and curves fit its frame. To the right
 //! of the figure stands a column: the key, which says what the letters are, and a table of the points.
 
-mod foot;
+mod footer;
 mod grid;
 mod key;
 mod labels;
@@ -11,7 +11,7 @@ mod table;
 
 use plotters::drawing::IntoDrawingArea;
 
-use super::arrangement::Frame;
+use super::arrangement::Rect;
 use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::figure;
 use super::heading;
@@ -19,142 +19,147 @@ use super::marks;
 use super::mechanism::Mechanism;
 use super::plot::Plot;
 use super::theme::Theme;
-use super::{GridSheet, Layout, Options, Panel, View, pose};
+use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
-use coupler_curves::motion::{self, Dashes};
-use coupler_curves::solve::{Curve, Solved};
+use coupler_curves::motion::{self, DashPattern};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use labels::Obstacles;
 
 /// What is read of a page, and in which ink: a curve, its coupler point and its row in the table.
-struct Shown<'a> {
-    curve: &'a Curve,
+struct ShownCurve<'a> {
+    curve: &'a MeasuredCurve,
     /// Its traced point's place on the page, from 0.
-    place: usize,
+    point_index: usize,
 }
 
-impl Shown<'_> {
+impl ShownCurve<'_> {
     /// There are more points on a page than inks: the same ink is used again with a thin line under the dashes.
-    fn is_lined(&self, theme: &Theme) -> bool {
-        self.place / theme.curves.len() % 2 == 1
+    fn has_underline(&self, theme: &Theme) -> bool {
+        self.point_index / theme.curve_inks.len() % 2 == 1
     }
 
     fn ink(&self, theme: &Theme) -> Color {
-        theme.curve_ink(self.place)
+        theme.curve_ink(self.point_index)
     }
 }
 
-pub(super) fn compose(scene: &mut Scene, sheet: &GridSheet, options: &Options, theme: &Theme) {
+pub(super) fn compose(scene: &mut Scene, sheet: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
-    let theme = &legible(theme, size);
+    let theme = &with_legible_notes(theme, size);
     let root = Canvas::new(scene).into_drawing_area();
-    heading::border(&root, theme);
-    let foot = foot::draw(&root, sheet, options, theme);
+    heading::draw_border(&root, theme);
+    let foot = footer::draw(&root, sheet, options, theme);
     let edge = theme.border + theme.margin;
-    let column = (0.19 * size.x).max(COLUMN * theme.note);
+    let column = (0.19 * size.x).max(MIN_COLUMN_WIDTH * theme.note_size);
     let height = size.y - edge - foot;
-    let whole = Frame { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, height) };
-    let figure = Frame { size: whole.size - Vector::new(column + GUTTER * theme.note, 0.0), ..whole };
-    let side = Frame { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
-    let solved = sheet.panel.solved;
-    let shown = shown(solved, &sheet.shown);
-    match figure_of(&sheet.panel) {
+    let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, height) };
+    let figure = Rect { size: whole.size - Vector::new(column + GUTTER * theme.note_size, 0.0), ..whole };
+    let side = Rect { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
+    let solved = sheet.panel.solved_cell;
+    let shown = shown_curves(solved, &sheet.curve_indices);
+    match posed_mechanism(&sheet.panel) {
         Some(mechanism) => {
             draw_figure(&root, figure, sheet, &mechanism, &shown, options, theme);
             let below = key::draw(&root, side, sheet, &mechanism, theme);
             table::draw(&root, below, sheet, &shown, theme);
         }
         None => {
-            let reason = solved.motion.shortfall.as_deref().unwrap_or("no curve is kept");
-            super::panels::draw_reason(&root, whole, reason, theme);
+            let reason = solved.motion.incomplete_reason.as_deref().unwrap_or("no curve is kept");
+            super::panels::draw_not_assembled(&root, whole, reason, theme);
         }
     }
-    foot::source(&root, side, sheet, theme);
+    footer::draw_source(&root, side, sheet, theme);
 }
 
 /// The theme with notes so large that all that is smaller by them can be read, as far as the paper has room for that.
-fn legible(theme: &Theme, paper: Vector) -> Theme {
+fn with_legible_notes(theme: &Theme, paper: Vector) -> Theme {
     /// The em of the least lettering of these pages, in millimetres: 5.5 points.
-    const LEAST: f64 = 5.5 * 25.4 / 72.0;
+    const MIN_LETTERING: f64 = 5.5 * 25.4 / 72.0;
     /// The em of the number at a scale bar, the least there is, in that of a note.
-    const OF_NOTE: f64 = 0.75;
-    let room = (0.3 * paper.x / COLUMN).min(0.0125 * paper.y);
-    let note = theme.note.max((LEAST / OF_NOTE).min(room));
-    Theme { note, source: theme.source.max(note), ..theme.clone() }
+    const SCALE_BAR_PART: f64 = 0.75;
+    let room = (0.3 * paper.x / MIN_COLUMN_WIDTH).min(0.0125 * paper.y);
+    let note = theme.note_size.max((MIN_LETTERING / SCALE_BAR_PART).min(room));
+    Theme { note_size: note, source_size: theme.source_size.max(note), ..theme.clone() }
 }
 
 /// The least width of the column, in ems of a note.
-const COLUMN: f64 = 22.0;
+const MIN_COLUMN_WIDTH: f64 = 22.0;
 
 /// What is free between figure and column, likewise: the dashes of curves are not to run into those of the table.
 const GUTTER: f64 = 2.0;
 
 /// The curves of a page, numbered by their points.
-fn shown<'a>(solved: &'a Solved, places: &[usize]) -> Vec<Shown<'a>> {
-    let mut traces: Vec<usize> = Vec::with_capacity(Layout::POINTS);
+fn shown_curves<'a>(solved: &'a SolvedCell, places: &[usize]) -> Vec<ShownCurve<'a>> {
+    let mut traces: Vec<usize> = Vec::with_capacity(Layout::POINTS_PER_PAGE);
     let mut shown = Vec::with_capacity(places.len());
     for curve in places.iter().filter_map(|&k| solved.curves.get(k)) {
         let place = traces.iter().position(|trace| *trace == curve.trace).unwrap_or_else(|| {
             traces.push(curve.trace);
             traces.len() - 1
         });
-        shown.push(Shown { curve, place });
+        shown.push(ShownCurve { curve, point_index: place });
     }
     shown
 }
 
 /// The linkage in its pose, where it can be assembled.
-fn figure_of<'a>(panel: &'a Panel) -> Option<Mechanism<'a>> {
-    let solved = panel.solved;
+fn posed_mechanism<'a>(panel: &'a Panel) -> Option<Mechanism<'a>> {
+    let solved = panel.solved_cell;
     let circuit = solved.circuit(solved.curves.first()?);
-    let pose = match &panel.view {
-        View::At(pose) => pose.clone(),
-        View::Clearest | View::Moving { .. } => pose::clearest(&solved.linkage, circuit),
+    let pose = match &panel.pose {
+        PoseChoice::Fixed(pose) => pose.clone(),
+        PoseChoice::Clearest | PoseChoice::Animated { .. } => pose::clearest_pose(&solved.linkage, circuit),
     };
-    Some(Mechanism::new(&solved.linkage, circuit, pose, &panel.inks))
+    Some(Mechanism::new(&solved.linkage, circuit, pose, &panel.link_inks))
 }
 
 fn draw_figure(
     area: &Area,
-    frame: Frame,
-    sheet: &GridSheet,
+    frame: Rect,
+    sheet: &CouplerGridPage,
     mechanism: &Mechanism,
-    shown: &[Shown],
+    shown: &[ShownCurve],
     options: &Options,
     theme: &Theme,
 ) {
-    let solved = sheet.panel.solved;
-    let grid = grid::Grid::of(&solved.linkage, shown.iter().map(|s| s.curve.joint));
+    let solved = sheet.panel.solved_cell;
+    let grid = grid::PointGrids::from_joints(&solved.linkage, shown.iter().map(|s| s.curve.joint));
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
-    let extents = Bounds::of(curves.chain(grid.points(&mechanism.pose))).union(mechanism.bounds());
-    let plot = Plot::new(frame, theme).of(extents);
-    plot.bar(area, theme);
-    let period = figure::dash(solved, options);
-    let dashes = |k: usize| Dashes { period, drawn: theme.curve_drawn(shown[k].place) * period };
-    let paths = figure::paths(solved, &sheet.shown, plot.page_from_plane, dashes);
-    let underlay = mechanism.underlay(&plot, theme);
+    let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
+    let plot = Plot::new(frame, theme).fitted_to(extents);
+    plot.draw_scale_bar(area, theme);
+    let period = figure::dash_period(solved, options);
+    let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
+    let paths = figure::curve_paths(solved, &sheet.curve_indices, plot.page_from_plane, dashes);
+    let underlay = mechanism.underlay_items(&plot, theme);
     let grid = grid.items(&mechanism.pose, &plot, theme);
-    let portion = |s: &Shown| marks::portion(solved, s.curve, s.ink(theme), &plot, theme);
+    let portion = |s: &ShownCurve| marks::straight_portion_item(solved, s.curve, s.ink(theme), &plot, theme);
     let straight: Vec<Item> = shown.iter().filter_map(portion).collect();
-    let linkage = mechanism.items(&plot, theme, |_| theme.ink);
-    let points = points(mechanism, shown, &plot, theme);
+    let linkage = mechanism.linkage_items(&plot, theme, |_| theme.ink);
+    let points = point_circles(mechanism, shown, &plot, theme);
 
     let mut obstacles = Obstacles::default();
     [&underlay, &grid, &straight].into_iter().for_each(|items| obstacles.add(items, true));
     [&linkage, &points].into_iter().for_each(|items| obstacles.add(items, false));
     for (shown, path) in shown.iter().zip(&paths) {
-        obstacles.add_points(&path.whole, theme.curve_stroke(shown.place).width, false);
+        obstacles.add_points(&path.points, theme.curve_stroke(shown.point_index).width, false);
     }
-    let numbers = labels::place(numbers(mechanism, shown, &plot, theme), &obstacles, plot.above_bar(theme), theme);
+    let numbers = labels::place_labels(
+        point_numbers(mechanism, shown, &plot, theme),
+        &obstacles,
+        plot.rect_above_scale_bar(theme),
+        theme,
+    );
 
     let group = |class, items| draw(area, &Drawing { class, title: String::new(), items });
     group("underlay", underlay);
     group("grid", grid);
     group("straight", straight);
-    let lined = |(shown, path): (&Shown, &motion::Path)| {
-        let line = || Path::stroked(path.whole.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine));
-        shown.is_lined(theme).then(|| Item::Path(line()))
+    let lined = |(shown, path): (&ShownCurve, &motion::JointPath)| {
+        let line = || Path::stroked(path.points.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine_width));
+        shown.has_underline(theme).then(|| Item::Path(line()))
     };
     group("trail", shown.iter().zip(&paths).filter_map(lined).collect());
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
@@ -166,59 +171,59 @@ fn draw_figure(
 }
 
 /// The points of a page, each once, with their places on it.
-fn distinct<'a>(
+fn distinct_points<'a>(
     mechanism: &Mechanism,
-    shown: &'a [Shown],
+    shown: &'a [ShownCurve],
     plot: &Plot,
-) -> impl Iterator<Item = (Point, &'a Shown<'a>)> {
-    let is_first = |k: usize| shown[..k].iter().all(|other| other.place != shown[k].place);
+) -> impl Iterator<Item = (Point, &'a ShownCurve<'a>)> {
+    let is_first = |k: usize| shown[..k].iter().all(|other| other.point_index != shown[k].point_index);
     let first = (0..shown.len()).filter(move |&k| is_first(k)).map(|k| &shown[k]);
     first.map(|s| (plot.page_from_plane.apply(mechanism.pose[s.curve.joint]), s))
 }
 
 /// The numbers of the points of a page, with the places of these.
-fn numbers(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
-    let number = |s: &Shown| {
+fn point_numbers(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+    let number = |s: &ShownCurve| {
         let words = s.curve.trace.to_string();
-        theme.words(&words, Point::origin(), Anchor::Middle, 0.85 * theme.note, s.ink(theme)).text
+        theme.text_line(&words, Point::origin(), Anchor::Middle, 0.85 * theme.note_size, s.ink(theme)).text
     };
-    distinct(mechanism, shown, plot).map(|(centre, s)| (centre, number(s))).collect()
+    distinct_points(mechanism, shown, plot).map(|(centre, s)| (centre, number(s))).collect()
 }
 
 fn coupler_curve(
-    sheet: &GridSheet,
-    shown: &Shown,
-    path: motion::Path,
-    (page_from_plane, dashes): (Similarity, Dashes),
+    sheet: &CouplerGridPage,
+    shown: &ShownCurve,
+    path: motion::JointPath,
+    (page_from_plane, dashes): (Similarity, DashPattern),
     theme: &Theme,
 ) -> CouplerCurve {
-    let Curve { trace, circuit, .. } = shown.curve;
-    let cell = sheet.panel.solved.cell.number;
-    let stroke = theme.curve_stroke(shown.place);
+    let MeasuredCurve { trace, circuit, .. } = shown.curve;
+    let cell = sheet.panel.solved_cell.cell.number;
+    let stroke = theme.curve_stroke(shown.point_index);
     CouplerCurve {
-        id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family),
+        id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family_id),
         class: "curve",
-        title: format!("{}, no. {cell}: {}, point {trace}", sheet.heading.title, sheet.panel.caption),
+        title: format!("{}, no. {cell}: {}, point {trace}", sheet.heading.family_title, sheet.panel.caption),
         data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
         page_from_plane,
         dashes,
-        strokes: path.dashes,
-        weights: [stroke, theme.stroke(theme.faded(stroke.color), theme.fine)],
+        dash_lines: path.dashes,
+        stroke_styles: [stroke, theme.stroke(theme.faded(stroke.color), theme.fine_width)],
         marks: Vec::new(),
     }
 }
 
 /// A small circle for each point of the page, once, where it is in the pose.
-fn points(mechanism: &Mechanism, shown: &[Shown], plot: &Plot, theme: &Theme) -> Vec<Item> {
-    let circle = |(centre, s): (Point, &Shown)| {
-        let stroke = Some(theme.stroke(s.ink(theme), theme.fine));
-        let fill = Some(if s.is_lined(theme) { s.ink(theme) } else { theme.paper });
-        Item::Circle(Circle { centre, radius: 0.8 * theme.joint, stroke, fill })
+fn point_circles(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<Item> {
+    let circle = |(centre, s): (Point, &ShownCurve)| {
+        let stroke = Some(theme.stroke(s.ink(theme), theme.fine_width));
+        let fill = Some(if s.has_underline(theme) { s.ink(theme) } else { theme.paper });
+        Item::Circle(Circle { centre, radius: 0.8 * theme.joint_radius, stroke, fill })
     };
-    distinct(mechanism, shown, plot).map(circle).collect()
+    distinct_points(mechanism, shown, plot).map(circle).collect()
 }
 
 /// The unit of the input, as it is written after a number.
-fn input_unit(solved: &Solved) -> &'static str {
+fn input_unit(solved: &SolvedCell) -> &'static str {
     if solved.linkage.input() == Input::Length { "" } else { "°" }
 }

@@ -1,43 +1,43 @@
 //! The table of a page's points: where each is on its link, and how straight its curve is.
 
-use super::super::GridSheet;
-use super::super::arrangement::Frame;
+use super::super::CouplerGridPage;
+use super::super::arrangement::Rect;
 use super::super::element::{Area, Drawing, draw as put};
-use super::super::marks::digits;
+use super::super::marks::format_significant;
 use super::super::theme::Theme;
-use super::{Shown, input_unit};
-use crate::scene::{Anchor, Circle, Item, Line, Path};
+use super::{ShownCurve, input_unit};
+use crate::scene::{Anchor, Circle, Item, Path, Polyline};
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::{Linkage, Step};
+use coupler_curves::linkage::{JointKind, Linkage};
 use coupler_curves::measure::Value;
-use coupler_curves::solve::{Curve, Solved};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// The heads of the columns, and where each ends, in parts of the table's width.
 const COLUMNS: [(&str, f64); 5] =
     [("point", 0.2), ("along", 0.38), ("across", 0.58), ("straight", 0.82), ("over", 1.0)];
 
 /// The first columns, which are there where no straight portion was sought too.
-const OF_POINTS: usize = 3;
+const POINT_COLUMNS: usize = 3;
 
 /// Draws it at the head of a frame.
-pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown], theme: &Theme) {
-    let solved = sheet.panel.solved;
+pub(super) fn draw(area: &Area, frame: Rect, sheet: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) {
+    let solved = sheet.panel.solved_cell;
     let has_circuits = solved.motion.circuits.len() > 1;
-    let row = 1.5 * theme.note;
+    let row = 1.5 * theme.note_size;
     let at = |column: usize, y: f64| Point::new(frame.corner.x + COLUMNS[column].1 * frame.size.x, y);
     let mut y = frame.corner.y + 1.5 * row;
-    let is_straight = shown.iter().any(|s| s.curve.measure("straight_length") != Value::Missing);
-    let columns = if is_straight { COLUMNS.len() } else { OF_POINTS };
-    let places: Vec<Option<[f64; 2]>> = shown.iter().map(|s| place(&solved.linkage, s.curve)).collect();
-    let decimals = [0, 1].map(|k| decimals(places.iter().flatten().map(|place| place[k])));
+    let is_straight = shown.iter().any(|s| s.curve.value("straight_length") != Value::Missing);
+    let columns = if is_straight { COLUMNS.len() } else { POINT_COLUMNS };
+    let places: Vec<Option<[f64; 2]>> = shown.iter().map(|s| link_coordinates(&solved.linkage, s.curve)).collect();
+    let decimals = [0, 1].map(|k| decimals_needed(places.iter().flatten().map(|place| place[k])));
     // Joints of links have no places to tell of.
-    let is_blank = |column: usize| (1..OF_POINTS).contains(&column) && places.iter().all(Option::is_none);
+    let is_blank = |column: usize| (1..POINT_COLUMNS).contains(&column) && places.iter().all(Option::is_none);
     for (column, (head, _)) in COLUMNS.iter().enumerate().take(columns).filter(|(column, _)| !is_blank(*column)) {
-        put(area, &theme.words(head, at(column, y), Anchor::End, 0.9 * theme.note, theme.grey));
+        put(area, &theme.text_line(head, at(column, y), Anchor::End, 0.9 * theme.note_size, theme.grey));
     }
     let rule =
         vec![Point::new(frame.corner.x, y + 0.4 * row), Point::new(frame.corner.x + frame.size.x, y + 0.4 * row)];
-    let rule = Item::Path(Path::stroked(rule, theme.stroke(theme.hairline, theme.hair)));
+    let rule = Item::Path(Path::stroked(rule, theme.stroke(theme.hairline, theme.hair_width)));
     put(area, &Drawing { class: "rule", title: String::new(), items: vec![rule] });
     y += 0.25 * row;
     let last = frame.corner.y + frame.size.y - 3.0 * row;
@@ -45,65 +45,67 @@ pub(super) fn draw(area: &Area, frame: Frame, sheet: &GridSheet, shown: &[Shown]
         y += row;
         if y > last && k + 1 < shown.len() {
             let rest = format!("and {} more", shown.len() - k);
-            put(area, &theme.words(&rest, at(4, y), Anchor::End, theme.note, theme.grey));
+            put(area, &theme.text_line(&rest, at(4, y), Anchor::End, theme.note_size, theme.grey));
             break;
         }
-        put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note), s, theme));
+        put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note_size), s, theme));
         let number =
             if has_circuits { format!("{}/{}", s.curve.trace, s.curve.circuit) } else { s.curve.trace.to_string() };
-        let [along, across] = [0, 1].map(|k| place.map_or(String::new(), |place| fixed(place[k], decimals[k])));
-        let [straight, over] = straight(solved, s.curve);
+        let [along, across] = [0, 1].map(|k| place.map_or(String::new(), |place| format_fixed(place[k], decimals[k])));
+        let [straight, over] = format_straight_portion(solved, s.curve);
         for (column, text) in [number, along, across, straight, over].iter().enumerate().take(columns) {
             let color = if column == 0 { s.ink(theme) } else { theme.grey };
-            put(area, &theme.words(text, at(column, y), Anchor::End, theme.note, color));
+            put(area, &theme.text_line(text, at(column, y), Anchor::End, theme.note_size, color));
         }
     }
 }
 
 /// Two dashes of the curve in its manner, with its point.
-fn swatch(at: Point, shown: &Shown, theme: &Theme) -> Drawing {
+fn swatch(at: Point, shown: &ShownCurve, theme: &Theme) -> Drawing {
     let ink = shown.ink(theme);
-    let length = 2.4 * theme.note;
-    let line = |from: f64, to: f64| Line {
+    let length = 2.4 * theme.note_size;
+    let line = |from: f64, to: f64| Polyline {
         points: vec![at + Vector::new(from * length, 0.0), at + Vector::new(to * length, 0.0)],
-        closed: false,
+        is_closed: false,
     };
-    let drawn = 0.5 * theme.curve_drawn(shown.place);
+    let drawn = 0.5 * theme.curve_dash_fraction(shown.point_index);
     let lines = vec![line(0.0, drawn), line(0.5, 0.5 + drawn)];
-    let mut items = vec![Item::Path(Path { lines, stroke: Some(theme.curve_stroke(shown.place)), fill: None })];
-    if shown.is_lined(theme) {
-        let stroke = Some(theme.stroke(ink, 0.6 * theme.fine));
-        items.insert(0, Item::Path(Path { lines: vec![line(0.0, 1.0)], stroke, fill: None }));
+    let mut items =
+        vec![Item::Path(Path { polylines: lines, stroke: Some(theme.curve_stroke(shown.point_index)), fill: None })];
+    if shown.has_underline(theme) {
+        let stroke = Some(theme.stroke(ink, 0.6 * theme.fine_width));
+        items.insert(0, Item::Path(Path { polylines: vec![line(0.0, 1.0)], stroke, fill: None }));
     }
-    let fill = Some(if shown.is_lined(theme) { ink } else { theme.paper });
+    let fill = Some(if shown.has_underline(theme) { ink } else { theme.paper });
     let centre = at + Vector::new(length, 0.0);
-    let stroke = Some(theme.stroke(ink, theme.fine));
-    items.push(Item::Circle(Circle { centre, radius: 0.8 * theme.joint, stroke, fill }));
+    let stroke = Some(theme.stroke(ink, theme.fine_width));
+    items.push(Item::Circle(Circle { centre, radius: 0.8 * theme.joint_radius, stroke, fill }));
     Drawing { class: "swatch", title: String::new(), items }
 }
 
 /// Where a point is on its link, along its base from the first joint and to the left of it; nothing where it is not
 /// placed that way.
-fn place(linkage: &Linkage, curve: &Curve) -> Option<[f64; 2]> {
-    let Step::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].step else { return None };
-    let link = linkage.links.iter().find(|link| link.place(from).is_some() && link.place(to).is_some())?;
-    let base = (link.place(to)? - link.place(from)?).norm();
+fn link_coordinates(linkage: &Linkage, curve: &MeasuredCurve) -> Option<[f64; 2]> {
+    let JointKind::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].kind else { return None };
+    let link = linkage.links.iter().find(|link| link.position(from).is_some() && link.position(to).is_some())?;
+    let base = (link.position(to)? - link.position(from)?).norm();
     Some([along * base, across * base])
 }
 
 /// The decimals it takes to tell some values from each other and from zero: two, or more while the column has room.
-fn decimals(values: impl Iterator<Item = f64>) -> usize {
+fn decimals_needed(values: impl Iterator<Item = f64>) -> usize {
     /// What differs by this part is the same but for rounding.
-    const ALIKE: f64 = 1e-9;
+    const ROUNDING: f64 = 1e-9;
     /// As many figures and signs as the column has room for.
-    const ROOM: usize = 7;
+    const MAX_CHARACTERS: usize = 7;
     let mut values: Vec<f64> = values.chain([0.0]).collect();
     values.sort_by(f64::total_cmp);
     let is_told = |pair: &[f64], decimals: usize| {
-        let alike = pair[1] - pair[0] <= ALIKE * pair[0].abs().max(pair[1].abs());
-        alike || fixed(pair[0], decimals) != fixed(pair[1], decimals)
+        let alike = pair[1] - pair[0] <= ROUNDING * pair[0].abs().max(pair[1].abs());
+        alike || format_fixed(pair[0], decimals) != format_fixed(pair[1], decimals)
     };
-    let has_room = |decimals: usize| values.iter().all(|value| fixed(*value, decimals).chars().count() <= ROOM);
+    let has_room =
+        |decimals: usize| values.iter().all(|value| format_fixed(*value, decimals).chars().count() <= MAX_CHARACTERS);
     let all_told = |decimals: usize| values.windows(2).all(|pair| is_told(pair, decimals));
     let mut decimals = 2;
     while !all_told(decimals) && has_room(decimals + 1) {
@@ -113,7 +115,7 @@ fn decimals(values: impl Iterator<Item = f64>) -> usize {
 }
 
 /// A number with so many decimals and a true minus sign; zero has none.
-fn fixed(value: f64, decimals: usize) -> String {
+fn format_fixed(value: f64, decimals: usize) -> String {
     let number = format!("{value:.decimals$}");
     if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
         return number.trim_start_matches('-').to_owned();
@@ -122,9 +124,11 @@ fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// The length of a curve's straight portion and the input it spans.
-fn straight(solved: &Solved, curve: &Curve) -> [String; 2] {
+fn format_straight_portion(solved: &SolvedCell, curve: &MeasuredCurve) -> [String; 2] {
     match &curve.straight {
-        Some(portion) => [digits(portion.length, 3), format!("{:.1}{}", portion.input, input_unit(solved))],
+        Some(portion) => {
+            [format_significant(portion.length, 3), format!("{:.1}{}", portion.input_span, input_unit(solved))]
+        }
         None => ["–", "–"].map(str::to_owned),
     }
 }

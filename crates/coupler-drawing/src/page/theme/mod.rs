@@ -2,10 +2,10 @@
 
 mod named;
 
-pub use named::Named;
+pub use named::NamedTheme;
 
 use super::Paper;
-use super::element::Words;
+use super::element::TextLine;
 use crate::scene::{Anchor, Color, Stroke, Typeface};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -21,57 +21,57 @@ pub struct Theme {
     /// The frame line, the body of ternary links.
     pub hairline: Color,
     /// The inks of curves, told apart in colour and in lightness; one at least.
-    pub curves: Vec<Color>,
+    pub curve_inks: Vec<Color>,
     /// How curves are told apart besides by their inks; one at least.
-    pub manners: Vec<Manner>,
+    pub curve_styles: Vec<CurveStyle>,
     /// What all texts are set in.
     pub typeface: Typeface,
     /// The part that is drawn of the input a dash and its gap span, more than 0 and 1 at most.
-    pub drawn: f64,
+    pub dash_fraction: f64,
     /// The page's border and its distance from the paper's edge.
     pub border: f64,
     /// From the border to what stands in it.
     pub margin: f64,
     /// The em of the title.
-    pub title: f64,
+    pub title_size: f64,
     /// The em of the source line and the folio.
-    pub source: f64,
+    pub source_size: f64,
     /// The em of captions.
-    pub caption: f64,
+    pub caption_size: f64,
     /// The em of notes and of numbers beside figures.
-    pub note: f64,
+    pub note_size: f64,
     /// The weight of links.
-    pub link: f64,
+    pub link_width: f64,
     /// The weight of curves.
-    pub curve: f64,
+    pub curve_width: f64,
     /// The weight of joints' circles, the border and light curves.
-    pub fine: f64,
+    pub fine_width: f64,
     /// The weight of hairlines.
-    pub hair: f64,
+    pub hair_width: f64,
     /// The radius of a joint.
-    pub joint: f64,
+    pub joint_radius: f64,
 }
 
 /// How a curve is told from another besides by its ink.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Manner {
+pub struct CurveStyle {
     /// Its weight, in times that of curves.
-    pub weight: f64,
+    pub width_factor: f64,
     /// The drawn part of its dashes, in times that of the theme.
-    pub drawn: f64,
+    pub dash_factor: f64,
 }
 
-impl Manner {
+impl CurveStyle {
     /// Curves as they are drawn where ink alone tells them apart.
-    pub const PLAIN: Manner = Manner { weight: 1.0, drawn: 1.0 };
+    pub const PLAIN: CurveStyle = CurveStyle { width_factor: 1.0, dash_factor: 1.0 };
 
     /// Those of five greys: the darkest plain, the faintest broad, the others between them in shorter and longer dashes.
-    const OF_GREYS: [Manner; 5] = [
-        Manner::PLAIN,
-        Manner { weight: 2.2, drawn: 1.0 },
-        Manner { weight: 1.5, drawn: 0.4 },
-        Manner { weight: 1.0, drawn: 1.5 },
-        Manner { weight: 1.9, drawn: 0.7 },
+    const FOR_GREYS: [CurveStyle; 5] = [
+        CurveStyle::PLAIN,
+        CurveStyle { width_factor: 2.2, dash_factor: 1.0 },
+        CurveStyle { width_factor: 1.5, dash_factor: 0.4 },
+        CurveStyle { width_factor: 1.0, dash_factor: 1.5 },
+        CurveStyle { width_factor: 1.9, dash_factor: 0.7 },
     ];
 }
 
@@ -91,62 +91,63 @@ impl Theme {
         Theme {
             border: self.border * scale,
             margin: self.margin * scale,
-            title: self.title * scale,
-            source: self.source * scale,
-            caption: self.caption * scale,
-            note: self.note * scale,
-            link: self.link * weight,
-            curve: self.curve * weight,
-            fine: self.fine * weight,
-            hair: self.hair * weight,
-            joint: self.joint * weight,
+            title_size: self.title_size * scale,
+            source_size: self.source_size * scale,
+            caption_size: self.caption_size * scale,
+            note_size: self.note_size * scale,
+            link_width: self.link_width * weight,
+            curve_width: self.curve_width * weight,
+            fine_width: self.fine_width * weight,
+            hair_width: self.hair_width * weight,
+            joint_radius: self.joint_radius * weight,
             ..self.clone()
         }
     }
 
     /// The theme for panels of a size: lettering, joints and links are smaller where panels are small, to a third.
-    pub fn for_panels(&self, panel: Vector) -> Theme {
-        let scale = (panel.x / (12.0 * self.caption)).min(panel.y / (14.0 * self.caption)).clamp(1.0 / 3.0, 1.0);
+    pub fn for_panel_size(&self, panel: Vector) -> Theme {
+        let scale =
+            (panel.x / (12.0 * self.caption_size)).min(panel.y / (14.0 * self.caption_size)).clamp(1.0 / 3.0, 1.0);
         let weight = scale.sqrt();
         Theme {
-            caption: self.caption * scale,
-            note: self.note * scale,
-            joint: self.joint * weight,
-            link: self.link * weight,
-            curve: self.curve * weight,
-            fine: self.fine * weight,
+            caption_size: self.caption_size * scale,
+            note_size: self.note_size * scale,
+            joint_radius: self.joint_radius * weight,
+            link_width: self.link_width * weight,
+            curve_width: self.curve_width * weight,
+            fine_width: self.fine_width * weight,
             ..self.clone()
         }
     }
 
     /// A stroke with ends cut square.
     pub fn stroke(&self, color: Color, width: f64) -> Stroke {
-        Stroke { color, width, round: false }
+        Stroke { color, width, has_round_ends: false }
     }
 
     /// A line of text at a place of an area, in the theme's typeface.
-    pub(super) fn words(&self, text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> Words {
-        Words::new(text, self.typeface, at, anchor, (size, color))
+    pub(super) fn text_line(&self, text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> TextLine {
+        TextLine::new(text, self.typeface, at, anchor, (size, color))
     }
 
     /// The ink of the k-th curve, from 0.
     pub fn curve_ink(&self, k: usize) -> Color {
-        self.curves[k % self.curves.len()]
+        self.curve_inks[k % self.curve_inks.len()]
     }
 
     /// The manner of the k-th curve, from 0: curves that have one ink have different manners, where there are several.
-    fn manner(&self, k: usize) -> Manner {
-        self.manners[(k + k / self.curves.len()) % self.manners.len()]
+    fn curve_style(&self, k: usize) -> CurveStyle {
+        self.curve_styles[(k + k / self.curve_inks.len()) % self.curve_styles.len()]
     }
 
     /// The stroke of the k-th curve, from 0.
     pub fn curve_stroke(&self, k: usize) -> Stroke {
-        self.stroke(self.curve_ink(k), self.curve * self.manner(k).weight)
+        self.stroke(self.curve_ink(k), self.curve_width * self.curve_style(k).width_factor)
     }
 
     /// The drawn part of the dashes of the k-th curve, from 0.
-    pub fn curve_drawn(&self, k: usize) -> f64 {
-        (self.drawn * self.manner(k).drawn).min(1.0)
+    pub fn curve_dash_fraction(&self, k: usize) -> f64 {
+        (self.dash_fraction * self.curve_style(k).dash_factor).min(1.0)
     }
 
     /// An ink halfway to the paper.

@@ -1,30 +1,30 @@
 //! The themes that have a name.
 
-use super::{Manner, Theme};
+use super::{CurveStyle, Theme};
 use crate::scene::{Color, Typeface};
 
 /// A theme that has a name.
 #[derive(Clone, Copy, Debug)]
-pub struct Named {
+pub struct NamedTheme {
     /// What it goes by in a manifest.
     pub name: &'static str,
     /// What it shows, or is for.
-    pub shows: &'static str,
+    pub description: &'static str,
     /// The theme.
     pub theme: fn() -> Theme,
 }
 
 impl Theme {
     /// Every theme with a name, the default first.
-    pub const NAMED: [Named; 4] = [
-        Named { name: "paper", shows: "ink on cream paper", theme: Theme::paper },
-        Named { name: "print", shows: "the same inks on white, for a printer", theme: Theme::print },
-        Named {
+    pub const NAMED: [NamedTheme; 4] = [
+        NamedTheme { name: "paper", description: "ink on cream paper", theme: Theme::paper },
+        NamedTheme { name: "print", description: "the same inks on white, for a printer", theme: Theme::print },
+        NamedTheme {
             name: "monochrome",
-            shows: "greys on white: curves are told apart by lightness, weight and dashes",
+            description: "greys on white: curves are told apart by lightness, weight and dashes",
             theme: Theme::monochrome,
         },
-        Named { name: "dark", shows: "light inks on a dark ground, for screens", theme: Theme::dark },
+        NamedTheme { name: "dark", description: "light inks on a dark ground, for screens", theme: Theme::dark },
     ];
 
     /// The inks of curves differ in lightness by 8 at least, so that they can be told apart in grey and by the colour-blind.
@@ -34,27 +34,27 @@ impl Theme {
             ink: Color(0x11, 0x11, 0x11),
             grey: Color(0x55, 0x55, 0x55),
             hairline: Color(0xb4, 0xba, 0xc0),
-            curves: vec![
+            curve_inks: vec![
                 Color(0x7b, 0x25, 0x13),
                 Color(0x39, 0x8a, 0xd0),
                 Color(0x3c, 0x61, 0x49),
                 Color(0x44, 0x16, 0x6c),
                 Color(0x97, 0x64, 0x0c),
             ],
-            manners: vec![Manner::PLAIN],
+            curve_styles: vec![CurveStyle::PLAIN],
             typeface: Typeface::SerifCondensed,
-            drawn: 0.6,
+            dash_fraction: 0.6,
             border: 8.0,
             margin: 8.0,
-            title: 8.5,
-            source: 3.8,
-            caption: 3.7,
-            note: 3.1,
-            link: 0.7,
-            curve: 0.4,
-            fine: 0.3,
-            hair: 0.15,
-            joint: 0.9,
+            title_size: 8.5,
+            source_size: 3.8,
+            caption_size: 3.7,
+            note_size: 3.1,
+            link_width: 0.7,
+            curve_width: 0.4,
+            fine_width: 0.3,
+            hair_width: 0.15,
+            joint_radius: 0.9,
         }
     }
 
@@ -63,7 +63,7 @@ impl Theme {
     }
 
     fn monochrome() -> Theme {
-        Theme::print().in_greys(None)
+        Theme::print().into_greyscale(None)
     }
 
     /// No ink is pure white, which would glare, and links, which light makes broader, are a little finer. The inks of
@@ -74,41 +74,41 @@ impl Theme {
             ink: Color(0xe4, 0xe1, 0xda),
             grey: Color(0xa3, 0xa8, 0xae),
             hairline: Color(0x50, 0x58, 0x62),
-            curves: vec![
+            curve_inks: vec![
                 Color(0xf3, 0x77, 0x6b),
                 Color(0x38, 0x88, 0xe0),
                 Color(0x9f, 0xd8, 0xa9),
                 Color(0xc2, 0xa7, 0xea),
                 Color(0xf9, 0xe2, 0x86),
             ],
-            link: 0.6,
+            link_width: 0.6,
             ..Theme::paper()
         }
     }
 
     /// The theme in greys of the same lightness. Where the curves have no inks that are `given`, they have greys from the
     /// ink's to the faintest that is well seen on the paper; with each goes a manner of its own.
-    pub fn in_greys(self, given: Option<Vec<Color>>) -> Theme {
+    pub fn into_greyscale(self, given: Option<Vec<Color>>) -> Theme {
         /// A little more than the 3:1 a line wants on its ground.
-        const FAINTEST: f64 = 3.4;
+        const MIN_CONTRAST: f64 = 3.4;
         /// The order of the greys, as parts of the way from ink to faintest: neighbours in it are well apart.
-        const STEPS: [f64; 5] = [0.0, 1.0, 0.5, 0.75, 0.25];
-        let (paper, ink) = (self.paper.grey(), self.ink.grey());
+        const GREY_STEPS: [f64; 5] = [0.0, 1.0, 0.5, 0.75, 0.25];
+        let (paper, ink) = (self.paper.to_grey(), self.ink.to_grey());
         let greys = (0..=u8::MAX).map(|level| Color(level, level, level));
         let is_lighter = |color: &Color| color.luminance() > paper.luminance();
-        let is_seen = |grey: &Color| grey.contrast(paper) >= FAINTEST && is_lighter(grey) == is_lighter(&ink);
+        let is_seen = |grey: &Color| grey.contrast(paper) >= MIN_CONTRAST && is_lighter(grey) == is_lighter(&ink);
         let faintest = greys.filter(is_seen).min_by(|a, b| a.contrast(paper).total_cmp(&b.contrast(paper)));
         let faintest = faintest.map_or(ink.lightness(), Color::lightness);
-        let step = |part: f64| Color::of_lightness(ink.lightness() * (1.0 - part) + faintest * part);
-        let curves =
-            given.map_or_else(|| STEPS.map(step).to_vec(), |given| given.into_iter().map(Color::grey).collect());
+        let step = |part: f64| Color::from_lightness(ink.lightness() * (1.0 - part) + faintest * part);
+        let curves = given
+            .map_or_else(|| GREY_STEPS.map(step).to_vec(), |given| given.into_iter().map(Color::to_grey).collect());
         Theme {
             paper,
             ink,
-            grey: self.grey.grey(),
-            hairline: self.hairline.grey(),
-            curves,
-            manners: Manner::OF_GREYS.to_vec(),
+            grey: self.grey.to_grey(),
+            hairline: self.hairline.to_grey(),
+            curve_inks: curves,
+            curve_styles: CurveStyle::FOR_GREYS.to_vec(),
             ..self
         }
     }

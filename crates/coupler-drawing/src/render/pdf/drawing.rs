@@ -3,12 +3,12 @@ use krilla::geom::{self, PathBuilder, Transform};
 use krilla::paint::{Fill, LineCap, LineJoin};
 use krilla::surface::Surface;
 
-use super::fonts::{Fonts, glyphs};
-use crate::scene::{Circle, Color, Line, Path, Run, Scene, Shape, Stroke, Text};
+use super::fonts::{FontCache, layout_glyphs};
+use crate::scene::{Circle, Color, Path, Polyline, Scene, Shape, Stroke, Text, TextRun};
 use coupler_curves::geometry::Point;
 
 /// Millimetres to the points of PDF.
-pub(super) fn points(mm: f64) -> f32 {
+pub(super) fn mm_to_points(mm: f64) -> f32 {
     (mm * POINTS_PER_MM) as f32
 }
 
@@ -18,35 +18,35 @@ const POINTS_PER_MM: f64 = 72.0 / 25.4;
 const UNITS_PER_MM: f64 = 1000.0;
 
 /// Draws scenes on a page of a document, whose origin is the upper left corner with y down, as a scene's is.
-pub(super) struct Pen<'d> {
+pub(super) struct PagePainter<'d> {
     surface: Surface<'d>,
-    fonts: &'d mut Fonts,
+    fonts: &'d mut FontCache,
 }
 
 /// A system of coordinates on the page: where its origin is, in millimetres, and how often it is turned by a quarter,
 /// clockwise.
 #[derive(Clone, Copy)]
-struct Frame {
+struct CoordinateFrame {
     origin: Point,
     quarter_turns: u8,
 }
 
-impl Frame {
-    fn at(origin: Point) -> Frame {
-        Frame { origin, quarter_turns: 0 }
+impl CoordinateFrame {
+    fn upright(origin: Point) -> CoordinateFrame {
+        CoordinateFrame { origin, quarter_turns: 0 }
     }
 
     fn points_from_units(self) -> Transform {
         let scale = (POINTS_PER_MM / UNITS_PER_MM) as f32;
         let (cos, sin) = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][usize::from(self.quarter_turns % 4)];
-        let [x, y] = [self.origin.x, self.origin.y].map(|mm| points(on_paper(mm)));
+        let [x, y] = [self.origin.x, self.origin.y].map(|mm| mm_to_points(clamp_length(mm)));
         Transform::from_row(scale * cos, scale * sin, -scale * sin, scale * cos, x, y)
     }
 }
 
-impl<'d> Pen<'d> {
-    pub fn new(surface: Surface<'d>, fonts: &'d mut Fonts) -> Pen<'d> {
-        Pen { surface, fonts }
+impl<'d> PagePainter<'d> {
+    pub fn new(surface: Surface<'d>, fonts: &'d mut FontCache) -> PagePainter<'d> {
+        PagePainter { surface, fonts }
     }
 
     pub fn finish(self) {
@@ -54,26 +54,30 @@ impl<'d> Pen<'d> {
     }
 
     /// The paper and all items.
-    pub fn scene(&mut self, scene: &Scene) {
+    pub fn draw_scene(&mut self, scene: &Scene) {
         let corners = [(0.0, 0.0), (scene.width, 0.0), (scene.width, scene.height), (0.0, scene.height)];
         let points = corners.map(|(x, y)| Point::new(x, y)).to_vec();
-        self.path(&Path { lines: vec![Line { points, closed: true }], stroke: None, fill: Some(scene.paper) });
+        self.draw_path(&Path {
+            polylines: vec![Polyline { points, is_closed: true }],
+            stroke: None,
+            fill: Some(scene.paper),
+        });
         for shape in scene.shapes() {
             match shape {
-                Shape::Path(path) => self.path(path),
-                Shape::Circle(circle) => self.circle(circle),
-                Shape::Text(text) => self.text(text),
+                Shape::Path(path) => self.draw_path(path),
+                Shape::Circle(circle) => self.draw_circle(circle),
+                Shape::Text(text) => self.draw_text(text),
             }
         }
     }
 
-    fn draw(&mut self, frame: Frame, path: PathBuilder, stroke: Option<Stroke>, color: Option<Color>) {
+    fn paint_path(&mut self, frame: CoordinateFrame, path: PathBuilder, stroke: Option<Stroke>, color: Option<Color>) {
         let Some(path) = path.finish().filter(|_| stroke.is_some() || color.is_some()) else { return };
-        self.surface.set_fill(color.map(fill));
+        self.surface.set_fill(color.map(to_fill));
         self.surface.set_stroke(stroke.map(|stroke| krilla::paint::Stroke {
-            paint: rgb(stroke.color).into(),
-            width: units(stroke.width),
-            line_cap: if stroke.round { LineCap::Round } else { LineCap::Butt },
+            paint: to_rgb(stroke.color).into(),
+            width: mm_to_units(stroke.width),
+            line_cap: if stroke.has_round_ends { LineCap::Round } else { LineCap::Butt },
             line_join: LineJoin::Round,
             ..krilla::paint::Stroke::default()
         }));
@@ -83,15 +87,15 @@ impl<'d> Pen<'d> {
     }
 
     /// Places are written from a corner of the path, so that they have few digits.
-    fn path(&mut self, path: &Path) {
-        let points = path.lines.iter().flat_map(|line| &line.points);
+    fn draw_path(&mut self, path: &Path) {
+        let points = path.polylines.iter().flat_map(|line| &line.points);
         let low = points.fold([f64::INFINITY; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]);
-        let frame = Frame::at(Point::from(low.map(|c| on_paper(c).floor())));
+        let frame = CoordinateFrame::upright(Point::from(low.map(|c| clamp_length(c).floor())));
         let mut builder = PathBuilder::new();
-        for line in &path.lines {
+        for line in &path.polylines {
             let mut last = None;
             for point in &line.points {
-                let at = place(point, frame.origin);
+                let at = point_in_units(point, frame.origin);
                 match last {
                     None => builder.move_to(at[0], at[1]),
                     Some(last) if last == at => {}
@@ -99,17 +103,17 @@ impl<'d> Pen<'d> {
                 }
                 last = Some(at);
             }
-            if line.closed && last.is_some() {
+            if line.is_closed && last.is_some() {
                 builder.close();
             }
         }
-        self.draw(frame, builder, path.stroke, path.fill);
+        self.paint_path(frame, builder, path.stroke, path.fill);
     }
 
     /// Four cubics, which are off a circle by less than 3/10000 of its radius.
-    fn circle(&mut self, circle: &Circle) {
-        const REACH: f64 = 0.552_284_749_8;
-        let (r, k) = (units(circle.radius), units(REACH * circle.radius));
+    fn draw_circle(&mut self, circle: &Circle) {
+        const CONTROL_RATIO: f64 = 0.552_284_749_8;
+        let (r, k) = (mm_to_units(circle.radius), mm_to_units(CONTROL_RATIO * circle.radius));
         let mut builder = PathBuilder::new();
         builder.move_to(r, 0.0);
         builder.cubic_to(r, k, k, r, 0.0, r);
@@ -117,22 +121,25 @@ impl<'d> Pen<'d> {
         builder.cubic_to(-r, -k, -k, -r, 0.0, -r);
         builder.cubic_to(k, -r, r, -k, r, 0.0);
         builder.close();
-        self.draw(Frame::at(circle.centre), builder, circle.stroke, circle.fill);
+        self.paint_path(CoordinateFrame::upright(circle.centre), builder, circle.stroke, circle.fill);
     }
 
-    fn text(&mut self, text: &Text) {
-        let page = Frame::at(Point::origin());
-        let frame =
-            if text.quarter_turns == 0 { page } else { Frame { origin: text.at, quarter_turns: text.quarter_turns } };
+    fn draw_text(&mut self, text: &Text) {
+        let page = CoordinateFrame::upright(Point::origin());
+        let frame = if text.quarter_turns == 0 {
+            page
+        } else {
+            CoordinateFrame { origin: text.position, quarter_turns: text.quarter_turns }
+        };
         let mut at = text.start();
-        self.surface.set_fill(Some(fill(text.color)));
+        self.surface.set_fill(Some(to_fill(text.color)));
         self.surface.set_stroke(None);
         self.surface.push_transform(&frame.points_from_units());
-        for Run { text: words, face } in &text.runs {
-            let [x, y] = place(&at, frame.origin);
+        for TextRun { text: words, face } in &text.runs {
+            let [x, y] = point_in_units(&at, frame.origin);
             if let Some(font) = self.fonts.get(*face) {
-                let (start, size) = (geom::Point::from_xy(x, y), units(text.size));
-                self.surface.draw_glyphs(start, &glyphs(words, *face), font, words, size, false);
+                let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(text.size));
+                self.surface.draw_glyphs(start, &layout_glyphs(words, *face), font, words, size, false);
             }
             at.x += face.width(words, text.size);
         }
@@ -141,25 +148,25 @@ impl<'d> Pen<'d> {
 }
 
 /// A place in units from an origin, which are whole.
-fn place(point: &Point, origin: Point) -> [f32; 2] {
-    [units(point.x - origin.x), units(point.y - origin.y)]
+fn point_in_units(point: &Point, origin: Point) -> [f32; 2] {
+    [mm_to_units(point.x - origin.x), mm_to_units(point.y - origin.y)]
 }
 
 /// Millimetres in whole units.
-fn units(mm: f64) -> f32 {
-    (on_paper(mm) * UNITS_PER_MM).round() as f32
+fn mm_to_units(mm: f64) -> f32 {
+    (clamp_length(mm) * UNITS_PER_MM).round() as f32
 }
 
 /// A length that can be written: what is no number is 0, and what is beyond all paper stays just there.
-fn on_paper(mm: f64) -> f64 {
-    const BEYOND: f64 = 1e5;
-    if mm.is_nan() { 0.0 } else { mm.clamp(-BEYOND, BEYOND) }
+fn clamp_length(mm: f64) -> f64 {
+    const LIMIT: f64 = 1e5;
+    if mm.is_nan() { 0.0 } else { mm.clamp(-LIMIT, LIMIT) }
 }
 
-fn fill(color: Color) -> Fill {
-    Fill { paint: rgb(color).into(), ..Fill::default() }
+fn to_fill(color: Color) -> Fill {
+    Fill { paint: to_rgb(color).into(), ..Fill::default() }
 }
 
-fn rgb(Color(r, g, b): Color) -> rgb::Color {
+fn to_rgb(Color(r, g, b): Color) -> rgb::Color {
     rgb::Color::new(r, g, b)
 }

@@ -18,28 +18,28 @@ use krilla::outline::{Outline, OutlineNode};
 use krilla::page::{NumberingStyle, Page, PageLabel, PageSettings};
 use krilla::{Document, SerializeSettings};
 
-use crate::scene::{Entry, Label, Link, Scene};
-use drawing::{Pen, points};
-use fonts::Fonts;
+use crate::scene::{OutlineEntry, PageLink, PageNumber, Scene};
+use drawing::{PagePainter, mm_to_points};
+use fonts::FontCache;
 
 /// Why a book cannot be written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A page has no area.
     #[error("a page of {width} by {height} mm cannot be written")]
-    Size {
+    InvalidSize {
         /// Millimetres across.
         width: f64,
         /// Millimetres down.
         height: f64,
     },
     /// A link or an entry of the outline leads to a page that is not in the book.
-    #[error("something leads to page {to} of a book of {pages} pages")]
-    NoPage {
+    #[error("something leads to page {page} of a book of {page_count} pages")]
+    MissingPage {
         /// The page it leads to, from 1.
-        to: usize,
+        page: usize,
         /// How many pages there are.
-        pages: usize,
+        page_count: usize,
     },
     /// A face cannot be embedded, or a limit of the format is passed.
     #[error("the book cannot be written: {0}")]
@@ -50,49 +50,56 @@ pub enum Error {
 pub struct Book {
     document: Document,
     metadata: Metadata,
-    fonts: Fonts,
-    pages: usize,
+    fonts: FontCache,
+    page_count: usize,
     /// The furthest page a link leads to.
-    furthest: Option<usize>,
+    furthest_linked_page: Option<usize>,
 }
 
 impl Book {
     /// An empty book: its title, and the program that writes it. There is no date and no name of a machine in it.
     pub fn new(title: &str, program: &str) -> Book {
         let settings = SerializeSettings { enable_tagging: false, ..SerializeSettings::default() };
-        let program = plain(program);
-        let metadata = Metadata::new().title(plain(title)).creator(program.clone()).producer(program);
+        let program = sanitize_text(program);
+        let metadata = Metadata::new().title(sanitize_text(title)).creator(program.clone()).producer(program);
         let metadata = metadata.language("en".to_owned());
-        Book { document: Document::new_with(settings), metadata, fonts: Fonts::default(), pages: 0, furthest: None }
+        Book {
+            document: Document::new_with(settings),
+            metadata,
+            fonts: FontCache::default(),
+            page_count: 0,
+            furthest_linked_page: None,
+        }
     }
 
     /// How many pages it has so far, which is the place of the next one.
-    pub fn pages(&self) -> usize {
-        self.pages
+    pub fn page_count(&self) -> usize {
+        self.page_count
     }
 
     /// Adds a page.
     ///
     /// # Errors
     /// A page without area.
-    pub fn add(&mut self, scene: &Scene, label: Label) -> Result<(), Error> {
+    pub fn add_page(&mut self, scene: &Scene, label: PageNumber) -> Result<(), Error> {
         let Scene { width, height, .. } = *scene;
-        let settings = PageSettings::from_wh(points(width), points(height)).ok_or(Error::Size { width, height })?;
+        let settings = PageSettings::from_wh(mm_to_points(width), mm_to_points(height))
+            .ok_or(Error::InvalidSize { width, height })?;
         let (style, number) = match label {
-            Label::Roman(number) => (NumberingStyle::LowerRoman, number),
-            Label::Arabic(number) => (NumberingStyle::Arabic, number),
+            PageNumber::Roman(number) => (NumberingStyle::LowerRoman, number),
+            PageNumber::Arabic(number) => (NumberingStyle::Arabic, number),
         };
         let label = PageLabel::new(Some(style), None, NonZeroU32::new(number));
         let mut page = self.document.start_page_with(settings.with_page_label(label));
-        let mut pen = Pen::new(page.surface(), &mut self.fonts);
-        pen.scene(scene);
+        let mut pen = PagePainter::new(page.surface(), &mut self.fonts);
+        pen.draw_scene(scene);
         pen.finish();
         for link in &scene.links {
-            self.furthest = self.furthest.max(Some(link.page));
-            annotate(&mut page, link);
+            self.furthest_linked_page = self.furthest_linked_page.max(Some(link.page_index));
+            add_link_annotation(&mut page, link);
         }
         page.finish();
-        self.pages += 1;
+        self.page_count += 1;
         Ok(())
     }
 
@@ -100,16 +107,16 @@ impl Book {
     ///
     /// # Errors
     /// A link or an entry that leads to no page; a face that cannot be embedded.
-    pub fn finish(mut self, outline: &[Entry]) -> Result<Vec<u8>, Error> {
-        let furthest = outline.iter().map(furthest).max().max(self.furthest);
-        if let Some(to) = furthest.filter(|&to| to >= self.pages) {
-            return Err(Error::NoPage { to: to + 1, pages: self.pages });
+    pub fn finish(mut self, outline: &[OutlineEntry]) -> Result<Vec<u8>, Error> {
+        let furthest = outline.iter().map(furthest_page).max().max(self.furthest_linked_page);
+        if let Some(to) = furthest.filter(|&to| to >= self.page_count) {
+            return Err(Error::MissingPage { page: to + 1, page_count: self.page_count });
         }
-        if let Some(face) = self.fonts.unreadable() {
+        if let Some(face) = self.fonts.first_unreadable() {
             return Err(Error::Writing(format!("the face {face:?} cannot be read")));
         }
         let mut root = Outline::new();
-        outline.iter().for_each(|entry| root.push_child(node(entry)));
+        outline.iter().for_each(|entry| root.push_child(outline_node(entry)));
         self.document.set_outline(root);
         self.document.set_metadata(self.metadata);
         self.document.finish().map_err(|error| Error::Writing(error.to_string()))
@@ -117,32 +124,32 @@ impl Book {
 }
 
 /// The furthest page that an entry or one under it leads to.
-fn furthest(entry: &Entry) -> usize {
-    entry.children.iter().map(furthest).fold(entry.page, usize::max)
+fn furthest_page(entry: &OutlineEntry) -> usize {
+    entry.children.iter().map(furthest_page).fold(entry.page_index, usize::max)
 }
 
-fn node(entry: &Entry) -> OutlineNode {
-    let mut node = OutlineNode::new(plain(&entry.title), top_of(entry.page));
-    entry.children.iter().for_each(|child| node.push_child(self::node(child)));
+fn outline_node(entry: &OutlineEntry) -> OutlineNode {
+    let mut node = OutlineNode::new(sanitize_text(&entry.title), top_of_page(entry.page_index));
+    entry.children.iter().for_each(|child| node.push_child(self::outline_node(child)));
     node
 }
 
-fn top_of(page: usize) -> XyzDestination {
+fn top_of_page(page: usize) -> XyzDestination {
     XyzDestination::new(page, geom::Point::from_xy(0.0, 0.0))
 }
 
 /// A box that is pressed and leads to a page; one without area cannot be pressed.
-fn annotate(page: &mut Page, link: &Link) {
-    let [left, top] = link.corner.coords.map(points).into();
-    let [right, bottom] = (link.corner + link.size).coords.map(points).into();
+fn add_link_annotation(page: &mut Page, link: &PageLink) {
+    let [left, top] = link.corner.coords.map(mm_to_points).into();
+    let [right, bottom] = (link.corner + link.size).coords.map(mm_to_points).into();
     if let Some(area) = Rect::from_ltrb(left, top, right, bottom) {
-        let target = Target::Destination(top_of(link.page).into());
+        let target = Target::Destination(top_of_page(link.page_index).into());
         page.add_annotation(LinkAnnotation::new(area, target).into());
     }
 }
 
 /// A text without characters that a document's description has no place for.
-fn plain(text: &str) -> String {
+fn sanitize_text(text: &str) -> String {
     let plain = |c: char| match c {
         '\t' | '\n' | '\r' => ' ',
         '\0'..='\x1f' | '\x7f' | '\u{fffe}' | '\u{ffff}' => '\u{fffd}',

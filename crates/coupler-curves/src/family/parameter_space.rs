@@ -1,0 +1,85 @@
+/// The most cells a family has without a `limit` of its own.
+pub const MAX_CELLS: usize = 100_000;
+
+/// The values one name takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The name's place in [`super::Family::names`].
+    pub slot: usize,
+    /// Its values, at least one.
+    pub values: Vec<f64>,
+}
+
+/// What one case gives: names' places and their values.
+pub type Case = Vec<(usize, f64)>;
+
+/// The parameter sets of a family.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ParameterSpace {
+    /// Every combination, in the order written, the last axis fastest.
+    Grid(Vec<Axis>),
+    /// One after another.
+    Cases(Vec<Case>),
+}
+
+impl ParameterSpace {
+    /// How many there are; the greatest number where there are more than can be counted.
+    pub fn count(&self) -> usize {
+        match self {
+            ParameterSpace::Grid(axes) => axes.iter().fold(1, |n: usize, axis| n.saturating_mul(axis.values.len())),
+            ParameterSpace::Cases(cases) => cases.len(),
+        }
+    }
+
+    /// Whether the `k`-th gives a value to a place.
+    pub fn assigns(&self, k: usize, slot: usize) -> bool {
+        match self {
+            ParameterSpace::Grid(axes) => axes.iter().any(|axis| axis.slot == slot),
+            ParameterSpace::Cases(cases) => cases[k].iter().any(|(given, _)| *given == slot),
+        }
+    }
+
+    /// The places that are given a value in any of them, in order.
+    pub fn assigned_slots(&self) -> Vec<usize> {
+        let mut slots: Vec<usize> = match self {
+            ParameterSpace::Grid(axes) => axes.iter().map(|axis| axis.slot).collect(),
+            ParameterSpace::Cases(cases) => cases.iter().flatten().map(|(slot, _)| *slot).collect(),
+        };
+        slots.sort_unstable();
+        slots.dedup();
+        slots
+    }
+
+    /// Writes the `k`-th, counted from 0, into its places.
+    pub(super) fn fill(&self, k: usize, values: &mut [f64]) {
+        match self {
+            ParameterSpace::Grid(axes) => {
+                let mut rest = k;
+                for axis in axes.iter().rev() {
+                    values[axis.slot] = axis.values[rest % axis.values.len()];
+                    rest /= axis.values.len();
+                }
+            }
+            ParameterSpace::Cases(cases) => {
+                for &(slot, value) in &cases[k] {
+                    values[slot] = value;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_axis_is_fastest() {
+        let axis = |slot, values: &[f64]| Axis { slot, values: values.to_vec() };
+        let grid = ParameterSpace::Grid(vec![axis(1, &[1.0, 2.0]), axis(0, &[3.0, 4.0, 5.0])]);
+        assert_eq!(grid.count(), 6);
+        let mut values = [0.0; 2];
+        grid.fill(4, &mut values);
+        assert_eq!(values, [4.0, 2.0]);
+    }
+}

@@ -1,0 +1,129 @@
+//! McCarthy's position analysis, chapter 2.2 and 2.3, equation by equation: angles in radians.
+
+use super::FourBar;
+use crate::geometry::trig::{acos, atan2, cos, sin};
+
+/// The inverted slider-crank of McCarthy 2.2: a crank about O whose pin A slides on a line that turns about C.
+///
+/// B is the foot of the line from C. The angle psi of CB is measured about C, theta of OA about O, both from O -> C.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InvertedSliderCrank {
+    /// The frame |OC|.
+    pub g: f64,
+    /// The crank |OA|.
+    pub r: f64,
+    /// The joint offset |CB|.
+    pub e: f64,
+}
+
+impl InvertedSliderCrank {
+    /// The slide s = |AB| at a crank angle, McCarthy (2.42); `None` where the linkage cannot be assembled. The other
+    /// assembly has the slide -s.
+    pub fn slide(&self, theta: f64) -> Option<f64> {
+        let square = self.g * self.g + self.r * self.r - self.e * self.e - 2.0 * self.r * self.g * cos(theta);
+        (square >= 0.0).then(|| square.sqrt())
+    }
+
+    /// b = |CA| of a slide, McCarthy (2.40).
+    pub fn b(&self, s: f64) -> f64 {
+        (s * s + self.e * self.e).sqrt()
+    }
+
+    /// The angle beta from CB to CA of a slide, McCarthy (2.40): atan2(s, e).
+    pub fn beta(&self, s: f64) -> f64 {
+        atan2(s, self.e)
+    }
+
+    /// The crank angle in [0, pi] of a slide, McCarthy (2.43); the other is its negative. `None` where the actuator is
+    /// too long or too short.
+    pub fn theta(&self, s: f64) -> Option<f64> {
+        let InvertedSliderCrank { g, r, e } = *self;
+        clamped_acos(g * g + r * r - e * e - s * s, g * g + r * r + e * e + s * s, 2.0 * r * g)
+    }
+
+    /// The angle psi of CB at a crank angle and its slide, McCarthy (2.45).
+    pub fn psi(&self, theta: f64, s: f64) -> f64 {
+        atan2(self.r * sin(theta), self.r * cos(theta) - self.g) - self.beta(s)
+    }
+
+    /// The least and the greatest crank angle in [0, pi] that can be assembled; the range is the same below the frame.
+    /// `None` where there is none.
+    pub fn crank_range(&self) -> Option<[f64; 2]> {
+        let InvertedSliderCrank { g, r, e } = *self;
+        let e = e.abs();
+        if e > g + r {
+            return None;
+        }
+        let nearest = (g - r).abs();
+        let least = if nearest >= e { 0.0 } else { acos((g * g + r * r - e * e) / (2.0 * r * g)) };
+        Some([least, std::f64::consts::PI])
+    }
+
+    /// The least and the greatest slide s >= 0; `None` where the linkage cannot be assembled.
+    pub fn slide_range(&self) -> Option<[f64; 2]> {
+        let leg = |base: f64| ((base - self.e) * (base + self.e)).max(0.0).sqrt();
+        self.crank_range().map(|_| [leg((self.g - self.r).abs()), leg(self.g + self.r)])
+    }
+}
+
+/// The 4R linkage of McCarthy 2.3, driven by its crank: a is the crank, b the rocker, g the frame, h the coupler.
+impl FourBar {
+    /// What must not be negative for the linkage to be assembled at a crank angle, McCarthy (2.53).
+    pub fn solvability(&self, theta: f64) -> f64 {
+        let [a, b, c] = self.output_coefficients(theta);
+        a * a + b * b - c * c
+    }
+
+    /// The output angle psi about C on branch 1 and on branch -1, McCarthy (2.52).
+    pub fn output_angles(&self, theta: f64) -> Option<[f64; 2]> {
+        // Left of A -> C is clockwise of the diagonal from C to A, which delta is the direction of.
+        solve_angle(self.output_coefficients(theta))
+    }
+
+    /// The coupler angle phi, measured about A from OA, that goes with an output angle, McCarthy (2.57).
+    pub fn coupler_angle(&self, theta: f64, psi: f64) -> f64 {
+        let FourBar { frame: g, crank: a, rocker: b, .. } = *self;
+        atan2(b * sin(psi) - a * sin(theta), g + b * cos(psi) - a * cos(theta)) - theta
+    }
+
+    /// The coupler angle phi on branch 1 and on branch -1 without the output angle, McCarthy (2.59) and (2.60).
+    pub fn coupler_angles(&self, theta: f64) -> Option<[f64; 2]> {
+        let FourBar { frame: g, crank: a, coupler: h, rocker: b } = *self;
+        solve_angle([
+            2.0 * a * h - 2.0 * g * h * cos(theta),
+            2.0 * g * h * sin(theta),
+            b * b - a * a - g * g - h * h + 2.0 * a * g * cos(theta),
+        ])
+    }
+
+    /// The transmission angle zeta at B between coupler and rocker, from 0 to pi, by the law of cosines.
+    pub fn transmission_angle(&self, theta: f64) -> Option<f64> {
+        let FourBar { frame: g, crank: a, coupler: h, rocker: b } = *self;
+        let diagonal = g * g + a * a - 2.0 * a * g * cos(theta);
+        clamped_acos(h * h + b * b - diagonal, h * h + b * b + diagonal, 2.0 * h * b)
+    }
+
+    /// A, B and C of McCarthy (2.51).
+    fn output_coefficients(&self, theta: f64) -> [f64; 3] {
+        let FourBar { frame: g, crank: a, coupler: h, rocker: b } = *self;
+        [
+            2.0 * a * b * cos(theta) - 2.0 * g * b,
+            2.0 * a * b * sin(theta),
+            g * g + b * b + a * a - h * h - 2.0 * a * g * cos(theta),
+        ]
+    }
+}
+
+/// The angle in [0, pi] whose cosine is a quotient, where that is at most 1 but for the rounding of its dividend, a sum
+/// of terms of a given magnitude.
+fn clamped_acos(dividend: f64, magnitude: f64, divisor: f64) -> Option<f64> {
+    let beyond = dividend.abs() - divisor;
+    (beyond <= 4.0 * f64::EPSILON * magnitude).then(|| acos((dividend / divisor).clamp(-1.0, 1.0)))
+}
+
+/// The solutions of A cos x + B sin x = C, McCarthy (A.1): the diagonal's direction less and plus the arc cosine.
+fn solve_angle([a, b, c]: [f64; 3]) -> Option<[f64; 2]> {
+    let (delta, radius) = (atan2(b, a), (a * a + b * b).sqrt());
+    let epsilon = clamped_acos(c, c.abs() + radius, radius)?;
+    Some([delta - epsilon, delta + epsilon])
+}

@@ -1,0 +1,327 @@
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity};
+use crate::problem::{Problem, Span};
+use crate::template::InputValue;
+
+/// A TOML value and its place in the text.
+pub type TomlValue<'t> = Spanned<DeValue<'t>>;
+
+/// Reads a TOML text and gathers what is wrong with it.
+pub struct TomlParser<'t> {
+    text: &'t str,
+    problems: Vec<Problem>,
+}
+
+impl<'t> TomlParser<'t> {
+    /// A reader of a text.
+    pub fn new(text: &'t str) -> TomlParser<'t> {
+        TomlParser { text, problems: Vec::new() }
+    }
+
+    /// The text as TOML: what can be made of it where its syntax is wrong.
+    pub fn parse_document(&mut self) -> TomlValue<'t> {
+        // A byte order mark is no part of the text, but a place in it counts from there.
+        let (table, errors) = DeTable::parse_recoverable(self.text);
+        for error in errors {
+            let span = error.span().unwrap_or(0..0);
+            let problem = Problem::error(span, format!("this is not TOML: {}", error.message()));
+            self.report(problem.with_help("see https://toml.io for how tables, keys and values are written"));
+        }
+        let span = table.span();
+        Spanned::new(span, DeValue::Table(table.into_inner()))
+    }
+
+    /// Notes a problem and reads on.
+    pub fn report(&mut self, problem: Problem) {
+        self.problems.push(problem);
+    }
+
+    /// How many problems were noted so far.
+    pub fn problem_count(&self) -> usize {
+        self.problems.len()
+    }
+
+    /// What was wrong.
+    pub fn into_problems(self) -> Vec<Problem> {
+        self.problems
+    }
+
+    pub(super) fn report_mismatch(&mut self, value: &TomlValue, wanted: &str, help: &str) {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "text",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.report(
+            Problem::error(value.span(), format!("{wanted} is wanted here, and this is {found}")).with_help(help),
+        );
+    }
+
+    /// Text on one line: line breaks and tabs count as spaces. Other control characters, which could not be written to an
+    /// SVG, are a problem.
+    pub fn text(&mut self, value: &TomlValue<'t>) -> Option<String> {
+        let DeValue::String(text) = value.get_ref() else {
+            self.report_mismatch(value, "text", "put it in quotes");
+            return None;
+        };
+        let is_unreadable = |&(at, c): &(usize, char)| {
+            c.is_control() && !matches!(c, '\t' | '\n') && !text[at..].starts_with("\r\n")
+                || matches!(c, '\u{fffe}' | '\u{ffff}')
+        };
+        if let Some((at, c)) = text.char_indices().find(is_unreadable) {
+            let span = self.span_in_string(value, at..at + c.len_utf8());
+            let problem = Problem::error(span, format!("a text cannot have the control character U+{:04X}", c as u32));
+            self.report(problem.with_help("leave it out; a line break or a tab counts as a space"));
+            return None;
+        }
+        Some(text.replace("\r\n", " ").replace(['\n', '\t'], " "))
+    }
+
+    /// True or false, or one word of several.
+    pub fn word<T: Copy>(&mut self, value: &TomlValue<'t>, words: &[(&str, T)]) -> Option<T> {
+        let text = self.text(value)?;
+        if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == text) {
+            return Some(*meaning);
+        }
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let help = format!("it can be {}", known.iter().map(|w| format!("\"{w}\"")).collect::<Vec<_>>().join(" or "));
+        self.report(
+            Problem::error(value.span(), format!("`{text}` is not one of the words allowed here")).with_help(help),
+        );
+        None
+    }
+
+    /// A list.
+    pub fn list<'v>(&mut self, value: &'v TomlValue<'t>) -> Option<&'v [TomlValue<'t>]> {
+        match value.get_ref() {
+            DeValue::Array(list) => Some(list),
+            _ => {
+                self.report_mismatch(value, "a list", "put it in brackets: [1, 2]");
+                None
+            }
+        }
+    }
+
+    /// A list of two.
+    pub fn pair<'v>(&mut self, value: &'v TomlValue<'t>) -> Option<[&'v TomlValue<'t>; 2]> {
+        match self.list(value)? {
+            [a, b] => Some([a, b]),
+            list => {
+                let problem =
+                    Problem::error(value.span(), format!("two values are wanted here, and there are {}", list.len()));
+                self.report(problem.with_help("write them like [1, 2]"));
+                None
+            }
+        }
+    }
+
+    /// A whole number between two bounds.
+    pub fn integer(&mut self, value: &TomlValue<'t>, least: usize, most: usize) -> Option<usize> {
+        let help = format!("give a whole number from {least} to {most}");
+        let number = match value.get_ref() {
+            DeValue::Integer(n) => i128::from_str_radix(n.as_str(), n.radix()).ok(),
+            // Integers and floats are alike: 5.0 is 5.
+            DeValue::Float(x) => x.as_str().parse().ok().filter(|x: &f64| x.fract() == 0.0).map(|x| x as i128),
+            _ => {
+                self.report_mismatch(value, "a whole number", &help);
+                return None;
+            }
+        };
+        let count = number.and_then(|n| usize::try_from(n).ok()).filter(|n| (least..=most).contains(n));
+        if count.is_none() {
+            let written = self.source_text(value).to_owned();
+            self.report(Problem::error(value.span(), format!("{written} will not do here")).with_help(help));
+        }
+        count
+    }
+
+    /// A number or an expression in quotes.
+    pub fn expression(&mut self, value: &TomlValue<'t>) -> Option<Expression> {
+        match value.get_ref() {
+            DeValue::Integer(_) | DeValue::Float(_) => self.literal(value).map(Expression::constant),
+            DeValue::String(text) => {
+                let parsed = Expression::parse(text);
+                self.ok_or_report(value, parsed)
+            }
+            _ => {
+                self.report_mismatch(
+                    value,
+                    "a number or an expression",
+                    "write a number, or an expression in quotes: \"2 * a\"",
+                );
+                None
+            }
+        }
+    }
+
+    /// A number or an expression over the names of `scope`, with a numeric value.
+    pub fn numeric_expression(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<CompiledExpression> {
+        let expression = self.expression(value)?;
+        let bound = expression.compile(scope, Kind::Number);
+        self.ok_or_report(value, bound)
+    }
+
+    /// A number, or an expression without names.
+    pub fn constant(&mut self, value: &TomlValue<'t>) -> Option<f64> {
+        let bound = self.numeric_expression(value, &[])?;
+        self.require_finite(value, bound.evaluate(|_| f64::NAN))
+    }
+
+    /// A value of the input over the names of `scope`: an angle with its unit, or a length without.
+    pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &[(&str, Kind)]) -> Option<InputValue> {
+        if is_length {
+            return Some(InputValue { value: self.input_length(value, scope)?, unit: None });
+        }
+        self.angle(value, scope)
+    }
+
+    /// An input that is a length, in the manifest's unit: a number, or an expression without a unit.
+    pub fn input_length(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<CompiledExpression> {
+        let is_angle = |text: &str| Quantity::parse(text, Dimension::Angle).is_ok();
+        if value.get_ref().as_str().is_some_and(is_angle) {
+            let problem = Problem::error(value.span(), "the input is a length here, for an actuator drives");
+            self.report(problem.with_help("give a number in the unit of the other lengths"));
+            return None;
+        }
+        self.numeric_expression(value, scope)
+    }
+
+    /// An angle over the names of `scope`.
+    pub fn angle(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<InputValue> {
+        let quantity = self.quantity(value, Dimension::Angle)?;
+        let bound = quantity.expression.compile(scope, Kind::Number);
+        Some(InputValue { value: self.ok_or_report(value, bound)?, unit: Some(quantity.unit) })
+    }
+
+    /// Yes or no.
+    pub fn boolean(&mut self, value: &TomlValue<'t>) -> Option<bool> {
+        let truth = value.get_ref().as_bool();
+        if truth.is_none() {
+            self.report_mismatch(value, "true or false", "write it without quotes");
+        }
+        truth
+    }
+
+    /// An angle in degrees, or a length on paper in millimetres, without names.
+    pub fn constant_quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<f64> {
+        let quantity = self.quantity(value, dimension)?;
+        let bound = quantity.expression.compile(&[], Kind::Number);
+        self.ok_or_report(value, bound)?;
+        self.require_finite(value, quantity.evaluate(|_| f64::NAN))
+    }
+
+    fn quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<Quantity> {
+        match value.get_ref() {
+            DeValue::String(text) => {
+                let parsed = Quantity::parse(text, dimension);
+                self.ok_or_report(value, parsed)
+            }
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                let written = self.source_text(value);
+                let unit = if dimension == Dimension::Angle { "deg" } else { "mm" };
+                let help = format!("write \"{written} {unit}\" with its quotes");
+                self.report(Problem::error(value.span(), "the unit is missing").with_help(help));
+                None
+            }
+            _ => {
+                self.report_mismatch(value, "a quantity", "write a number and a unit in quotes: \"5 deg\"");
+                None
+            }
+        }
+    }
+
+    /// A line of text with values of `scope` in it, and words that stand alone.
+    pub fn caption(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)], words: &[&str]) -> Option<Caption> {
+        let text = self.text(value)?;
+        let as_written = |error: expression::Error| expression::Error { span: unfold_span(value, error.span), ..error };
+        let parsed = Caption::parse(&text).map_err(as_written);
+        let caption = self.ok_or_report(value, parsed)?;
+        for (expression, start) in caption.expressions() {
+            let is_word = expression.as_name().is_some_and(|name| words.contains(&name));
+            if let (Err(error), false) = (expression.compile(scope, Kind::Number), is_word) {
+                let span = start + error.span.start..start + error.span.end;
+                self.ok_or_report::<()>(value, Err(as_written(expression::Error { span, ..error })));
+            }
+        }
+        Some(caption)
+    }
+
+    /// The value of a TOML number.
+    fn literal(&mut self, value: &TomlValue<'t>) -> Option<f64> {
+        let number = match value.get_ref() {
+            DeValue::Integer(n) if n.radix() == 10 => n.as_str().parse().ok(),
+            DeValue::Integer(n) => i128::from_str_radix(n.as_str(), n.radix()).ok().map(|n| n as f64),
+            DeValue::Float(x) => x.as_str().parse().ok(),
+            _ => None,
+        };
+        self.require_finite(value, number.unwrap_or(f64::NAN))
+    }
+
+    /// The value if it is finite.
+    pub fn require_finite(&mut self, value: &TomlValue<'t>, number: f64) -> Option<f64> {
+        if number.is_finite() {
+            return Some(number);
+        }
+        let problem = Problem::error(value.span(), format!("its value is {number}, which is not a finite number"));
+        self.report(problem.with_help("every value must be finite"));
+        None
+    }
+
+    /// The decimal digits of a number, where it is written as one.
+    pub fn decimal_digits(&self, value: &TomlValue<'t>) -> Option<&str> {
+        match value.get_ref() {
+            DeValue::Integer(_) | DeValue::Float(_) => Some(self.source_text(value)),
+            DeValue::String(text) if text.parse::<f64>().is_ok() => {
+                Some(self.source_text(value).trim_matches(['"', '\'']))
+            }
+            _ => None,
+        }
+    }
+
+    /// The value as it stands in the text.
+    fn source_text(&self, value: &TomlValue<'t>) -> &'t str {
+        self.text.get(value.span()).unwrap_or_default()
+    }
+
+    /// The result, or its error noted at its place inside a string.
+    pub fn ok_or_report<T>(&mut self, value: &TomlValue<'t>, result: Result<T, expression::Error>) -> Option<T> {
+        match result {
+            Ok(found) => Some(found),
+            Err(error) => {
+                let problem = error.into_problem(|inner| self.span_in_string(value, inner));
+                self.report(problem);
+                None
+            }
+        }
+    }
+
+    /// The place in the text of a part of a string; the whole string where it is written with escapes.
+    fn span_in_string(&self, value: &TomlValue<'t>, inner: Span) -> Span {
+        let whole = value.span();
+        let DeValue::String(content) = value.get_ref() else { return whole };
+        let written = self.source_text(value);
+        let quotes = written.len().saturating_sub(content.len()) / 2;
+        let as_is = matches!(quotes, 1 | 3) && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
+        if as_is {
+            let start = whole.start + quotes;
+            start + inner.start..start + inner.end.max(inner.start)
+        } else {
+            whole
+        }
+    }
+}
+
+/// A part of a text as it is in the string that [`TomlParser::text`] has made one line of: there a line end of two signs is one.
+fn unfold_span(value: &TomlValue, span: Span) -> Span {
+    let DeValue::String(content) = value.get_ref() else { return span };
+    let written = |at: usize| {
+        let ends = content.match_indices("\r\n").zip(0..).take_while(|((end, _), before)| end - before < at);
+        at + ends.count()
+    };
+    written(span.start)..written(span.end)
+}

@@ -1,0 +1,29 @@
+use super::{Measure, TracedCurve, Value};
+use crate::linkage::FourBar;
+
+/// McCarthy's type.
+pub const TYPE: Measure = Measure {
+    name: "type",
+    unit: "",
+    is_word: true,
+    definition: "McCarthy's type of a four-bar (Geometric Design of Linkages, table 2.2): 0 and π say where a rocker's range lies",
+    compute: |subject: &TracedCurve| {
+        FourBar::from_linkage(subject.linkage).map_or(Value::Missing, |bar| Value::Word(bar.mccarthy_type()))
+    },
+};
+
+/// The shortest link.
+pub const SHORTEST: Measure = Measure {
+    name: "shortest",
+    unit: "",
+    is_word: true,
+    definition: "the shortest link of a four-bar, as seen from its frame; of equal ones the first of frame, crank, coupler, rocker",
+    compute: |subject: &TracedCurve| {
+        let Some(FourBar { frame, crank, coupler, rocker }) = FourBar::from_linkage(subject.linkage) else {
+            return Value::Missing;
+        };
+        let links = [("frame", frame), ("crank", crank), ("coupler", coupler), ("rocker", rocker)];
+        let least = links.into_iter().reduce(|best, link| if link.1 < best.1 { link } else { best });
+        least.map_or(Value::Missing, |(name, _)| Value::Word(name))
+    },
+};

@@ -1,0 +1,60 @@
+//! The foot of a page: the ratios large, the facts and the folio; and the source in the column.
+
+use super::super::arrangement::Rect;
+use super::super::element::{Area, draw as put, size};
+use super::super::theme::Theme;
+use super::super::{CouplerGridPage, Options, figure};
+use crate::scene::Anchor;
+use coupler_curves::geometry::Point;
+
+/// Draws it, and says how high it is, from the edge of the paper.
+pub(super) fn draw(area: &Area, sheet: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
+    let page = size(area);
+    let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
+    let half = 0.49 * (right - left);
+    let at = Point::new(left, page.y - theme.border - 0.65 * theme.margin);
+    // Of several spaces together, some programs that show an SVG keep one: a wide space they keep.
+    let ratios = sheet.panel.caption.replace("  ", "\u{2003}");
+    let ratios = theme.text_line(&ratios, at, Anchor::Start, theme.title_size, theme.ink);
+    put(area, &ratios.with_italics(sheet.heading.symbols).fit_width(half));
+    let line =
+        |text: &str, y: f64| theme.text_line(text, Point::new(right, y), Anchor::End, theme.source_size, theme.grey);
+    let titles = format!("{} · {}", sheet.heading.atlas_title, sheet.heading.family_title);
+    put(area, &line(&titles, at.y).fit_width_with_suffix(&sheet.heading.folio(), half));
+    let facts = facts(sheet, options);
+    if !facts.is_empty() {
+        put(area, &line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
+    }
+    theme.border + 0.65 * theme.margin + 1.5 * theme.title_size
+}
+
+/// Its class, the range of its transmission angle, and what a dash is where a curve is drawn.
+fn facts(sheet: &CouplerGridPage, options: &Options) -> String {
+    let solved = sheet.panel.solved_cell;
+    let dash = || {
+        let span = figure::dash_period(solved, options);
+        format!("one dash and its gap = {span}{} of input", super::input_unit(solved))
+    };
+    let dash = if sheet.curve_indices.is_empty() { String::new() } else { dash() };
+    let parts = [sheet.panel.facts[0].as_str(), &sheet.panel.note, &dash];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
+}
+
+/// The source, if there is one, in as many lines as it takes, at the foot of the column.
+pub(super) fn draw_source(area: &Area, side: Rect, sheet: &CouplerGridPage, theme: &Theme) {
+    let symbols = sheet.heading.symbols;
+    if sheet.heading.source.is_empty() {
+        return;
+    }
+    let lines = theme
+        .text_line(&sheet.heading.source, Point::origin(), Anchor::End, theme.note_size, theme.grey)
+        .wrap(side.size.x);
+    let right = side.corner.x + side.size.x;
+    let step = 1.45 * theme.note_size;
+    let first = side.corner.y + side.size.y - step * lines.len() as f64;
+    for (k, line) in lines.iter().enumerate() {
+        let at = Point::new(right, first + step * k as f64);
+        let line = theme.text_line(line, at, Anchor::End, theme.note_size, theme.grey);
+        put(area, &line.with_italics(symbols).fit_width(side.size.x));
+    }
+}

@@ -1,0 +1,248 @@
+//! The data of a family: a script of statements, each of which hands some of it to the page.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value, json};
+
+use super::template_json::{expression_json, template_json};
+use super::typed_array::{f64s, u8s, u16s, u32s};
+use crate::manifest::{Plan, PlannedFamily};
+use coupler_curves::family::{Sampling, StraightCriterion};
+use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::measure;
+use coupler_curves::solve::{MeasuredCurve, SolvedCell, Status};
+use coupler_drawing::page::Layout;
+use coupler_drawing::scene::{Group, Item, Scene};
+
+/// The name of the script in a family's folder.
+pub const SCRIPT_FILE: &str = "gallery.js";
+
+/// So many points of a curve are handed over at most: enough to draw it small, to point at it, and to compare shapes. A
+/// curve that is looked at is solved by the page itself.
+const MAX_POINTS: usize = 128;
+
+/// The code of a word that a curve does not have.
+const MISSING_WORD: u8 = u8::MAX;
+
+/// The statements of a family's script.
+#[derive(Clone, Copy, Debug)]
+pub struct FamilyScript<'a> {
+    plan: &'a Plan,
+    planned: &'a PlannedFamily,
+}
+
+impl<'a> FamilyScript<'a> {
+    /// Those of a family of a plan.
+    pub fn new(plan: &'a Plan, planned: &'a PlannedFamily) -> FamilyScript<'a> {
+        FamilyScript { plan, planned }
+    }
+
+    /// The first: all that is said of the family as a whole.
+    pub fn begin(self) -> String {
+        let family = &self.planned.family;
+        let derived: Vec<Value> =
+            family.derived.iter().map(|(slot, bound)| json!([slot, expression_json(bound)])).collect();
+        let paper = self.plan.page.paper;
+        let layout = match self.planned.layout {
+            Layout::Panels { .. } => "panels",
+            Layout::Chart { .. } => "chart",
+            Layout::CouplerGrid => "coupler-grid",
+        };
+        statement(
+            "begin",
+            &json!({
+                "id": family.id,
+                "title": family.title,
+                "source": self.planned.source,
+                "legend": family.template.legend,
+                "linkage": family.template.id,
+                "layout": layout,
+                "sampling": sampling_json(family.sampling),
+                "paper": { "width": paper.width, "height": paper.height, "color": self.plan.page.theme.paper.to_string() },
+                "columns": family.columns.iter().map(|column| column.name).collect::<Vec<_>>(),
+                "dash_deg": self.plan.page.dash_deg,
+                "straight": straight_json(family.straight),
+                "template": template_json(&family.template),
+                "names": family.names,
+                "free": family.space.assigned_slots(),
+                "derived": derived,
+            }),
+        )
+    }
+
+    /// Some cells with their curves, in the order of their numbers; nothing where there are none.
+    pub fn cells(self, solved: &[SolvedCell]) -> String {
+        let kept: Vec<&SolvedCell> = solved.iter().filter(|solved| !solved.is_left_out()).collect();
+        if kept.is_empty() {
+            return String::new();
+        }
+        let family = &self.planned.family;
+        let lines: Vec<[String; 2]> =
+            kept.iter().map(|s| family.format_captions(&s.cell, s.first_curve_values())).collect();
+        let reason = |s: &&SolvedCell| s.motion.incomplete_reason.clone().unwrap_or_default();
+        let status = |s: &&SolvedCell| match s.status() {
+            Status::Ok => 0,
+            Status::Partial => 1,
+            Status::None => 2,
+        };
+        let curves: Vec<(usize, &SolvedCell, &MeasuredCurve)> =
+            kept.iter().enumerate().flat_map(|(k, s)| s.curves.iter().map(move |curve| (k, *s, curve))).collect();
+        statement(
+            "cells",
+            &json!({
+                "number": u32s(kept.iter().map(|s| s.cell.number)),
+                "values": f64s(kept.iter().flat_map(|s| s.cell.values.iter().copied())),
+                "status": u8s(kept.iter().map(status)),
+                "reason": kept.iter().map(reason).collect::<Vec<_>>(),
+                "caption": lines.iter().map(|[caption, _]| caption.as_str()).collect::<Vec<_>>(),
+                "note": lines.iter().map(|[_, note]| note.as_str()).collect::<Vec<_>>(),
+                "curves": self.curves(&curves),
+            }),
+        )
+    }
+
+    /// Curves, each with the place of its cell among those handed over.
+    fn curves(self, curves: &[(usize, &SolvedCell, &MeasuredCurve)]) -> Value {
+        let of = |curve: &MeasuredCurve, k: usize| match curve.values.get(k) {
+            Some(measure::Value::Number(value)) => *value,
+            _ => f64::NAN,
+        };
+        let taken = || self.planned.family.computed_measures();
+        let numbers = taken().filter(|(_, measure)| !measure.is_word);
+        let measures: Map<String, Value> =
+            numbers.map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| of(curve, k))))).collect();
+        let words = taken().filter(|(_, measure)| measure.is_word);
+        let words: Map<String, Value> = words.map(|(k, m)| (m.name.to_owned(), words_json(curves, k))).collect();
+        let points: Vec<Vec<Point>> = curves.iter().map(|(_, solved, curve)| thinned_points(solved, curve)).collect();
+        let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::from_points(points.iter().copied())).collect();
+        let corners = |b: &Bounds| [b.min.x, b.min.y, b.max.x, b.max.y];
+        let places =
+            points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantize(*p, bounds)));
+        json!({
+            "cell": u32s(curves.iter().map(|(cell, ..)| *cell)),
+            "trace": u16s(curves.iter().map(|(.., curve)| saturating_u16(curve.trace))),
+            "circuit": u16s(curves.iter().map(|(.., curve)| saturating_u16(curve.circuit))),
+            "closed": u8s(curves.iter().map(|(_, solved, curve)| u8::from(solved.circuit(curve).is_closed))),
+            "measures": measures,
+            "words": words,
+            "box": f64s(boxes.iter().flat_map(corners)),
+            "count": u16s(points.iter().map(|points| saturating_u16(points.len()))),
+            "points": u16s(places),
+        })
+    }
+
+    /// What is where on a page: the transforms from the plane to millimetres of the paper, with the curves they are of.
+    pub fn page(self, number: usize, scene: &Scene) -> String {
+        let mut views: Vec<Value> = Vec::new();
+        let mut last = Vec::new();
+        for (fact, curve) in drawn_curves(&scene.items) {
+            if fact != last || views.is_empty() {
+                let [cell, scale, x, y] = [0, 1, 2, 3].map(|k| fact.get(k).copied().unwrap_or(f64::NAN));
+                views.push(json!({ "cell": cell, "scale": scale, "origin": [x, y], "curves": [] }));
+                last = fact;
+            }
+            if let Some(Value::Array(curves)) = views.last_mut().and_then(|view| view.get_mut("curves")) {
+                curves.push(json!(curve));
+            }
+        }
+        statement("page", &json!({ "page": number, "views": views }))
+    }
+
+    /// The last: nothing more comes.
+    pub fn end(self) -> String {
+        statement("end", &json!({ "id": self.planned.family.id }))
+    }
+}
+
+/// A statement. Whatever the text in it, it is JSON, and no script ends within it.
+fn statement(name: &str, value: &Value) -> String {
+    format!("couplerAtlas.{name}({value});\n")
+}
+
+/// How circuits are sampled, in the words of a manifest.
+pub fn sampling_json(sampling: Sampling) -> Value {
+    match sampling {
+        Sampling::Step(step) => json!({ "step": step }),
+        Sampling::Samples(samples) => json!({ "samples": samples }),
+        Sampling::DenseAtLimits(samples) => json!({ "samples": samples, "spacing": "smooth" }),
+        Sampling::ArcLength(samples) => json!({ "samples": samples, "spacing": "arc" }),
+    }
+}
+
+/// What is asked of the straight portion, in the words of a manifest.
+pub fn straight_json(straight: StraightCriterion) -> Value {
+    match straight {
+        StraightCriterion::Tolerance(tolerance) => json!({ "tolerance": tolerance }),
+        StraightCriterion::Input(input) => json!({ "input": input }),
+        StraightCriterion::Length(length) => json!({ "length": length }),
+    }
+}
+
+/// The words of curves under a measure, by its place: each once, and the number of each curve's.
+fn words_json(curves: &[(usize, &SolvedCell, &MeasuredCurve)], k: usize) -> Value {
+    let mut values: BTreeMap<&str, u8> = BTreeMap::new();
+    let word = |curve: &MeasuredCurve| match curve.values.get(k) {
+        Some(measure::Value::Word(word)) => Some(*word),
+        _ => None,
+    };
+    for word in curves.iter().filter_map(|(.., curve)| word(curve)) {
+        let next = u8::try_from(values.len()).unwrap_or(MISSING_WORD);
+        values.entry(word).or_insert(next);
+    }
+    let mut named: Vec<(&str, u8)> = values.iter().map(|(word, code)| (*word, *code)).collect();
+    named.sort_by_key(|(_, code)| *code);
+    let code = |curve: &MeasuredCurve| word(curve).and_then(|word| values.get(word).copied()).unwrap_or(MISSING_WORD);
+    json!({
+        "values": named.iter().map(|(word, _)| *word).collect::<Vec<_>>(),
+        "codes": u8s(curves.iter().map(|(.., curve)| code(curve))),
+    })
+}
+
+fn saturating_u16(number: usize) -> u16 {
+    u16::try_from(number).unwrap_or(u16::MAX)
+}
+
+/// Points of a curve, its first and, of an open one, its last among them.
+fn thinned_points(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<Point> {
+    let circuit = solved.circuit(curve);
+    let all: Vec<Point> = circuit.points(curve.joint).filter(|p| p.x.is_finite() && p.y.is_finite()).collect();
+    if all.len() <= MAX_POINTS {
+        return all;
+    }
+    let steps = if circuit.is_closed { MAX_POINTS } else { MAX_POINTS - 1 };
+    let whole = if circuit.is_closed { all.len() } else { all.len() - 1 };
+    (0..MAX_POINTS).map(|k| all[k * whole / steps]).collect()
+}
+
+/// A point's place in its curve's bounds, in parts of 65,535.
+fn quantize(p: Point, bounds: &Bounds) -> [u16; 2] {
+    let part = |at: f64, from: f64, to: f64| {
+        let part = (at - from) / (to - from);
+        if part.is_finite() { (part * f64::from(u16::MAX)).round() as u16 } else { 0 }
+    };
+    [part(p.x, bounds.min.x, bounds.max.x), part(p.y, bounds.min.y, bounds.max.y)]
+}
+
+/// The curves drawn by some items, in order: the cell, the scale and the origin of each, and its trace and circuit.
+fn drawn_curves(items: &[Item]) -> Vec<(Vec<f64>, [usize; 2])> {
+    let mut found = Vec::new();
+    for item in items {
+        if let Item::Group(group) = item {
+            match drawn_curve(group) {
+                Some(curve) => found.push(curve),
+                None => found.extend(drawn_curves(&group.items)),
+            }
+        }
+    }
+    found
+}
+
+fn drawn_curve(group: &Group) -> Option<(Vec<f64>, [usize; 2])> {
+    let fact = |name: &str| group.data.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str());
+    let numbers: Vec<f64> = [fact("cell")?, fact("scale")?]
+        .into_iter()
+        .chain(fact("origin")?.split(' '))
+        .filter_map(|number| number.parse().ok())
+        .collect();
+    Some((numbers, [fact("trace")?.parse().ok()?, fact("circuit")?.parse().ok()?]))
+}

@@ -1,0 +1,134 @@
+//! Templates and expressions in JSON, for the page's own solver.
+
+use serde_json::{Map, Value, json};
+
+use coupler_curves::expression::{CompiledExpression, PostfixToken, Unit};
+use coupler_curves::template::{
+    CircuitSelection, CoincidentDyads, Continuation, Coordinate, InputValue, JointKindTemplate, Parameter, Side,
+    Template,
+};
+
+/// An expression: a number, or a program for a stack machine: numbers are pushed, a name's place in brackets pushes its
+/// value, words are operators, or functions with their number of arguments.
+pub(super) fn expression_json(bound: &CompiledExpression) -> Value {
+    postfix_json(bound.postfix())
+}
+
+fn postfix_json(steps: impl Iterator<Item = PostfixToken>) -> Value {
+    let step = |step| match step {
+        PostfixToken::Number(value) => json!(value),
+        PostfixToken::Name(slot) => json!([slot]),
+        PostfixToken::Operator(symbol) => json!(symbol),
+        PostfixToken::Call(name, arguments) => json!(format!("{name}/{arguments}")),
+    };
+    let mut steps: Vec<Value> = steps.map(step).collect();
+    if steps.len() == 1 && steps[0].is_number() { steps.remove(0) } else { Value::Array(steps) }
+}
+
+/// A value of the input, in degrees or as a length.
+fn input_json(value: &InputValue) -> Value {
+    let degrees = (value.unit == Some(Unit::Rad)).then_some(PostfixToken::Call("deg", 1));
+    postfix_json(value.value.postfix().chain(degrees))
+}
+
+fn coordinate_json(coordinate: &Coordinate) -> Value {
+    match coordinate {
+        Coordinate::Single(value) => expression_json(value),
+        Coordinate::Range { from, to, count } => {
+            json!({ "from": expression_json(from), "to": expression_json(to), "count": count })
+        }
+    }
+}
+
+fn side_sign(side: Side) -> i8 {
+    match side {
+        Side::Left => 1,
+        Side::Right => -1,
+    }
+}
+
+/// How a joint is placed, in the words of a manifest; joints by their places.
+fn placing_json(placing: &JointKindTemplate) -> Value {
+    let e = expression_json;
+    match placing {
+        JointKindTemplate::Fixed([x, y]) => json!({ "fixed": [e(x), e(y)] }),
+        JointKindTemplate::Crank { pivot, length } => json!({ "crank": pivot, "length": e(length) }),
+        JointKindTemplate::Gear { crank, pivot, length, ratio: [n, m], phase } => {
+            json!({ "gear": crank, "about": pivot, "length": e(length), "ratio": [e(n), e(m)], "phase": input_json(phase) })
+        }
+        JointKindTemplate::Piston { base, length, offset, side: of } => {
+            json!({ "piston": base, "length": e(length), "offset": e(offset), "side": side_sign(*of) })
+        }
+        JointKindTemplate::Dyad { base, lengths: [l0, l1], side: of } => {
+            json!({ "dyad": base, "lengths": [e(l0), e(l1)], "side": side_sign(*of) })
+        }
+        JointKindTemplate::Slide { from, length, line, offset, side: of } => {
+            json!({ "slide": from, "length": e(length), "line": line, "offset": e(offset), "side": side_sign(*of) })
+        }
+        JointKindTemplate::Yoke { from, line, offset, angle } => {
+            json!({ "yoke": from, "line": line, "offset": e(offset), "angle": input_json(angle) })
+        }
+        JointKindTemplate::Slot { base, offset, side: of } => {
+            json!({ "slot": base, "offset": e(offset), "side": side_sign(*of) })
+        }
+        JointKindTemplate::Parallelogram { corners } => json!({ "parallelogram": corners }),
+        JointKindTemplate::Point { base, along, across } => {
+            json!({ "point": base, "along": coordinate_json(along), "across": coordinate_json(across) })
+        }
+        JointKindTemplate::Distances { base, distances: [d0, d1], side: of } => {
+            json!({ "point": base, "distances": [e(d0), e(d1)], "side": side_sign(*of) })
+        }
+    }
+}
+
+/// A parameter; `slots` are the places of the template's own names.
+fn parameter_json(parameter: &Parameter, scope: &[(&str, coupler_curves::expression::Kind)]) -> Value {
+    let default = parameter
+        .default
+        .as_ref()
+        .and_then(|default| default.compile(scope, coupler_curves::expression::Kind::Number).ok());
+    json!({
+        "name": parameter.name,
+        "min": parameter.min,
+        "max": parameter.max,
+        "default": default.as_ref().map(expression_json),
+    })
+}
+
+/// A template, in the words of a manifest.
+pub fn template_json(template: &Template) -> Value {
+    let number = coupler_curves::expression::Kind::Number;
+    let scope: Vec<(&str, coupler_curves::expression::Kind)> =
+        template.parameters.iter().map(|parameter| (parameter.name.as_str(), number)).collect();
+    let joint = |joint: &coupler_curves::template::JointTemplate| {
+        let mut entry = Map::new();
+        entry.insert("name".to_owned(), json!(joint.name));
+        if let Value::Object(placed) = placing_json(&joint.kind) {
+            entry.extend(placed);
+        }
+        Value::Object(entry)
+    };
+    let placement = template.orientation;
+    let axis = placement.transform_vector(coupler_curves::geometry::Vector::new(1.0, 0.0));
+    json!({
+        "id": template.id,
+        "parameters": template.parameters.iter().map(|p| parameter_json(p, &scope)).collect::<Vec<_>>(),
+        "joints": template.joints.iter().map(joint).collect::<Vec<_>>(),
+        "trace": template.traced,
+        "seen_from": template.seen_from,
+        "placement": { "mirror": placement.handedness() < 0.0, "cos": axis.x, "sin": axis.y },
+        "circuits": match template.circuits { CircuitSelection::Start => "start", CircuitSelection::All => "all" },
+        "continuation": match template.continuation {
+            Continuation::Smooth => "smooth",
+            Continuation::Branch => "branch",
+        },
+        "coincident": match template.coincident {
+            CoincidentDyads::Together => "together",
+            CoincidentDyads::First => "first",
+            CoincidentDyads::Last => "last",
+        },
+        "start": template.start.as_ref().map(input_json),
+        "input": template.input.as_ref().map(|[from, to]| [input_json(from), input_json(to)]),
+        "arc": template.arc.as_ref().map(|([from, to], branch)| json!({ "input": [input_json(from), input_json(to)], "branch": branch })),
+    })
+}

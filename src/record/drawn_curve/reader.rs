@@ -1,0 +1,262 @@
+use std::borrow::Cow;
+
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+
+use super::path::{self, PathError};
+use super::{DrawnCurve, DrawnCurveError};
+use coupler_curves::geometry::{Point, Similarity};
+
+/// The most points of a page's curves that are read; pages have some thousands.
+const MAX_POINTS: usize = 2_000_000;
+
+/// The coupler curves of a page in SVG, in the order in which they are drawn.
+///
+/// It takes as much memory as their points, and time in proportion to the bytes.
+///
+/// # Errors
+/// The first that is found; see [`DrawnCurveError`]. A page that is cut short anywhere before its last character is one.
+pub fn read_drawn_curves(svg: &[u8]) -> Result<Vec<DrawnCurve>, DrawnCurveError> {
+    let text = std::str::from_utf8(svg).map_err(|_| DrawnCurveError::NotUtf8)?;
+    let mut xml = Reader::from_str(text);
+    let mut page = PageReader { points_left: MAX_POINTS, ..PageReader::default() };
+    loop {
+        page.position = xml.buffer_position();
+        match xml.read_event() {
+            Ok(Event::Start(element)) => page.start_element(&element)?,
+            Ok(Event::Empty(element)) => {
+                page.start_element(&element)?;
+                page.end_element();
+            }
+            Ok(Event::End(_)) => page.end_element(),
+            // It may define entities, and give any element any attribute.
+            Ok(Event::DocType(_)) => return Err(DrawnCurveError::UnsupportedPart { part: "document type" }),
+            Ok(Event::Eof) => return page.finish(),
+            Ok(_) => {}
+            Err(error) => return Err(page.xml_error(&error)),
+        }
+    }
+}
+
+/// A page as far as it is read.
+#[derive(Default)]
+struct PageReader {
+    /// How many bytes are read.
+    position: u64,
+    /// How many elements are open.
+    depth: usize,
+    has_root: bool,
+    /// The depth of the outermost open element that no curve may be in, and why.
+    barrier: Option<(usize, Barrier)>,
+    /// The depth of the curve that is open, the last of the curves.
+    curve_depth: Option<usize>,
+    curves: Vec<DrawnCurve>,
+    /// How many points may still be read.
+    points_left: usize,
+}
+
+/// Why no curve may be in an element.
+enum Barrier {
+    /// It has this attribute.
+    Attribute(&'static str),
+    /// It is neither the page nor a group.
+    Element(String),
+}
+
+impl PageReader {
+    fn start_element(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
+        self.depth += 1;
+        let name = element.name().0;
+        if let Some(part) = ["style", "script"].into_iter().find(|part| *part == name) {
+            return Err(DrawnCurveError::UnsupportedPart { part: if part == "style" { "style sheet" } else { part } });
+        }
+        if self.depth == 1 {
+            return self.start_root(element);
+        }
+        if self.curve_depth.is_some() {
+            return self.start_curve_child(element);
+        }
+        if name != "g" {
+            self.set_barrier(Barrier::Element(shorten(name)));
+            return Ok(());
+        }
+        let [class, transform, style] = self.read_attributes(element, ["class", "transform", "style"])?;
+        if let Some(attribute) = moving_attribute(transform.is_some(), style.is_some()) {
+            self.set_barrier(Barrier::Attribute(attribute));
+        }
+        if class.as_deref() == Some("curve") { self.start_curve(element) } else { Ok(()) }
+    }
+
+    /// The page itself.
+    fn start_root(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
+        if element.name().0 != "svg" || self.has_root {
+            return Err(DrawnCurveError::NotSvg);
+        }
+        self.has_root = true;
+        let names = ["width", "height", "viewBox", "transform", "style"];
+        let [width, height, view, transform, style] = self.read_attributes(element, names)?;
+        let millimetres = |length: &Option<Cow<str>>| length.as_deref()?.strip_suffix("mm").map(str::to_owned);
+        let whole = millimetres(&width).zip(millimetres(&height)).map(|(w, h)| format!("0 0 {w} {h}"));
+        if whole.is_none() || view.as_deref() != whole.as_deref() {
+            return Err(DrawnCurveError::NotInMillimetres);
+        }
+        // The style of a page is one of its lettering.
+        let is_style = style.is_some_and(|style| style.split(';').any(|part| !part.trim_start().starts_with("font-")));
+        if let Some(attribute) = moving_attribute(transform.is_some(), is_style) {
+            self.set_barrier(Barrier::Attribute(attribute));
+        }
+        Ok(())
+    }
+
+    /// Remembers that nothing in this element may be a curve, unless that is so already.
+    fn set_barrier(&mut self, barrier: Barrier) {
+        self.barrier.get_or_insert((self.depth, barrier));
+    }
+
+    /// The group of a curve.
+    fn start_curve(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
+        const NAMES: [&str; 7] =
+            ["id", "data-cell", "data-trace", "data-circuit", "data-scale", "data-origin", "data-dash"];
+        let values = self.read_attributes(element, NAMES)?;
+        let curve = values[0].as_deref().map(shorten).unwrap_or_default();
+        match &self.barrier {
+            Some((_, Barrier::Attribute(attribute))) => return Err(DrawnCurveError::Transformed { curve, attribute }),
+            Some((_, Barrier::Element(element))) => {
+                return Err(DrawnCurveError::UnexpectedNesting { curve, element: element.clone() });
+            }
+            None => {}
+        }
+        if let Some(k) = values.iter().position(Option::is_none) {
+            return Err(DrawnCurveError::MissingAttribute { curve, attribute: NAMES[k] });
+        }
+        let [id, cell, trace, circuit, scale, origin, dash] = values.map(Option::unwrap_or_default);
+        let fact = |k: usize, value: &str| CurveAttribute { curve_id: &curve, name: NAMES[k], value: value.to_owned() };
+        let scale = fact(4, &scale).parse_numbers("a positive number", |[scale]: &[f64; 1]| *scale > 0.0)?[0];
+        let [x, y] = fact(5, &origin).parse_numbers("two numbers", |_| true)?;
+        let expected = "two positive numbers, the second not above the first";
+        let dash = fact(6, &dash).parse_numbers(expected, |[period, drawn]| 0.0 < *drawn && drawn <= period)?;
+        self.curves.push(DrawnCurve {
+            cell: fact(1, &cell).parse_count()?,
+            trace: fact(2, &trace).parse_count()?,
+            circuit: fact(3, &circuit).parse_count()?,
+            id: id.into_owned(),
+            page_from_plane: Similarity { scale, flips_y: true, origin: Point::new(x, y) },
+            dash,
+            polylines: Vec::new(),
+        });
+        self.curve_depth = Some(self.depth);
+        Ok(())
+    }
+
+    /// An element in a curve: its title, its dashes and the dots of its limits.
+    fn start_curve_child(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
+        let Some(open) = self.curves.last() else { return Ok(()) };
+        let curve = shorten(&open.id);
+        let name = element.name().0;
+        if !["title", "path", "circle"].contains(&name) {
+            return Err(DrawnCurveError::UnexpectedNesting { curve, element: shorten(name) });
+        }
+        let [transform, style, data] = self.read_attributes(element, ["transform", "style", "d"])?;
+        if let Some(attribute) = moving_attribute(transform.is_some(), style.is_some()) {
+            return Err(DrawnCurveError::Transformed { curve, attribute });
+        }
+        if let Some(data) = data.filter(|_| name == "path") {
+            let lines = path::parse_polylines(&data, &mut self.points_left).map_err(|fault| match fault {
+                PathError::NotLines => DrawnCurveError::NotLines { curve },
+                PathError::TooManyPoints => DrawnCurveError::TooManyPoints { max_points: MAX_POINTS },
+            })?;
+            if let Some(open) = self.curves.last_mut() {
+                open.polylines.extend(lines);
+            }
+        }
+        Ok(())
+    }
+
+    fn end_element(&mut self) {
+        if self.curve_depth == Some(self.depth) {
+            self.curve_depth = None;
+        }
+        if self.barrier.as_ref().is_some_and(|(depth, _)| *depth == self.depth) {
+            self.barrier = None;
+        }
+        // The reader has found that what is closed was open.
+        self.depth = self.depth.saturating_sub(1);
+    }
+
+    fn finish(self) -> Result<Vec<DrawnCurve>, DrawnCurveError> {
+        match (self.depth, self.has_root) {
+            (0, true) => Ok(self.curves),
+            (0, false) => Err(DrawnCurveError::NotSvg),
+            _ => Err(DrawnCurveError::Truncated),
+        }
+    }
+
+    /// The values of some attributes of an element. Only these are looked at twice, so that any number of others takes
+    /// no more time than it takes to pass over them.
+    fn read_attributes<'a, const N: usize>(
+        &self,
+        element: &'a BytesStart,
+        names: [&str; N],
+    ) -> Result<[Option<Cow<'a, str>>; N], DrawnCurveError> {
+        let mut values = [const { None }; N];
+        for attribute in element.attributes().with_checks(false) {
+            let attribute = attribute.map_err(|error| self.xml_error(&error))?;
+            let Some(k) = names.iter().position(|name| *name == attribute.key.0) else { continue };
+            let value = attribute.normalized_value(XmlVersion::Explicit1_0).map_err(|error| self.xml_error(&error))?;
+            if values[k].replace(value).is_some() {
+                return Err(self.xml_error(&"an attribute stands twice"));
+            }
+        }
+        Ok(values)
+    }
+
+    fn xml_error(&self, reason: &dyn std::fmt::Display) -> DrawnCurveError {
+        DrawnCurveError::NotXml { byte_offset: self.position, reason: shorten(&reason.to_string()) }
+    }
+}
+
+/// The attribute that moves an element, if any.
+fn moving_attribute(transform: bool, style: bool) -> Option<&'static str> {
+    if transform { Some("transform") } else { style.then_some("style") }
+}
+
+/// An attribute of a curve, and what is to be said if it is wrong.
+struct CurveAttribute<'a> {
+    curve_id: &'a str,
+    name: &'static str,
+    value: String,
+}
+
+impl CurveAttribute<'_> {
+    fn parse_count(&self) -> Result<usize, DrawnCurveError> {
+        self.value.parse().map_err(|_| self.invalid_attribute("a whole number"))
+    }
+
+    /// So many finite numbers with spaces between them.
+    fn parse_numbers<const N: usize>(
+        &self,
+        expected: &'static str,
+        is_right: impl Fn(&[f64; N]) -> bool,
+    ) -> Result<[f64; N], DrawnCurveError> {
+        let words = self.value.split_ascii_whitespace().take(N + 1);
+        let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+        numbers.filter(is_right).ok_or_else(|| self.invalid_attribute(expected))
+    }
+
+    fn invalid_attribute(&self, expected: &'static str) -> DrawnCurveError {
+        let CurveAttribute { curve_id: curve, name: attribute, value } = self;
+        DrawnCurveError::InvalidAttribute { curve: (*curve).to_owned(), attribute, value: shorten(value), expected }
+    }
+}
+
+/// A text, or as much of the beginning of it as a message has room for.
+fn shorten(text: &str) -> String {
+    const MAX_CHARACTERS: usize = 80;
+    let mut clipped: String = text.chars().take(MAX_CHARACTERS).collect();
+    if clipped.len() < text.len() {
+        clipped.push('…');
+    }
+    clipped
+}
