@@ -1,4 +1,4 @@
-"""What `benches/peers.sh` measures: this program and its peers on the same work, in one run."""
+"""The measurements of `benches/peers.sh`: this program and its peers on the same work, in one run."""
 
 import csv
 import json
@@ -23,11 +23,11 @@ FINER = "examples/hrones-nelson-fine.toml"
 OUT = Path("target/peers/out")
 PAGES = 780
 SAMPLES = 360
-TOLD = ["class", "mu_min_deg", "mu_max_deg"]
+PAGE_MEASURES = ["class", "mu_min_deg", "mu_max_deg"]
 
 
 def best(run, repeat=5, least=0.2):
-    """The least time of a call, of several that last long enough to be measured."""
+    """The least time per call, of several batches long enough to be measured."""
     times = []
     for _ in range(repeat):
         count, begun = 0, time.perf_counter()
@@ -45,7 +45,7 @@ def row(what, ours, peer, unit, target=""):
 
 
 def criterion(name):
-    """Positions a second, by the estimate of a benchmark run just before."""
+    """Positions per second, from the estimate of the preceding benchmark run."""
     folder = Path("target/criterion/kernel") / name / "new"
     nanoseconds = json.loads((folder / "estimates.json").read_text())["median"]["point_estimate"]
     elements = json.loads((folder / "benchmark.json").read_text())["throughput"]["Elements"]
@@ -53,7 +53,7 @@ def criterion(name):
 
 
 def numpy_positions(points):
-    """Positions a second of coupler points by numpy, on columns, the table of sines beforehand."""
+    """Positions of coupler points per second by numpy, on columns, with precomputed sines."""
     angle = np.radians(np.arange(SAMPLES) * 360.0 / SAMPLES)
     cos, sin = np.cos(angle), np.sin(angle)
     frame, coupler, rocker = 4.0, 3.0, 3.5
@@ -75,7 +75,7 @@ def numpy_positions(points):
 
 
 def pylinkage_positions(fast):
-    """Positions a second by pylinkage: a crank, a dyad and a coupler point, all around once."""
+    """Positions per second by pylinkage: a crank, a dyad and a coupler point, over one revolution."""
     o, q = pylinkage.Ground(0.0, 0.0), pylinkage.Ground(4.0, 0.0)
     crank = pylinkage.Crank(anchor=o, radius=1.0, angular_velocity=2.0 * np.pi / SAMPLES)
     pin = pylinkage.RRRDyad(crank.output, q, distance1=3.0, distance2=3.5, x=3.0, y=3.0)
@@ -96,7 +96,7 @@ def pylinkage_positions(fast):
 
 
 def render(manifest, formats, dpi=None, measures=None):
-    """Seconds and peak megabytes of a run into an empty folder; of these measures, or of all."""
+    """Seconds and peak megabytes of a run into an empty folder, with the given measures or with all."""
     shutil.rmtree(OUT, ignore_errors=True)
     text = Path(manifest).read_text()
     if dpi:
@@ -105,8 +105,8 @@ def render(manifest, formats, dpi=None, measures=None):
         text = text.replace("\nsampling =", f"\nmeasures = {json.dumps(measures)}\nsampling =")
     manifest = "target/peers/atlas.toml"
     Path(manifest).write_text(text)
-    # A process is charged with the memory of the one that it comes of: this one has matplotlib in it, and another that
-    # has nothing does the waiting.
+    # A child's peak memory includes that of the process it is forked from: this one has matplotlib loaded, so a bare
+    # interpreter starts the child and waits for it.
     command = [PROGRAM, "render", "--quiet", "--format", formats, "-o", str(OUT), manifest]
     waiting = subprocess.run([sys.executable, "-S", "-c", WAIT, *command], stdout=subprocess.PIPE, text=True)
     if waiting.returncode != 0:
@@ -128,8 +128,8 @@ sys.exit(status != 0)
 
 
 def some_pages(count):
-    """Ten curves to a page, of cells all over the atlas, at every degree of the crank: what a dash of 3 degrees needs to
-    look as smooth as ours. Their places are checked against `points.csv`."""
+    """Pages of ten curves, from cells spread over the atlas, at every degree of the crank, which dashes of 3 degrees need to
+    look as smooth as ours. Their points are compared with `points.csv`."""
     with open(OUT / "hrones-nelson" / "cells.csv", newline="") as file:
         rows = [line for line in csv.DictReader(file) if line["trace"] == "1"]
     chosen = [rows[k * len(rows) // count] for k in range(count)]
@@ -158,7 +158,7 @@ def coupler_curve(ratios, trace):
 
 
 def check(page):
-    """The curves that are drawn are those of the atlas."""
+    """Compares the curves of a page with those of the atlas."""
     cell, first, _, curves = page
     with open(OUT / "hrones-nelson" / "points.csv", newline="") as file:
         for line in csv.DictReader(file):
@@ -170,7 +170,7 @@ def check(page):
 
 def matplotlib_page(page, path, dpi):
     """A page as a good script draws it: ten curves in dashes of 3 of 5 degrees, their points with numbers, the linkage,
-    a caption and a folio. No grid, key, table, or placing of labels."""
+    a caption and a folio, but no grid, key, table or label placement."""
     _, first, ratios, curves = page
     coupler, _, frame = ratios
     figure, axes = plt.subplots(figsize=(17, 11))
@@ -191,7 +191,7 @@ def matplotlib_page(page, path, dpi):
 
 
 def matplotlib_pages(pages, form, dpi):
-    """Pages a second of matplotlib, in one process."""
+    """Pages per second of matplotlib, in one process."""
     folder = Path("target/peers/matplotlib")
     folder.mkdir(parents=True, exist_ok=True)
     matplotlib_page(pages[0], folder / f"warm-up.{form}", dpi)
@@ -221,15 +221,15 @@ def main():
     peer = matplotlib_pages(pages, "svg", 100)
     row("SVG and CSV, all measures: matplotlib, SVG alone", PAGES / seconds, peer, "pages/s", "ratio 60")
     row(f"  {PAGES} pages, peak memory {megabytes:.0f} MB", seconds, None, "s", "about 1 s, 300 MB")
-    # The peer measures nothing. Class and transmission angle are what the page tells beside the curves.
-    seconds, megabytes = min(render(ATLAS, "svg", measures=TOLD) for _ in range(3))
+    # The peer computes no measures. The page prints class and transmission angle next to the curves.
+    seconds, megabytes = min(render(ATLAS, "svg", measures=PAGE_MEASURES) for _ in range(3))
     row("  the same with no more measures than the peer's page needs", PAGES / seconds, peer, "pages/s", "ratio 60")
     row(f"  {PAGES} pages, peak memory {megabytes:.0f} MB", seconds, None, "s", "about 1 s, 300 MB")
     seconds, megabytes = min(render(ATLAS, "png") for _ in range(2))
     peer = matplotlib_pages(pages, "png", 100)
     row("PNG at 100 dpi, all measures: matplotlib", PAGES / seconds, peer, "pages/s", "ratio 12")
     row(f"  {PAGES} pages, peak memory {megabytes:.0f} MB", seconds, None, "s", "300 MB")
-    seconds, megabytes = min(render(ATLAS, "png", measures=TOLD) for _ in range(2))
+    seconds, megabytes = min(render(ATLAS, "png", measures=PAGE_MEASURES) for _ in range(2))
     row("  the same with no more measures than the peer's page needs", PAGES / seconds, peer, "pages/s", "ratio 12")
     seconds, megabytes = min(render(ATLAS, "pdf") for _ in range(2))
     size = sum(file.stat().st_size for file in OUT.glob("*.pdf")) / 1e6

@@ -9,19 +9,19 @@
 //! A four-bar and its coupler curve, without a manifest:
 //!
 //! ```
-//! use coupler_curves::linkage::{Assembly, FourBar, Class, Side, Travel};
+//! use coupler_curves::linkage::{FourBar, FourBarClass, LinkageBuilder, MotionOptions, Side};
 //! use coupler_curves::motion::{Motion, Sampler, Sampling};
 //!
-//! let mut assembly = Assembly::default();
-//! let o = assembly.fixed("O", [0.0, 0.0].into());
-//! let c = assembly.fixed("C", [4.0, 0.0].into());
-//! let a = assembly.crank("A", o, 1.0)?;
-//! let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left)?;
-//! let m = assembly.point("M", [a, b], 1.5, 1.0)?;
-//! let linkage = assembly.finish(vec![m], None, Travel::default())?;
+//! let mut builder = LinkageBuilder::default();
+//! let o = builder.fixed("O", [0.0, 0.0].into());
+//! let c = builder.fixed("C", [4.0, 0.0].into());
+//! let a = builder.crank("A", o, 1.0)?;
+//! let b = builder.dyad("B", [a, c], [3.0, 3.5], Side::Left)?;
+//! let m = builder.point("M", [a, b], 1.5, 1.0)?;
+//! let linkage = builder.build(vec![m], None, MotionOptions::default())?;
 //!
-//! assert_eq!(FourBar::of(&linkage).map(FourBar::class), Some(Class::CrankRocker));
-//! let motion = Motion::of(&linkage, &Sampler::new(Sampling::Step(2.0)));
+//! assert_eq!(FourBar::from_linkage(&linkage).map(FourBar::class), Some(FourBarClass::CrankRocker));
+//! let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(2.0)));
 //! assert_eq!(motion.circuits[0].points(m).count(), 180);
 //! # Ok::<(), coupler_curves::linkage::Error>(())
 //! ```

@@ -52,8 +52,8 @@ fn every_manifest_of_the_repository_satisfies_the_schema() {
             assert!(satisfies(&fs::read_to_string(&path).unwrap(), name), "{} is a manifest", path.display());
         }
     }
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    assert!(between(&readme, "```toml\n", "```").into_iter().all(|text| satisfies(text, "README.md")));
+    let readme = fs::read_to_string(root().join("docs/manifest.md")).unwrap();
+    assert!(between(&readme, "```toml\n", "```").into_iter().all(|text| satisfies(text, "docs/manifest.md")));
     // Those of the tests, so far as they stand there whole and good.
     let mut tests = Vec::new();
     files(&root().join("tests/integration"), "rs", &mut tests);

@@ -26,14 +26,14 @@ enum BodyReference {
 /// A linkage being put together, joint by joint.
 ///
 /// ```
-/// use coupler_curves::linkage::{Assembly, Side};
-/// let mut four_bar = Assembly::default();
+/// use coupler_curves::linkage::{LinkageBuilder, Side};
+/// let mut four_bar = LinkageBuilder::default();
 /// let o = four_bar.fixed("O", [0.0, 0.0].into());
 /// let c = four_bar.fixed("C", [4.0, 0.0].into());
 /// let a = four_bar.crank("A", o, 1.0)?;
 /// let b = four_bar.dyad("B", [a, c], [3.0, 3.5], Side::Left)?;
 /// let m = four_bar.point("M", [a, b], 1.5, 1.0)?;
-/// let linkage = four_bar.finish(vec![m], None, Default::default())?;
+/// let linkage = four_bar.build(vec![m], None, Default::default())?;
 /// assert_eq!(linkage.links.len(), 4);
 /// # Ok::<(), coupler_curves::linkage::Error>(())
 /// ```
