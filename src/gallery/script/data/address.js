@@ -10,7 +10,7 @@
 //   #/compare?c=evans:12.1.1,watt:3.1.1    curves side by side
 
 /** What a fragment says: { path: [words], query: Map of words }. */
-export function parsedAddress(fragment) {
+export function parseAddress(fragment) {
   const [path, query] = fragment.replace(/^#?\/?/, "").split("?", 2);
   const word = (text) => {
     try {

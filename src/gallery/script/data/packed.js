@@ -3,12 +3,12 @@
 const ARRAYS = { f64: Float64Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array };
 
 /** The typed array that `{ type, data }` stands for. */
-export function unpacked({ type, data }) {
-  return new ARRAYS[type](bytesOfBase64(data).buffer);
+export function unpackArray({ type, data }) {
+  return new ARRAYS[type](decodeBase64(data).buffer);
 }
 
 /** A browser's own way, where it has one, takes a tenth of the time: an atlas has megabytes of this. */
-function bytesOfBase64(data) {
+function decodeBase64(data) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(data);
   const text = atob(data);
   const bytes = new Uint8Array(text.length);
@@ -17,7 +17,7 @@ function bytesOfBase64(data) {
 }
 
 /** Typed arrays of one kind in one, one after another. */
-export function concatenated(arrays) {
+export function concatenateArrays(arrays) {
   const whole = new arrays[0].constructor(arrays.reduce((sum, array) => sum + array.length, 0));
   let at = 0;
   for (const array of arrays) {

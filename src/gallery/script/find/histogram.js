@@ -37,13 +37,13 @@ export function histogramOf(values) {
 }
 
 /** How many of some rows are in each bin. */
-export function countsIn({ bins }, rows) {
+export function binCounts({ bins }, rows) {
   const counts = new Uint32Array(NO_BIN + 1);
   for (let k = 0; k < rows.length; k += 1) counts[bins[rows[k]]] += 1;
   return counts.subarray(0, BINS);
 }
 
 /** A number as it is typed and written in addresses: four figures, and no more. */
-export function roundFigure(value) {
+export function formatBound(value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(4))) : "";
 }

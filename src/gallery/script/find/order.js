@@ -41,7 +41,7 @@ function wordRanks({ values, codes }) {
 }
 
 /** Of rows in an order, those that pass. */
-export function passing(order, failing) {
+export function passingRows(order, failing) {
   const rows = new Uint32Array(order.length);
   let count = 0;
   for (let k = 0; k < order.length; k += 1) if (failing[order[k]] === 0) rows[count++] = order[k];

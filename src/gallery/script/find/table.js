@@ -3,7 +3,7 @@
 import { NO_WORD, curveKey } from "../data/family.js";
 
 /** Columns that are reckoned from measures: what people ask for that no one measure says. */
-export const DERIVED = {
+export const DERIVED_COLUMNS = {
   mu_worst_deg: {
     unit: "deg",
     definition:
@@ -25,8 +25,8 @@ export const DERIVED = {
   },
 };
 
-const SYMMETRIC = ["not symmetric", "symmetric"];
-const TURNS = ["between limits", "full turn"];
+const SYMMETRY_WORDS = ["not symmetric", "symmetric"];
+const INPUT_WORDS = ["between limits", "full turn"];
 
 /**
  * The rows of families: `family[row]`, `curve[row]` say whose; columns are made when they are first asked
@@ -60,12 +60,12 @@ export class CurveTable {
 
   made(name) {
     const out = new Float64Array(this.count).fill(NaN);
-    if (DERIVED[name]) {
+    if (DERIVED_COLUMNS[name]) {
       const at = (row) => (other) => this.numbers(other)[row];
-      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED[name].of(at(row));
+      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED_COLUMNS[name].of(at(row));
       return out;
     }
-    const own = name.startsWith("p.") ? parameterOf(name.slice(2)) : measureOf(name);
+    const own = name.startsWith("p.") ? parameterColumn(name.slice(2)) : measureColumn(name);
     let row = 0;
     for (const family of this.families) {
       const value = own(family);
@@ -89,12 +89,12 @@ export class CurveTable {
       const measures = this.families.map(({ curves }) => "symmetry" in curves.words);
       for (let row = 0; row < this.count; row += 1)
         if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
-      return { values: SYMMETRIC, codes };
+      return { values: SYMMETRY_WORDS, codes };
     }
     if (name === "turn") {
       const limits = this.numbers("input_min_deg");
       for (let row = 0; row < this.count; row += 1) codes[row] = Number.isNaN(limits[row]) ? 1 : 0;
-      return { values: TURNS, codes };
+      return { values: INPUT_WORDS, codes };
     }
     const values = [];
     let row = 0;
@@ -111,14 +111,14 @@ export class CurveTable {
   }
 }
 
-function measureOf(name) {
+function measureColumn(name) {
   return ({ curves }) => {
     const values = curves.measures[name];
     return values && ((curve) => values[curve]);
   };
 }
 
-function parameterOf(name) {
+function parameterColumn(name) {
   return ({ names, cells, curves }) => {
     const at = names.indexOf(name);
     return at >= 0 && ((curve) => cells.values[curves.cell[curve] * names.length + at]);

@@ -9,15 +9,15 @@ const SVG = "http://www.w3.org/2000/svg";
  * the name of their event after "on". Children may be nodes, texts, numbers, arrays, or nothing.
  */
 export function h(name, attributes = {}, ...children) {
-  return furnished(document.createElement(name), attributes, children);
+  return buildElement(document.createElement(name), attributes, children);
 }
 
 /** An SVG element, likewise. */
 export function s(name, attributes = {}, ...children) {
-  return furnished(document.createElementNS(SVG, name), attributes, children);
+  return buildElement(document.createElementNS(SVG, name), attributes, children);
 }
 
-function furnished(element, attributes, children) {
+function buildElement(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name.slice(2), value);
     else if (value !== null && value !== undefined && value !== false) {

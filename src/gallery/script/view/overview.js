@@ -2,9 +2,9 @@
 
 import { address } from "../data/address.js";
 import { fill, h } from "./dom.js";
-import { counted } from "./shell-footer.js";
-import { whenSeen } from "./thumbnail-seen.js";
-import { pageThumbnail } from "./thumbnail-page.js";
+import { formatCount } from "./footer.js";
+import { onceVisible } from "./once-visible.js";
+import { pageThumbnail } from "./page-thumbnail.js";
 
 // With so many families or more they can be searched by name.
 const MANY_FAMILIES = 8;
@@ -12,7 +12,7 @@ const MANY_FAMILIES = 8;
 const FEW_FAMILIES = 4;
 
 /** The room with all families: `#/?q=straight` those whose names have the words. */
-export const overviewRoom = {
+export const overviewRoute = {
   name: "families",
   label: "Families",
   way: () => address([]),
@@ -20,7 +20,7 @@ export const overviewRoom = {
   view: (app, { query }) => {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
-    const sight = whenSeen((tile) => showFirstPage(app, tiles.get(tile), tile));
+    const sight = onceVisible((tile) => showFirstPage(app, tiles.get(tile), tile));
     const list = h("ul", { class: families.length < FEW_FAMILIES ? "families few" : "families" }, [
       ...tiles.keys(),
     ]);
@@ -32,7 +32,7 @@ export const overviewRoom = {
         h(
           "div",
           { class: "head" },
-          h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, summaryOf(families))),
+          h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, atlasSummary(families))),
           families.length >= MANY_FAMILIES ? familySearch(app, tiles, query.get("q") ?? "") : null,
         ),
         families.length ? list : h("p", { class: "empty" }, "There are no families in this atlas."),
@@ -43,17 +43,17 @@ export const overviewRoom = {
   },
 };
 
-function summaryOf(families) {
+function atlasSummary(families) {
   const sum = (of) => families.reduce((total, family) => total + of(family), 0);
-  return `${counted(
+  return `${formatCount(
     sum((f) => f.curves),
     "curve",
     "curves",
-  )} of ${counted(
+  )} of ${formatCount(
     sum((f) => f.kept),
     "linkage",
     "linkages",
-  )} on ${counted(
+  )} on ${formatCount(
     sum((f) => f.pages),
     "page",
     "pages",
@@ -71,31 +71,31 @@ function familyTile(family) {
       h("span", { class: "name" }, family.title),
     ),
     h("p", { class: "source note" }),
-    h("p", { class: "note" }, countsOf(family)),
-    family.not_assembled ? h("p", { class: "note" }, notAssembledInWords(family)) : null,
+    h("p", { class: "note" }, familyCounts(family)),
+    family.not_assembled ? h("p", { class: "note" }, notAssembledNote(family)) : null,
   );
 }
 
 /**
  * How much there is of a family, in words: curves, pages, and linkages where they are not as many as curves.
  */
-export function countsOf(family) {
+export function familyCounts(family) {
   return [
-    counted(family.curves, "curve", "curves"),
-    counted(family.pages, "page", "pages"),
-    family.kept === family.curves ? null : counted(family.kept, "linkage", "linkages"),
+    formatCount(family.curves, "curve", "curves"),
+    formatCount(family.pages, "page", "pages"),
+    family.kept === family.curves ? null : formatCount(family.kept, "linkage", "linkages"),
   ]
     .filter(Boolean)
     .join(" · ");
 }
 
 /** How many linkages of a family could not be assembled, in words. */
-function notAssembledInWords({ not_assembled: none, kept }) {
-  return `${none.toLocaleString("en")} of ${counted(kept, "linkage", "linkages")} could not be assembled`;
+function notAssembledNote({ not_assembled: none, kept }) {
+  return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage", "linkages")} could not be assembled`;
 }
 
 /** The source of a family, without the legend that its pages add to it. */
-export function sourceOf({ source, legend }) {
+export function familySource({ source, legend }) {
   const ending = ` · ${legend}`;
   return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
 }
@@ -106,7 +106,7 @@ async function showFirstPage(app, { id }, tile) {
     const family = await app.atlas.family(id);
     leaf.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
     fill(leaf, pageThumbnail(app.atlas, family, 1) ?? "");
-    fill(tile.querySelector(".source"), sourceOf(family));
+    fill(tile.querySelector(".source"), familySource(family));
   } catch (error) {
     fill(tile.querySelector(".source"), h("span", { class: "trouble" }, error.message));
   }
@@ -126,7 +126,7 @@ function familySearch(app, tiles, asked) {
       tile.hidden = !words.every((word) => text.includes(word));
       left += tile.hidden ? 0 : 1;
     }
-    return left === total ? `All ${total} families` : counted(left, "family", "families");
+    return left === total ? `All ${total} families` : formatCount(left, "family", "families");
   };
   const seek = (event) => {
     app.say(leave(event.target.value));

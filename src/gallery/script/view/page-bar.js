@@ -3,7 +3,7 @@
 import { address } from "../data/address.js";
 import { h } from "./dom.js";
 import { pageField } from "./page-field.js";
-import { printedSwitch } from "./settings.js";
+import { printedColorsButton } from "./settings.js";
 
 /**
  * { element, tell({ page, nearness, isFit }) }: ways to the page before and after, a field for the number of
@@ -12,16 +12,16 @@ import { printedSwitch } from "./settings.js";
  */
 export function pageBar(listed, { go, zoom }) {
   const contents = h("a", { class: "button contents" }, "All pages");
-  const [before, after] = [pageStep("Previous page", "←", "prev"), pageStep("Next page", "→", "next")];
+  const [before, after] = [stepLink("Previous page", "←", "prev"), stepLink("Next page", "→", "next")];
   const number = pageField(listed, "page", go);
   const near = zoomControls(zoom);
   const steps = h("div", { class: "segments" }, before, after);
-  const parts = [contents, steps, number.element, printedSwitch(), near.element];
+  const parts = [contents, steps, number.element, printedColorsButton(), near.element];
   const element = h("div", { class: "toolbar page-bar" }, parts);
   const tell = ({ page, nearness, isFit }) => {
     contents.setAttribute("href", address([listed.id], { page }));
-    pointStep(before, listed, page - 1);
-    pointStep(after, listed, page + 1);
+    setStepTarget(before, listed, page - 1);
+    setStepTarget(after, listed, page + 1);
     if (document.activeElement !== number.field) {
       number.field.value = page;
       number.field.removeAttribute("aria-invalid");
@@ -31,12 +31,12 @@ export function pageBar(listed, { go, zoom }) {
   return { element, tell };
 }
 
-function pageStep(label, sign, rel) {
+function stepLink(label, sign, rel) {
   return h("a", { class: "button", rel, "aria-label": label, title: label, role: "link" }, sign);
 }
 
 /** Leads a step to a page, or nowhere if there is none. */
-function pointStep(link, { id, pages }, page) {
+function setStepTarget(link, { id, pages }, page) {
   const isThere = page >= 1 && page <= pages;
   if (isThere) link.setAttribute("href", address([id, page]));
   else link.removeAttribute("href");

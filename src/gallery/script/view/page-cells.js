@@ -10,7 +10,7 @@ export function cellsOnPage(family, page) {
   if (family.layout === "chart") return [];
   const { count } = family.cells;
   const pages = family.pages.length;
-  const each = family.layout === "panels" ? panelsOnPage(family) : 0;
+  const each = family.layout === "panels" ? panelsPerPage(family) : 0;
   for (let cell = (page - 1) * each; cell < Math.min(page * each, count); cell += 1) drawn.add(cell);
   if (family.layout === "coupler-grid" && pages % count === 0)
     drawn.add(Math.floor(((page - 1) * count) / pages));
@@ -18,15 +18,15 @@ export function cellsOnPage(family, page) {
 }
 
 // So many panels a page of each family has, once reckoned: it takes a look at all pages.
-const PANELS_ON_PAGE = new WeakMap();
+const PANELS_PER_PAGE = new WeakMap();
 
-function panelsOnPage(family) {
-  if (!PANELS_ON_PAGE.has(family)) PANELS_ON_PAGE.set(family, reckonedPanels(family));
-  return PANELS_ON_PAGE.get(family);
+function panelsPerPage(family) {
+  if (!PANELS_PER_PAGE.has(family)) PANELS_PER_PAGE.set(family, inferPanelsPerPage(family));
+  return PANELS_PER_PAGE.get(family);
 }
 
 /** The least number of panels on a page that agrees with where the drawn ones stand; 0 where none does. */
-function reckonedPanels({ cells: { count }, pages }) {
+function inferPanelsPerPage({ cells: { count }, pages }) {
   const agrees = (each) =>
     pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
   for (let each = Math.ceil(count / pages.length); each < count / Math.max(pages.length - 1, 1); each += 1) {
@@ -36,7 +36,7 @@ function reckonedPanels({ cells: { count }, pages }) {
 }
 
 /** What is on a page, in a few words: the caption of its one linkage, or the numbers of its linkages. */
-export function pageInWords(family, page) {
+export function pageLabel(family, page) {
   const cells = cellsOnPage(family, page);
   if (cells.length === 0) return family.layout === "chart" ? "chart" : "";
   const numbers = cells.map((cell) => family.cells.number[cell]);

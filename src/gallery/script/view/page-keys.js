@@ -3,12 +3,12 @@
 import { h } from "./dom.js";
 
 /** What a key does on a page's desk: a function, or null where it does nothing there. */
-export function actOfKey(event, desk) {
+export function keyAction(event, desk) {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
-  return actOnCurve(event, desk) ?? actOnPage(event.key, desk);
+  return curveKeyAction(event, desk) ?? pageKeyAction(event.key, desk);
 }
 
-function actOnPage(key, desk) {
+function pageKeyAction(key, desk) {
   const { zoom, page, listed } = desk;
   const [dx, dy] = [desk.viewport.clientWidth / 8, desk.viewport.clientHeight / 8];
   const acts = {
@@ -36,7 +36,7 @@ function actOnPage(key, desk) {
 }
 
 /** On a curve arrows go from one to the next, and with Shift along it. */
-function actOnCurve({ key, shiftKey, target }, desk) {
+function curveKeyAction({ key, shiftKey, target }, desk) {
   const link = target.closest?.("a[data-curve]");
   if (!link) return null;
   const links = [...desk.overlay.links.values()];
@@ -62,7 +62,7 @@ function actOnCurve({ key, shiftKey, target }, desk) {
 }
 
 /** What can be done on a page by wheel and keys, or by touch, as the element "page-keys". */
-export function keysInWords() {
+export function keyHelp() {
   return h(
     "p",
     { class: "note no-print page-keys", id: "page-keys" },

@@ -1,15 +1,15 @@
 // What stands beside a page: its curves, or the one that is brought forward.
 
 import { address } from "../data/address.js";
-import { curveKey, measured } from "../data/family.js";
+import { curveKey, measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 import { cellsOnPage } from "./page-cells.js";
-import { captionInType, figure, measureInWords, measureText } from "./page-words.js";
+import { formatCaption, formatNumber, measureLabel, measureText } from "./labels.js";
 import { pinButton } from "./pin-button.js";
 import { thumbnail } from "./thumbnail.js";
 
 /** The curves of a page as links, and what could not be assembled. */
-export function curvesPanel(family, page, drawn, { onenter, onleave }) {
+export function curveListPanel(family, page, drawn, { onenter, onleave }) {
   // Of one linkage with several points each row says the point alone.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
   const links = new Map(
@@ -19,31 +19,31 @@ export function curvesPanel(family, page, drawn, { onenter, onleave }) {
   return h(
     "div",
     { class: "panel" },
-    one ? h("h2", {}, captionOf(family, drawn[0].curve)) : null,
-    drawn.length ? sumOfCurves(drawn.length, one) : nothingToPointAt(family),
+    one ? h("h2", {}, captionOfCurve(family, drawn[0].curve)) : null,
+    drawn.length ? curveCount(drawn.length, one) : noCurvesNote(family),
     h(
       "ol",
       { class: "page-curves" },
       [...links.values()].map((link) => h("li", {}, link)),
     ),
-    short.length ? notAssembled(family, short) : null,
+    short.length ? notAssembledList(family, short) : null,
   );
 }
 
-function sumOfCurves(count, isBelowHeading) {
+function curveCount(count, isBelowHeading) {
   const sum = `${count} ${count === 1 ? "curve" : "curves"} on this page`;
   return isBelowHeading ? h("p", { class: "note" }, sum) : h("h2", {}, sum);
 }
 
-function nothingToPointAt(family) {
+function noCurvesNote(family) {
   const [heading, sentence] =
     family.layout === "chart"
-      ? ["A chart", curvesOfChart(family)]
+      ? ["A chart", chartCurvesNote(family)]
       : ["No curves", "Nothing is drawn on this page."];
   return [h("h2", {}, heading), h("p", { class: "note" }, sentence)];
 }
 
-function curvesOfChart(family) {
+function chartCurvesNote(family) {
   return [
     "Of ",
     h("a", { href: address([family.id], { show: "curves" }) }, `${family.curves.count} curves`),
@@ -51,9 +51,9 @@ function curvesOfChart(family) {
   ];
 }
 
-function captionOf(family, curve) {
+function captionOfCurve(family, curve) {
   const cell = family.curves.cell[curve];
-  return captionInType(family.cells.caption[cell] || `Linkage ${family.cells.number[cell]}`);
+  return formatCaption(family.cells.caption[cell] || `Linkage ${family.cells.number[cell]}`);
 }
 
 function curveRow(family, curve, { one, onenter, onleave }) {
@@ -63,10 +63,10 @@ function curveRow(family, curve, { one, onenter, onleave }) {
     : family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`;
   const words = [
     caption,
-    pointInWords(family, curve),
+    pointLabel(family, curve),
     circuit[curve] > 1 || one ? `circuit ${circuit[curve]}` : null,
   ];
-  if (one && pointInWords(family, curve) && circuit[curve] === 1) words.pop();
+  if (one && pointLabel(family, curve) && circuit[curve] === 1) words.pop();
   return h(
     "a",
     {
@@ -77,18 +77,18 @@ function curveRow(family, curve, { one, onenter, onleave }) {
       onblur: onleave,
     },
     thumbnail(family, [curve], { width: 44, height: 30 }),
-    h("span", {}, captionInType(words.filter(Boolean).join(" · "))),
+    h("span", {}, formatCaption(words.filter(Boolean).join(" · "))),
   );
 }
 
 /** Which of the traced points of its linkage draws a curve, where there are several. */
-export function pointInWords(family, curve) {
+export function pointLabel(family, curve) {
   const { trace } = family.curves;
   return trace.some((number) => number > 1) ? `point ${trace[curve]}` : "";
 }
 
 /** Linkages that could not be assembled, each with the reason. */
-function notAssembled(family, cells) {
+function notAssembledList(family, cells) {
   const { number, caption, reason } = family.cells;
   return h(
     "section",
@@ -101,7 +101,7 @@ function notAssembled(family, cells) {
         h(
           "li",
           {},
-          h("b", {}, captionInType(caption[cell] || `linkage ${number[cell]}`)),
+          h("b", {}, formatCaption(caption[cell] || `linkage ${number[cell]}`)),
           h("span", { class: "note" }, ` ${reason[cell]}`),
         ),
       ),
@@ -114,15 +114,15 @@ export function curvePanel(app, family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
   const key = curveKey(family, curve);
-  const words = ["class", "type"].map((name) => measured(family, curve, name)).filter(Boolean);
+  const words = ["class", "type"].map((name) => measureValue(family, curve, name)).filter(Boolean);
   return h(
     "div",
     { class: "panel" },
-    h("h2", {}, captionInType(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
+    h("h2", {}, formatCaption(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
     h(
       "p",
       { class: "tags" },
-      [`curve ${key}`, pointInWords(family, curve), ...new Set(words), closed[curve] ? null : "open"]
+      [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"]
         .filter(Boolean)
         .map((word) => [h("span", { class: "tag" }, word), " "]),
     ),
@@ -150,7 +150,7 @@ function parameterFacts(family, cell) {
     h(
       "dl",
       { class: "facts page-parameters" },
-      told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))]),
+      told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, formatNumber(value, 6))]),
     ),
   ];
 }
@@ -168,7 +168,7 @@ function measureFacts(atlas, family, curve) {
       "dl",
       { class: "facts page-measures" },
       told.map(([{ name, definition }, text]) => [
-        h("dt", { title: definition }, measureInWords(name)),
+        h("dt", { title: definition }, measureLabel(name)),
         h("dd", {}, text),
       ]),
     ),
@@ -179,7 +179,7 @@ function measureFacts(atlas, family, curve) {
       h(
         "dl",
         {},
-        told.map(([{ name, definition }]) => [h("dt", {}, measureInWords(name)), h("dd", {}, definition)]),
+        told.map(([{ name, definition }]) => [h("dt", {}, measureLabel(name)), h("dd", {}, definition)]),
       ),
     ),
   ];

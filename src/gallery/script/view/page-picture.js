@@ -4,11 +4,11 @@ import { pageFile } from "../data/atlas.js";
 import { curveKey } from "../data/family.js";
 import { address } from "../data/address.js";
 import { fill, h, s } from "./dom.js";
-import { paperTone } from "./paper-ink.js";
-import { drawnPage } from "./thumbnail-page.js";
+import { paperTone } from "./paper-tone.js";
+import { drawPage } from "./page-thumbnail.js";
 
 // The least breadth of the place of a link, in millimetres of paper.
-const LEAST_SPOT = 1;
+const MIN_LINK_WIDTH = 1;
 
 /**
  * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where
@@ -28,7 +28,7 @@ export async function pagePicture(app, family, page, label) {
     }
   }
   if (views.length) {
-    const drawing = drawnPage(family, views, "picture drawn thumbnail", 0.05);
+    const drawing = drawPage(family, views, "picture drawn thumbnail", 0.05);
     return h("div", { class: "picture", role: "img", "aria-label": label }, drawing);
   }
   return h("p", { class: "picture nothing" }, "This page is a chart, which was not written as SVG or PNG.");
@@ -56,7 +56,7 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
     dot,
     [...links.values()],
   );
-  for (const { curve, box } of drawn) fill(links.get(curve), spotOf(box));
+  for (const { curve, box } of drawn) fill(links.get(curve), linkArea(box));
   return {
     element,
     links,
@@ -71,9 +71,9 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
 }
 
 /** What screen readers and the browser's own focus take for the place of a curve's link. */
-function spotOf([x0, y0, x1, y1]) {
+function linkArea([x0, y0, x1, y1]) {
   // The box of a straight path has no breadth, and a rectangle without one is drawn by no browser.
-  const [width, height] = [Math.max(x1 - x0, LEAST_SPOT), Math.max(y1 - y0, LEAST_SPOT)];
+  const [width, height] = [Math.max(x1 - x0, MIN_LINK_WIDTH), Math.max(y1 - y0, MIN_LINK_WIDTH)];
   return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "spot" });
 }
 

@@ -2,19 +2,19 @@
 
 import { address } from "../data/address.js";
 import { pageFile } from "../data/atlas.js";
-import { curveAt, curveKey } from "../data/family.js";
+import { findCurve, curveKey } from "../data/family.js";
 import { fill, h } from "./dom.js";
-import { curvesOnPaper, nearestCurve } from "./hover.js";
-import { CurveForward } from "./hover-forward.js";
+import { curvesOnPaper, nearestCurve } from "./page-curves.js";
+import { CurveHighlight } from "./curve-highlight.js";
 import { pageBar } from "./page-bar.js";
-import { actOfKey, keysInWords } from "./page-keys.js";
-import { curvePanel, curvesPanel } from "./page-panel.js";
+import { keyAction, keyHelp } from "./page-keys.js";
+import { curvePanel, curveListPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture } from "./page-picture.js";
 import { watchPins } from "./pin-button.js";
 import { Zoom } from "./zoom.js";
 
 /** The room of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
-export const pageRoom = {
+export const pageRoute = {
   name: "page",
   under: "families",
   opens: ({ path }) => path.length === 2 && /^[1-9][0-9]*$/.test(path[1]),
@@ -23,14 +23,14 @@ export const pageRoom = {
     const listed = app.atlas.families.find(({ id }) => id === family.id);
     if (Number(place.path[1]) > listed.pages)
       throw new Error(`${family.title} has ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`} only.`);
-    const desk = new PageDesk(app, family, listed);
+    const desk = new PageView(app, family, listed);
     await desk.open(place);
     return desk;
   },
 };
 
 /** A page on the desk. */
-class PageDesk {
+class PageView {
   constructor(app, family, listed) {
     Object.assign(this, { app, family, listed });
     this.viewport = h("div", {
@@ -55,7 +55,7 @@ class PageDesk {
       onchange: () => this.zoomed(),
       ontap: (event) => this.tapped(event),
     });
-    this.forward = new CurveForward(this);
+    this.forward = new CurveHighlight(this);
     this.element = this.room();
     this.unwatch = watchPins(app, this.element);
   }
@@ -67,14 +67,14 @@ class PageDesk {
       "div",
       { class: "room wide page-room", onclick: (event) => this.followed(event) },
       h("div", { class: "head" }, h("div", { class: "page-title" }, heading, this.legend), this.bar.element),
-      h("div", { class: "split" }, h("div", { class: "desk" }, this.viewport, keysInWords()), this.panel),
+      h("div", { class: "split" }, h("div", { class: "desk" }, this.viewport, keyHelp()), this.panel),
     );
   }
 
   /** Shows what an address says; of another family it is another view's. */
   update(place) {
     if (
-      !pageRoom.opens(place) ||
+      !pageRoute.opens(place) ||
       place.path[0] !== this.family.id ||
       Number(place.path[1]) > this.listed.pages
     )
@@ -128,7 +128,7 @@ class PageDesk {
     if (near > 1 && at.length === 2 && at.every(Number.isFinite)) this.zoom.showAt(near, at);
     else if (this.wasLooked === undefined) this.zoom.fit();
     this.wasLooked = true;
-    const curve = query.has("curve") ? curveAt(this.family, query.get("curve")) : undefined;
+    const curve = query.has("curve") ? findCurve(this.family, query.get("curve")) : undefined;
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.forward.choose(curve);
     else {
       this.forward.choose(null);
@@ -149,7 +149,7 @@ class PageDesk {
     fill(
       this.panel,
       curve === null
-        ? curvesPanel(this.family, this.page, this.drawn, enter)
+        ? curveListPanel(this.family, this.page, this.drawn, enter)
         : curvePanel(this.app, this.family, curve, { onall: all }),
     );
     fill(this.legend, this.family.legend ?? "");
@@ -188,7 +188,7 @@ class PageDesk {
   /** Whoever comes back from a plate finds its curve forward. */
   followed({ target }) {
     const key = target.closest('a[href*="/curve/"]')?.getAttribute("href").split("/").at(-1);
-    const curve = key && curveAt(this.family, key);
+    const curve = key && findCurve(this.family, key);
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.choose(curve);
   }
 
@@ -206,7 +206,7 @@ class PageDesk {
   }
 
   typed(event) {
-    const act = actOfKey(event, this);
+    const act = keyAction(event, this);
     if (!act) return;
     event.preventDefault();
     act();

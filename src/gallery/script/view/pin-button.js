@@ -19,7 +19,7 @@ export function pinButton(app, name, attributes = {}, ...children) {
 }
 
 /** Has a button pin the curve of another name from now on. */
-export function namePin(app, button, name) {
+export function setPinName(app, button, name) {
   button.dataset.pin = name;
   markPin(app, button);
 }

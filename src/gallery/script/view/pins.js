@@ -33,7 +33,7 @@ export class Pins {
  * The pins of a window: a tab keeps them for its page when that is loaded again, where the browser lets a
  * page from disk.
  */
-export function pinsOfTab(window) {
+export function tabPins(window) {
   const pins = new Pins();
   const key = `coupler-atlas-pins ${window.location.pathname}`;
   try {

@@ -3,8 +3,8 @@
 
 import { h } from "./dom.js";
 
-const KEPT_THEME = "coupler-atlas-theme";
-const KEPT_PAGES = "coupler-atlas-pages";
+const THEME_KEY = "coupler-atlas-theme";
+const PAGES_KEY = "coupler-atlas-pages";
 
 const THEME_CHOICES = [
   ["system", "Theme: system"],
@@ -16,9 +16,9 @@ const THEME_CHOICES = [
  * The choice of the theme, which takes effect at once. `data-theme` of <html> is always the one in effect,
  * light or dark; "themechange" is dispatched on document when it changes.
  */
-export function themeChoice() {
+export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  let wish = keptTheme();
+  let wish = storedTheme();
   const put = () => {
     const theme = wish === "system" ? (dark.matches ? "dark" : "light") : wish;
     if (document.documentElement.dataset.theme === theme) return;
@@ -29,7 +29,7 @@ export function themeChoice() {
   put();
   const choose = (event) => {
     wish = event.target.value;
-    keepChoice(KEPT_THEME, wish);
+    storeChoice(THEME_KEY, wish);
     put();
   };
   const options = THEME_CHOICES.map(([value, label]) =>
@@ -42,7 +42,7 @@ export function themeChoice() {
  * A switch, of use in the dark alone: pages as they were printed, or turned to light ink on dark paper.
  * `data-pages` of <html> is "printed" or absent.
  */
-export function printedSwitch() {
+export function printedColorsButton() {
   const root = document.documentElement;
   const put = (isPrinted) => {
     if (isPrinted) root.dataset.pages = "printed";
@@ -51,19 +51,19 @@ export function printedSwitch() {
   };
   const act = () => {
     put(root.dataset.pages !== "printed");
-    keepChoice(KEPT_PAGES, root.dataset.pages ?? "turned");
+    storeChoice(PAGES_KEY, root.dataset.pages ?? "turned");
   };
   const button = h("button", { type: "button", class: "as-printed", onclick: act }, "As printed");
-  put(keptChoice(KEPT_PAGES) === "printed");
+  put(storedChoice(PAGES_KEY) === "printed");
   return button;
 }
 
-function keptTheme() {
-  const theme = keptChoice(KEPT_THEME);
+function storedTheme() {
+  const theme = storedChoice(THEME_KEY);
   return THEME_CHOICES.some(([value]) => value === theme) ? theme : "system";
 }
 
-function keptChoice(name) {
+function storedChoice(name) {
   try {
     return window.localStorage.getItem(name);
   } catch {
@@ -72,7 +72,7 @@ function keptChoice(name) {
 }
 
 /** Where the browser keeps nothing for pages from disk, a choice lasts as long as the page. */
-function keepChoice(name, value) {
+function storeChoice(name, value) {
   try {
     window.localStorage.setItem(name, value);
   } catch {

@@ -1,13 +1,13 @@
 // The frame of the gallery: its heading, the ways to its rooms, the room itself, and what stands below.
 
-import { address, parsedAddress } from "../data/address.js";
+import { address, parseAddress } from "../data/address.js";
 import { fill, h } from "./dom.js";
-import { themeChoice } from "./settings.js";
-import { scrollMemory } from "./shell-scroll.js";
-import { footer } from "./shell-footer.js";
+import { themeSelect } from "./settings.js";
+import { scrollMemory } from "./scroll-memory.js";
+import { footer } from "./footer.js";
 
 // A room that takes longer than this to open, in milliseconds, says that it is being opened.
-const OPENING_PATIENCE = 250;
+const BUSY_DELAY = 250;
 
 /**
  * Opens the gallery in an element. `rooms` are [{ name, label, way(app), under, opens(place, app),
@@ -20,7 +20,7 @@ const OPENING_PATIENCE = 250;
 export function openShell(app, rooms, root) {
   const main = h("main", { id: "room", tabindex: "-1" });
   const status = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
-  const ways = waysToRooms(app, rooms);
+  const ways = navigation(app, rooms);
   app.say = (text) => {
     status.textContent = text;
   };
@@ -39,13 +39,13 @@ export function openShell(app, rooms, root) {
       { class: "masthead" },
       h("a", { class: "title", href: address([]) }, app.atlas.title),
       ways.element,
-      themeChoice(),
+      themeSelect(),
     ),
     main,
     footer(app.atlas),
     status,
   );
-  const shower = new RoomShower(app, rooms, { main, ways, scroll: scrollMemory() });
+  const shower = new Router(app, rooms, { main, ways, scroll: scrollMemory() });
   app.replace = (fragment) => {
     // A link that was just followed goes before what a view still has to remember: its event is to come.
     if (window.location.hash !== shower.fragment) return;
@@ -57,7 +57,7 @@ export function openShell(app, rooms, root) {
 }
 
 /** The ways to the rooms, { element, mark(room) }; that to the pins says how many there are. */
-function waysToRooms(app, rooms) {
+function navigation(app, rooms) {
   const count = h("span", { class: "count" });
   const links = new Map(
     rooms
@@ -87,7 +87,7 @@ function waysToRooms(app, rooms) {
 }
 
 /** What shows the room that the address says. */
-class RoomShower {
+class Router {
   constructor(app, rooms, { main, ways, scroll }) {
     Object.assign(this, { app, rooms, main, ways, scroll });
     [this.shown, this.turn, this.fragment] = [null, 0, null];
@@ -96,7 +96,7 @@ class RoomShower {
   /** Shows what the address says, in the view that is there if it can, or else in a new one. */
   async show() {
     this.fragment = window.location.hash;
-    const place = parsedAddress(this.fragment);
+    const place = parseAddress(this.fragment);
     const room = this.rooms.find((candidate) => candidate.opens(place, this.app));
     this.scroll.leave();
     if (this.shown && this.shown.room === room && this.shown.view.update?.(place)) {
@@ -109,7 +109,7 @@ class RoomShower {
     this.shown?.view.leave?.();
     this.shown = null;
     this.ways.mark(room);
-    const waiting = window.setTimeout(() => this.wait(), OPENING_PATIENCE);
+    const waiting = window.setTimeout(() => this.wait(), BUSY_DELAY);
     try {
       if (!room) throw new Error("There is nothing at this address.");
       const view = await room.view(this.app, place);

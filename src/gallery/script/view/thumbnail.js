@@ -16,7 +16,7 @@ const THUMBNAIL_GRAIN = 0.6;
  */
 export function thumbnail(family, curves, { width, height, plain = curves.length === 1 }) {
   const [x0, y0, x1, y1] = boxOfCurves(family, curves);
-  const scale = fittingScale(x1 - x0, y1 - y0, width - 2 * THUMBNAIL_INSET, height - 2 * THUMBNAIL_INSET);
+  const scale = scaleToFit(x1 - x0, y1 - y0, width - 2 * THUMBNAIL_INSET, height - 2 * THUMBNAIL_INSET);
   const across = width / 2 - (scale * (x0 + x1)) / 2;
   const down = height / 2 + (scale * (y0 + y1)) / 2;
   const paths = curves.map((curve, k) =>
@@ -50,7 +50,7 @@ function boxOfCurves(family, curves) {
   return whole.every(Number.isFinite) ? whole : [0, 0, 0, 0];
 }
 
-function fittingScale(wide, high, width, height) {
+function scaleToFit(wide, high, width, height) {
   const scale = Math.min(width / wide, height / high);
   return Number.isFinite(scale) && scale > 0 ? scale : 1;
 }

@@ -1,8 +1,8 @@
 // The facts of curves side by side, with what differs made visible.
 
-import { cellValues, measured } from "../../data/family.js";
+import { cellValues, measureValue } from "../../data/family.js";
 import { h } from "../dom.js";
-import { figure, measureAloneInWords, measureText } from "../page-words.js";
+import { formatNumber, standaloneMeasureLabel, measureText } from "../labels.js";
 
 /** A table of what is known of curves, [{ family, curve, name }]: a column for each, differing rows first. */
 export function factsTable(curves, measures, labels) {
@@ -58,7 +58,7 @@ function parameterRows(curves) {
   const names = [...new Set(curves.flatMap(({ family }) => family.names))];
   const value = ({ family, curve }, name) => {
     const at = family.names.indexOf(name);
-    return at < 0 ? "–" : figure(cellValues(family, family.curves.cell[curve])[at], 6);
+    return at < 0 ? "–" : formatNumber(cellValues(family, family.curves.cell[curve])[at], 6);
   };
   const family = { label: "family", texts: curves.map((one) => one.family.title) };
   return [family, ...names.map((name) => ({ label: name, texts: curves.map((one) => value(one, name)) }))];
@@ -66,9 +66,9 @@ function parameterRows(curves) {
 
 function measureRows(curves, measures) {
   return measures.map((measure) => ({
-    label: measureAloneInWords(measure.name),
+    label: standaloneMeasureLabel(measure.name),
     texts: curves.map(({ family, curve }) =>
-      measured(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
+      measureValue(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
     ),
   }));
 }

@@ -1,13 +1,13 @@
 // Which families are looked through.
 
 import { h } from "../dom.js";
-import { bytesInWords } from "./loading.js";
+import { formatFamilyBytes } from "./loading.js";
 
 /**
  * Boxes for the families of an atlas; `changed(ids)` is called with those ticked, null for all. Nothing for
  * an only family.
  */
-export function familyChoice(atlas, loaded, changed) {
+export function familyChooser(atlas, loaded, changed) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (withCurves.length < 2) return null;
   const chosen = new Set(loaded.map(({ id }) => id));
@@ -41,7 +41,7 @@ export function familyChoice(atlas, loaded, changed) {
       h(
         "button",
         { type: "button", class: "quiet", onclick: () => changed(withCurves.map(({ id }) => id)) },
-        `All (${bytesInWords(bytes)})`,
+        `All (${formatFamilyBytes(bytes)})`,
       ),
       h("button", { type: "button", class: "quiet", onclick: () => changed([]) }, "None"),
     ),

@@ -1,16 +1,16 @@
 // Families for what looks through many of them: loaded one after another, so that the page stays awake.
 
 // An atlas up to this size, in bytes, is loaded whole without being asked.
-const LOADED_UNASKED = 48e6;
+const MAX_AUTOLOAD_BYTES = 48e6;
 
 /**
  * The families that a question is about: those it names, or all if they are not too much together, or none.
  */
-export function familiesAsked(atlas, ids) {
+export function requestedFamilies(atlas, ids) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (ids) return withCurves.filter(({ id }) => ids.includes(id));
   const bytes = withCurves.reduce((sum, family) => sum + (family.bytes ?? 0), 0);
-  return bytes <= LOADED_UNASKED ? withCurves : [];
+  return bytes <= MAX_AUTOLOAD_BYTES ? withCurves : [];
 }
 
 /**
@@ -18,7 +18,7 @@ export function familiesAsked(atlas, ids) {
  * and at the end. Gives a function that stops it. A family that cannot be read is told to `trouble` and left
  * out.
  */
-export function loadingFamilies(atlas, listed, come, trouble) {
+export function loadFamilies(atlas, listed, come, trouble) {
   let stopped = false;
   const there = [];
   const load = async () => {
@@ -48,6 +48,6 @@ export function loadingFamilies(atlas, listed, come, trouble) {
 }
 
 /** Bytes in words: "6.4 MB". */
-export function bytesInWords(bytes) {
+export function formatFamilyBytes(bytes) {
   return bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }

@@ -1,8 +1,8 @@
 // The filters of a table, those that people want first before the others.
 
 import { fill, h } from "../dom.js";
-import { RangeFilter } from "./range.js";
-import { WordFilter } from "./words.js";
+import { RangeFilter } from "./range-filter.js";
+import { WordFilter } from "./word-filter.js";
 
 /** `changed(name, filter)` is called whenever a filter is changed; null takes it away. */
 export class FilterPanel {

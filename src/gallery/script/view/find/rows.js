@@ -3,10 +3,10 @@
 import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
 import { fill, h } from "../dom.js";
-import { lineOnPaper, whenPrinted } from "../on-paper.js";
+import { printedCountNote, onPrint } from "../printing.js";
 import { watchPins } from "../pin-button.js";
-import { columnInWords, columnValueText } from "./column-words.js";
-import { pinnedByKey, pinOfCurve } from "./pin.js";
+import { columnLabel, columnValueText } from "./column-label.js";
+import { pinOnKey, curvePinButton } from "./curve-pin.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
@@ -35,12 +35,12 @@ export class ResultRows {
         role: "region",
         "aria-label": "Table of curves",
         onscroll: () => this.fill(),
-        onkeydown: pinnedByKey,
+        onkeydown: pinOnKey,
       },
       this.figures,
     );
     this.unwatch = watchPins(app, this.element);
-    this.paper = whenPrinted(
+    this.paper = onPrint(
       this.element,
       () => this.printed(),
       () => this.fill(),
@@ -66,7 +66,7 @@ export class ResultRows {
         h(
           "button",
           { type: "button", onclick: () => this.sorted(name) },
-          columnInWords(name),
+          columnLabel(name),
           sort.name === name ? (sort.down ? " ↓" : " ↑") : "",
         ),
       );
@@ -101,7 +101,7 @@ export class ResultRows {
       this.body,
       Array.from({ length: last }, (_, k) => this.line(k)),
     );
-    return lineOnPaper(last, this.rows.length, "curves");
+    return printedCountNote(last, this.rows.length, "curves");
   }
 
   line(k) {
@@ -122,7 +122,7 @@ export class ResultRows {
         "th",
         { scope: "row", class: "text" },
         h("a", { href, "data-name": name }, name),
-        pinOfCurve(this.app, name),
+        curvePinButton(this.app, name),
       ),
       this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
     );

@@ -3,12 +3,12 @@
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { h } from "../dom.js";
-import { captionInType } from "../page-words.js";
-import { pointInWords } from "../page-panel.js";
+import { formatCaption } from "../labels.js";
+import { pointLabel } from "../page-panel.js";
 import { watchPins } from "../pin-button.js";
-import { TileWindow } from "../sheet-window.js";
+import { TileWindow } from "../tile-window.js";
 import { thumbnail } from "../thumbnail.js";
-import { pinnedByKey, pinOfCurve } from "./pin.js";
+import { pinOnKey, curvePinButton } from "./curve-pin.js";
 
 /**
  * Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null.
@@ -18,7 +18,7 @@ export class ResultTiles extends TileWindow {
     super({ count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" });
     Object.assign(this, { app, rows: [], table: null, valueOf: () => null });
     this.element.classList.add("results");
-    this.element.addEventListener("keydown", pinnedByKey);
+    this.element.addEventListener("keydown", pinOnKey);
     this.unwatch = watchPins(app, this.element);
   }
 
@@ -45,7 +45,7 @@ export class ResultTiles extends TileWindow {
     const value = this.valueOf(row);
     const caption = family.cells.caption[family.curves.cell[curve]] || name;
     const circuit = family.curves.circuit[curve];
-    const which = [pointInWords(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
+    const which = [pointLabel(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
     return h(
       "li",
       {},
@@ -57,10 +57,10 @@ export class ResultTiles extends TileWindow {
           "span",
           { class: "label" },
           value ? [h("b", {}, value), " "] : null,
-          captionInType([...which, caption].filter(Boolean).join(" · ")),
+          formatCaption([...which, caption].filter(Boolean).join(" · ")),
         ),
       ),
-      pinOfCurve(app, name),
+      curvePinButton(app, name),
     );
   }
 

@@ -1,6 +1,6 @@
 // What moves a linkage along its circuit: time, the slider, keys, hands.
 
-import { heldPart, partOfInput, placeAtPart, turningParts } from "./course.js";
+import { clampPart, partOfInput, placeAtPart, turningParts } from "./timeline.js";
 import { Player } from "./player.js";
 
 // A range shorter than this many degrees is not rattled through: it takes as long as this would.
@@ -96,7 +96,7 @@ export class Drive {
       return;
     }
     // A step over a limit ends beyond it, by so much of the course.
-    this.seek(heldPart(this.course, this.part + by / this.course.whole));
+    this.seek(clampPart(this.course, this.part + by / this.course.whole));
   }
 
   /** To the next place where the input turns round, or, of a full turn, to its beginning. */
@@ -124,6 +124,6 @@ export class Drive {
       this.heading = part > 1 ? -1 : 1;
       part = part > 1 ? 2 - part : -part;
     }
-    this.seek(heldPart(this.course, part));
+    this.seek(clampPart(this.course, part));
   }
 }

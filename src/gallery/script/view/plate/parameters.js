@@ -27,7 +27,7 @@ export function changeableParameters(family, cell, trace, changes) {
           ? "freed"
           : "follows";
     const spread = spreadOfSlot(family, slot);
-    const range = sensibleRange(recorded[slot], spread, bounds, size, whole.has(slot));
+    const range = sliderRange(recorded[slot], spread, bounds, size, whole.has(slot));
     return {
       name,
       kind,
@@ -58,7 +58,7 @@ function changeableCoordinates({ template }, recorded, values, trace, changes, s
         recorded: kept,
         min: null,
         max: null,
-        ...sensibleRange(kept, [kept, kept], {}, size, false),
+        ...sliderRange(kept, [kept, kept], {}, size, false),
       };
     });
 }
@@ -78,7 +78,7 @@ function wholeSlots({ joints }) {
   return new Set(ratios.filter((part) => Array.isArray(part) && part.length === 1).map(([[slot]]) => slot));
 }
 
-function sensibleRange(recorded, [least, most], { min, max }, size, isWhole) {
+function sliderRange(recorded, [least, most], { min, max }, size, isWhole) {
   if (isWhole) return { low: Math.min(least, -6), high: Math.max(most, 6), grain: 1 };
   const reach = Math.max(most - least, 0.6 * Math.abs(recorded)) || size;
   let low = Math.min(least, recorded - 0.5 * reach);
@@ -98,7 +98,7 @@ export function roundedToGrain(value, grain) {
 }
 
 /** The changes that a query (a Map of words) says, of what can be changed; the rest is left out. */
-export function changesOfQuery(family, trace, query) {
+export function parseChanges(family, trace, query) {
   const point = tracedPoint(family.template, trace);
   const known = new Set([...family.names, ...(point ? [`${point.name}.along`, `${point.name}.across`] : [])]);
   const changes = new Map();

@@ -1,9 +1,9 @@
 // What the query of a plate's address says: changed parameters, the circuit, and what is switched on.
 
 import { address } from "../../data/address.js";
-import { curveAt, curveKey } from "../../data/family.js";
+import { findCurve, curveKey } from "../../data/family.js";
 import { OVERLAYS } from "./overlays.js";
-import { changesOfQuery } from "./parameters.js";
+import { parseChanges } from "./parameters.js";
 
 /**
  * { changes: Map, asked: the place of a circuit among all, or null, on: Set of overlays' names } of a query.
@@ -13,7 +13,7 @@ export function readPlateQuery(family, trace, query) {
   const shown = query.get("show");
   const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
   return {
-    changes: changesOfQuery(family, trace, query),
+    changes: parseChanges(family, trace, query),
     asked: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
   };
@@ -32,25 +32,25 @@ export function plateAddress({ family, curve, changes, asked, on, study }) {
  * The name of a curve beyond its family, on the circuit that is shown, with what is changed of it; a circuit
  * that the atlas does not have is named by its number among all: "evans:1.1.1?circuit=2".
  */
-export function changedName({ family, curve, changes, study }) {
-  const { key, beside } = keyOfCircuit(family, curve, study);
+export function plateCurveName({ family, curve, changes, study }) {
+  const { key, beside } = keyOfShownCircuit(family, curve, study);
   const words = [...changes].map(([name, value]) => `${encodeURIComponent(name)}=${value}`);
   if (beside) words.push(`circuit=${beside}`);
   return `${family.id}:${key}${words.length ? `?${words.join("&")}` : ""}`;
 }
 
 /** Whether a plate shows a circuit that the atlas does not have. */
-export function isBesideAtlas({ family, curve, study }) {
-  return keyOfCircuit(family, curve, study).beside !== null;
+export function isExtraCircuit({ family, curve, study }) {
+  return keyOfShownCircuit(family, curve, study).beside !== null;
 }
 
 /** The key of the curve on the circuit that a study shows; its own with a number where there is none. */
-function keyOfCircuit(family, curve, study) {
+function keyOfShownCircuit(family, curve, study) {
   const own = curveKey(family, curve);
   if (!study || study.shown === study.home) return { key: own, beside: null };
   // Only where the atlas takes all circuits are they numbered as a plate counts them.
   const key = family.template.circuits === "all" ? own.replace(/\d+$/, study.shown + 1) : null;
-  return key !== null && curveAt(family, key) !== undefined
+  return key !== null && findCurve(family, key) !== undefined
     ? { key, beside: null }
     : { key: own, beside: study.shown + 1 };
 }

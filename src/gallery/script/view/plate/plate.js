@@ -1,22 +1,22 @@
 // A plate: the state of a linkage that is being looked at, and what happens when a hand does something to it.
 
-import { heldPart, partOfInput } from "./course.js";
+import { clampPart, partOfInput } from "./timeline.js";
 import { DialView } from "./dial-view.js";
 import { Drive } from "./drive.js";
 import { MeasureTable } from "./facts.js";
-import { gripStage } from "./grips.js";
+import { enableDragging } from "./dragging.js";
 import { PlateKeys } from "./keys.js";
 import { plateLayout } from "./layout.js";
-import { measuresOfStudy } from "./measures-now.js";
+import { measuresOfStudy } from "./study-measures.js";
 import { Overlays } from "./overlays.js";
 import { changeableParameters } from "./parameters.js";
-import { pathsOfStudy, straightStretch, straightWords } from "./paths.js";
-import { changedName, isBesideAtlas, plateAddress, readPlateQuery } from "./plate-query.js";
-import { Poser } from "./poser.js";
+import { pathsOfStudy, straightStretch, straightSummary } from "./paths.js";
+import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
+import { PoseSolver } from "./pose-solver.js";
 import { Sliders } from "./sliders.js";
 import { SpeedView } from "./speed-view.js";
 import { Stage } from "./stage.js";
-import { pathOfStudy, routeTitle, studyOf } from "./study.js";
+import { pathOfStudy, circuitTitle, studyOf } from "./study.js";
 import { summaryOfStudy } from "./summary.js";
 import { Switches } from "./switches.js";
 import { Transport } from "./transport.js";
@@ -39,7 +39,7 @@ export class Plate {
     this.#furnish();
     this.layout = plateLayout(this);
     this.element = this.layout.element;
-    this.release = gripStage(this.stage, this);
+    this.release = enableDragging(this.stage, this);
     Object.assign(this, readPlateQuery(family, this.trace, query));
     this.#restudy(false);
     if (!this.study) this.#showRecorded();
@@ -105,7 +105,7 @@ export class Plate {
 
   /** The name of the curve beyond its family, with what is changed of it. */
   get name() {
-    return changedName(this);
+    return plateCurveName(this);
   }
 
   /** Whether what is shown is what the atlas has. */
@@ -137,7 +137,7 @@ export class Plate {
       return;
     }
     this.study = study;
-    this.poser = new Poser(study.linkage);
+    this.poser = new PoseSolver(study.linkage);
     this.velocity = new PointVelocity(study);
     this.path = pathOfStudy(study, isRough ? ROUGH_PATH : FINE_PATH);
     this.drive.take(study);
@@ -149,9 +149,9 @@ export class Plate {
     this.#markStraight(isRough);
     this.stage.show(study, this.#paths(isRough));
     this.overlays.show(study, this.on, isRough);
-    this.transport.show(study, routeTitle(study.linkage, study.routes[study.shown]));
+    this.transport.show(study, circuitTitle(study.linkage, study.routes[study.shown]));
     this.dial.show(study);
-    const partOf = ({ pass, input }) => heldPart(drive.course, partOfInput(drive.course, pass, input));
+    const partOf = ({ pass, input }) => clampPart(drive.course, partOfInput(drive.course, pass, input));
     this.speed.show(study, path, this.stretch && [partOf(this.stretch.from), partOf(this.stretch.to)]);
     this.stage.keepInFrame();
     this.#draw();
@@ -163,7 +163,7 @@ export class Plate {
     this.measured = this.isRecorded || isRough ? null : measuresOfStudy(family, study);
     const isKnown = this.isRecorded || !isRough;
     this.stretch = isKnown ? straightStretch(study, family, curve, this.measured) : null;
-    this.transport.tellStraight(isKnown ? straightWords(study, family, curve, this.measured) : null);
+    this.transport.tellStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
   }
 
   #paths(isRough) {
@@ -194,7 +194,7 @@ export class Plate {
   #settle(isAddressed = true) {
     const { family, curve, study } = this;
     this.measures.show(this.reason ? null : this.measured);
-    this.switches.show(this.candidates, study, this.on, isBesideAtlas(this));
+    this.switches.show(this.candidates, study, this.on, isExtraCircuit(this));
     this.layout.refresh();
     if (this.reason) this.app.say(`It cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
@@ -216,7 +216,7 @@ export class Plate {
     if (name === "others") this.stage.show(this.study, this.#paths(false));
     this.overlays.show(this.study, this.on, false);
     if (before !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
-    this.switches.show(this.candidates, this.study, this.on, isBesideAtlas(this));
+    this.switches.show(this.candidates, this.study, this.on, isExtraCircuit(this));
     this.#draw();
     this.app.replace(plateAddress(this));
   }

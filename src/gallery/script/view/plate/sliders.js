@@ -58,9 +58,9 @@ export class Sliders {
     row.range.max = Math.max(high, value);
     if (Number(row.range.value) !== value) row.range.value = value;
     row.range.disabled = kind === "follows";
-    row.range.setAttribute("aria-valuetext", plainNumber(value));
+    row.range.setAttribute("aria-valuetext", formatInputNumber(value));
     row.field.readOnly = kind === "follows";
-    if (document.activeElement !== row.field) row.field.value = plainNumber(value);
+    if (document.activeElement !== row.field) row.field.value = formatInputNumber(value);
     const { min, max } = parameter;
     const isOut =
       (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
@@ -70,7 +70,7 @@ export class Sliders {
     row.button.textContent = label;
     row.button.setAttribute(
       "aria-label",
-      `${label}: ${parameter.name}${isTied ? "" : ` to ${plainNumber(recorded)}`}`,
+      `${label}: ${parameter.name}${isTied ? "" : ` to ${formatInputNumber(recorded)}`}`,
     );
     row.button.classList.toggle("unneeded", !isTied && !isChangedParameter(parameter));
     row.button.disabled = !isTied && !isChangedParameter(parameter);
@@ -106,7 +106,7 @@ export class Sliders {
       "aria-label": `${name}, ${PARAMETER_KINDS[parameter.kind]}`,
       oninput: () => on.change(name, roundedToGrain(Number(row.range.value), row.parameter.grain)),
       onchange: () => on.settle(),
-      onkeydown: (event) => steppedSlider(event, row, on),
+      onkeydown: (event) => stepSlider(event, row, on),
     });
     row.field = h("input", {
       type: "number",
@@ -118,13 +118,13 @@ export class Sliders {
       },
       onchange: () => {
         on.settle();
-        row.field.value = plainNumber(row.parameter.value);
+        row.field.value = formatInputNumber(row.parameter.value);
       },
     });
     row.button = h("button", {
       type: "button",
       class: "quiet tie",
-      onclick: () => freedOrTied(row.parameter, on),
+      onclick: () => toggleLink(row.parameter, on),
     });
     row.element = h(
       "div",
@@ -140,7 +140,7 @@ export class Sliders {
 }
 
 // The browser's own steps of a slider without steps are coarse: ours are its grain, with shift ten of them.
-function steppedSlider(event, row, on) {
+function stepSlider(event, row, on) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
   if (!(event.key in ways) || event.ctrlKey || event.metaKey || event.altKey) return;
   event.preventDefault();
@@ -149,7 +149,7 @@ function steppedSlider(event, row, on) {
   on.change(name, roundedToGrain(value + by, grain));
 }
 
-function freedOrTied({ name, kind, value }, on) {
+function toggleLink({ name, kind, value }, on) {
   if (kind === "follows") on.change(name, value);
   else on.clear(name);
   on.settle();
@@ -160,6 +160,6 @@ function isChangedParameter({ kind, value, recorded }) {
 }
 
 /** A number as it is typed: up to ten significant digits. */
-export function plainNumber(value) {
+export function formatInputNumber(value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(10))) : "";
 }

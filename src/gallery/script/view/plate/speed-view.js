@@ -3,8 +3,8 @@
 import { pixel } from "../../draw/path-data.js";
 import { shownSpeed, speedData, speedsOfPath } from "../../draw/speed-graph.js";
 import { h, s } from "../dom.js";
-import { partOfInput, turningParts } from "./course.js";
-import { minusSigned } from "./study.js";
+import { partOfInput, turningParts } from "./timeline.js";
+import { formatDecimals } from "./study.js";
 
 const SPEED_FRAME = { width: 300, height: 84 };
 
@@ -79,11 +79,11 @@ export class SpeedView {
     const finite = speeds.filter(Number.isFinite);
     const [least, most] = [Math.min(...finite), Math.max(...finite)];
     const isCut = most > this.top * 1.05;
-    const until = isCut ? "without bound towards the limits" : `to ${shortLength(most)}`;
-    this.foot.textContent = `from ${shortLength(least)} ${until}, in lengths to ${this.unit}`;
+    const until = isCut ? "without bound towards the limits" : `to ${formatLength(most)}`;
+    this.foot.textContent = `from ${formatLength(least)} ${until}, in lengths to ${this.unit}`;
     this.drawing.setAttribute(
       "aria-label",
-      `Speed of the traced point over the circuit: from ${shortLength(least)} ${until} to ${this.unit}`,
+      `Speed of the traced point over the circuit: from ${formatLength(least)} ${until} to ${this.unit}`,
     );
   }
 
@@ -96,7 +96,7 @@ export class SpeedView {
       "cy",
       isFinite ? pixel(SPEED_FRAME.height * (1 - Math.min(speed / this.top, 1.06))) : -5,
     );
-    this.value.textContent = isFinite ? shortLength(speed) : "∞";
+    this.value.textContent = isFinite ? formatLength(speed) : "∞";
   }
 }
 
@@ -107,10 +107,10 @@ function bandData([from, to]) {
 }
 
 /** A length or speed in four significant digits, with a true minus. */
-export function shortLength(value) {
+export function formatLength(value) {
   if (!Number.isFinite(value)) return "∞";
   if (value === 0) return "0";
   const exponent = Math.floor(Math.log10(Math.abs(value)));
   if (exponent < -5 || exponent > 6) return value.toExponential(3).replaceAll("-", "−");
-  return minusSigned(value, Math.max(0, 3 - exponent));
+  return formatDecimals(value, Math.max(0, 3 - exponent));
 }

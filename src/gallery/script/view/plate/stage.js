@@ -4,8 +4,8 @@
 
 import { fittedView, viewBetween, zoomedView } from "../../draw/paper-view.js";
 import { fill, h } from "../dom.js";
-import { MovingSheet } from "./moving-sheet.js";
-import { StillSheet } from "./still-sheet.js";
+import { MovingLayer } from "./moving-layer.js";
+import { StaticLayer } from "./static-layer.js";
 
 const STAGE_MARGIN = 44;
 
@@ -20,8 +20,8 @@ export class Stage {
     this.isZoomed = false;
     this.box = null;
     this.study = null;
-    this.still = new StillSheet();
-    this.moving = new MovingSheet();
+    this.still = new StaticLayer();
+    this.moving = new MovingLayer();
     this.summary = h("p", { class: "unseen", id: "plate-summary" });
     this.reason = h("p", { class: "reason trouble", hidden: true });
     this.picture = h(

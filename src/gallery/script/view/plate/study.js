@@ -10,7 +10,7 @@ import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
 import { sideOf } from "../../kinematics/signs.js";
 import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
-import { courseOf } from "./course.js";
+import { timelineOf } from "./timeline.js";
 
 // So many samples over a circuit show what its other points and its sliders do.
 const STUDY_SAMPLES = 240;
@@ -43,7 +43,7 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
       : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
   if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
-  const home = sameRoute(routes, recorded.routes[circuit[curve] - 1]);
+  const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
   const shown = routes[asked] ? asked : home;
   if (shown < 0) {
     const reason =
@@ -60,10 +60,10 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
     shortfall: recorded.shortfall,
     template: changed.template,
   };
-  return { ...study, ...shownCircuit(study, changed.trace ?? linkage.traced.length) };
+  return { ...study, ...studyShownCircuit(study, changed.trace ?? linkage.traced.length) };
 }
 
-function shownCircuit({ linkage, routes, shown }, trace) {
+function studyShownCircuit({ linkage, routes, shown }, trace) {
   const circuit = sampledCircuit(
     linkage,
     samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }),
@@ -83,7 +83,7 @@ function shownCircuit({ linkage, routes, shown }, trace) {
     circuit,
     joint,
     others,
-    course: courseOf(routes[shown]),
+    course: timelineOf(routes[shown]),
     mechanism,
     box,
     curveBox,
@@ -106,7 +106,7 @@ export function pathOfStudy({ linkage, circuit, joint, size }, part) {
   return finePath(linkage, circuit, joint, part * size);
 }
 
-function sameRoute(routes, route) {
+function indexOfRoute(routes, route) {
   if (!route) return -1;
   const [first] = route.passes;
   const isOn = ({ passes }) =>
@@ -119,34 +119,34 @@ function sameRoute(routes, route) {
 }
 
 /** What a circuit is called: "branch 1, a full turn", "−75.5° to 75.5°, branches 1 and −1". */
-export function routeTitle(linkage, { passes, closed }) {
-  const told = (at) => (linkage.input.isLength ? lengthWords(at) : `${minusSigned(at, 1)}°`);
+export function circuitTitle(linkage, { passes, closed }) {
+  const told = (at) => (linkage.input.isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
-  const branches = [...new Set(passes.map(({ signs }) => branchWords(linkage, signs)))].filter(Boolean);
+  const branches = [...new Set(passes.map(({ signs }) => branchLabel(linkage, signs)))].filter(Boolean);
   const turns =
     passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) &&
     closed;
-  const travel = turns ? turnWords(high - low) : `${told(low)} to ${told(high)}`;
+  const travel = turns ? turnsLabel(high - low) : `${told(low)} to ${told(high)}`;
   return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
 }
 
-function lengthWords(length) {
-  return minusSigned(Number(length.toPrecision(4)), 4).replace(/\.?0+$/, "");
+function lengthLabel(length) {
+  return formatDecimals(Number(length.toPrecision(4)), 4).replace(/\.?0+$/, "");
 }
 
-function turnWords(degrees) {
+function turnsLabel(degrees) {
   const turns = Math.round(degrees / 360);
   return turns === 1 ? "a full turn" : `${turns} turns`;
 }
 
 // The sides of all two-valued joints: 1 left, −1 right.
-function branchWords({ dyads }, signs) {
+function branchLabel({ dyads }, signs) {
   return Array.from({ length: dyads }, (_, k) => (sideOf(signs, k) > 0 ? "1" : "−1")).join("/");
 }
 
 /** A number with so many decimals and a true minus. */
-export function minusSigned(value, decimals) {
+export function formatDecimals(value, decimals) {
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
 }

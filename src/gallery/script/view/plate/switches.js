@@ -2,8 +2,8 @@
 
 import { fill, h } from "../dom.js";
 import { cognatesOfStudy, OVERLAYS } from "./overlays.js";
-import { routeTitle } from "./study.js";
-import { shortLength } from "./speed-view.js";
+import { circuitTitle } from "./study.js";
+import { formatLength } from "./speed-view.js";
 
 /** Checkboxes and circuits. `on` has overlay(name, isOn) and circuit(k). */
 export class Switches {
@@ -75,7 +75,7 @@ export class Switches {
       checked: k === shown,
       onchange: () => this.on.circuit(k),
     });
-    const words = `${k + 1}: ${routeTitle(linkage, route)}`;
+    const words = `${k + 1}: ${circuitTitle(linkage, route)}`;
     return h(
       "label",
       { class: "check" },
@@ -98,7 +98,7 @@ export class Switches {
         "tr",
         {},
         h("th", { scope: "row", class: "text" }, name),
-        values.map((x) => h("td", {}, shortLength(x))),
+        values.map((x) => h("td", {}, formatLength(x))),
       );
     fill(
       this.lengths,

@@ -1,7 +1,7 @@
 // What drives the motion: play and pause, speed, the slider over the circuit, steps, and limits.
 
 import { h } from "../dom.js";
-import { minusSigned } from "./study.js";
+import { formatDecimals } from "./study.js";
 
 /** Rates of play, in degrees of input to a second, and what they are called. */
 const PLAY_RATES = [
@@ -33,7 +33,7 @@ export class Transport {
       value: "0",
       "aria-label": "Place on the circuit",
       oninput: () => drive.seekByHand(Number(this.scrub.value)),
-      onkeydown: (event) => steppedByKey(event, drive),
+      onkeydown: (event) => stepByKey(event, drive),
     });
     this.input = h("span", { class: "input-now" });
     this.ends = h("p", { class: "note ends" });
@@ -110,7 +110,7 @@ export class Transport {
   }
 
   now(part, input) {
-    const text = this.isLength ? minusSigned(input, 4) : `${minusSigned(input, 1)}°`;
+    const text = this.isLength ? formatDecimals(input, 4) : `${formatDecimals(input, 1)}°`;
     this.input.textContent = text;
     if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
       this.scrub.value = part;
@@ -125,7 +125,7 @@ export class Transport {
 /**
  * Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits.
  */
-export function steppedByKey(event, drive) {
+export function stepByKey(event, drive) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
   const limits = { Home: -1, End: 1 };
   if (event.ctrlKey || event.metaKey || event.altKey) return false;

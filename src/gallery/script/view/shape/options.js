@@ -2,7 +2,7 @@
 
 import { h } from "../dom.js";
 
-const LEASTS = [0.05, 0.1, 0.15, 0.25, 0.5];
+const MIN_SHARES = [0.05, 0.1, 0.15, 0.25, 0.5];
 
 /** The controls of a question (question.js), which they write in before `changed()`: { element, mark() }. */
 export function shapeOptions(asked, changed) {
@@ -32,16 +32,16 @@ export function shapeOptions(asked, changed) {
       "div",
       { class: "toolbar" },
       h("label", { class: "check" }, part, "a part of a curve, no less than"),
-      leastChoice(asked.least, (least) => put("least", least)),
+      minShareSelect(asked.least, (least) => put("least", least)),
     ),
     h("label", { class: "check" }, mirror, "mirror images too"),
-    rankChoice(asked.by, (by) => put("by", by)),
+    rankingSelect(asked.by, (by) => put("by", by)),
   );
   return { element, mark };
 }
 
-function leastChoice(least, choose) {
-  const values = [...new Set([...LEASTS, least])].sort((a, b) => a - b);
+function minShareSelect(least, choose) {
+  const values = [...new Set([...MIN_SHARES, least])].sort((a, b) => a - b);
   const choice = h(
     "select",
     { "aria-label": "Least part of a curve", onchange: () => choose(Number(choice.value)) },
@@ -51,7 +51,7 @@ function leastChoice(least, choose) {
   return choice;
 }
 
-function rankChoice(by, choose) {
+function rankingSelect(by, choose) {
   const choice = h(
     "select",
     { id: "shape-by", onchange: () => choose(choice.value) },

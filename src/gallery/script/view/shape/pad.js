@@ -4,17 +4,17 @@ import { simplified } from "../../shape/encode.js";
 import { looksClosed } from "../../shape/outline.js";
 import { fill, h, s } from "../dom.js";
 
-const WIDE = 400;
-const HIGH = 300;
+const PAD_WIDTH = 400;
+const PAD_HEIGHT = 300;
 // The keys move the pen by this much, and by five times as much with Shift.
-const STEP = 5;
+const PEN_STEP = 5;
 
 /** A pad of 400 × 300; `drawn(points, closed)` is called with a shape, y up, when it is finished. */
 export class DrawingPad {
   constructor(drawn, say) {
     Object.assign(this, { drawn, say });
     this.points = [];
-    this.pen = [WIDE / 2, HIGH / 2];
+    this.pen = [PAD_WIDTH / 2, PAD_HEIGHT / 2];
     this.line = s("path", { class: "drawn" });
     this.dots = s("g", { class: "dots" });
     this.cross = s("path", { class: "pen", d: "M-7 0h14M0-7v14" });
@@ -22,7 +22,7 @@ export class DrawingPad {
       "svg",
       {
         class: "pad",
-        viewBox: `0 0 ${WIDE} ${HIGH}`,
+        viewBox: `0 0 ${PAD_WIDTH} ${PAD_HEIGHT}`,
         tabindex: "0",
         role: "application",
         "aria-label": "Drawing pad",
@@ -47,10 +47,10 @@ export class DrawingPad {
   show(points, closed) {
     const [xs, ys] = [0, 1].map((part) => Array.from(points).filter((_, k) => k % 2 === part));
     const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    const scale = Math.min((WIDE - 40) / (x1 - x0 || 1), (HIGH - 40) / (y1 - y0 || 1));
+    const scale = Math.min((PAD_WIDTH - 40) / (x1 - x0 || 1), (PAD_HEIGHT - 40) / (y1 - y0 || 1));
     const place = (k) => [
-      WIDE / 2 + scale * (points[k] - (x0 + x1) / 2),
-      HIGH / 2 - scale * (points[k + 1] - (y0 + y1) / 2),
+      PAD_WIDTH / 2 + scale * (points[k] - (x0 + x1) / 2),
+      PAD_HEIGHT / 2 - scale * (points[k + 1] - (y0 + y1) / 2),
     ];
     this.points = xs.map((_, k) => place(2 * k));
     this.closed = closed;
@@ -72,10 +72,10 @@ export class DrawingPad {
 
   placeOf({ clientX, clientY }) {
     const box = this.element.getBoundingClientRect();
-    const scale = Math.min(box.width / WIDE, box.height / HIGH);
+    const scale = Math.min(box.width / PAD_WIDTH, box.height / PAD_HEIGHT);
     return [
-      (clientX - box.left - (box.width - scale * WIDE) / 2) / scale,
-      (clientY - box.top - (box.height - scale * HIGH) / 2) / scale,
+      (clientX - box.left - (box.width - scale * PAD_WIDTH) / 2) / scale,
+      (clientY - box.top - (box.height - scale * PAD_HEIGHT) / 2) / scale,
     ];
   }
 
@@ -98,7 +98,7 @@ export class DrawingPad {
   }
 
   flat() {
-    return Float64Array.from(this.points.flatMap(([x, y]) => [x, HIGH - y]));
+    return Float64Array.from(this.points.flatMap(([x, y]) => [x, PAD_HEIGHT - y]));
   }
 
   finish(closed = null) {
@@ -110,7 +110,7 @@ export class DrawingPad {
   }
 
   typed(event) {
-    const step = event.shiftKey ? 5 * STEP : STEP;
+    const step = event.shiftKey ? 5 * PEN_STEP : PEN_STEP;
     const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[
       event.key
     ];
@@ -125,10 +125,10 @@ export class DrawingPad {
     event.preventDefault();
     if (!move) return void acts[event.key]();
     this.pen = [
-      Math.min(Math.max(this.pen[0] + move[0], 0), WIDE),
-      Math.min(Math.max(this.pen[1] + move[1], 0), HIGH),
+      Math.min(Math.max(this.pen[0] + move[0], 0), PAD_WIDTH),
+      Math.min(Math.max(this.pen[1] + move[1], 0), PAD_HEIGHT),
     ];
-    this.say(`${Math.round(this.pen[0])}, ${Math.round(HIGH - this.pen[1])}`);
+    this.say(`${Math.round(this.pen[0])}, ${Math.round(PAD_HEIGHT - this.pen[1])}`);
     this.laid();
   }
 
@@ -150,7 +150,7 @@ export class DrawingPad {
 
 function gridLines() {
   let path = "";
-  for (let x = 50; x < WIDE; x += 50) path += `M${x} 0V${HIGH}`;
-  for (let y = 50; y < HIGH; y += 50) path += `M0 ${y}H${WIDE}`;
+  for (let x = 50; x < PAD_WIDTH; x += 50) path += `M${x} 0V${PAD_HEIGHT}`;
+  for (let y = 50; y < PAD_HEIGHT; y += 50) path += `M0 ${y}H${PAD_WIDTH}`;
   return path;
 }

@@ -1,0 +1,151 @@
+// A plate of a taken curve with its linkage, as an SVG of its own: 200 by 150 mm, in quarter millimetres.
+
+import { finePath } from "../kinematics/path.js";
+import { dashData, dashesOfPeriod } from "../draw/dashes.js";
+import { mechanismOf, sweptBox } from "../draw/mechanism.js";
+import { fittedView, roundBelow } from "../draw/paper-view.js";
+import { circleData, polylineData } from "../draw/path-data.js";
+import { passLength } from "../kinematics/pass.js";
+import { shortestDigits } from "./digits.js";
+import { plateShapes } from "./plate-shapes.js";
+import { exportPose } from "./curve.js";
+
+/** The plate's size in millimetres, and its units to a millimetre. */
+export const PLATE_SIZE = { width: 200, height: 150, units: 4 };
+
+/** A taken curve as SVG. */
+export function svgOfCurve(taken) {
+  const pose = exportPose(taken);
+  const joints = taken.linkage.joints.map((_, joint) => pose(joint));
+  return svgOfPoses(taken, [joints], 0);
+}
+
+/**
+ * A plate of a taken curve with its linkage in one pose, or moving through several over so many seconds,
+ * again and again; a pose is the place { x, y } of each joint.
+ */
+export function svgOfPoses(taken, poses, seconds) {
+  const mechanism = mechanismOf(taken.linkage, taken.course);
+  const view = viewOfPlate(sweptBox(mechanism, taken.course, [taken.joint]));
+  const placed = poses.map((pose) =>
+    pose.flatMap(({ x, y }) => [view.x + view.scale * x, view.y - view.scale * y]),
+  );
+  const shapes = plateShapes(mechanism, taken.joint).map(({ look, data }) => {
+    const frames = placed.map((at) => data(at, view.scale));
+    return pathElement({ d: frames[0], ...look }, frames.length > 1 ? animateElement(frames, seconds) : "");
+  });
+  const { width, height, units } = PLATE_SIZE;
+  const head = {
+    xmlns: "http://www.w3.org/2000/svg",
+    width: `${width}mm`,
+    height: `${height}mm`,
+    viewBox: `0 0 ${units * width} ${units * height}`,
+    "font-family": "'DejaVu Sans',Verdana,sans-serif",
+    "stroke-linejoin": "round",
+    fill: "none",
+  };
+  const body = [
+    `<title>${escapeXml(`${taken.family.title}, ${taken.name}`)}</title>\n`,
+    `<rect width="${units * width}" height="${units * height}" fill="#fffdf8"/>\n`,
+    lettering(taken, view),
+    staticShapes(taken, mechanism, view),
+    `<g class="linkage">\n${shapes.join("")}</g>\n`,
+  ];
+  return `<svg${attributesOf(head)}>\n${body.join("")}</svg>\n`;
+}
+
+// The box in the middle of what the lettering leaves.
+function viewOfPlate(box) {
+  const { width, height, units } = PLATE_SIZE;
+  const [top, foot, side] = [84, 84, 48];
+  const view = fittedView(box, {
+    width: units * width - 2 * side,
+    height: units * height - top - foot,
+    margin: 8,
+  });
+  return { ...view, x: view.x + side, y: view.y + top };
+}
+
+// What stays where it is: the frame, guides and wheels, and the curve in dashes on its own light line.
+function staticShapes(taken, { frame, guides, wheels }, view) {
+  const { linkage, course, joint, family } = taken;
+  const place = (x, y) => [view.x + view.scale * x, view.y - view.scale * y];
+  const at = (id) => place(course.x[id][0], course.y[id][0]);
+  const hair = { stroke: "#8f8b80", "stroke-width": 0.6 };
+  const fine = finePath(linkage, course, joint, 0.05 / view.scale);
+  const points = Float64Array.from(fine.points, (v, k) =>
+    k % 2 === 0 ? view.x + view.scale * v : view.y - view.scale * v,
+  );
+  const dashes = dashesOfPeriod(dashPeriodOfCurve(family, linkage, course));
+  const through = (places, closed) => polylineData(places.flat(), { closed });
+  const parts = [
+    [through(frame.map(at), frame.length > 2), hair],
+    [wheels.map(({ joint: hub, radius }) => circleData(...at(hub), view.scale * radius)).join(""), hair],
+    [
+      guides.map(([x0, y0, x1, y1]) => through([place(x0, y0), place(x1, y1)], false)).join(""),
+      { ...hair, stroke: "#191816" },
+    ],
+    [polylineData(points), { stroke: "#cba79f", "stroke-width": 0.9 }],
+    [
+      dashData({ ...fine, points }, dashes),
+      { stroke: "#7d2115", "stroke-width": 2, "stroke-linecap": "butt" },
+    ],
+  ];
+  const drawn = parts.filter(([d]) => d !== "").map(([d, look]) => pathElement({ d, ...look }, ""));
+  return `<g class="curve">\n${drawn.join("")}</g>\n`;
+}
+
+// The input a dash and its gap span: the family's, or, of a length, a round part of the longest pass.
+function dashPeriodOfCurve(family, linkage, { passes }) {
+  return linkage.input.isLength ? roundBelow(Math.max(...passes.map(passLength)) / 20) : family.dash_deg;
+}
+
+// Title, name and parameters, and a bar for the scale.
+function lettering(taken, view) {
+  const { family, place, changes, values, name } = taken;
+  const { width, height, units } = PLATE_SIZE;
+  const [right, foot] = [units * width - 32, units * height - 32];
+  const own = family.names
+    .map((word, k) => `${word} = ${shortestDigits(Number(values[k].toPrecision(6)))}`)
+    .join(", ");
+  const caption = changes.size > 0 || !family.cells.caption[place] ? own : family.cells.caption[place];
+  const length = roundBelow(100 / view.scale);
+  const bar = `M32 ${foot - 3}v6M32 ${foot}h${Number((view.scale * length).toPrecision(6))}m0 -3v6`;
+  const text = (x, y, size, fill, words, anchor = "start") =>
+    `<text${attributesOf({ x, y, "font-size": size, fill, "text-anchor": anchor })}>` +
+    `${escapeXml(words)}</text>\n`;
+  return [
+    text(32, 46, 20, "#191816", family.title),
+    text(32, 66, 10, "#504d46", name),
+    text((units * width) / 2, foot - 18, 12, "#191816", caption, "middle"),
+    pathElement({ d: bar, stroke: "#504d46", "stroke-width": 0.7 }, ""),
+    text(32, foot + 16, 9, "#504d46", shortestDigits(Number(length.toPrecision(6)))),
+    text(right, foot + 4, 9, "#504d46", "coupler-atlas", "end"),
+  ].join("");
+}
+
+// Path data that goes through frames at equal steps of time.
+function animateElement(frames, seconds) {
+  if (frames.every((frame) => frame === frames[0])) return "";
+  const values = frames.join(";");
+  const timing = { dur: `${seconds}s`, repeatCount: "indefinite" };
+  return `<animate${attributesOf({ attributeName: "d", values, ...timing })}/>`;
+}
+
+function pathElement(attributes, inside) {
+  return `<path${attributesOf(attributes)}${inside === "" ? "/>" : `>${inside}</path>`}\n`;
+}
+
+function attributesOf(attributes) {
+  return Object.entries(attributes)
+    .map(([name, value]) => ` ${name}="${escapeXml(String(value))}"`)
+    .join("");
+}
+
+/** A text in XML; what XML cannot have in any way is left out. */
+function escapeXml(text) {
+  const entities = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
+  return text
+    .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "")
+    .replace(/[&<>"]/g, (c) => entities[c]);
+}

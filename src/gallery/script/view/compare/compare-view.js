@@ -1,0 +1,239 @@
+// The room where pinned curves are compared.
+
+import { address } from "../../data/address.js";
+import { fill, h } from "../dom.js";
+import { formatCaption, formatChanges } from "../labels.js";
+import { matchesRoute, routeAddress } from "../route-address.js";
+import { exportMenu } from "../export/menu.js";
+import { alignCurve } from "./align.js";
+import { ALIGNMENTS, parseComparisonQuery, formatComparisonQuery, MAX_COMPARED } from "./query.js";
+import { loadComparedCurve } from "./load-curve.js";
+import { factsTable } from "./facts.js";
+import { refinePicture } from "./refine.js";
+import { letterOf, overlaidPicture, sideBySidePictures, strokeSample } from "./picture.js";
+
+/** `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`: opening such an address pins its curves. */
+export const compareRoute = {
+  name: "compare",
+  label: "Compare",
+  way: (app) => routeAddress("compare", { c: app.pins.names.join(",") }, app),
+  opens: (place, app) => matchesRoute("compare", place, app),
+  view: async (app, { query }) => {
+    const room = new CompareView(app);
+    await room.ask(parseComparisonQuery(query));
+    return {
+      title: "Compare",
+      element: room.element,
+      update: (place) => {
+        room.ask(parseComparisonQuery(place.query));
+        return true;
+      },
+      leave: () => room.leave(),
+    };
+  },
+};
+
+/** What gives the focus back to the control of the same name when what is in an element has been replaced. */
+function keepFocus(element) {
+  const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
+  const held = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
+  return () => {
+    if (held === null || element.contains(document.activeElement)) return;
+    const again = [...element.querySelectorAll("button, select, a")].find(
+      (control) => nameOf(control) === held && !control.disabled,
+    );
+    (again ?? element.querySelector("select, button"))?.focus();
+  };
+}
+
+class CompareView {
+  constructor(app) {
+    this.app = app;
+    this.known = new Map();
+    this.body = h("div", { class: "comparison" });
+    this.tools = h("div", { class: "toolbar" });
+    this.take = h("div", {});
+    this.count = h("p", { class: "lede" });
+    this.element = h(
+      "div",
+      { class: "room wide compare-room" },
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, "Compare"), this.count), this.take),
+      this.tools,
+      this.body,
+    );
+    this.unwatch = app.pins.watch(() => this.change());
+  }
+
+  async ask(asked) {
+    this.asked = asked;
+    if (asked.names && String(asked.names) !== String(this.app.pins.names)) this.app.pins.put(asked.names);
+    else await this.change();
+  }
+
+  /** Shows what is pinned now, and says so in the address. */
+  async change() {
+    const { app, asked } = this;
+    const names = [...app.pins.names];
+    app.replace(routeAddress("compare", formatComparisonQuery(asked, names), app));
+    for (const name of names) {
+      if (!this.known.has(name)) this.known.set(name, await loadComparedCurve(app.atlas, name));
+    }
+    // More may have been pinned meanwhile.
+    if (String(names) !== String(app.pins.names)) return;
+    const found = names.map((name) => this.known.get(name));
+    this.show(
+      found.filter(({ family }) => family),
+      found.filter(({ family }) => !family),
+    );
+  }
+
+  show(all, missing) {
+    const focused = keepFocus(this.element);
+    this.lay(all, missing);
+    focused();
+  }
+
+  lay(all, missing) {
+    const curves = all.slice(0, MAX_COMPARED);
+    const { asked, app } = this;
+    const beyond = all.length - curves.length;
+    fill(
+      this.count,
+      all.length
+        ? `${all.length} pinned`
+        : "Nothing is pinned yet. Pin curves in Find (p), By shape, on a page or on a plate.",
+      beyond ? `; the first ${MAX_COMPARED} are compared` : "",
+      missing.map(({ name, reason }) => `; without ${name}: ${reason}`),
+    );
+    fill(this.take, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
+    fill(this.tools, all.length ? this.controls() : null);
+    const laid = curves.map((one, k) => alignCurve(curves[0], one, k > 0 ? asked.align : "none"));
+    const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
+    this.stop?.();
+    const isOver = asked.view === "over" && curves.length > 1;
+    const picture = isOver
+      ? overlaidPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`)
+      : sideBySidePictures(laid);
+    this.stop = refinePicture(picture, curves, laid);
+    fill(
+      this.body,
+      picture.element,
+      h(
+        "ol",
+        { class: isOver ? "pinned-list" : "pinned-tiles" },
+        curves.map((one, k) =>
+          this.entry(one, k, curves, {
+            deviation: laid[k],
+            picture: isOver ? strokeSample(k) : h("div", { class: "leaf" }, picture.elements[k]),
+          }),
+        ),
+      ),
+      curves.length ? factsTable(curves, app.atlas.measures, labels) : null,
+    );
+  }
+
+  controls() {
+    const { asked, app } = this;
+    const view = (name, label) =>
+      h(
+        "button",
+        {
+          type: "button",
+          "aria-pressed": String(asked.view === name),
+          onclick: () => {
+            asked.view = name;
+            this.change();
+          },
+        },
+        label,
+      );
+    const align = h(
+      "select",
+      {
+        id: "compare-align",
+        onchange: (event) => {
+          asked.align = event.target.value;
+          this.change();
+        },
+      },
+      Object.entries(ALIGNMENTS).map(([value, label]) => h("option", { value }, label)),
+    );
+    align.value = asked.align;
+    return [
+      h(
+        "div",
+        { class: "segments", role: "group", "aria-label": "Show" },
+        view("side", "Side by side"),
+        view("over", "Over one another"),
+      ),
+      h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Aligned"), align),
+      h("button", { type: "button", class: "quiet end", onclick: () => app.pins.put([]) }, "Unpin all"),
+    ];
+  }
+
+  entry({ name, family, curve, key, changes }, k, curves, { deviation, picture }) {
+    const { app } = this;
+    const move = (by, label, sign) =>
+      h(
+        "button",
+        {
+          type: "button",
+          class: "quiet",
+          disabled: k + by < 0 || k + by >= curves.length,
+          "aria-label": `Move ${letterOf(k)} ${label}`,
+          onclick: () => this.moved(k, by),
+        },
+        sign,
+      );
+    const percent = (value) => `${(100 * value).toFixed(2)} %`;
+    return h(
+      "li",
+      {},
+      picture,
+      h(
+        "div",
+        { class: "named" },
+        h("b", {}, letterOf(k)),
+        " ",
+        h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
+        h("p", { class: "caption" }, formatCaption(family.cells.caption[family.curves.cell[curve]])),
+        changes.size ? h("p", { class: "tag" }, formatCaption(formatChanges(changes))) : null,
+        k > 0
+          ? h(
+              "p",
+              { class: "deviation" },
+              `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} at most`,
+            )
+          : null,
+      ),
+      h(
+        "div",
+        { class: "acts" },
+        move(-1, "forward", "←"),
+        move(1, "back", "→"),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "quiet",
+            onclick: () => app.pins.toggle(name),
+            "aria-label": `Unpin ${letterOf(k)}`,
+          },
+          "Unpin",
+        ),
+      ),
+    );
+  }
+
+  moved(k, by) {
+    const names = [...this.app.pins.names];
+    names.splice(k + by, 0, ...names.splice(k, 1));
+    this.app.pins.put(names);
+    this.app.say(`${names[k + by]} is now ${letterOf(k + by)}`);
+  }
+
+  leave() {
+    this.unwatch();
+    this.stop?.();
+  }
+}

@@ -1,0 +1,32 @@
+// What is compared, and how: the address of the room of comparison.
+
+/** Curves at most that are compared. */
+export const MAX_COMPARED = 12;
+/** How curves are laid over one another: { name: label }. */
+export const ALIGNMENTS = {
+  none: "as they are",
+  place: "middles together",
+  size: "middles and sizes",
+  similar: "turned to fit",
+  mirrored: "turned or mirrored to fit",
+};
+
+/** The question of a query: { names or null, view: "side" | "over", align }. */
+export function parseComparisonQuery(query) {
+  const names = query.get("c");
+  const align = query.get("align");
+  return {
+    names: names ? names.split(",").filter((name) => name.includes(":")) : null,
+    view: query.get("view") === "over" ? "over" : "side",
+    align: align in ALIGNMENTS ? align : "similar",
+  };
+}
+
+/** The query of it. */
+export function formatComparisonQuery({ view, align }, names) {
+  return {
+    c: names.join(","),
+    view: view === "over" ? "over" : null,
+    align: align === "similar" ? null : align,
+  };
+}

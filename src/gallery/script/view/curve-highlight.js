@@ -1,0 +1,233 @@
+// The curve that is brought forward on a page, while the page recedes, and what it does where it is pointed
+// at.
+
+import { h, fill } from "./dom.js";
+import { solveCurveOrNull } from "./curve-reading.js";
+import { formatNumber } from "./labels.js";
+
+// The chord error of the curve that is brought forward, in pixels.
+const HIGHLIGHT_ERROR = 0.1;
+
+/**
+ * At most one curve of a page is forward: the one that is pointed at or has the focus, else the one that was
+ * chosen.
+ */
+export class CurveHighlight {
+  constructor(desk) {
+    this.desk = desk;
+    this.turn();
+  }
+
+  /** Another page: nothing is forward. */
+  turn() {
+    [this.chosen, this.pointed, this.curve, this.solved, this.at] = [null, null, null, null, null];
+    this.solutions = new Map();
+    this.desk.viewport.classList.remove("receded");
+    this.desk.reading.hidden = true;
+  }
+
+  /** The pointer is at a place in millimetres, near a drawn curve or none. */
+  hover(found, place) {
+    if (!found) {
+      if (this.pointed !== null) this.leave();
+      return;
+    }
+    this.pointed = found.curve;
+    this.bring(found.curve);
+    this.read(place);
+  }
+
+  /** A link of the page's curves has the focus. */
+  focus(curve) {
+    this.pointed = curve;
+    this.bring(curve);
+    const { box } = this.drawnOf(curve);
+    this.desk.zoom.reveal(box);
+    this.readInput(0, this.solved?.passes[0].from);
+  }
+
+  /** A link beside the page is looked at: the list stays. */
+  glance(curve) {
+    this.pointed = curve;
+    this.bring(curve, { beside: false });
+  }
+
+  /** Nothing is pointed at. What is beside the page stays, to be read and followed. */
+  leave() {
+    this.pointed = null;
+    if (this.chosen === null) this.recede(null);
+    else this.bring(this.chosen);
+  }
+
+  /** A curve (null: none) stays forward, read at a place in millimetres. */
+  choose(curve, place = null) {
+    this.chosen = curve;
+    this.pointed = null;
+    if (curve === null) {
+      this.recede(null);
+      return;
+    }
+    this.bring(curve);
+    if (place) this.read(place);
+    else this.readInput(0, this.solved?.passes[0].from);
+  }
+
+  drawnOf(curve) {
+    return this.desk.drawn.find((candidate) => candidate.curve === curve);
+  }
+
+  bring(curve, { beside = true } = {}) {
+    if (beside && this.told !== curve) {
+      this.told = curve;
+      this.desk.beside(curve);
+    }
+    if (!beside) this.told = null;
+    if (this.curve === curve) return;
+    this.curve = curve;
+    this.at = null;
+    this.desk.reading.hidden = true;
+    this.solved = this.solve(curve);
+    this.desk.viewport.classList.add("receded");
+    this.desk.overlay.show(this.pathOf(curve));
+    this.desk.overlay.point(null);
+  }
+
+  recede() {
+    this.curve = this.solved = this.at = this.told = null;
+    this.desk.viewport.classList.remove("receded");
+    this.desk.overlay?.show(null);
+    this.desk.overlay?.point(null);
+    this.desk.reading.hidden = true;
+  }
+
+  /** The solver's own curve, at the fineness of the present zoom; null where it has none. */
+  solve(curve) {
+    const { view } = this.drawnOf(curve);
+    const fineness = Math.max(0, Math.round(Math.log2(this.desk.zoom.nearness)));
+    const key = `${curve} ${fineness}`;
+    if (!this.solutions.has(key)) {
+      const tolerance = HIGHLIGHT_ERROR / (2 ** fineness * this.desk.zoom.fitScale * view.scale);
+      this.solutions.set(key, solveCurveOrNull(this.desk.family, curve, tolerance));
+    }
+    return this.solutions.get(key);
+  }
+
+  /** Path data in millimetres of paper. */
+  pathOf(curve) {
+    const {
+      view: { origin, scale },
+      points,
+      closed,
+    } = this.drawnOf(curve);
+    const fine = this.solved?.path.points;
+    const places = fine
+      ? fine.map((at, k) => (k % 2 ? origin[1] - scale * at : origin[0] + scale * at))
+      : points;
+    let path = "";
+    for (let k = 0; k < places.length; k += 2)
+      path += `${k ? "L" : "M"}${places[k].toFixed(4)} ${places[k + 1].toFixed(4)}`;
+    return closed ? `${path}Z` : path;
+  }
+
+  read([x, y]) {
+    if (!this.solved) return;
+    const {
+      view: { origin, scale },
+    } = this.drawnOf(this.curve);
+    this.at = this.solved.nearTo((x - origin[0]) / scale, (origin[1] - y) / scale);
+    this.place();
+  }
+
+  readInput(pass, input) {
+    if (!this.solved || input === undefined) return;
+    this.at = this.solved.atInput(pass, input);
+    this.place();
+  }
+
+  /** Goes along the curve by so much of the input, from one pass to the next. */
+  along(by) {
+    if (!this.solved || !this.at) return;
+    const { passes } = this.solved;
+    const { isLength } = this.solved;
+    let { pass, input } = this.at;
+    const whole = Math.abs(passes[pass].to - passes[pass].from);
+    input += (isLength ? (by / 360) * whole : by) * Math.sign(passes[pass].to - passes[pass].from);
+    const isPast = (end, start) => (input - end) * Math.sign(end - start) > 0;
+    if (isPast(passes[pass].to, passes[pass].from)) {
+      pass = (pass + 1) % passes.length;
+      input = passes[pass].from;
+    } else if (isPast(passes[pass].from, passes[pass].to)) {
+      pass = (pass + passes.length - 1) % passes.length;
+      input = passes[pass].to;
+    }
+    this.readInput(pass, input);
+    this.desk.app.say(
+      readingRows(this.at, this.solved)
+        .map((row) => row.join(" "))
+        .join(", "),
+    );
+  }
+
+  /**
+   * The zoom has changed: the curve is as fine as it asks for, and what is read stands where the point is
+   * now.
+   */
+  zoomed() {
+    if (this.curve === null) return;
+    const solved = this.solve(this.curve);
+    if (solved !== this.solved) {
+      this.solved = solved;
+      this.desk.overlay.show(this.pathOf(this.curve));
+    }
+    this.place();
+  }
+
+  /** Puts the point and what is read there where the zoom has them. */
+  place() {
+    const { desk, at } = this;
+    if (!at || this.curve === null || !at.place.every(Number.isFinite)) return;
+    const {
+      view: { origin, scale },
+      box,
+    } = this.drawnOf(this.curve);
+    const [x, y] = [origin[0] + scale * at.place[0], origin[1] - scale * at.place[1]];
+    desk.overlay.point([x, y], 4 / desk.zoom.scale);
+    const rows = readingRows(at, this.solved).map(([name, text]) => [
+      h("dt", {}, name),
+      h("dd", {}, text),
+    ]);
+    fill(desk.reading, h("dl", {}, rows));
+    const { clientWidth, clientHeight } = desk.viewport;
+    const [across, down] = [desk.zoom.x + desk.zoom.scale * x, desk.zoom.y + desk.zoom.scale * y];
+    desk.reading.hidden = across < 0 || down < 0 || across > clientWidth || down > clientHeight;
+    if (desk.reading.hidden) return;
+    const { offsetWidth, offsetHeight } = desk.reading;
+    const left = positionNextTo(across, offsetWidth, clientWidth, 2 * x < box[0] + box[2] - 1);
+    const top = positionNextTo(down, offsetHeight, clientHeight, 2 * y < box[1] + box[3]);
+    desk.reading.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
+  }
+}
+
+/** Where something of a size stands beside a point, before or after it as is wished, if there is room. */
+function positionNextTo(at, size, room, isBefore) {
+  const [before, after] = [at - 16 - size, at + 16];
+  if (isBefore) return before < 0 ? after : before;
+  return after + size > room ? before : after;
+}
+
+/** What is read at a place of a curve: [[name, figure with unit], …]. */
+function readingRows({ input, speed, mu }, { isLength, passes }) {
+  return [
+    ["input", isLength ? formatNumber(input) : formatInputAngle(input, passes)],
+    ["speed", `${formatNumber(speed, 4)} per ${isLength ? "unit" : "rad"}`],
+    ...(mu === null || !Number.isFinite(mu) ? [] : [["transmission", `${mu.toFixed(1)}°`]]),
+  ];
+}
+
+/** Degrees of input; where it goes on round, the end of its period is its beginning. */
+function formatInputAngle(input, passes) {
+  const text = input.toFixed(1);
+  const period = Math.abs(passes[0].to - passes[0].from);
+  if (passes.length === 1 && period % 360 === 0 && text === period.toFixed(1)) return "0.0°";
+  return `${text.replace("-", "−")}°`;
+}

@@ -1,0 +1,49 @@
+// Text for the clipboard, which a page that was opened from disk may not be let near.
+
+import { h } from "../dom.js";
+
+/**
+ * Copies a text, or shows it selected to be copied by hand; whether it was copied, in a while. `what` says
+ * what it is.
+ */
+export async function copyText(what, text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    await showCopyDialog(what, text);
+    return false;
+  }
+}
+
+// A dialog with the text selected, until it is closed.
+function showCopyDialog(what, text) {
+  const area = h("textarea", {
+    readonly: true,
+    rows: Math.min(text.split("\n").length + 1, 20),
+    cols: 72,
+    "aria-label": what,
+  });
+  area.value = text;
+  const close = h("button", { type: "button" }, "Close");
+  const dialog = h(
+    "dialog",
+    { class: "take-copy", "aria-label": `Copy ${what}` },
+    h("p", {}, "The browser keeps the clipboard from pages on disk: copy the text with Ctrl+C or ⌘C."),
+    area,
+    close,
+  );
+  close.addEventListener("click", () => dialog.close());
+  const back = document.activeElement;
+  document.body.append(dialog);
+  dialog.showModal();
+  area.focus();
+  area.select();
+  return new Promise((done) => {
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      back?.focus?.();
+      done();
+    });
+  });
+}

@@ -1,0 +1,135 @@
+// From names of curves to files.
+
+import { extraCircuitsCommand, exportCommand, shortenCurveNames } from "../../export/command.js";
+import { csvOfCurve } from "../../export/csv.js";
+import { dxfOfCurve } from "../../export/dxf.js";
+import { jsonOfCurve } from "../../export/json.js";
+import { manifestOfCurves, curveNamesInManifest } from "../../export/manifest.js";
+import { movingSvgOfCurve } from "../../export/moving-svg.js";
+import { pngOfCurve } from "../../export/png.js";
+import { svgOfCurve } from "../../export/svg.js";
+import { fileStem, manifestCase, parseCurveName, solveNamedCurve } from "../../export/curve.js";
+import { zipOfFiles } from "../../export/zip.js";
+
+/**
+ * What curves can be saved as: { label, note, ending, type, made(app, taken) -> text or bytes, perhaps in a
+ * while }.
+ */
+export const EXPORT_FORMATS = [
+  {
+    label: "SVG",
+    note: "still",
+    ending: ".svg",
+    type: "image/svg+xml",
+    made: (app, taken) => svgOfCurve(taken),
+  },
+  {
+    label: "SVG, moving by itself",
+    note: ".svg",
+    ending: "-moving.svg",
+    type: "image/svg+xml",
+    made: (app, taken) => movingSvgOfCurve(taken),
+  },
+  {
+    label: "PNG",
+    note: "300 to the inch",
+    ending: ".png",
+    type: "image/png",
+    made: (app, taken) => pngOfCurve(taken),
+  },
+  {
+    label: "DXF",
+    note: "CAD, AutoCAD R12",
+    ending: ".dxf",
+    type: "image/vnd.dxf",
+    made: (app, taken) => dxfOfCurve(taken, app.atlas.program),
+  },
+  {
+    label: "CSV",
+    note: "points",
+    ending: ".csv",
+    type: "text/csv",
+    made: (app, taken) => csvOfCurve(taken),
+  },
+  {
+    label: "JSON",
+    note: "all that is known",
+    ending: ".json",
+    type: "application/json",
+    made: (app, taken) => jsonOfCurve(taken, measureNames(app)),
+  },
+];
+
+// The page is left to itself so often, in milliseconds, while many curves are made.
+const EXPORT_SLICE = 40;
+// More curves than this are the program's work.
+const MAX_EXPORTED = 1000;
+
+function measureNames({ atlas }) {
+  return atlas.measures.map(({ name }) => name);
+}
+
+/**
+ * Curves of some names as one file { name, type, bytes }, several in an archive; `told` is told how many are
+ * done.
+ */
+export async function exportFile(app, names, format, told = () => {}) {
+  if (names.length === 0) throw new Error("There is no curve to take away");
+  if (names.length > MAX_EXPORTED) {
+    throw new Error(`Take ${MAX_EXPORTED} curves at most here: the command line takes all ${names.length}`);
+  }
+  const files = [];
+  let rested = performance.now();
+  for (const name of names) {
+    const taken = solveNamedCurve(await loadFamilyOfName(app, name), name);
+    const made = await format.made(app, taken);
+    const bytes = typeof made === "string" ? new TextEncoder().encode(made) : made;
+    files.push({ name: `${fileStem(taken)}${format.ending}`, type: format.type, bytes });
+    if (performance.now() - rested > EXPORT_SLICE) {
+      told(files.length);
+      await new Promise((done) => {
+        setTimeout(done);
+      });
+      rested = performance.now();
+    }
+  }
+  return files.length === 1
+    ? files[0]
+    : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
+}
+
+function loadFamilyOfName(app, name) {
+  const parsed = parseCurveName(name);
+  return parsed
+    ? app.atlas.family(parsed.family)
+    : Promise.reject(new Error(`“${name}” is no name of a curve`));
+}
+
+/** The piece of a manifest that has curves of some names once more. */
+export async function exportManifest(app, names) {
+  const curves = [];
+  for (const name of names) curves.push(manifestCase(await loadFamilyOfName(app, name), name));
+  return manifestOfCurves(curves);
+}
+
+/** The command line that takes curves of some names away. */
+export async function exportCommandLine(app, names) {
+  const families = new Map();
+  const beside = [];
+  for (const name of names) {
+    const family = await loadFamilyOfName(app, name);
+    families.set(family.id, family);
+    const curve = manifestCase(family, name);
+    if (curve.beside !== null) beside.push({ ...curve, asked: name });
+  }
+  const plain = names.filter((name) => !beside.some(({ asked }) => asked === name));
+  const command = plain.length ? exportCommand(shortenCurveNames(plain, families), plain.length) : "";
+  if (beside.length === 0) return command;
+  return (
+    command +
+    extraCircuitsCommand(
+      beside.map(({ name }) => name),
+      curveNamesInManifest(beside),
+    )
+  );
+}

@@ -1,0 +1,146 @@
+// The menu by which curves are taken away.
+
+import { fill, h } from "../dom.js";
+import { copyText } from "./copy.js";
+import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from "./files.js";
+import { saveFile } from "./save.js";
+
+/**
+ * A button with a menu of everything that can be taken away of some curves: `names` are
+ * "family:cell.trace.circuit", with changed parameters behind "?", in an array or from a function that is
+ * asked when something is taken.
+ */
+export function exportMenu(app, names) {
+  const asked = () => (typeof names === "function" ? names() : names);
+  const told = h("span", { class: "take-told", "aria-live": "polite" });
+  const tell = (sentence) => fill(told, sentence);
+  const task = (work) => () => {
+    tell("Working");
+    return work(asked()).then(tell, (error) => tell(error.message));
+  };
+  const entries = [
+    ...EXPORT_FORMATS.map((format) => [
+      format.label,
+      format.note,
+      task((list) => saveCurves(app, list, format, tell)),
+    ]),
+    ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
+    [
+      "Copy the manifest fragment",
+      "",
+      task(async (list) => copyToClipboard("the manifest fragment", await exportManifest(app, list))),
+    ],
+    [
+      "Copy the command line",
+      "",
+      task(async (list) => copyToClipboard("the command line", await exportCommandLine(app, list))),
+    ],
+  ];
+  return h("div", { class: "take-away" }, menuButton("Take away", entries), told);
+}
+
+async function saveCurves(app, names, format, tell) {
+  const file = await exportFile(app, names, format, (done) => tell(`${done} of ${names.length}`));
+  saveFile(file);
+  return `Saved as ${file.name}`;
+}
+
+async function saveManifest(app, names) {
+  const text = await exportManifest(app, names);
+  saveFile({ name: "curves.toml", type: "application/toml", bytes: new TextEncoder().encode(text) });
+  return "Saved as curves.toml";
+}
+
+async function copyToClipboard(what, text) {
+  return (await copyText(what, text)) ? `Copied ${what}` : "";
+}
+
+/**
+ * A button that opens a menu of entries [[label, note, action], …]: arrows, Home and End go from one to the
+ * next, a letter to the next that begins with it, Escape closes it, and so does whatever happens elsewhere.
+ */
+function menuButton(label, entries) {
+  const button = h(
+    "button",
+    { type: "button", class: "take-button", "aria-haspopup": "menu", "aria-expanded": "false" },
+    label,
+  );
+  const items = entries.map(([word, note, action]) =>
+    h(
+      "button",
+      {
+        type: "button",
+        role: "menuitem",
+        tabindex: "-1",
+        onclick: () => {
+          close(true);
+          action();
+        },
+      },
+      h("span", {}, word),
+      note ? h("span", { class: "note" }, note) : null,
+    ),
+  );
+  const menu = h("div", { class: "take-menu", role: "menu", "aria-label": label, hidden: true }, items);
+  const element = h("div", { class: "take-unfolds" }, button, menu);
+  const away = (event) => {
+    if (!element.contains(event.target)) close(false);
+  };
+  const open = (item) => {
+    menu.hidden = false;
+    button.setAttribute("aria-expanded", "true");
+    keepInWindow(menu);
+    document.addEventListener("pointerdown", away);
+    item.focus();
+  };
+  const close = (returns) => {
+    menu.hidden = true;
+    button.setAttribute("aria-expanded", "false");
+    document.removeEventListener("pointerdown", away);
+    if (returns) button.focus();
+  };
+  button.addEventListener("click", () => (menu.hidden ? open(items[0]) : close(true)));
+  button.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowDown" && event.key !== "ArrowUp") return;
+    event.preventDefault();
+    event.stopPropagation();
+    open(event.key === "ArrowDown" ? items[0] : items[items.length - 1]);
+  });
+  menu.addEventListener("keydown", (event) => handleMenuKey(event, items, close));
+  element.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!menu.hidden && relatedTarget && !element.contains(relatedTarget)) close(false);
+  });
+  return element;
+}
+
+function handleMenuKey(event, items, close) {
+  const at = items.indexOf(document.activeElement);
+  const count = items.length;
+  const letter =
+    event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey
+      ? event.key.toLowerCase()
+      : null;
+  const begins = (item) => item.textContent.toLowerCase().startsWith(letter);
+  const next = {
+    ArrowDown: (at + 1) % count,
+    ArrowUp: (at + count - 1) % count,
+    Home: 0,
+    End: count - 1,
+  }[event.key];
+  // The keys of the room behind are not meant while a menu is open.
+  if (event.key !== "Tab") event.stopPropagation();
+  if (event.key === "Escape") close(true);
+  else if (next !== undefined) items[next].focus();
+  else if (letter && letter !== " ") [...items.slice(at + 1), ...items].find(begins)?.focus();
+  else return;
+  event.preventDefault();
+}
+
+// A menu that would go over the edge of the window is hung on its other side.
+function keepInWindow(menu) {
+  menu.classList.remove("over", "left");
+  const { left, bottom, height } = menu.getBoundingClientRect();
+  const above = menu.parentElement.getBoundingClientRect().top;
+  menu.classList.toggle("over", bottom > window.innerHeight && above > height);
+  menu.classList.toggle("left", left < 0);
+}

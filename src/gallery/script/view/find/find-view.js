@@ -1,0 +1,282 @@
+// The room where curves are found by what was measured of them.
+
+import { filterColumns } from "../../find/columns.js";
+import { Filters } from "../../find/filter.js";
+import { Orders, passingRows } from "../../find/order.js";
+import { formatFindQuery, parseFindQuery } from "../../find/query.js";
+import { CurveTable } from "../../find/table.js";
+import { fill, h } from "../dom.js";
+import { matchesRoute, routeAddress } from "../route-address.js";
+import { exportMenu } from "../export/menu.js";
+import { columnLabel, columnValueText } from "./column-label.js";
+import { familyChooser } from "./families.js";
+import { requestedFamilies, loadFamilies } from "./loading.js";
+import { noResults } from "./no-results.js";
+import { FilterPanel } from "./panel.js";
+import { ResultRows } from "./rows.js";
+import { ResultTiles } from "./tiles.js";
+
+const ADDRESS_DELAY = 250;
+
+/** `#/find?…`: filters on every measure and parameter, and the curves that they leave. */
+export const findRoute = {
+  name: "find",
+  label: "Find",
+  way: (app) => routeAddress("find", {}, app),
+  opens: (place, app) => matchesRoute("find", place, app),
+  view: (app, { query }) => {
+    const finding = new FindView(app, parseFindQuery(query));
+    return {
+      title: "Find",
+      element: finding.element,
+      shown: () => finding.shown(),
+      update: (place) => finding.update(parseFindQuery(place.query)),
+      leave: () => finding.leave(),
+    };
+  },
+};
+
+class FindView {
+  constructor(app, question) {
+    Object.assign(this, { app, question });
+    this.panel = new FilterPanel((name, filter) => this.filtered(name, filter));
+    this.tiles = new ResultTiles(app);
+    this.list = new ResultRows(app, (name) =>
+      this.sortBy(name, this.question.sort.name === name ? !this.question.sort.down : false),
+    );
+    this.counted = h("p", { class: "counted" }, "Loading");
+    this.told = h("p", { class: "note", hidden: true });
+    this.results = h("div", { class: "found", tabindex: "-1" });
+    this.sorter = h("select", {
+      id: "find-sort",
+      onchange: (event) => this.sortBy(event.target.value, this.question.sort.down),
+    });
+    this.direction = h("button", {
+      type: "button",
+      onclick: () => this.sortBy(this.question.sort.name, !this.question.sort.down),
+    });
+    this.families = h("div", { class: "families-asked" });
+    this.element = this.laidOut();
+    this.begin();
+  }
+
+  laidOut() {
+    const show = (name, label) =>
+      h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
+    this.shows = [show("sheet", "Sheet"), show("table", "Table")];
+    const clearAll = () => this.unfiltered(new Map());
+    this.clear = h("button", { type: "button", class: "quiet", onclick: clearAll }, "Clear all filters");
+    const wide = window.matchMedia("(min-width: 60rem)").matches;
+    return h(
+      "div",
+      { class: "room wide find-room" },
+      h(
+        "div",
+        { class: "head" },
+        h("div", {}, h("h1", {}, "Find"), this.counted, this.told),
+        exportMenu(this.app, () => this.names()),
+      ),
+      h(
+        "div",
+        { class: "find-split" },
+        h(
+          "details",
+          { class: "find-panel", open: wide },
+          h("summary", {}, "Filters"),
+          this.families,
+          this.panel.element,
+        ),
+        h(
+          "div",
+          {},
+          h(
+            "div",
+            { class: "toolbar" },
+            h("span", { class: "field row" }, h("label", { for: "find-sort" }, "Sort by"), this.sorter),
+            this.direction,
+            this.clear,
+            h("div", { class: "segments end", role: "group", "aria-label": "Show as" }, this.shows),
+          ),
+          this.results,
+        ),
+      ),
+    );
+  }
+
+  /** Loads what is asked about, and asks again whenever more of it has come. */
+  begin() {
+    const { app, question } = this;
+    this.stop?.();
+    const listed = requestedFamilies(app.atlas, question.families);
+    fill(
+      this.families,
+      familyChooser(app.atlas, listed, (families) =>
+        this.put({ ...this.question, families }),
+      ),
+    );
+    this.stop = loadFamilies(
+      app.atlas,
+      listed,
+      (families, done, all) => this.come(families, done, all),
+      (sentence) => this.tell(sentence),
+    );
+  }
+
+  come(families, done, all) {
+    this.table = new CurveTable(families);
+    this.orders = new Orders(this.table);
+    this.columns = filterColumns(
+      this.table,
+      this.app.atlas.measures,
+      new Set([...this.question.filters.keys(), this.question.sort.name]),
+    );
+    this.loading = done < all ? ` · ${done} of ${all} families loaded` : "";
+    this.ask();
+  }
+
+  /** Sets all filters and controls as the question has them. */
+  ask() {
+    this.filters = new Filters(this.table);
+    for (const [name, filter] of this.question.filters) this.filters.set(name, filter);
+    this.panel.put(this.columns, this.table, this.question);
+    fill(
+      this.sorter,
+      h("option", { value: "" }, "the atlas's order"),
+      this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name))),
+    );
+    this.show();
+  }
+
+  filtered(name, filter) {
+    if (filter) this.question.filters.set(name, filter);
+    else this.question.filters.delete(name);
+    const began = performance.now();
+    this.filters.set(name, filter);
+    this.show();
+    this.element.dataset.milliseconds = (performance.now() - began).toFixed(1);
+    this.addressed();
+  }
+
+  sortBy(name, down) {
+    this.question.sort = { name, down };
+    this.show();
+    this.addressed();
+  }
+
+  showAs(name) {
+    this.question.show = name;
+    this.show();
+    this.addressed();
+  }
+
+  put(question) {
+    const isOther = String(question.families) !== String(this.question.families);
+    this.question = question;
+    if (isOther) this.begin();
+    else if (this.table) this.ask();
+    this.addressed();
+  }
+
+  /** Goes on with other filters, which leaves no button that was pressed for it. */
+  unfiltered(filters) {
+    this.put({ ...this.question, filters });
+    this.results.focus({ preventScroll: true });
+  }
+
+  /** Shows what the filters leave. */
+  show() {
+    const { sort, show } = this.question;
+    const column = this.columns.find(({ name }) => name === sort.name);
+    this.rows = passingRows(this.orders.by(column?.name, column?.kind, sort.down), this.filters.failing);
+    this.panel.show(this.filters);
+    this.sorter.value = column?.name ?? "";
+    fill(this.direction, sort.down ? "Greatest first" : "Least first");
+    this.direction.disabled = !column;
+    this.clear.hidden = this.question.filters.size === 0;
+    this.shows.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
+    this.count();
+    // While an end is dragged, curves are laid out once a frame.
+    this.laying ??= requestAnimationFrame(() => this.lay());
+  }
+
+  lay() {
+    this.laying = null;
+    const { sort, show } = this.question;
+    const column = this.columns.find(({ name }) => name === sort.name);
+    if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
+      const without = (name) =>
+        this.unfiltered(new Map([...this.question.filters].filter(([other]) => other !== name)));
+      fill(this.results, noResults(this.filters, without));
+      return;
+    }
+    const view = show === "table" ? this.list : this.tiles;
+    if (view.element.parentElement !== this.results) fill(this.results, view.element);
+    if (show === "table") this.list.put(this.table, this.rows, this.columnsShown(column), sort);
+    else this.tiles.put(this.table, this.rows, column ? (row) => this.valueText(column, row) : () => null);
+  }
+
+  /** Columns that are sorted by or filtered come before those that are always shown, to be in sight. */
+  columnsShown(column) {
+    const isNamed = ({ name }) => name === column?.name || this.question.filters.has(name);
+    const isFirst = ({ group }) => group === "first";
+    const named = this.columns.filter((one) => isNamed(one) && !isFirst(one));
+    return [...named, ...this.columns.filter(isFirst)];
+  }
+
+  valueText(column, row) {
+    const family = this.table.families[this.table.family[row]];
+    if (column.kind === "numbers")
+      return columnValueText(column, family, this.table.numbers(column.name)[row]);
+    const { values, codes } = this.table.words(column.name);
+    return values[codes[row]] ?? "–";
+  }
+
+  count() {
+    const [left, all] = [this.rows.length, this.table.count];
+    const sentence =
+      all === 0
+        ? "No curves are loaded: choose families"
+        : `${left.toLocaleString("en")} of ${all.toLocaleString("en")} curves`;
+    fill(this.counted, h("b", {}, sentence), this.loading);
+    window.clearTimeout(this.saying);
+    this.saying = window.setTimeout(() => this.app.say(sentence), 2 * ADDRESS_DELAY);
+  }
+
+  tell(sentence) {
+    this.told.hidden = false;
+    fill(this.told, sentence);
+  }
+
+  names() {
+    return Array.from(this.rows ?? [], (row) => this.table.nameOf(row));
+  }
+
+  addressed() {
+    window.clearTimeout(this.writing);
+    this.writing = window.setTimeout(
+      () => this.app.replace(routeAddress("find", formatFindQuery(this.question), this.app)),
+      ADDRESS_DELAY,
+    );
+  }
+
+  /** A further address of this room. */
+  update(question) {
+    this.put(question);
+    return true;
+  }
+
+  shown() {
+    this.isShown = true;
+    this.tiles.shown();
+    this.list.fill();
+  }
+
+  leave() {
+    this.stop?.();
+    cancelAnimationFrame(this.laying);
+    this.tiles.end();
+    this.list.end();
+    window.clearTimeout(this.writing);
+    window.clearTimeout(this.saying);
+  }
+}

@@ -1,0 +1,34 @@
+// A curve that is like the shape, in the list of what was found.
+
+import { address } from "../../data/address.js";
+import { curveKey } from "../../data/family.js";
+import { h } from "../dom.js";
+import { formatCaption } from "../labels.js";
+import { pinButton } from "../pin-button.js";
+import { matchPicture } from "./match-picture.js";
+
+/** The item of a result of `searching` for a shape, asked for as a question (question.js) says. */
+export function matchItem(app, one, shape, { by, part }) {
+  const { family, curve, name } = one;
+  const caption = family.cells.caption[family.curves.cell[curve]];
+  const other = by === "rms" ? "greatest" : "rms";
+  const told = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
+  const share = part ? `, ${Math.round(100 * (one.to - one.from))} % of the curve` : "";
+  return h(
+    "li",
+    {},
+    h(
+      "a",
+      { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
+      matchPicture(one, shape, { width: 220, height: 170 }),
+      h("span", { class: "label" }, h("b", {}, told(by)), ` ${told(other)}${share}`),
+      h("span", { class: "label" }, formatCaption(caption || name)),
+    ),
+    h(
+      "span",
+      { class: "acts" },
+      h("a", { href: address(["shape"], { like: name }) }, "Like this"),
+      pinButton(app, name, { class: "quiet" }, "Pin", h("span", { class: "unseen" }, ` ${name}`)),
+    ),
+  );
+}

@@ -1,0 +1,207 @@
+// The room where curves are found that are like a shape.
+
+import { findCurve, curvePoints } from "../../data/family.js";
+import { askedShape } from "../../shape/asked.js";
+import { decodedShape, encodedShape } from "../../shape/encode.js";
+import { searching } from "../../shape/search.js";
+import { fill, h } from "../dom.js";
+import { familyChooser } from "../find/families.js";
+import { requestedFamilies, loadFamilies } from "../find/loading.js";
+import { watchPins } from "../pin-button.js";
+import { matchesRoute, routeAddress } from "../route-address.js";
+import { shapeIndex } from "./indexes.js";
+import { matchItem } from "./match-item.js";
+import { shapeOptions } from "./options.js";
+import { DrawingPad } from "./pad.js";
+import { pasteField } from "./paste.js";
+import { formatShapeQuery, parseShapeQuery } from "./query.js";
+import { runInSlices } from "./slices.js";
+
+const MAX_RESULTS = 36;
+
+/** `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`. */
+export const shapeRoute = {
+  name: "shape",
+  label: "By shape",
+  way: (app) => routeAddress("shape", {}, app),
+  opens: (place, app) => matchesRoute("shape", place, app),
+  view: async (app, { query }) => {
+    const room = new ShapeView(app, query);
+    await room.begin();
+    return {
+      title: "By shape",
+      element: room.element,
+      update: (place) => room.update(place.query),
+      leave: () => room.leave(),
+    };
+  },
+};
+
+class ShapeView {
+  constructor(app, query) {
+    this.app = app;
+    this.turn = 0;
+    this.indexes = [];
+    this.pad = new DrawingPad(
+      (points, closed) => this.drawn(points, closed),
+      (text) => app.say(text),
+    );
+    this.status = h("p", { class: "counted" }, "Draw a curve, paste one, or begin with one of the atlas");
+    this.results = h("ol", { class: "likenesses" });
+    this.families = h("div", {});
+    this.asked = parseShapeQuery(query);
+    this.options = shapeOptions(this.asked, () => this.ask());
+    this.element = this.laidOut();
+  }
+
+  laidOut() {
+    const clear = () => {
+      this.pad.clear();
+      this.pad.element.focus();
+    };
+    const use = ({ points, closed, said }) => {
+      this.pad.show(points, closed);
+      this.drawn(points, closed);
+      this.app.say(`${said} read`);
+    };
+    return h(
+      "div",
+      { class: "room wide shape-room" },
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, "By shape"), this.status)),
+      h(
+        "div",
+        { class: "shape-split" },
+        h(
+          "div",
+          { class: "panel" },
+          this.pad.element,
+          this.pad.help,
+          h("div", { class: "toolbar" }, h("button", { type: "button", onclick: clear }, "Clear the pad")),
+          this.options.element,
+          pasteField(use),
+          this.families,
+        ),
+        this.results,
+      ),
+    );
+  }
+
+  async begin() {
+    await this.take();
+    const { app, asked } = this;
+    this.unwatch ??= watchPins(app, this.element);
+    this.stop?.();
+    const listed = requestedFamilies(app.atlas, asked.families);
+    fill(
+      this.families,
+      familyChooser(app.atlas, listed, (families) => {
+        asked.families = families;
+        this.addressed();
+        this.begin();
+      }),
+    );
+    this.stop = loadFamilies(
+      app.atlas,
+      listed,
+      (families, done, all) => {
+        this.loaded = families;
+        this.isWhole = done === all;
+        this.search();
+      },
+      (sentence) => app.say(sentence),
+    );
+  }
+
+  /** Takes the shape of the address: a drawn one, or a curve of the atlas. */
+  async take() {
+    const { asked, app } = this;
+    const drawn = asked.d && decodedShape(asked.d);
+    if (drawn) this.given(drawn.points, drawn.closed);
+    if (drawn || !asked.like) return;
+    const [id, key] = asked.like.split(":");
+    const family = await app.atlas.family(id);
+    const curve = findCurve(family, key ?? "");
+    if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
+    this.given(curvePoints(family, curve), family.curves.closed[curve] === 1);
+  }
+
+  given(points, closed) {
+    this.pad.show(points, closed);
+    this.shape = askedShape(points, closed);
+    this.asked.part ??= !closed;
+    this.options.mark();
+  }
+
+  drawn(points, closed) {
+    this.shape = askedShape(points, closed);
+    if (!this.shape) return;
+    Object.assign(this.asked, { d: encodedShape(this.shape.points, closed), like: null, part: !closed });
+    this.options.mark();
+    this.ask();
+  }
+
+  /** Searches what is loaded; a later search stops an earlier one. */
+  async search() {
+    if (!this.shape || !this.loaded) return;
+    this.turn += 1;
+    const mine = this.turn;
+    const stopped = () => mine !== this.turn;
+    const { part, least, mirror, by } = this.asked;
+    this.results.setAttribute("aria-busy", "true");
+    const indexes = [];
+    for (const family of this.loaded) {
+      fill(this.status, "Looking through ", family.title);
+      const index = await shapeIndex(family, part ? least : null, stopped);
+      if (!index) return;
+      indexes.push(index);
+    }
+    const began = performance.now();
+    const found = await runInSlices(
+      searching(indexes, this.shape, { part: part === true, least, mirror, by }),
+      stopped,
+    );
+    if (!found) return;
+    this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
+    this.show(found.slice(0, MAX_RESULTS));
+    // What a search for parts needs is made while nothing is asked.
+    if (!part && this.isWhole)
+      for (const family of this.loaded) if (!(await shapeIndex(family, least, stopped))) return;
+  }
+
+  show(found) {
+    const { by } = this.asked;
+    const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
+    const ranked = `by their ${by} deviation in % of the shape’s extent`;
+    const sentence = found.length
+      ? `The ${found.length === 1 ? "" : `${found.length} `}nearest of ${count.toLocaleString("en")} curves, ${ranked}`
+      : "Nothing is like this";
+    fill(this.status, sentence);
+    this.app.say(sentence);
+    this.results.removeAttribute("aria-busy");
+    fill(
+      this.results,
+      found.map((one) => matchItem(this.app, one, this.shape, this.asked)),
+    );
+  }
+
+  /** What is asked is another: so are the address and what is found. */
+  ask() {
+    this.addressed();
+    this.search();
+  }
+
+  addressed() {
+    this.app.replace(routeAddress("shape", formatShapeQuery(this.asked), this.app));
+  }
+
+  /** Another shape has another address, and is shown anew. */
+  update() {
+    return false;
+  }
+
+  leave() {
+    this.turn += 1;
+    this.unwatch?.();
+    this.stop?.();
+  }
+}
