@@ -8,7 +8,7 @@ const [small] = process.argv.slice(2);
 
 /** The boxes, in pixels within their frames, of the curves that stand side by side. */
 const boxesSideBySide = (page) =>
-  page.locator(".pinned-tiles .leaf").evaluateAll((frames) =>
+  page.locator(".pinned-tiles .tile-picture").evaluateAll((frames) =>
     frames.map((frame) => {
       const around = frame.getBoundingClientRect();
       const { left, top, width, height } = frame.querySelector("path").getBoundingClientRect();
@@ -71,7 +71,7 @@ export const COMPARING = [
       await field.fill("100");
       await field.press("Enter");
       await eventually(() => pin.isDisabled(), "there is nothing to pin");
-      await page.locator(".ways a", { hasText: "Compare" }).click();
+      await page.locator(".site-nav a", { hasText: "Compare" }).click();
       await eventually(
         async () => (await page.locator(".pinned-tiles > li").count()) === 2,
         "both are compared",
@@ -104,7 +104,7 @@ export const COMPARING = [
         async () => (await page.locator(".plate button.pin").textContent()) === "Pinned",
         "it is still pinned",
       );
-      assert.match(await page.locator(".ways .count").innerText(), /1/);
+      assert.match(await page.locator(".site-nav .count").innerText(), /1/);
       await gallery.close();
     },
   ],

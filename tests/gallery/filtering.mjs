@@ -59,7 +59,7 @@ export const FILTERING = [
       const link = table.locator("tbody a").nth(2);
       await link.focus();
       await page.keyboard.press("p");
-      assert.match(await page.locator(".ways .count").innerText(), /1/);
+      assert.match(await page.locator(".site-nav .count").innerText(), /1/);
       await gallery.close();
     },
   ],

@@ -41,7 +41,7 @@ export const PARAMETERS = [
     async ({ browser, folder }) => {
       const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=2.5&k=1.9", still);
       assert.equal(await fieldOf(plate.page, "p").inputValue(), "2.5");
-      await plate.page.locator(".kept-parameters > summary").evaluate((summary) => {
+      await plate.page.locator(".locked-parameters > summary").evaluate((summary) => {
         summary.parentElement.open = true;
       });
       assert.equal(await fieldOf(plate.page, "k").inputValue(), "1.9");
@@ -56,7 +56,7 @@ export const PARAMETERS = [
       const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
       const { page } = plate;
       // The coupler point is k a along the coupler.
-      await page.locator(".kept-parameters").evaluate((details) => {
+      await page.locator(".locked-parameters").evaluate((details) => {
         details.open = true;
       });
       assert.equal(await fieldOf(page, "M.along").inputValue(), "5.18");

@@ -12,10 +12,10 @@ const [atlas] = process.argv.slice(2);
 
 /** Takes away by the menu of the view that is open, and returns { name, bytes, text }. */
 async function saved(page, label) {
-  await page.click(".take-button");
+  await page.click(".export-button");
   const [download] = await Promise.all([
     page.waitForEvent("download"),
-    page.locator(".take-menu").getByRole("menuitem", { name: label, exact: true }).click(),
+    page.locator(".export-menu").getByRole("menuitem", { name: label, exact: true }).click(),
   ]);
   const bytes = readFileSync(await download.path());
   return { name: download.suggestedFilename(), bytes, text: bytes.toString("utf8") };
@@ -23,7 +23,7 @@ async function saved(page, label) {
 
 async function onPlate(browser, fragment, test, options) {
   const view = await opened(browser, atlas, fragment, { acceptDownloads: true, ...options });
-  await view.page.waitForSelector(".take-button");
+  await view.page.waitForSelector(".export-button");
   await test(view.page, view);
   await view.close();
 }
@@ -74,7 +74,7 @@ const tests = [
       const toml = await saved(page, "Manifest fragment .toml");
       assert.equal(toml.name, "curves.toml");
       assert.match(toml.text, /linkage = "evans"\n[\s\S]*\{ p = 2, r = 1, a = 2\.59, s = 2\.59, k = 2 \}/);
-      await eventually(async () => (await page.textContent(".take-told")) === "Saved as curves.toml", "it says what it did");
+      await eventually(async () => (await page.textContent(".export-status")) === "Saved as curves.toml", "it says what it did");
     })],
   ["6.2", "changed parameters are taken away as they are", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
@@ -117,34 +117,34 @@ const tests = [
       const toml = await saved(page, "Manifest fragment .toml");
       assert.match(toml.text, /# evans:1\.1\.1\?circuit=2 is circuit 2 of all[\s\S]*circuits = "all"/);
       await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
-      await page.click(".take-button");
+      await page.click(".export-button");
       await page.getByRole("menuitem", { name: "Copy the command line" }).click();
-      const command = await page.locator(".take-copy textarea").inputValue();
+      const command = await page.locator(".export-copy textarea").inputValue();
       assert.match(command, /^# The atlas does not have the circuit of evans:1\.1\.1\?circuit=2\.\n[\s\S]*coupler-atlas export circuits\.toml evans-taken:1\.1\.2 --format/);
     })],
   ["6.3", "the command line and the fragment are copied, or shown to be copied", async ({ browser }) => {
     await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-      await page.click(".take-button");
+      await page.click(".export-button");
       await page.getByRole("menuitem", { name: "Copy the command line" }).click();
-      await eventually(async () => (await page.textContent(".take-told")) === "Copied the command line", "it is copied");
+      await eventually(async () => (await page.textContent(".export-status")) === "Copied the command line", "it is copied");
     }, { permissions: ["clipboard-read", "clipboard-write"] });
     const denied = (page) => page.addInitScript(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
     await onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
-      await page.click(".take-button");
+      await page.click(".export-button");
       await page.getByRole("menuitem", { name: "Copy the command line" }).click();
-      const area = page.locator(".take-copy textarea");
+      const area = page.locator(".export-copy textarea");
       await area.waitFor();
       const [text, selected] = await area.evaluate((element) => [element.value, element.selectionEnd - element.selectionStart]);
       assert.match(text, /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=2\.5' --format /);
       assert.equal(selected, text.length);
       await page.keyboard.press("Escape");
       await area.waitFor({ state: "detached" });
-      assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
+      assert.equal(await page.evaluate(() => document.activeElement.className), "export-button");
     }, { before: denied });
   }],
   ["6.4", "the menu is worked by keys, says what it is, and closes", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-      const button = page.locator(".take-button");
+      const button = page.locator(".export-button");
       await button.focus();
       await page.keyboard.press("Enter");
       assert.equal(await button.getAttribute("aria-expanded"), "true");
@@ -160,23 +160,23 @@ const tests = [
       assert.equal(await at(), "DXF");
       await page.keyboard.press("Escape");
       assert.equal(await button.getAttribute("aria-expanded"), "false");
-      assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
+      assert.equal(await page.evaluate(() => document.activeElement.className), "export-button");
       await page.keyboard.press("ArrowUp");
       assert.equal(await at(), "Copy the command line");
       await page.keyboard.press("Tab");
-      await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
+      await page.waitForFunction(() => document.querySelector(".export-menu").hidden);
       await button.click();
       await page.mouse.click(5, 5);
-      await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
+      await page.waitForFunction(() => document.querySelector(".export-menu").hidden);
     })],
   ["6.5", "the menu is in sight and legible on a narrow screen, light and dark", async ({ browser }) => {
     for (const colorScheme of ["light", "dark"]) {
       await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-        await page.click(".take-button");
-        const box = await page.locator(".take-menu").boundingBox();
+        await page.click(".export-button");
+        const box = await page.locator(".export-menu").boundingBox();
         assert.ok(box.x >= 0 && box.x + box.width <= 360, JSON.stringify(box));
-        assert.ok((await contrastOf(page.locator(".take-menu button").first())) >= 4.5);
-        assert.ok((await contrastOf(page.locator(".take-menu .note").first())) >= 4.5);
+        assert.ok((await contrastOf(page.locator(".export-menu button").first())) >= 4.5);
+        assert.ok((await contrastOf(page.locator(".export-menu .note").first())) >= 4.5);
       }, { colorScheme, viewport: { width: 360, height: 800 } });
     }
   }],

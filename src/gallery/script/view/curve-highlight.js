@@ -22,7 +22,7 @@ export class CurveHighlight {
   turn() {
     [this.chosen, this.pointed, this.curve, this.solved, this.at] = [null, null, null, null, null];
     this.solutions = new Map();
-    this.desk.viewport.classList.remove("receded");
+    this.desk.viewport.classList.remove("dimmed");
     this.desk.reading.hidden = true;
   }
 
@@ -87,14 +87,14 @@ export class CurveHighlight {
     this.at = null;
     this.desk.reading.hidden = true;
     this.solved = this.solve(curve);
-    this.desk.viewport.classList.add("receded");
+    this.desk.viewport.classList.add("dimmed");
     this.desk.overlay.show(this.pathOf(curve));
     this.desk.overlay.point(null);
   }
 
   recede() {
     this.curve = this.solved = this.at = this.told = null;
-    this.desk.viewport.classList.remove("receded");
+    this.desk.viewport.classList.remove("dimmed");
     this.desk.overlay?.show(null);
     this.desk.overlay?.point(null);
     this.desk.reading.hidden = true;

@@ -32,7 +32,7 @@ export const familyRoute = {
       title: family.title,
       element: h(
         "div",
-        { class: "room wide sheet-room" },
+        { class: "view wide family-view" },
         familyHeader(family, listed),
         familyToolbar(family, listed, hasCurves),
         tiles.element,
@@ -120,11 +120,11 @@ function pageTiles(app, family, listed) {
         h(
           "a",
           { href: address([family.id, k + 1]) },
-          h("span", { class: "leaf" }),
+          h("span", { class: "tile-picture" }),
           h(
             "span",
             { class: "label" },
-            h("span", { class: "unseen" }, "Page "),
+            h("span", { class: "visually-hidden" }, "Page "),
             h("b", {}, `${k + 1}`),
             " ",
             formatCaption(pageLabel(family, k + 1)),
@@ -132,7 +132,7 @@ function pageTiles(app, family, listed) {
         ),
       ),
     draw: (element, k) =>
-      element.querySelector(".leaf").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
+      element.querySelector(".tile-picture").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
   });
 }
 
@@ -152,7 +152,7 @@ function curveTiles(family) {
         h(
           "a",
           { href: address([family.id, "curve", curveKey(family, k)]) },
-          h("span", { class: "leaf" }),
+          h("span", { class: "tile-picture" }),
           h(
             "span",
             { class: "label" },
@@ -163,7 +163,7 @@ function curveTiles(family) {
         ),
       ),
     draw: (element, k) => {
-      const leaf = element.querySelector(".leaf");
+      const leaf = element.querySelector(".tile-picture");
       leaf.append(thumbnail(family, [k], tiles.sizeOfLeaf(leaf)));
     },
   });

@@ -28,7 +28,7 @@ export const overviewRoute = {
       title: "",
       element: h(
         "div",
-        { class: "room overview" },
+        { class: "view overview" },
         h(
           "div",
           { class: "head" },
@@ -67,7 +67,7 @@ function familyTile(family) {
     h(
       "a",
       { href: address([family.id]) },
-      h("span", { class: "leaf" }),
+      h("span", { class: "tile-picture" }),
       h("span", { class: "name" }, family.title),
     ),
     h("p", { class: "source note" }),
@@ -101,14 +101,14 @@ export function familySource({ source, legend }) {
 }
 
 async function showFirstPage(app, { id }, tile) {
-  const leaf = tile.querySelector(".leaf");
+  const leaf = tile.querySelector(".tile-picture");
   try {
     const family = await app.atlas.family(id);
     leaf.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
     fill(leaf, pageThumbnail(app.atlas, family, 1) ?? "");
     fill(tile.querySelector(".source"), familySource(family));
   } catch (error) {
-    fill(tile.querySelector(".source"), h("span", { class: "trouble" }, error.message));
+    fill(tile.querySelector(".source"), h("span", { class: "error" }, error.message));
   }
 }
 

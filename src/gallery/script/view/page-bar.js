@@ -44,7 +44,7 @@ function setStepTarget(link, { id, pages }, page) {
 }
 
 function zoomControls(zoom) {
-  const near = h("span", { class: "near-by" });
+  const near = h("span", { class: "zoom-level" });
   const button = (label, sign, factor) =>
     h(
       "button",

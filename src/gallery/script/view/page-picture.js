@@ -42,7 +42,7 @@ export async function pagePicture(app, family, page, label) {
 export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const { width, height } = family.paper;
   const links = new Map(drawn.map(({ curve }) => [curve, curveLink(family, curve, { onfocus, onblur })]));
-  const path = s("path", { class: "forward", "vector-effect": "non-scaling-stroke" });
+  const path = s("path", { class: "highlighted", "vector-effect": "non-scaling-stroke" });
   const dot = s("g", { class: "at" }, s("circle", { r: 1 }));
   const element = s(
     "svg",
@@ -74,7 +74,7 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
 function linkArea([x0, y0, x1, y1]) {
   // The box of a straight path has no breadth, and a rectangle without one is drawn by no browser.
   const [width, height] = [Math.max(x1 - x0, MIN_LINK_WIDTH), Math.max(y1 - y0, MIN_LINK_WIDTH)];
-  return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "spot" });
+  return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "link-area" });
 }
 
 function curveLink(family, curve, { onfocus, onblur }) {

@@ -45,7 +45,7 @@ class PageView {
     this.sheet = h("div", { class: "page-sheet" });
     this.reading = h("div", { class: "reading", hidden: true });
     this.viewport.append(this.sheet, this.reading);
-    this.panel = h("aside", { class: "beside", "aria-label": "Curves of this page" });
+    this.panel = h("aside", { class: "page-panel", "aria-label": "Curves of this page" });
     this.bar = pageBar(listed, { go: (page) => this.go(page), zoom: () => this.zoom });
     const { width, height } = family.paper;
     this.viewport.style.aspectRatio = `${width} / ${height}`;
@@ -65,9 +65,9 @@ class PageView {
     this.legend = h("p", { class: "note" });
     return h(
       "div",
-      { class: "room wide page-room", onclick: (event) => this.followed(event) },
+      { class: "view wide page-view", onclick: (event) => this.followed(event) },
       h("div", { class: "head" }, h("div", { class: "page-title" }, heading, this.legend), this.bar.element),
-      h("div", { class: "split" }, h("div", { class: "desk" }, this.viewport, keyHelp()), this.panel),
+      h("div", { class: "split" }, h("div", { class: "page-main" }, this.viewport, keyHelp()), this.panel),
     );
   }
 

@@ -18,8 +18,8 @@ const BUSY_DELAY = 250;
  * it began.
  */
 export function openShell(app, rooms, root) {
-  const main = h("main", { id: "room", tabindex: "-1" });
-  const status = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
+  const main = h("main", { id: "content", tabindex: "-1" });
+  const status = h("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
   const ways = navigation(app, rooms);
   app.say = (text) => {
     status.textContent = text;
@@ -33,7 +33,7 @@ export function openShell(app, rooms, root) {
   };
   fill(
     root,
-    h("a", { class: "skip", href: "#room", onclick: skip }, "Skip to the content"),
+    h("a", { class: "skip", href: "#content", onclick: skip }, "Skip to the content"),
     h(
       "header",
       { class: "masthead" },
@@ -69,7 +69,7 @@ function navigation(app, rooms) {
   );
   const counted = (names) =>
     fill(count, names.length ? ` ${names.length}` : "", names.length ? pinned() : null);
-  const pinned = () => h("span", { class: "unseen" }, " pinned");
+  const pinned = () => h("span", { class: "visually-hidden" }, " pinned");
   app.pins.watch(counted);
   counted(app.pins.names);
   const mark = (room) => {
@@ -83,7 +83,7 @@ function navigation(app, rooms) {
     const compare = rooms.find(({ name }) => name === "compare");
     links.get("compare").setAttribute("href", compare.way(app));
   });
-  return { element: h("nav", { class: "ways", "aria-label": "Gallery" }, [...links.values()]), mark };
+  return { element: h("nav", { class: "site-nav", "aria-label": "Gallery" }, [...links.values()]), mark };
 }
 
 /** What shows the room that the address says. */
@@ -149,7 +149,7 @@ class Router {
     const family = this.app.atlas.families.find((candidate) => candidate.id === id);
     const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
     const all = h("a", { href: address([]) }, "All families");
-    fill(this.main, h("p", { class: "trouble", role: "alert" }, sentence, " ", own, all));
+    fill(this.main, h("p", { class: "error", role: "alert" }, sentence, " ", own, all));
   }
 
   entitle(title) {

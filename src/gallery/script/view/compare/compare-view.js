@@ -56,7 +56,7 @@ class CompareView {
     this.count = h("p", { class: "lede" });
     this.element = h(
       "div",
-      { class: "room wide compare-room" },
+      { class: "view wide compare-view" },
       h("div", { class: "head" }, h("div", {}, h("h1", {}, "Compare"), this.count), this.take),
       this.tools,
       this.body,
@@ -124,7 +124,7 @@ class CompareView {
         curves.map((one, k) =>
           this.entry(one, k, curves, {
             deviation: laid[k],
-            picture: isOver ? strokeSample(k) : h("div", { class: "leaf" }, picture.elements[k]),
+            picture: isOver ? strokeSample(k) : h("div", { class: "tile-picture" }, picture.elements[k]),
           }),
         ),
       ),

@@ -28,7 +28,7 @@ function showCopyDialog(what, text) {
   const close = h("button", { type: "button" }, "Close");
   const dialog = h(
     "dialog",
-    { class: "take-copy", "aria-label": `Copy ${what}` },
+    { class: "export-copy", "aria-label": `Copy ${what}` },
     h("p", {}, "The browser keeps the clipboard from pages on disk: copy the text with Ctrl+C or ⌘C."),
     area,
     close,

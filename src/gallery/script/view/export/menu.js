@@ -12,7 +12,7 @@ import { saveFile } from "./save.js";
  */
 export function exportMenu(app, names) {
   const asked = () => (typeof names === "function" ? names() : names);
-  const told = h("span", { class: "take-told", "aria-live": "polite" });
+  const told = h("span", { class: "export-status", "aria-live": "polite" });
   const tell = (sentence) => fill(told, sentence);
   const task = (work) => () => {
     tell("Working");
@@ -36,7 +36,7 @@ export function exportMenu(app, names) {
       task(async (list) => copyToClipboard("the command line", await exportCommandLine(app, list))),
     ],
   ];
-  return h("div", { class: "take-away" }, menuButton("Take away", entries), told);
+  return h("div", { class: "export" }, menuButton("Take away", entries), told);
 }
 
 async function saveCurves(app, names, format, tell) {
@@ -62,7 +62,7 @@ async function copyToClipboard(what, text) {
 function menuButton(label, entries) {
   const button = h(
     "button",
-    { type: "button", class: "take-button", "aria-haspopup": "menu", "aria-expanded": "false" },
+    { type: "button", class: "export-button", "aria-haspopup": "menu", "aria-expanded": "false" },
     label,
   );
   const items = entries.map(([word, note, action]) =>
@@ -81,8 +81,8 @@ function menuButton(label, entries) {
       note ? h("span", { class: "note" }, note) : null,
     ),
   );
-  const menu = h("div", { class: "take-menu", role: "menu", "aria-label": label, hidden: true }, items);
-  const element = h("div", { class: "take-unfolds" }, button, menu);
+  const menu = h("div", { class: "export-menu", role: "menu", "aria-label": label, hidden: true }, items);
+  const element = h("div", { class: "export-dropdown" }, button, menu);
   const away = (event) => {
     if (!element.contains(event.target)) close(false);
   };

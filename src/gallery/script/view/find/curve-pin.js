@@ -10,7 +10,7 @@ export function curvePinButton(app, name) {
     name,
     { class: "pin quiet", tabindex: "-1", title: "Pin (p)" },
     h("span", { "aria-hidden": "true" }, "⚲"),
-    h("span", { class: "unseen" }, `Pin ${name}`),
+    h("span", { class: "visually-hidden" }, `Pin ${name}`),
   );
 }
 

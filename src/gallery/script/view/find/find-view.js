@@ -55,7 +55,7 @@ class FindView {
       type: "button",
       onclick: () => this.sortBy(this.question.sort.name, !this.question.sort.down),
     });
-    this.families = h("div", { class: "families-asked" });
+    this.families = h("div", { class: "family-choice" });
     this.element = this.laidOut();
     this.begin();
   }
@@ -69,7 +69,7 @@ class FindView {
     const wide = window.matchMedia("(min-width: 60rem)").matches;
     return h(
       "div",
-      { class: "room wide find-room" },
+      { class: "view wide find-view" },
       h(
         "div",
         { class: "head" },

@@ -26,7 +26,7 @@ export function noResults(filters, without) {
     names.length === 1 ? "No curve passes this filter." : "No curve passes all of these filters.";
   return h(
     "div",
-    { class: "nothing-left" },
+    { class: "no-results" },
     h("p", {}, sentence),
     h("ul", { class: "toolbar" }, names.map(way)),
   );

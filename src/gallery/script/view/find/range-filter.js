@@ -58,7 +58,7 @@ export class RangeFilter {
       this.track,
       h(
         "div",
-        { class: "between" },
+        { class: "bounds" },
         this.inputs[0],
         h("span", { "aria-hidden": "true" }, "–"),
         this.inputs[1],

@@ -23,7 +23,7 @@ export class ResultRows {
     this.figures = h(
       "table",
       { class: "figures results-table" },
-      h("caption", { class: "unseen" }, "Curves"),
+      h("caption", { class: "visually-hidden" }, "Curves"),
       this.head,
       this.body,
     );

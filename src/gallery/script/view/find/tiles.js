@@ -52,7 +52,7 @@ export class ResultTiles extends TileWindow {
       h(
         "a",
         { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
-        h("span", { class: "leaf" }),
+        h("span", { class: "tile-picture" }),
         h(
           "span",
           { class: "label" },
@@ -67,7 +67,7 @@ export class ResultTiles extends TileWindow {
   draw(element, k) {
     const { table } = this;
     const row = this.rows[k];
-    const leaf = element.querySelector(".leaf");
+    const leaf = element.querySelector(".tile-picture");
     const family = table.families[table.family[row]];
     leaf.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(leaf)));
   }

@@ -62,7 +62,7 @@ export class MeasureTable {
     this.table = h(
       "table",
       { class: "figures measures" },
-      h("caption", { class: "unseen" }, "Measures of the curve"),
+      h("caption", { class: "visually-hidden" }, "Measures of the curve"),
       h(
         "thead",
         {},

@@ -59,7 +59,7 @@ export function plateLayout(plate) {
   );
   const element = h(
     "div",
-    { class: "room plate" },
+    { class: "view plate" },
     heading,
     h(
       "div",

@@ -23,7 +23,7 @@ export class Sliders {
     this.kept = h("div", { class: "parameters" });
     this.more = h(
       "details",
-      { class: "kept-parameters" },
+      { class: "locked-parameters" },
       h("summary", {}, "Kept in the atlas, and what follows"),
       this.kept,
     );

@@ -22,8 +22,8 @@ export class Stage {
     this.study = null;
     this.still = new StaticLayer();
     this.moving = new MovingLayer();
-    this.summary = h("p", { class: "unseen", id: "plate-summary" });
-    this.reason = h("p", { class: "reason trouble", hidden: true });
+    this.summary = h("p", { class: "visually-hidden", id: "plate-summary" });
+    this.reason = h("p", { class: "reason error", hidden: true });
     this.picture = h(
       "div",
       {

@@ -108,7 +108,7 @@ export class Switches {
         h(
           "table",
           { class: "figures" },
-          h("caption", { class: "unseen" }, "The three four-bars that draw this curve"),
+          h("caption", { class: "visually-hidden" }, "The three four-bars that draw this curve"),
           h(
             "thead",
             {},

@@ -37,7 +37,7 @@ export class Transport {
     });
     this.input = h("span", { class: "input-now" });
     this.ends = h("p", { class: "note ends" });
-    this.straight = h("p", { class: "note straight-told" });
+    this.straight = h("p", { class: "note straight-note" });
     this.rate = h(
       "select",
       { "aria-label": "Speed of play", class: "rate" },
@@ -60,7 +60,7 @@ export class Transport {
       h(
         "div",
         { class: "toolbar" },
-        h("div", { class: "told" }, this.ends, this.straight),
+        h("div", { class: "motion-notes" }, this.ends, this.straight),
         h(
           "span",
           { class: "end zooms" },

@@ -28,7 +28,7 @@ export function matchItem(app, one, shape, { by, part }) {
       "span",
       { class: "acts" },
       h("a", { href: address(["shape"], { like: name }) }, "Like this"),
-      pinButton(app, name, { class: "quiet" }, "Pin", h("span", { class: "unseen" }, ` ${name}`)),
+      pinButton(app, name, { class: "quiet" }, "Pin", h("span", { class: "visually-hidden" }, ` ${name}`)),
     ),
   );
 }

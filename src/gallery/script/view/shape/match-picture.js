@@ -18,7 +18,7 @@ export function matchPicture({ family, curve, similarity, from, to }, shape, { w
   return s(
     "svg",
     {
-      class: "thumbnail laid-over",
+      class: "thumbnail match-picture",
       width,
       height,
       viewBox: `0 0 ${width} ${height}`,
@@ -27,7 +27,7 @@ export function matchPicture({ family, curve, similarity, from, to }, shape, { w
     },
     s("path", { class: isPart ? "rest" : "curve", d: outlineData(points, closed, seen) }),
     isPart ? s("path", { class: "curve", d: outlineData(part, false, seen) }) : null,
-    s("path", { class: "asked", d: outlineData(laid, shape.closed, seen) }),
+    s("path", { class: "query-shape", d: outlineData(laid, shape.closed, seen) }),
   );
 }
 

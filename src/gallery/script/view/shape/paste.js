@@ -13,7 +13,7 @@ export function pasteField(use) {
     spellcheck: "false",
     placeholder: "x,y lines, JSON, points.csv, a drawing in SVG, or its path: M0 0 C…",
   });
-  const wrong = h("p", { class: "trouble", role: "alert" });
+  const wrong = h("p", { class: "error", role: "alert" });
   const read = () => {
     try {
       use(shapeIn(text.value));

@@ -47,7 +47,7 @@ class ShapeView {
       (text) => app.say(text),
     );
     this.status = h("p", { class: "counted" }, "Draw a curve, paste one, or begin with one of the atlas");
-    this.results = h("ol", { class: "likenesses" });
+    this.results = h("ol", { class: "matches" });
     this.families = h("div", {});
     this.asked = parseShapeQuery(query);
     this.options = shapeOptions(this.asked, () => this.ask());
@@ -66,7 +66,7 @@ class ShapeView {
     };
     return h(
       "div",
-      { class: "room wide shape-room" },
+      { class: "view wide shape-view" },
       h("div", { class: "head" }, h("div", {}, h("h1", {}, "By shape"), this.status)),
       h(
         "div",
