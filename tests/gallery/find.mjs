@@ -69,11 +69,11 @@ for (const folder of process.argv.slice(2)) {
 
   filters.set("mu_worst_deg", { low: 30 });
   const wanted = rows.filter((row) => at(row, "mu_min_deg") >= 30 && 180 - at(row, "mu_max_deg") >= 30);
-  assert.deepEqual([...filters.left()], wanted, "missing measures are left out");
+  assert.deepEqual([...filters.rows()], wanted, "missing measures are left out");
   assert.ok(wanted.length > 0 && wanted.length < table.count);
   filters.set("class", new Set(["crank-rocker"]));
   assert.deepEqual(
-    [...filters.left()],
+    [...filters.rows()],
     wanted.filter((row) => at(row, "class") === "crank-rocker"),
   );
   const { values } = table.words("class");
@@ -83,10 +83,10 @@ for (const folder of process.argv.slice(2)) {
   );
   filters.set("mu_worst_deg", null);
   filters.set("class", null);
-  assert.equal(filters.left().length, table.count);
+  assert.equal(filters.rows().length, table.count);
   filters.set("straight_tolerance", { high: 0.0005 });
   const straight = (row) => at(row, "straight_deviation") / at(row, "straight_length") <= 0.0005;
-  assert.deepEqual([...filters.left()], rows.filter(straight));
+  assert.deepEqual([...filters.rows()], rows.filter(straight));
 
   const orders = new Orders(table);
   for (const down of [false, true]) {
@@ -102,7 +102,7 @@ for (const folder of process.argv.slice(2)) {
   for (let k = 0; k < 40; k += 1) {
     const began = performance.now();
     filters.set("mu_worst_deg", { low: k });
-    const left = filters.left();
+    const left = filters.rows();
     passingRows(orders.by("length", "numbers", true), filters.failing);
     for (const scale of scales) binCounts(scale, left);
     for (const name of ["class", "symmetric", "turn"]) filters.wordCounts(name);

@@ -10,10 +10,10 @@ import { FamilyReader } from "./family.js";
  * `couplerAtlas`.
  */
 export function openAtlas(document, window) {
-  const told = JSON.parse(document.getElementById("atlas").textContent);
+  const summary = JSON.parse(document.getElementById("atlas").textContent);
   const loading = new Map();
   let reader = null;
-  let taken = null;
+  let loaded = null;
   window.couplerAtlas = {
     begin: (head) => {
       reader = new FamilyReader(head);
@@ -21,7 +21,7 @@ export function openAtlas(document, window) {
     cells: (chunk) => reader.cells(chunk),
     page: (page) => reader.page(page),
     end: () => {
-      taken = reader.finished();
+      loaded = reader.finish();
     },
   };
   const load = (shown) =>
@@ -32,20 +32,20 @@ export function openAtlas(document, window) {
       // Scripts run one at a time, and each is followed by its event.
       script.onload = () => {
         script.remove();
-        if (taken?.id === shown.id) resolve(taken);
+        if (loaded?.id === shown.id) resolve(loaded);
         else failed();
-        reader = taken = null;
+        reader = loaded = null;
       };
       script.onerror = failed;
       document.head.append(script);
     });
   const family = (id) => {
-    const shown = told.families.find((candidate) => candidate.id === id);
+    const shown = summary.families.find((candidate) => candidate.id === id);
     if (!shown?.script) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));
     if (!loading.has(id)) loading.set(id, load(shown));
     return loading.get(id);
   };
-  return { ...told, family };
+  return { ...summary, family };
 }
 
 /** The file of a page, numbered from 1, or null where pages have none. */

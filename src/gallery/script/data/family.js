@@ -6,7 +6,7 @@ import { concatenateArrays, unpackArray } from "./packed.js";
 export const NO_WORD = 255;
 
 /**
- * Collects the statements of a family's script; `finished()` is the family:
+ * Collects the statements of a family's script; `finish()` is the family:
  *
  * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper { width, height, color
  *   "#rrggbb", which older data lack }, dash_deg, straight, template, names, free, derived), and
@@ -30,7 +30,7 @@ export class FamilyReader {
     this.pages[page - 1] = views;
   }
 
-  finished() {
+  finish() {
     const cells = joinCells(this.chunks);
     const curves = joinCurves(this.chunks, cells.count);
     const family = { ...this.head, cells, curves, pages: [] };

@@ -1,4 +1,4 @@
-// The command lines that make again what is taken away.
+// The command lines that make again what is exported away.
 
 /**
  * The command that takes away so many curves, which the words name (shortenCurveNames); the manifest is in the

@@ -11,8 +11,8 @@ export function pointColumns({ linkage, family }) {
 }
 
 /** The values of those columns, a row for each sample. */
-export function pointRows(taken) {
-  const { family, linkage, course, joint } = taken;
+export function pointRows(exported) {
+  const { family, linkage, course, joint } = exported;
   const dyads = Math.max(linkage.dyads, 1);
   return Array.from({ length: course.count }, (_, k) => [
     ...Array.from({ length: dyads }, (_unused, dyad) => course.branch(k, dyad)),
@@ -25,8 +25,8 @@ export function pointRows(taken) {
 }
 
 /** The curve's rows of points.csv, under its header. */
-export function csvOfCurve(taken) {
-  const { cell, trace, circuit } = taken;
-  const lines = pointRows(taken).map((row) => [cell, trace, circuit, ...row].map(shortestDigits).join(","));
-  return `${["cell,trace,circuit", ...pointColumns(taken)].join(",")}\n${lines.join("\n")}\n`;
+export function csvOfCurve(exported) {
+  const { cell, trace, circuit } = exported;
+  const lines = pointRows(exported).map((row) => [cell, trace, circuit, ...row].map(shortestDigits).join(","));
+  return `${["cell,trace,circuit", ...pointColumns(exported)].join(",")}\n${lines.join("\n")}\n`;
 }

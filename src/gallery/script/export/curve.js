@@ -1,4 +1,4 @@
-// A curve that is taken away: found by its name, and solved anew as the atlas sampled it.
+// A curve that is exported away: found by its name, and solved anew as the atlas sampled it.
 
 import { LinkageError } from "../kinematics/assembly.js";
 import { changedValues, templateWithChanges } from "../kinematics/changes.js";
@@ -36,9 +36,9 @@ export function parseCurveName(name) {
 
 /** The changes of a name apart: those of parameters, and another circuit's number, or null. */
 function splitChanges(family, all) {
-  const beside = family.names.includes("circuit") ? null : (all?.get("circuit") ?? null);
-  const changes = new Map([...(all ?? [])].filter(([word]) => beside === null || word !== "circuit"));
-  return { changes, beside };
+  const extraCircuit = family.names.includes("circuit") ? null : (all?.get("circuit") ?? null);
+  const changes = new Map([...(all ?? [])].filter(([word]) => extraCircuit === null || word !== "circuit"));
+  return { changes, extraCircuit };
 }
 
 /**
@@ -52,14 +52,14 @@ function splitChanges(family, all) {
 export function solveNamedCurve(family, name) {
   const parsed = parseCurveName(name) ?? {};
   const { key, cell, trace } = parsed;
-  const { changes, beside } = splitChanges(family, parsed.changes);
-  const circuit = beside ?? parsed.circuit;
+  const { changes, extraCircuit } = splitChanges(family, parsed.changes);
+  const circuit = extraCircuit ?? parsed.circuit;
   const curve = family.places.get(key);
   if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
   const place = family.curves.cell[curve];
   const values = changedValues(family, place, changes);
   const changed = templateWithChanges(family.template, trace, values, changes);
-  const template = beside === null ? changed.template : { ...changed.template, circuits: "all" };
+  const template = extraCircuit === null ? changed.template : { ...changed.template, circuits: "all" };
   const { linkage, motion } = solveMotion(template, values, family.sampling, name);
   const course = motion.circuits[circuit - 1];
   if (!course) throw new Error(`${name}: ${motion.shortfall ?? "this circuit is there no more"}`);
@@ -67,14 +67,14 @@ export function solveNamedCurve(family, name) {
   const reason = motion.shortfall ?? null;
   const status = reason === null ? "ok" : "partial";
   return {
-    name: formatCurveName(family.id, key, changes, beside),
+    name: formatCurveName(family.id, key, changes, extraCircuit),
     family,
     cell,
     place,
     curve,
     trace,
     circuit,
-    beside,
+    extraCircuit,
     changes,
     values,
     template,
@@ -93,11 +93,11 @@ export function solveNamedCurve(family, name) {
  */
 export function manifestCase(family, name) {
   const { key, trace, changes: all } = parseCurveName(name) ?? {};
-  const { changes, beside } = splitChanges(family, all);
+  const { changes, extraCircuit } = splitChanges(family, all);
   const curve = family.places.get(key);
   if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
   const values = changedValues(family, family.curves.cell[curve], changes);
-  return { family, name: formatCurveName(family.id, key, changes, beside), trace, beside, values, changes };
+  return { family, name: formatCurveName(family.id, key, changes, extraCircuit), trace, extraCircuit, values, changes };
 }
 
 // A linkage that cannot be put together is told of by its curve's name.
@@ -111,29 +111,29 @@ function solveMotion(template, values, sampling, name) {
   }
 }
 
-function formatCurveName(id, key, changes, beside) {
-  const all = beside === null ? [...changes] : [...changes, ["circuit", beside]];
+function formatCurveName(id, key, changes, extraCircuit) {
+  const all = extraCircuit === null ? [...changes] : [...changes, ["circuit", extraCircuit]];
   const changed = all.map(([name, value]) => `${name}=${shortestDigits(value)}`);
   return changed.length > 0 ? `${id}:${key}?${changed.join("&")}` : `${id}:${key}`;
 }
 
 /**
- * The name of a taken curve's file, without its ending: "evans-12-1-1", "evans-12-1-1-p-2.5", and, on a
+ * The name of a exported curve's file, without its ending: "evans-12-1-1", "evans-12-1-1-p-2.5", and, on a
  * circuit beside the atlas, "evans-12-1-circuit-2".
  */
-export function fileStem({ family, cell, trace, circuit, beside, changes }) {
+export function fileStem({ family, cell, trace, circuit, extraCircuit, changes }) {
   const changed = [...changes].map(([name, value]) => `-${name}-${shortestDigits(value)}`);
-  const number = beside === null ? circuit : `circuit-${beside}`;
+  const number = extraCircuit === null ? circuit : `circuit-${extraCircuit}`;
   return `${family.id}-${cell}-${trace}-${number}${changed.join("")}`;
 }
 
 /**
- * What is measured of a taken curve, [[name, number | string | null], …] under `names` and in their order: as
- * the atlas has it, or, of one with changed parameters or beside it, taken anew.
+ * What is measured of a exported curve, [[name, number | string | null], …] under `names` and in their order: as
+ * the atlas has it, or, of one with changed parameters or beside it, exported anew.
  */
-export function measuresOfCurve(taken, names) {
-  const { family, curve, changes, beside, linkage, motion, course, joint } = taken;
-  if (changes.size === 0 && beside === null) return names.map((name) => [name, measureValue(family, curve, name) ?? null]);
+export function measuresOfCurve(exported, names) {
+  const { family, curve, changes, extraCircuit, linkage, motion, course, joint } = exported;
+  if (changes.size === 0 && extraCircuit === null) return names.map((name) => [name, measureValue(family, curve, name) ?? null]);
   const found = measuresOf(linkage, motion, course, joint, { straight: family.straight });
   return names.map((name) => [name, found[name] ?? null]);
 }

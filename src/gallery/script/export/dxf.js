@@ -21,22 +21,22 @@ const DXF_LAYERS = [
 /** How far a chord of a polyline is from the curve at most, in parts of the curve's extent. */
 const DXF_CHORD = 1e-4;
 
-/** A taken curve as a DXF document; `program` is the program's name and version. */
-export function dxfOfCurve(taken, program, chord = DXF_CHORD) {
-  const samples = samplesOfCurve(taken);
-  const path = polylineOfCurve(taken, chord * extentOfPath(samples));
-  const pose = exportPose(taken);
-  const { bars, plates, frame } = mechanismOf(taken.linkage, taken.course);
+/** A exported curve as a DXF document; `program` is the program's name and version. */
+export function dxfOfCurve(exported, program, chord = DXF_CHORD) {
+  const samples = samplesOfCurve(exported);
+  const path = polylineOfCurve(exported, chord * extentOfPath(samples));
+  const pose = exportPose(exported);
+  const { bars, plates, frame } = mechanismOf(exported.linkage, exported.course);
   const isPlaced = (joint) => Number.isFinite(pose(joint).x) && Number.isFinite(pose(joint).y);
-  const links = outlinesByLink(taken.linkage, bars, plates);
-  const shown = [...new Set([...links.flatMap(({ joints }) => joints), ...frame, taken.joint])]
+  const links = outlinesByLink(exported.linkage, bars, plates);
+  const shown = [...new Set([...links.flatMap(({ joints }) => joints), ...frame, exported.joint])]
     .sort((a, b) => a - b)
     .filter(isPlaced);
   const lines = links.flatMap(barsOfLink).filter((bar) => bar.every(isPlaced));
   const circle = circleOfPath(path, samples);
   return [
     dxfGroup(999, program),
-    dxfGroup(999, taken.name),
+    dxfGroup(999, exported.name),
     dxfGroup(999, "lengths are in the unit of the manifest"),
     dxfHeader([...path, ...shown.map(pose)]),
     dxfTables(),
@@ -44,7 +44,7 @@ export function dxfOfCurve(taken, program, chord = DXF_CHORD) {
     dxfSection(
       "ENTITIES",
       [
-        circle ? dxfCircle(circle) : dxfPolyline(path, taken.course.closed),
+        circle ? dxfCircle(circle) : dxfPolyline(path, exported.course.closed),
         ...lines.map(([from, to]) =>
           dxfEntity("LINE", "LINKAGE", dxfPlace(10, pose(from)), dxfPlace(11, pose(to))),
         ),
@@ -57,7 +57,7 @@ export function dxfOfCurve(taken, program, chord = DXF_CHORD) {
   ].join("");
 }
 
-/** The samples of a taken curve, [{ x, y }, …], those that have a place. */
+/** The samples of a exported curve, [{ x, y }, …], those that have a place. */
 function samplesOfCurve({ course: { x, y, count }, joint }) {
   const all = Array.from({ length: count }, (_, k) => ({ x: x[joint][k], y: y[joint][k] }));
   return all.filter((p) => Number.isFinite(p.x) && Number.isFinite(p.y));

@@ -9,9 +9,9 @@ import { measuresOfCurve } from "./curve.js";
 /** The version of the format. */
 const JSON_FORMAT_VERSION = 1;
 
-/** A taken curve as JSON; `measures` are the names of all measures, in the order of the atlas. */
-export function jsonOfCurve(taken, measures) {
-  const { name, family, cell, trace, circuit, values, linkage, motion, joint, status, reason } = taken;
+/** A exported curve as JSON; `measures` are the names of all measures, in the order of the atlas. */
+export function jsonOfCurve(exported, measures) {
+  const { name, family, cell, trace, circuit, values, linkage, motion, joint, status, reason } = exported;
   const width = family.template.parameters.length;
   const named = (from, to) =>
     Object.fromEntries(family.names.slice(from, to).map((word, k) => [word, values[from + k]]));
@@ -32,9 +32,9 @@ export function jsonOfCurve(taken, measures) {
     status,
     reason,
     circuits: motion.circuits.map((course) => circuitInJson(linkage, course)),
-    columns: pointColumns(taken),
-    points: pointRows(taken),
-    measures: Object.fromEntries(measuresOfCurve(taken, measures)),
+    columns: pointColumns(exported),
+    points: pointRows(exported),
+    measures: Object.fromEntries(measuresOfCurve(exported, measures)),
   });
 }
 

@@ -30,7 +30,7 @@ export const CATALOGUE = [
 /**
  * The families of some curves { family, values, name, beside, changes }, in their order, as TOML; to be put
  * into a manifest that has an [atlas], and the linkages of the atlas's own that they name. A cell that
- * several curves are taken of stands once. Of a circuit beside the atlas all circuits are taken.
+ * several curves are exported of stands once. Of a circuit beside the atlas all circuits are exported.
  */
 export function manifestOfCurves(curves) {
   const tables = familiesOfCurves(curves).map(familyInManifest);
@@ -55,7 +55,7 @@ export function curveNamesInManifest(curves) {
 function familiesOfCurves(curves) {
   const families = [];
   for (const curve of curves) {
-    const settings = settingsInManifest(curve.family, curve.beside !== null);
+    const settings = settingsInManifest(curve.family, curve.extraCircuit !== null);
     const title = curve.family.title;
     const same = families.find(
       (other) =>
@@ -113,8 +113,8 @@ function movedPointComment({ family, name, changes }) {
 }
 
 // A circuit that the atlas does not have is one of all.
-function extraCircuitComment({ name, beside }) {
-  return beside === null ? [] : [`# ${name} is circuit ${beside} of all: of each cell the others come too.`];
+function extraCircuitComment({ name, extraCircuit }) {
+  return extraCircuit === null ? [] : [`# ${name} is circuit ${extraCircuit} of all: of each cell the others come too.`];
 }
 
 function caseInManifest(family, values) {

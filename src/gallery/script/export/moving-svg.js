@@ -5,14 +5,14 @@ import { passLength } from "../kinematics/pass.js";
 import { svgOfPoses } from "./svg.js";
 
 /**
- * A taken curve as SVG with its linkage moving over the circuit, again and again, without any script: slower
+ * A exported curve as SVG with its linkage moving over the circuit, again and again, without any script: slower
  * towards its limits, as a crank is that is turned by hand; there and back where the circuit does not close.
  */
-export function movingSvgOfCurve(taken) {
+export function movingSvgOfCurve(exported) {
   // Between two poses places go straight: over 3 degrees no pin is off its circle by more than a thousandth
   // of its radius.
   const [STEP_DEG, SECONDS_TO_A_TURN] = [3, 4];
-  const { linkage, course } = taken;
+  const { linkage, course } = exported;
   const turned = course.passes.reduce((sum, pass) => sum + passLength(pass) / 360, 0);
   const turns = linkage.input.isLength ? 1 : Math.max(turned, 0.25);
   const samples = Math.ceil((turns * 360) / STEP_DEG);
@@ -21,5 +21,5 @@ export function movingSvgOfCurve(taken) {
   const isDefined = (places) => places.every(({ x, y }) => Number.isFinite(x) && Number.isFinite(y));
   const poses = Array.from({ length: frames.count }, (_, k) => pose(k)).filter(isDefined);
   const back = course.closed ? [poses[0]] : poses.slice(0, -1).reverse();
-  return svgOfPoses(taken, [...poses, ...back], Math.round(turns * SECONDS_TO_A_TURN * 10) / 10);
+  return svgOfPoses(exported, [...poses, ...back], Math.round(turns * SECONDS_TO_A_TURN * 10) / 10);
 }

@@ -1,4 +1,4 @@
-// The linkage of a taken curve as shapes of a plate, each with how its path data follows from a pose.
+// The linkage of a exported curve as shapes of a plate, each with how its path data follows from a pose.
 
 import { blockData, cylinderData, linkData, slotData, slotEnds } from "../draw/link-shapes.js";
 import { circleData, pixel } from "../draw/path-data.js";

@@ -5,11 +5,11 @@ import { svgOfCurve, PLATE_SIZE } from "./svg.js";
 /** The resolution of plates as images, in pixels to the inch. */
 const PLATE_DPI = 300;
 
-/** A taken curve as the bytes of a PNG image, in a while. */
-export async function pngOfCurve(taken) {
+/** A exported curve as the bytes of a PNG image, in a while. */
+export async function pngOfCurve(exported) {
   const image = new Image();
   // The picture is the page's own as data, which no canvas holds against it.
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgOfCurve(taken))}`;
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgOfCurve(exported))}`;
   await image.decode();
   const canvas = document.createElement("canvas");
   canvas.width = Math.round((PLATE_SIZE.width / 25.4) * PLATE_DPI);

@@ -1,4 +1,4 @@
-// The path of a taken curve with as few points as its tolerance allows, as the program has it.
+// The path of a exported curve with as few points as its tolerance allows, as the program has it.
 
 import { linkageWithOnePoint } from "../kinematics/linkage.js";
 import { passLength } from "../kinematics/pass.js";

@@ -1,4 +1,4 @@
-// A plate of a taken curve with its linkage, as an SVG of its own: 200 by 150 mm, in quarter millimetres.
+// A plate of a exported curve with its linkage, as an SVG of its own: 200 by 150 mm, in quarter millimetres.
 
 import { finePath } from "../kinematics/path.js";
 import { dashData, dashesOfPeriod } from "../draw/dashes.js";
@@ -13,24 +13,24 @@ import { exportPose } from "./curve.js";
 /** The plate's size in millimetres, and its units to a millimetre. */
 export const PLATE_SIZE = { width: 200, height: 150, units: 4 };
 
-/** A taken curve as SVG. */
-export function svgOfCurve(taken) {
-  const pose = exportPose(taken);
-  const joints = taken.linkage.joints.map((_, joint) => pose(joint));
-  return svgOfPoses(taken, [joints], 0);
+/** A exported curve as SVG. */
+export function svgOfCurve(exported) {
+  const pose = exportPose(exported);
+  const joints = exported.linkage.joints.map((_, joint) => pose(joint));
+  return svgOfPoses(exported, [joints], 0);
 }
 
 /**
- * A plate of a taken curve with its linkage in one pose, or moving through several over so many seconds,
+ * A plate of a exported curve with its linkage in one pose, or moving through several over so many seconds,
  * again and again; a pose is the place { x, y } of each joint.
  */
-export function svgOfPoses(taken, poses, seconds) {
-  const mechanism = mechanismOf(taken.linkage, taken.course);
-  const view = viewOfPlate(sweptBox(mechanism, taken.course, [taken.joint]));
+export function svgOfPoses(exported, poses, seconds) {
+  const mechanism = mechanismOf(exported.linkage, exported.course);
+  const view = viewOfPlate(sweptBox(mechanism, exported.course, [exported.joint]));
   const placed = poses.map((pose) =>
     pose.flatMap(({ x, y }) => [view.x + view.scale * x, view.y - view.scale * y]),
   );
-  const shapes = plateShapes(mechanism, taken.joint).map(({ look, data }) => {
+  const shapes = plateShapes(mechanism, exported.joint).map(({ look, data }) => {
     const frames = placed.map((at) => data(at, view.scale));
     return pathElement({ d: frames[0], ...look }, frames.length > 1 ? animateElement(frames, seconds) : "");
   });
@@ -45,10 +45,10 @@ export function svgOfPoses(taken, poses, seconds) {
     fill: "none",
   };
   const body = [
-    `<title>${escapeXml(`${taken.family.title}, ${taken.name}`)}</title>\n`,
+    `<title>${escapeXml(`${exported.family.title}, ${exported.name}`)}</title>\n`,
     `<rect width="${units * width}" height="${units * height}" fill="#fffdf8"/>\n`,
-    lettering(taken, view),
-    staticShapes(taken, mechanism, view),
+    lettering(exported, view),
+    staticShapes(exported, mechanism, view),
     `<g class="linkage">\n${shapes.join("")}</g>\n`,
   ];
   return `<svg${attributesOf(head)}>\n${body.join("")}</svg>\n`;
@@ -67,8 +67,8 @@ function viewOfPlate(box) {
 }
 
 // What stays where it is: the frame, guides and wheels, and the curve in dashes on its own light line.
-function staticShapes(taken, { frame, guides, wheels }, view) {
-  const { linkage, course, joint, family } = taken;
+function staticShapes(exported, { frame, guides, wheels }, view) {
+  const { linkage, course, joint, family } = exported;
   const place = (x, y) => [view.x + view.scale * x, view.y - view.scale * y];
   const at = (id) => place(course.x[id][0], course.y[id][0]);
   const hair = { stroke: "#8f8b80", "stroke-width": 0.6 };
@@ -101,8 +101,8 @@ function dashPeriodOfCurve(family, linkage, { passes }) {
 }
 
 // Title, name and parameters, and a bar for the scale.
-function lettering(taken, view) {
-  const { family, place, changes, values, name } = taken;
+function lettering(exported, view) {
+  const { family, place, changes, values, name } = exported;
   const { width, height, units } = PLATE_SIZE;
   const [right, foot] = [units * width - 32, units * height - 32];
   const own = family.names

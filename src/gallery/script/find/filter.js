@@ -9,21 +9,21 @@ export class Filters {
     this.table = table;
     this.failing = new Uint16Array(table.count);
     this.fails = new Map();
-    this.rest = null;
+    this.passing = null;
   }
 
   /** Sets the filter of a column, or takes it away with null. */
   set(name, filter) {
     const before = this.fails.get(name);
-    const after = filter && this.failsOf(name, filter);
+    const after = filter && this.failuresOf(name, filter);
     if (before) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] -= before[row];
     if (after) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] += after[row];
     if (after) this.fails.set(name, after);
     else this.fails.delete(name);
-    this.rest = null;
+    this.passing = null;
   }
 
-  failsOf(name, filter) {
+  failuresOf(name, filter) {
     const out = new Uint8Array(this.table.count);
     if (filter instanceof Set) {
       const { values, codes } = this.table.words(name);
@@ -43,13 +43,13 @@ export class Filters {
   }
 
   /** The rows that pass all filters, in the table's order. */
-  left() {
-    if (this.rest) return this.rest;
+  rows() {
+    if (this.passing) return this.passing;
     const rows = new Uint32Array(this.table.count);
     let count = 0;
     for (let row = 0; row < rows.length; row += 1) if (this.failing[row] === 0) rows[count++] = row;
-    this.rest = rows.subarray(0, count);
-    return this.rest;
+    this.passing = rows.subarray(0, count);
+    return this.passing;
   }
 
   /** How many rows would pass without the filter of a column. */

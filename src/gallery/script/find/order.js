@@ -6,7 +6,7 @@ import { NO_WORD } from "../data/family.js";
 export class Orders {
   constructor(table) {
     this.table = table;
-    this.known = new Map();
+    this.cache = new Map();
   }
 
   /**
@@ -16,11 +16,11 @@ export class Orders {
    */
   by(name, kind, down) {
     const key = `${down ? "-" : ""}${kind} ${name}`;
-    if (!this.known.has(key)) this.known.set(key, this.made(name, kind, down));
-    return this.known.get(key);
+    if (!this.cache.has(key)) this.cache.set(key, this.compute(name, kind, down));
+    return this.cache.get(key);
   }
 
-  made(name, kind, down) {
+  compute(name, kind, down) {
     const rows = Uint32Array.from({ length: this.table.count }, (_, row) => row);
     if (!name) return rows;
     const values = kind === "words" ? wordRanks(this.table.words(name)) : this.table.numbers(name);

@@ -9,17 +9,17 @@ export const DERIVED_COLUMNS = {
     definition:
       "how far the transmission angle stays from 0 and 180 all round: the lesser of its least " +
       "and 180 less its greatest",
-    of: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
+    compute: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
   },
   straight_tolerance: {
     unit: "",
     definition: "departure of the straightest portion from its line, by the portion's length",
-    of: (at) => at("straight_deviation") / at("straight_length"),
+    compute: (at) => at("straight_deviation") / at("straight_length"),
   },
   straight_share: {
     unit: "",
     definition: "length of the straightest portion, by the greater side of the curve's box",
-    of: (at) =>
+    compute: (at) =>
       at("straight_length") /
       Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
   },
@@ -38,7 +38,7 @@ export class CurveTable {
     this.count = families.reduce((sum, { curves }) => sum + curves.count, 0);
     this.family = new Uint16Array(this.count);
     this.curve = new Uint32Array(this.count);
-    this.known = new Map();
+    this.cache = new Map();
     let row = 0;
     families.forEach(({ curves }, k) => {
       for (let curve = 0; curve < curves.count; curve += 1, row += 1)
@@ -54,15 +54,15 @@ export class CurveTable {
 
   /** A column of numbers, f64[count], NaN where they are missing; a parameter's name has "p." before it. */
   numbers(name) {
-    if (!this.known.has(name)) this.known.set(name, this.made(name));
-    return this.known.get(name);
+    if (!this.cache.has(name)) this.cache.set(name, this.computeNumbers(name));
+    return this.cache.get(name);
   }
 
-  made(name) {
+  computeNumbers(name) {
     const out = new Float64Array(this.count).fill(NaN);
     if (DERIVED_COLUMNS[name]) {
       const at = (row) => (other) => this.numbers(other)[row];
-      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED_COLUMNS[name].of(at(row));
+      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED_COLUMNS[name].compute(at(row));
       return out;
     }
     const own = name.startsWith("p.") ? parameterColumn(name.slice(2)) : measureColumn(name);
@@ -78,11 +78,11 @@ export class CurveTable {
   /** A column of words: { values, codes u8[count] }, NO_WORD where there is none. */
   words(name) {
     const key = `words ${name}`;
-    if (!this.known.has(key)) this.known.set(key, this.madeWords(name));
-    return this.known.get(key);
+    if (!this.cache.has(key)) this.cache.set(key, this.computeWords(name));
+    return this.cache.get(key);
   }
 
-  madeWords(name) {
+  computeWords(name) {
     const codes = new Uint8Array(this.count).fill(NO_WORD);
     if (name === "symmetric") {
       const { codes: own } = this.words("symmetry");

@@ -13,17 +13,17 @@ const HIGHLIGHT_ERROR = 0.1;
  * chosen.
  */
 export class CurveHighlight {
-  constructor(desk) {
-    this.desk = desk;
-    this.turn();
+  constructor(page) {
+    this.page = page;
+    this.reset();
   }
 
   /** Another page: nothing is forward. */
-  turn() {
-    [this.chosen, this.pointed, this.curve, this.solved, this.at] = [null, null, null, null, null];
+  reset() {
+    [this.selected, this.pointed, this.curve, this.solved, this.at] = [null, null, null, null, null];
     this.solutions = new Map();
-    this.desk.viewport.classList.remove("dimmed");
-    this.desk.reading.hidden = true;
+    this.page.viewport.classList.remove("dimmed");
+    this.page.reading.hidden = true;
   }
 
   /** The pointer is at a place in millimetres, near a drawn curve or none. */
@@ -33,81 +33,81 @@ export class CurveHighlight {
       return;
     }
     this.pointed = found.curve;
-    this.bring(found.curve);
+    this.highlight(found.curve);
     this.read(place);
   }
 
   /** A link of the page's curves has the focus. */
   focus(curve) {
     this.pointed = curve;
-    this.bring(curve);
+    this.highlight(curve);
     const { box } = this.drawnOf(curve);
-    this.desk.zoom.reveal(box);
+    this.page.zoom.reveal(box);
     this.readInput(0, this.solved?.passes[0].from);
   }
 
   /** A link beside the page is looked at: the list stays. */
-  glance(curve) {
+  preview(curve) {
     this.pointed = curve;
-    this.bring(curve, { beside: false });
+    this.highlight(curve, { updatesPanel: false });
   }
 
   /** Nothing is pointed at. What is beside the page stays, to be read and followed. */
   leave() {
     this.pointed = null;
-    if (this.chosen === null) this.recede(null);
-    else this.bring(this.chosen);
+    if (this.selected === null) this.clear();
+    else this.highlight(this.selected);
   }
 
   /** A curve (null: none) stays forward, read at a place in millimetres. */
-  choose(curve, place = null) {
-    this.chosen = curve;
+  select(curve, place = null) {
+    this.selected = curve;
     this.pointed = null;
     if (curve === null) {
-      this.recede(null);
+      this.clear();
       return;
     }
-    this.bring(curve);
+    this.highlight(curve);
     if (place) this.read(place);
     else this.readInput(0, this.solved?.passes[0].from);
   }
 
   drawnOf(curve) {
-    return this.desk.drawn.find((candidate) => candidate.curve === curve);
+    return this.page.drawn.find((candidate) => candidate.curve === curve);
   }
 
-  bring(curve, { beside = true } = {}) {
-    if (beside && this.told !== curve) {
-      this.told = curve;
-      this.desk.beside(curve);
+  highlight(curve, { updatesPanel = true } = {}) {
+    if (updatesPanel && this.listed !== curve) {
+      this.listed = curve;
+      this.page.showPanel(curve);
     }
-    if (!beside) this.told = null;
+    if (!updatesPanel) this.listed = null;
     if (this.curve === curve) return;
     this.curve = curve;
     this.at = null;
-    this.desk.reading.hidden = true;
+    this.page.reading.hidden = true;
     this.solved = this.solve(curve);
-    this.desk.viewport.classList.add("dimmed");
-    this.desk.overlay.show(this.pathOf(curve));
-    this.desk.overlay.point(null);
+    this.page.viewport.classList.add("dimmed");
+    this.page.overlay.show(this.pathOf(curve));
+    this.page.overlay.point(null);
   }
 
-  recede() {
-    this.curve = this.solved = this.at = this.told = null;
-    this.desk.viewport.classList.remove("dimmed");
-    this.desk.overlay?.show(null);
-    this.desk.overlay?.point(null);
-    this.desk.reading.hidden = true;
+  clear() {
+    this.curve = this.solved = this.at = this.listed = null;
+    this.page.viewport.classList.remove("dimmed");
+    this.page.overlay?.show(null);
+    this.page.overlay?.point(null);
+    this.page.reading.hidden = true;
   }
 
   /** The solver's own curve, at the fineness of the present zoom; null where it has none. */
   solve(curve) {
     const { view } = this.drawnOf(curve);
-    const fineness = Math.max(0, Math.round(Math.log2(this.desk.zoom.nearness)));
+    const fineness = Math.max(0, Math.round(Math.log2(this.page.zoom.magnification)));
     const key = `${curve} ${fineness}`;
     if (!this.solutions.has(key)) {
-      const tolerance = HIGHLIGHT_ERROR / (2 ** fineness * this.desk.zoom.fitScale * view.scale);
-      this.solutions.set(key, solveCurveOrNull(this.desk.family, curve, tolerance));
+      const tolerance = HIGHLIGHT_ERROR / (2 ** fineness * this.page.zoom.fitScale * view.scale);
+      this.solutions.set(key, solveCurveOrNull(this.page.family, curve, tolerance));
     }
     return this.solutions.get(key);
   }
@@ -135,17 +135,17 @@ export class CurveHighlight {
       view: { origin, scale },
     } = this.drawnOf(this.curve);
     this.at = this.solved.nearTo((x - origin[0]) / scale, (origin[1] - y) / scale);
-    this.place();
+    this.position();
   }
 
   readInput(pass, input) {
     if (!this.solved || input === undefined) return;
     this.at = this.solved.atInput(pass, input);
-    this.place();
+    this.position();
   }
 
   /** Goes along the curve by so much of the input, from one pass to the next. */
-  along(by) {
+  stepAlong(by) {
     if (!this.solved || !this.at) return;
     const { passes } = this.solved;
     const { isLength } = this.solved;
@@ -161,7 +161,7 @@ export class CurveHighlight {
       input = passes[pass].to;
     }
     this.readInput(pass, input);
-    this.desk.app.say(
+    this.page.app.announce(
       readingRows(this.at, this.solved)
         .map((row) => row.join(" "))
         .join(", "),
@@ -172,39 +172,39 @@ export class CurveHighlight {
    * The zoom has changed: the curve is as fine as it asks for, and what is read stands where the point is
    * now.
    */
-  zoomed() {
+  updateZoom() {
     if (this.curve === null) return;
     const solved = this.solve(this.curve);
     if (solved !== this.solved) {
       this.solved = solved;
-      this.desk.overlay.show(this.pathOf(this.curve));
+      this.page.overlay.show(this.pathOf(this.curve));
     }
-    this.place();
+    this.position();
   }
 
   /** Puts the point and what is read there where the zoom has them. */
-  place() {
-    const { desk, at } = this;
+  position() {
+    const { page, at } = this;
     if (!at || this.curve === null || !at.place.every(Number.isFinite)) return;
     const {
       view: { origin, scale },
       box,
     } = this.drawnOf(this.curve);
     const [x, y] = [origin[0] + scale * at.place[0], origin[1] - scale * at.place[1]];
-    desk.overlay.point([x, y], 4 / desk.zoom.scale);
+    page.overlay.point([x, y], 4 / page.zoom.scale);
     const rows = readingRows(at, this.solved).map(([name, text]) => [
       h("dt", {}, name),
       h("dd", {}, text),
     ]);
-    fill(desk.reading, h("dl", {}, rows));
-    const { clientWidth, clientHeight } = desk.viewport;
-    const [across, down] = [desk.zoom.x + desk.zoom.scale * x, desk.zoom.y + desk.zoom.scale * y];
-    desk.reading.hidden = across < 0 || down < 0 || across > clientWidth || down > clientHeight;
-    if (desk.reading.hidden) return;
-    const { offsetWidth, offsetHeight } = desk.reading;
+    fill(page.reading, h("dl", {}, rows));
+    const { clientWidth, clientHeight } = page.viewport;
+    const [across, down] = [page.zoom.x + page.zoom.scale * x, page.zoom.y + page.zoom.scale * y];
+    page.reading.hidden = across < 0 || down < 0 || across > clientWidth || down > clientHeight;
+    if (page.reading.hidden) return;
+    const { offsetWidth, offsetHeight } = page.reading;
     const left = positionNextTo(across, offsetWidth, clientWidth, 2 * x < box[0] + box[2] - 1);
     const top = positionNextTo(down, offsetHeight, clientHeight, 2 * y < box[1] + box[3]);
-    desk.reading.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
+    page.reading.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
   }
 }
 

@@ -19,9 +19,9 @@ import { thumbnail } from "./thumbnail.js";
  */
 export const familyRoute = {
   name: "sheet",
-  under: "families",
-  opens: ({ path }, app) => path.length === 1 && app.atlas.families.some(({ id }) => id === path[0]),
-  view: async (app, { path: [id], query }) => {
+  parent: "families",
+  matches: ({ path }, app) => path.length === 1 && app.atlas.families.some(({ id }) => id === path[0]),
+  open: async (app, { path: [id], query }) => {
     const family = await app.atlas.family(id);
     const listed = app.atlas.families.find((candidate) => candidate.id === id);
     const hasCurves = query.get("show") === "curves" || listed.pages === 0;
@@ -163,8 +163,8 @@ function curveTiles(family) {
         ),
       ),
     draw: (element, k) => {
-      const leaf = element.querySelector(".tile-picture");
-      leaf.append(thumbnail(family, [k], tiles.sizeOfLeaf(leaf)));
+      const picture = element.querySelector(".tile-picture");
+      picture.append(thumbnail(family, [k], tiles.sizeOfLeaf(picture)));
     },
   });
   return tiles;

@@ -15,9 +15,9 @@ const FEW_FAMILIES = 4;
 export const overviewRoute = {
   name: "families",
   label: "Families",
-  way: () => address([]),
-  opens: ({ path }) => path.length === 0,
-  view: (app, { query }) => {
+  href: () => address([]),
+  matches: ({ path }) => path.length === 0,
+  open: (app, { query }) => {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
     const sight = onceVisible((tile) => showFirstPage(app, tiles.get(tile), tile));
@@ -101,11 +101,11 @@ export function familySource({ source, legend }) {
 }
 
 async function showFirstPage(app, { id }, tile) {
-  const leaf = tile.querySelector(".tile-picture");
+  const picture = tile.querySelector(".tile-picture");
   try {
     const family = await app.atlas.family(id);
-    leaf.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
-    fill(leaf, pageThumbnail(app.atlas, family, 1) ?? "");
+    picture.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
+    fill(picture, pageThumbnail(app.atlas, family, 1) ?? "");
     fill(tile.querySelector(".source"), familySource(family));
   } catch (error) {
     fill(tile.querySelector(".source"), h("span", { class: "error" }, error.message));
@@ -116,7 +116,7 @@ async function showFirstPage(app, { id }, tile) {
  * A field that leaves the families whose title, linkage or name has all the words in it; the address keeps
  * them.
  */
-function familySearch(app, tiles, asked) {
+function familySearch(app, tiles, query) {
   const total = tiles.size;
   const leave = (text) => {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
@@ -129,16 +129,16 @@ function familySearch(app, tiles, asked) {
     return left === total ? `All ${total} families` : formatCount(left, "family", "families");
   };
   const seek = (event) => {
-    app.say(leave(event.target.value));
+    app.announce(leave(event.target.value));
     app.replace(address([], { q: event.target.value.trim() }));
   };
-  leave(asked);
+  leave(query);
   return h(
     "div",
     { class: "field" },
     h("input", {
       type: "search",
-      value: asked,
+      value: query,
       "aria-label": "Search families by name",
       placeholder: `Search ${total} families`,
       oninput: seek,

@@ -6,7 +6,7 @@ import { pageField } from "./page-field.js";
 import { printedColorsButton } from "./settings.js";
 
 /**
- * { element, tell({ page, nearness, isFit }) }: ways to the page before and after, a field for the number of
+ * { element, update({ page, magnification, isFit }) }: ways to the page before and after, a field for the number of
  * a page, and buttons for nearer, further, and the whole page. `listed` is the family as the atlas lists it,
  * `go(page)` opens a page, `zoom()` is the Zoom.
  */
@@ -14,11 +14,11 @@ export function pageBar(listed, { go, zoom }) {
   const contents = h("a", { class: "button contents" }, "All pages");
   const [before, after] = [stepLink("Previous page", "←", "prev"), stepLink("Next page", "→", "next")];
   const number = pageField(listed, "page", go);
-  const near = zoomControls(zoom);
+  const controls = zoomControls(zoom);
   const steps = h("div", { class: "segments" }, before, after);
-  const parts = [contents, steps, number.element, printedColorsButton(), near.element];
+  const parts = [contents, steps, number.element, printedColorsButton(), controls.element];
   const element = h("div", { class: "toolbar page-bar" }, parts);
-  const tell = ({ page, nearness, isFit }) => {
+  const update = ({ page, magnification, isFit }) => {
     contents.setAttribute("href", address([listed.id], { page }));
     setStepTarget(before, listed, page - 1);
     setStepTarget(after, listed, page + 1);
@@ -26,9 +26,9 @@ export function pageBar(listed, { go, zoom }) {
       number.field.value = page;
       number.field.removeAttribute("aria-invalid");
     }
-    near.tell(nearness, isFit);
+    controls.update(magnification, isFit);
   };
-  return { element, tell };
+  return { element, update };
 }
 
 function stepLink(label, sign, rel) {
@@ -44,11 +44,11 @@ function setStepTarget(link, { id, pages }, page) {
 }
 
 function zoomControls(zoom) {
-  const near = h("span", { class: "zoom-level" });
+  const level = h("span", { class: "zoom-level" });
   const button = (label, sign, factor) =>
     h(
       "button",
-      { type: "button", "aria-label": label, title: label, onclick: () => zoom().by(factor) },
+      { type: "button", "aria-label": label, title: label, onclick: () => zoom().zoomBy(factor) },
       sign,
     );
   const whole = h("button", { type: "button", onclick: () => zoom().fit() }, "Fit");
@@ -59,12 +59,12 @@ function zoomControls(zoom) {
     whole,
     button("Nearer", "+", 1.5),
   );
-  const tell = (nearness, isFit) => {
-    near.textContent = `${Math.round(nearness * 100)} %`;
+  const update = (magnification, isFit) => {
+    level.textContent = `${Math.round(magnification * 100)} %`;
     whole.setAttribute("aria-pressed", String(isFit));
   };
   return {
-    element: h("div", { class: "toolbar end", role: "group", "aria-label": "Zoom" }, near, segments),
-    tell,
+    element: h("div", { class: "toolbar end", role: "group", "aria-label": "Zoom" }, level, segments),
+    update,
   };
 }

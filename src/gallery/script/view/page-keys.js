@@ -3,30 +3,30 @@
 import { h } from "./dom.js";
 
 /** What a key does on a page's desk: a function, or null where it does nothing there. */
-export function keyAction(event, desk) {
+export function keyAction(event, view) {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
-  return curveKeyAction(event, desk) ?? pageKeyAction(event.key, desk);
+  return curveKeyAction(event, view) ?? pageKeyAction(event.key, view);
 }
 
-function pageKeyAction(key, desk) {
-  const { zoom, page, listed } = desk;
-  const [dx, dy] = [desk.viewport.clientWidth / 8, desk.viewport.clientHeight / 8];
+function pageKeyAction(key, view) {
+  const { zoom, page, listed } = view;
+  const [dx, dy] = [view.viewport.clientWidth / 8, view.viewport.clientHeight / 8];
   const acts = {
-    "+": () => zoom.by(1.5),
-    "=": () => zoom.by(1.5),
-    "-": () => zoom.by(1 / 1.5),
-    "−": () => zoom.by(1 / 1.5),
+    "+": () => zoom.zoomBy(1.5),
+    "=": () => zoom.zoomBy(1.5),
+    "-": () => zoom.zoomBy(1 / 1.5),
+    "−": () => zoom.zoomBy(1 / 1.5),
     0: () => zoom.fit(),
-    n: () => desk.go(page + 1),
-    PageDown: () => desk.go(page + 1),
-    p: () => desk.go(page - 1),
-    PageUp: () => desk.go(page - 1),
-    Home: () => desk.go(1),
-    End: () => desk.go(listed.pages),
+    n: () => view.go(page + 1),
+    PageDown: () => view.go(page + 1),
+    p: () => view.go(page - 1),
+    PageUp: () => view.go(page - 1),
+    Home: () => view.go(1),
+    End: () => view.go(listed.pages),
     Escape: () => {
-      desk.forward.choose(null);
-      desk.beside();
-      desk.remember();
+      view.highlight.select(null);
+      view.showPanel();
+      view.remember();
     },
   };
   // A page that is seen whole leaves arrows to the window, which may have more below it.
@@ -36,10 +36,10 @@ function pageKeyAction(key, desk) {
 }
 
 /** On a curve arrows go from one to the next, and with Shift along it. */
-function curveKeyAction({ key, shiftKey, target }, desk) {
+function curveKeyAction({ key, shiftKey, target }, view) {
   const link = target.closest?.("a[data-curve]");
   if (!link) return null;
-  const links = [...desk.overlay.links.values()];
+  const links = [...view.overlay.links.values()];
   const at = links.indexOf(link);
   const to = (k) => () => {
     links.forEach((other) => other.setAttribute("tabindex", "-1"));
@@ -49,14 +49,14 @@ function curveKeyAction({ key, shiftKey, target }, desk) {
   };
   if (shiftKey) {
     const along = { ArrowRight: 5, ArrowLeft: -5, ArrowUp: 30, ArrowDown: -30 }[key];
-    return along ? () => desk.forward.along(along) : null;
+    return along ? () => view.highlight.stepAlong(along) : null;
   }
   const acts = { ArrowRight: to(at + 1), ArrowDown: to(at + 1), ArrowLeft: to(at - 1), ArrowUp: to(at - 1) };
   const ends = { Home: to(0), End: to(links.length - 1) };
   const away = () => {
-    desk.forward.choose(null);
-    desk.beside();
-    desk.viewport.focus({ preventScroll: true });
+    view.highlight.select(null);
+    view.showPanel();
+    view.viewport.focus({ preventScroll: true });
   };
   return acts[key] ?? ends[key] ?? (key === "Escape" ? away : null);
 }

@@ -24,7 +24,7 @@ export async function pagePicture(app, family, page, label) {
       await image.decode();
       return image;
     } catch {
-      app.say(`${file} cannot be read; the page is drawn from the data`);
+      app.announce(`${file} cannot be read; the page is drawn from the data`);
     }
   }
   if (views.length) {

@@ -16,16 +16,16 @@ import { Zoom } from "./zoom.js";
 /** The room of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
 export const pageRoute = {
   name: "page",
-  under: "families",
-  opens: ({ path }) => path.length === 2 && /^[1-9][0-9]*$/.test(path[1]),
-  view: async (app, place) => {
-    const family = await app.atlas.family(place.path[0]);
+  parent: "families",
+  matches: ({ path }) => path.length === 2 && /^[1-9][0-9]*$/.test(path[1]),
+  open: async (app, target) => {
+    const family = await app.atlas.family(target.path[0]);
     const listed = app.atlas.families.find(({ id }) => id === family.id);
-    if (Number(place.path[1]) > listed.pages)
+    if (Number(target.path[1]) > listed.pages)
       throw new Error(`${family.title} has ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`} only.`);
-    const desk = new PageView(app, family, listed);
-    await desk.open(place);
-    return desk;
+    const view = new PageView(app, family, listed);
+    await view.open(target);
+    return view;
   },
 };
 
@@ -38,9 +38,9 @@ class PageView {
       tabindex: "0",
       role: "group",
       "aria-describedby": "page-keys",
-      onkeydown: (event) => this.typed(event),
+      onkeydown: (event) => this.handleKey(event),
       onpointermove: (event) => this.hovered(event),
-      onpointerleave: () => this.forward.leave(),
+      onpointerleave: () => this.highlight.leave(),
     });
     this.sheet = h("div", { class: "page-sheet" });
     this.reading = h("div", { class: "reading", hidden: true });
@@ -55,12 +55,12 @@ class PageView {
       onchange: () => this.zoomed(),
       ontap: (event) => this.tapped(event),
     });
-    this.forward = new CurveHighlight(this);
-    this.element = this.room();
+    this.highlight = new CurveHighlight(this);
+    this.element = this.layOut();
     this.unwatch = watchPins(app, this.element);
   }
 
-  room() {
+  layOut() {
     const heading = h("h1", {}, h("a", { href: address([this.family.id]) }, this.family.title));
     this.legend = h("p", { class: "note" });
     return h(
@@ -72,14 +72,14 @@ class PageView {
   }
 
   /** Shows what an address says; of another family it is another view's. */
-  update(place) {
+  update(target) {
     if (
-      !pageRoute.opens(place) ||
-      place.path[0] !== this.family.id ||
-      Number(place.path[1]) > this.listed.pages
+      !pageRoute.matches(target) ||
+      target.path[0] !== this.family.id ||
+      Number(target.path[1]) > this.listed.pages
     )
       return false;
-    this.open(place);
+    this.open(target);
     return true;
   }
 
@@ -92,60 +92,60 @@ class PageView {
       this.viewport.setAttribute("aria-label", `Page ${page} of ${this.listed.pages}`);
       const picture = await pagePicture(this.app, this.family, page, this.title);
       if (page !== this.page) return;
-      this.put(picture);
-      this.app.say(this.title);
+      this.setPicture(picture);
+      this.app.announce(this.title);
     }
     this.query = query;
-    if (this.element.isConnected) this.look(query);
+    if (this.element.isConnected) this.applyQuery(query);
   }
 
   /** The desk is in the window, and has a size: now there is somewhere to look, and its keys work at once. */
   shown() {
-    this.look(this.query);
+    this.applyQuery(this.query);
     this.viewport.focus({ preventScroll: true });
   }
 
   /** Lays a page's picture on the desk, with its curves over it. */
-  put(picture) {
+  setPicture(picture) {
     const { views } = this.family.pages[this.page - 1] ?? { views: [] };
     const hadFocus = this.sheet.contains(document.activeElement);
     this.drawn = curvesOnPaper(this.family, views);
     this.overlay = pageOverlay(this.family, this.drawn, {
-      onfocus: (curve) => this.forward.focus(curve),
-      onblur: () => this.forward.leave(),
+      onfocus: (curve) => this.highlight.focus(curve),
+      onblur: () => this.highlight.leave(),
     });
-    this.forward.turn();
+    this.highlight.reset();
     fill(this.sheet, picture, this.overlay.element);
     this.overlay.links.values().next().value?.setAttribute("tabindex", "0");
     if (hadFocus) this.viewport.focus({ preventScroll: true });
-    this.beside();
+    this.showPanel();
     this.prefetch();
   }
 
   /** What an address says beyond the page: a curve, and where to look. */
-  look(query) {
+  applyQuery(query) {
     const [near, at] = [Number(query.get("zoom")), (query.get("at") ?? "").split(",").map(Number)];
     if (near > 1 && at.length === 2 && at.every(Number.isFinite)) this.zoom.showAt(near, at);
-    else if (this.wasLooked === undefined) this.zoom.fit();
-    this.wasLooked = true;
+    else if (this.hasPosition === undefined) this.zoom.fit();
+    this.hasPosition = true;
     const curve = query.has("curve") ? findCurve(this.family, query.get("curve")) : undefined;
-    if (this.drawn.some((candidate) => candidate.curve === curve)) this.forward.choose(curve);
+    if (this.drawn.some((candidate) => candidate.curve === curve)) this.highlight.select(curve);
     else {
-      this.forward.choose(null);
-      this.beside();
+      this.highlight.select(null);
+      this.showPanel();
     }
     // A page that is turned stays as near as the one before, and its address says so.
     this.zoomed();
   }
 
   /** The curves of the page beside it, or the one that is forward. */
-  beside(curve = null) {
+  showPanel(curve = null) {
     const all = () => {
-      this.forward.choose(null);
-      this.beside();
+      this.highlight.select(null);
+      this.showPanel();
       this.viewport.focus({ preventScroll: true });
     };
-    const enter = { onenter: (other) => this.forward.glance(other), onleave: () => this.forward.leave() };
+    const enter = { onenter: (other) => this.highlight.preview(other), onleave: () => this.highlight.leave() };
     fill(
       this.panel,
       curve === null
@@ -166,21 +166,21 @@ class PageView {
   hovered(event) {
     if (event.pointerType === "touch" || this.zoom.isDragging || !this.drawn) return;
     const place = this.zoom.placeOf(event);
-    this.forward.hover(nearestCurve(this.drawn, place, this.reach(8)), place);
+    this.highlight.hover(nearestCurve(this.drawn, place, this.reach(8)), place);
   }
 
   tapped(event) {
     const place = this.zoom.placeOf(event);
     const found = nearestCurve(this.drawn, place, this.reach(event.pointerType === "touch" ? 20 : 8));
     if (!found) {
-      this.forward.choose(null);
-      this.beside();
-    } else if (event.pointerType !== "touch" || this.forward.chosen === found.curve) {
+      this.highlight.select(null);
+      this.showPanel();
+    } else if (event.pointerType !== "touch" || this.highlight.selected === found.curve) {
       this.choose(found.curve);
       this.app.go(address([this.family.id, "curve", curveKey(this.family, found.curve)]));
       return;
     } else {
-      this.forward.choose(found.curve, place);
+      this.highlight.select(found.curve, place);
     }
     this.remember();
   }
@@ -193,7 +193,7 @@ class PageView {
   }
 
   choose(curve) {
-    this.forward.choose(curve);
+    this.highlight.select(curve);
     this.remember();
   }
 
@@ -205,7 +205,7 @@ class PageView {
     return Math.max(pixels, Math.min(3 * this.zoom.scale, 2 * pixels)) / this.zoom.scale;
   }
 
-  typed(event) {
+  handleKey(event) {
     const act = keyAction(event, this);
     if (!act) return;
     event.preventDefault();
@@ -218,32 +218,32 @@ class PageView {
   }
 
   zoomed() {
-    this.tell();
-    this.forward.zoomed();
+    this.updateBar();
+    this.highlight.updateZoom();
     window.clearTimeout(this.remembering);
     this.remembering = window.setTimeout(() => this.settled(), 400);
   }
 
   /** The zoom has come to rest. */
   settled() {
-    const percent = `${Math.round(this.zoom.nearness * 100)} %`;
-    if (this.saidPercent !== undefined && percent !== this.saidPercent) this.app.say(`Zoom ${percent}`);
-    this.saidPercent = percent;
+    const percent = `${Math.round(this.zoom.magnification * 100)} %`;
+    if (this.announcedPercent !== undefined && percent !== this.announcedPercent) this.app.announce(`Zoom ${percent}`);
+    this.announcedPercent = percent;
     this.remember();
   }
 
-  tell() {
-    this.bar.tell({ page: this.page, nearness: this.zoom.nearness, isFit: this.zoom.isFit });
+  updateBar() {
+    this.bar.update({ page: this.page, magnification: this.zoom.magnification, isFit: this.zoom.isFit });
   }
 
   /** Keeps in the address what is looked at. */
   remember() {
     if (this.hasLeft || this.page === undefined) return;
-    const { isFit, nearness, middle } = this.zoom;
+    const { isFit, magnification, middle } = this.zoom;
     this.app.replace(
       address([this.family.id, this.page], {
-        curve: this.forward.chosen === null ? null : curveKey(this.family, this.forward.chosen),
-        zoom: isFit ? null : nearness.toFixed(2),
+        curve: this.highlight.selected === null ? null : curveKey(this.family, this.highlight.selected),
+        zoom: isFit ? null : magnification.toFixed(2),
         at: isFit ? null : middle.map((mm) => mm.toFixed(1)).join(","),
       }),
     );

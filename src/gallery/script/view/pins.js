@@ -13,11 +13,11 @@ export class Pins {
 
   /** Pins a curve that is not pinned, and takes down one that is. */
   toggle(name) {
-    this.put(this.has(name) ? this.names.filter((known) => known !== name) : [...this.names, name]);
+    this.set(this.has(name) ? this.names.filter((known) => known !== name) : [...this.names, name]);
   }
 
   /** Replaces all of them. */
-  put(names) {
+  set(names) {
     this.names = [...new Set(names)];
     this.listeners.forEach((listener) => listener(this.names));
   }
@@ -38,7 +38,7 @@ export function tabPins(window) {
   const key = `coupler-atlas-pins ${window.location.pathname}`;
   try {
     const kept = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
-    pins.put(kept.filter((name) => typeof name === "string"));
+    pins.set(kept.filter((name) => typeof name === "string"));
   } catch {
     // What was not kept is pinned again by hand.
   }

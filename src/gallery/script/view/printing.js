@@ -5,10 +5,10 @@ import { h } from "./dom.js";
 
 /**
  * Before anything is printed calls `prettyValue()`, which puts into the page what is to be on paper and returns
- * the line that is to stand before it, or null; and `left()` when it has been printed. Returns { isPrinting,
+ * the line that is to stand before it, or null; and `restore()` when it has been printed. Returns { isPrinting,
  * end() }.
  */
-export function onPrint(element, laidOut, left) {
+export function onPrint(element, layOut, restore) {
   let line = null;
   const state = {
     isPrinting: false,
@@ -20,14 +20,14 @@ export function onPrint(element, laidOut, left) {
   const before = () => {
     if (!element.isConnected || state.isPrinting) return;
     state.isPrinting = true;
-    line = laidOut();
+    line = layOut();
     if (line) element.before(line);
   };
   const after = () => {
     if (!state.isPrinting) return;
     state.isPrinting = false;
     line?.remove();
-    left();
+    restore();
   };
   window.addEventListener("beforeprint", before);
   window.addEventListener("afterprint", after);

@@ -19,18 +19,18 @@ const THEME_CHOICES = [
 export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
   let wish = storedTheme();
-  const put = () => {
+  const apply = () => {
     const theme = wish === "system" ? (dark.matches ? "dark" : "light") : wish;
     if (document.documentElement.dataset.theme === theme) return;
     document.documentElement.dataset.theme = theme;
     document.dispatchEvent(new CustomEvent("themechange", { detail: theme }));
   };
-  dark.addEventListener("change", put);
-  put();
+  dark.addEventListener("change", apply);
+  apply();
   const choose = (event) => {
     wish = event.target.value;
     storeChoice(THEME_KEY, wish);
-    put();
+    apply();
   };
   const options = THEME_CHOICES.map(([value, label]) =>
     h("option", { value, selected: value === wish }, label),
@@ -44,17 +44,17 @@ export function themeSelect() {
  */
 export function printedColorsButton() {
   const root = document.documentElement;
-  const put = (isPrinted) => {
+  const apply = (isPrinted) => {
     if (isPrinted) root.dataset.pages = "printed";
     else delete root.dataset.pages;
     button.setAttribute("aria-pressed", String(isPrinted));
   };
   const act = () => {
-    put(root.dataset.pages !== "printed");
+    apply(root.dataset.pages !== "printed");
     storeChoice(PAGES_KEY, root.dataset.pages ?? "turned");
   };
   const button = h("button", { type: "button", class: "as-printed", onclick: act }, "As printed");
-  put(storedChoice(PAGES_KEY) === "printed");
+  apply(storedChoice(PAGES_KEY) === "printed");
   return button;
 }
 

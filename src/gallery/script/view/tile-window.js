@@ -81,11 +81,11 @@ export class TileWindow {
     this.fill();
   }
 
-  /** The size of a tile's leaf in pixels: alike of all, since to ask each would lay the page out each time. */
-  sizeOfLeaf(leaf) {
+  /** The size of a tile's picture in pixels: alike of all, since to ask each would lay the page out each time. */
+  sizeOfLeaf(picture) {
     if (this.sizedAt !== this.wide) {
       this.sizedAt = this.wide;
-      this.leafSize = { width: Math.max(leaf.clientWidth, 40), height: Math.max(leaf.clientHeight, 40) };
+      this.leafSize = { width: Math.max(picture.clientWidth, 40), height: Math.max(picture.clientHeight, 40) };
     }
     return this.leafSize;
   }

@@ -47,7 +47,7 @@ export class Zoom {
   }
 
   /** How many times nearer than fitting. */
-  get nearness() {
+  get magnification() {
     return this.scale / this.fitScale;
   }
 
@@ -78,20 +78,20 @@ export class Zoom {
     this.scale = this.fitScale;
     this.x = (this.viewport.clientWidth - this.scale * this.width) / 2;
     this.y = (this.viewport.clientHeight - this.scale * this.height) / 2;
-    this.lay();
+    this.constrain();
   }
 
   /** Shows a place on the sheet in the middle, so many times nearer than fitting. */
-  showAt(nearness, [x, y]) {
+  showAt(magnification, [x, y]) {
     this.isFit = false;
-    this.scale = this.fitScale * Math.min(Math.max(nearness, 1), NEAREST);
+    this.scale = this.fitScale * Math.min(Math.max(magnification, 1), NEAREST);
     this.x = this.viewport.clientWidth / 2 - this.scale * x;
     this.y = this.viewport.clientHeight / 2 - this.scale * y;
-    this.lay();
+    this.constrain();
   }
 
   /** Nearer by a factor, about a place in pixels of the viewport (its middle). */
-  by(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
+  zoomBy(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
     const fit = this.fitScale;
     const scale = Math.min(Math.max(this.scale * factor, fit), NEAREST * fit);
     if (scale <= fit * 1.001) {
@@ -101,7 +101,7 @@ export class Zoom {
     const [atX, atY] = this.placeAt(x, y);
     [this.isFit, this.scale] = [false, scale];
     [this.x, this.y] = [x - scale * atX, y - scale * atY];
-    this.lay();
+    this.constrain();
   }
 
   /** Moves the sheet by pixels. */
@@ -109,7 +109,7 @@ export class Zoom {
     if (this.isFit) return;
     this.x += dx;
     this.y += dy;
-    this.lay();
+    this.constrain();
   }
 
   /** Moves the sheet so that a box of it, [x0, y0, x1, y1] in millimetres, is seen. */
@@ -130,24 +130,24 @@ export class Zoom {
       return;
     }
     const { clientWidth, clientHeight } = this.viewport;
-    this.x += (clientWidth - this.laid.width) / 2;
-    this.y += (clientHeight - this.laid.height) / 2;
-    this.by(1);
+    this.x += (clientWidth - this.constrainedTo.width) / 2;
+    this.y += (clientHeight - this.constrainedTo.height) / 2;
+    this.zoomBy(1);
   }
 
   /** Keeps a part of the sheet in sight, and puts it there in the next frame. */
-  lay() {
+  constrain() {
     const { clientWidth, clientHeight } = this.viewport;
-    this.laid = { width: clientWidth, height: clientHeight };
+    this.constrainedTo = { width: clientWidth, height: clientHeight };
     const within = (at, size, room) => Math.min(Math.max(at, room / 2 - size), room / 2);
     if (!this.isFit) {
       this.x = within(this.x, this.scale * this.width, clientWidth);
       this.y = within(this.y, this.scale * this.height, clientHeight);
     }
-    if (!this.pending) this.pending = requestAnimationFrame(() => this.put());
+    if (!this.pending) this.pending = requestAnimationFrame(() => this.apply());
   }
 
-  put() {
+  apply() {
     this.pending = 0;
     const { style } = this.sheet;
     style.width = `${this.scale * this.width}px`;
@@ -167,7 +167,7 @@ export class Zoom {
     }
     // A pinch on a touchpad is told as a wheel with the control key, in small steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
-    this.by(
+    this.zoomBy(
       Math.exp(-rate * Math.min(Math.max(dy, -300), 300)),
       ...this.pixelOf(event.clientX, event.clientY),
     );
@@ -201,7 +201,7 @@ export class Zoom {
   /** One finger stays, the other goes from `before` to `after`. */
   pinched(still, before, after) {
     const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
-    this.by(
+    this.zoomBy(
       spread(after) / spread(before),
       ...this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2),
     );

@@ -16,19 +16,19 @@ import { letterOf, overlaidPicture, sideBySidePictures, strokeSample } from "./p
 export const compareRoute = {
   name: "compare",
   label: "Compare",
-  way: (app) => routeAddress("compare", { c: app.pins.names.join(",") }, app),
-  opens: (place, app) => matchesRoute("compare", place, app),
-  view: async (app, { query }) => {
-    const room = new CompareView(app);
-    await room.ask(parseComparisonQuery(query));
+  href: (app) => routeAddress("compare", { c: app.pins.names.join(",") }, app),
+  matches: (target, app) => matchesRoute("compare", target, app),
+  open: async (app, { query }) => {
+    const view = new CompareView(app);
+    await view.setQuery(parseComparisonQuery(query));
     return {
       title: "Compare",
-      element: room.element,
-      update: (place) => {
-        room.ask(parseComparisonQuery(place.query));
+      element: view.element,
+      update: (target) => {
+        view.setQuery(parseComparisonQuery(target.query));
         return true;
       },
-      leave: () => room.leave(),
+      leave: () => view.leave(),
     };
   },
 };
@@ -49,38 +49,38 @@ function keepFocus(element) {
 class CompareView {
   constructor(app) {
     this.app = app;
-    this.known = new Map();
+    this.loaded = new Map();
     this.body = h("div", { class: "comparison" });
     this.tools = h("div", { class: "toolbar" });
-    this.take = h("div", {});
+    this.exportSlot = h("div", {});
     this.count = h("p", { class: "lede" });
     this.element = h(
       "div",
       { class: "view wide compare-view" },
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, "Compare"), this.count), this.take),
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, "Compare"), this.count), this.exportSlot),
       this.tools,
       this.body,
     );
-    this.unwatch = app.pins.watch(() => this.change());
+    this.unwatch = app.pins.watch(() => this.refresh());
   }
 
-  async ask(asked) {
-    this.asked = asked;
-    if (asked.names && String(asked.names) !== String(this.app.pins.names)) this.app.pins.put(asked.names);
-    else await this.change();
+  async setQuery(query) {
+    this.query = query;
+    if (query.names && String(query.names) !== String(this.app.pins.names)) this.app.pins.set(query.names);
+    else await this.refresh();
   }
 
   /** Shows what is pinned now, and says so in the address. */
-  async change() {
-    const { app, asked } = this;
+  async refresh() {
+    const { app, query } = this;
     const names = [...app.pins.names];
-    app.replace(routeAddress("compare", formatComparisonQuery(asked, names), app));
+    app.replace(routeAddress("compare", formatComparisonQuery(query, names), app));
     for (const name of names) {
-      if (!this.known.has(name)) this.known.set(name, await loadComparedCurve(app.atlas, name));
+      if (!this.loaded.has(name)) this.loaded.set(name, await loadComparedCurve(app.atlas, name));
     }
     // More may have been pinned meanwhile.
     if (String(names) !== String(app.pins.names)) return;
-    const found = names.map((name) => this.known.get(name));
+    const found = names.map((name) => this.loaded.get(name));
     this.show(
       found.filter(({ family }) => family),
       found.filter(({ family }) => !family),
@@ -89,13 +89,13 @@ class CompareView {
 
   show(all, missing) {
     const focused = keepFocus(this.element);
-    this.lay(all, missing);
+    this.render(all, missing);
     focused();
   }
 
-  lay(all, missing) {
+  render(all, missing) {
     const curves = all.slice(0, MAX_COMPARED);
-    const { asked, app } = this;
+    const { query, app } = this;
     const beyond = all.length - curves.length;
     fill(
       this.count,
@@ -105,16 +105,16 @@ class CompareView {
       beyond ? `; the first ${MAX_COMPARED} are compared` : "",
       missing.map(({ name, reason }) => `; without ${name}: ${reason}`),
     );
-    fill(this.take, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
+    fill(this.exportSlot, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
-    const laid = curves.map((one, k) => alignCurve(curves[0], one, k > 0 ? asked.align : "none"));
+    const aligned = curves.map((one, k) => alignCurve(curves[0], one, k > 0 ? query.align : "none"));
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
     this.stop?.();
-    const isOver = asked.view === "over" && curves.length > 1;
+    const isOver = query.view === "over" && curves.length > 1;
     const picture = isOver
-      ? overlaidPicture(laid, `${labels.join(", ")}, ${ALIGNMENTS[asked.align]}`)
-      : sideBySidePictures(laid);
-    this.stop = refinePicture(picture, curves, laid);
+      ? overlaidPicture(aligned, `${labels.join(", ")}, ${ALIGNMENTS[query.align]}`)
+      : sideBySidePictures(aligned);
+    this.stop = refinePicture(picture, curves, aligned);
     fill(
       this.body,
       picture.element,
@@ -123,7 +123,7 @@ class CompareView {
         { class: isOver ? "pinned-list" : "pinned-tiles" },
         curves.map((one, k) =>
           this.entry(one, k, curves, {
-            deviation: laid[k],
+            deviation: aligned[k],
             picture: isOver ? strokeSample(k) : h("div", { class: "tile-picture" }, picture.elements[k]),
           }),
         ),
@@ -133,16 +133,16 @@ class CompareView {
   }
 
   controls() {
-    const { asked, app } = this;
+    const { query, app } = this;
     const view = (name, label) =>
       h(
         "button",
         {
           type: "button",
-          "aria-pressed": String(asked.view === name),
+          "aria-pressed": String(query.view === name),
           onclick: () => {
-            asked.view = name;
-            this.change();
+            query.view = name;
+            this.refresh();
           },
         },
         label,
@@ -152,13 +152,13 @@ class CompareView {
       {
         id: "compare-align",
         onchange: (event) => {
-          asked.align = event.target.value;
-          this.change();
+          query.align = event.target.value;
+          this.refresh();
         },
       },
       Object.entries(ALIGNMENTS).map(([value, label]) => h("option", { value }, label)),
     );
-    align.value = asked.align;
+    align.value = query.align;
     return [
       h(
         "div",
@@ -167,7 +167,7 @@ class CompareView {
         view("over", "Over one another"),
       ),
       h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Aligned"), align),
-      h("button", { type: "button", class: "quiet end", onclick: () => app.pins.put([]) }, "Unpin all"),
+      h("button", { type: "button", class: "quiet end", onclick: () => app.pins.set([]) }, "Unpin all"),
     ];
   }
 
@@ -181,7 +181,7 @@ class CompareView {
           class: "quiet",
           disabled: k + by < 0 || k + by >= curves.length,
           "aria-label": `Move ${letterOf(k)} ${label}`,
-          onclick: () => this.moved(k, by),
+          onclick: () => this.move(k, by),
         },
         sign,
       );
@@ -225,11 +225,11 @@ class CompareView {
     );
   }
 
-  moved(k, by) {
+  move(k, by) {
     const names = [...this.app.pins.names];
     names.splice(k + by, 0, ...names.splice(k, 1));
-    this.app.pins.put(names);
-    this.app.say(`${names[k + by]} is now ${letterOf(k + by)}`);
+    this.app.pins.set(names);
+    this.app.announce(`${names[k + by]} is now ${letterOf(k + by)}`);
   }
 
   leave() {

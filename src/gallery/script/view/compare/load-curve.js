@@ -29,20 +29,20 @@ export async function loadComparedCurve(atlas, name) {
  * @throws {Error} a sentence on why it cannot be assembled
  */
 function changedFamily(family, name, measures) {
-  const taken = solveNamedCurve(family, name);
-  const { place, values, template, linkage, joint, circuit } = taken;
+  const exported = solveNamedCurve(family, name);
+  const { place, values, template, linkage, joint, circuit } = exported;
   const { cells } = family;
   const of = (list) => [list[place]];
-  const { numbers, words } = splitMeasures(taken, measures);
+  const { numbers, words } = splitMeasures(exported, measures);
   return {
     ...family,
     template,
     cells: {
       count: 1,
-      number: Uint32Array.of(taken.cell),
+      number: Uint32Array.of(exported.cell),
       values,
-      status: Uint8Array.of(taken.status === "ok" ? 0 : 1),
-      reason: [taken.reason ?? ""],
+      status: Uint8Array.of(exported.status === "ok" ? 0 : 1),
+      reason: [exported.reason ?? ""],
       caption: of(cells.caption),
       note: of(cells.note),
     },
@@ -52,21 +52,21 @@ function changedFamily(family, name, measures) {
       trace: Uint16Array.of(linkage.traced.indexOf(joint) + 1),
       circuit: Uint16Array.of(circuit),
       page: Uint32Array.of(0),
-      closed: Uint8Array.of(taken.course.closed ? 1 : 0),
+      closed: Uint8Array.of(exported.course.closed ? 1 : 0),
       measures: numbers,
       words,
-      ...packPoints(taken.course, joint),
+      ...packPoints(exported.course, joint),
     },
     places: new Map([[parseCurveName(name).key, 0]]),
     pages: [],
   };
 }
 
-/** Measures of a taken curve as a family has them, numbers and words apart. */
-function splitMeasures(taken, measures) {
+/** Measures of a exported curve as a family has them, numbers and words apart. */
+function splitMeasures(exported, measures) {
   const isWord = new Map(measures.map(({ name, word }) => [name, word]));
   const [numbers, words] = [{}, {}];
-  for (const [name, value] of measuresOfCurve(taken, [...isWord.keys()])) {
+  for (const [name, value] of measuresOfCurve(exported, [...isWord.keys()])) {
     if (value === null) continue;
     if (isWord.get(name)) words[name] = { values: [value], codes: Uint8Array.of(0) };
     else numbers[name] = Float64Array.of(value);

@@ -11,11 +11,11 @@ const REFINED_ERROR = 0.05;
  * stays awake: `curves` are [{ family, curve }] and `laid` what alignCurve() has of each. Gives a function that
  * stops it.
  */
-export function refinePicture(picture, curves, laid) {
+export function refinePicture(picture, curves, aligned) {
   let waiting = 0;
   const next = (k) => {
     const { family, curve } = curves[k];
-    const { similarity } = laid[k];
+    const { similarity } = aligned[k];
     const enlarged = picture.scale * Math.hypot(similarity.re, similarity.im);
     const solved = solveCurveOrNull(family, curve, REFINED_ERROR / enlarged);
     if (solved) picture.redraw(k, placed(similarity, solved.path.points));

@@ -12,7 +12,7 @@ import { fileStem, manifestCase, parseCurveName, solveNamedCurve } from "../../e
 import { zipOfFiles } from "../../export/zip.js";
 
 /**
- * What curves can be saved as: { label, note, ending, type, made(app, taken) -> text or bytes, perhaps in a
+ * What curves can be saved as: { label, note, ending, type, render(app, exported) -> text or bytes, perhaps in a
  * while }.
  */
 export const EXPORT_FORMATS = [
@@ -21,42 +21,42 @@ export const EXPORT_FORMATS = [
     note: "still",
     ending: ".svg",
     type: "image/svg+xml",
-    made: (app, taken) => svgOfCurve(taken),
+    render: (app, exported) => svgOfCurve(exported),
   },
   {
     label: "SVG, moving by itself",
     note: ".svg",
     ending: "-moving.svg",
     type: "image/svg+xml",
-    made: (app, taken) => movingSvgOfCurve(taken),
+    render: (app, exported) => movingSvgOfCurve(exported),
   },
   {
     label: "PNG",
     note: "300 to the inch",
     ending: ".png",
     type: "image/png",
-    made: (app, taken) => pngOfCurve(taken),
+    render: (app, exported) => pngOfCurve(exported),
   },
   {
     label: "DXF",
     note: "CAD, AutoCAD R12",
     ending: ".dxf",
     type: "image/vnd.dxf",
-    made: (app, taken) => dxfOfCurve(taken, app.atlas.program),
+    render: (app, exported) => dxfOfCurve(exported, app.atlas.program),
   },
   {
     label: "CSV",
     note: "points",
     ending: ".csv",
     type: "text/csv",
-    made: (app, taken) => csvOfCurve(taken),
+    render: (app, exported) => csvOfCurve(exported),
   },
   {
     label: "JSON",
     note: "all that is known",
     ending: ".json",
     type: "application/json",
-    made: (app, taken) => jsonOfCurve(taken, measureNames(app)),
+    render: (app, exported) => jsonOfCurve(exported, measureNames(app)),
   },
 ];
 
@@ -70,27 +70,27 @@ function measureNames({ atlas }) {
 }
 
 /**
- * Curves of some names as one file { name, type, bytes }, several in an archive; `told` is told how many are
+ * Curves of some names as one file { name, type, bytes }, several in an archive; `onProgress` is onProgress how many are
  * done.
  */
-export async function exportFile(app, names, format, told = () => {}) {
+export async function exportFile(app, names, format, onProgress = () => {}) {
   if (names.length === 0) throw new Error("There is no curve to take away");
   if (names.length > MAX_EXPORTED) {
     throw new Error(`Take ${MAX_EXPORTED} curves at most here: the command line takes all ${names.length}`);
   }
   const files = [];
-  let rested = performance.now();
+  let yieldedAt = performance.now();
   for (const name of names) {
-    const taken = solveNamedCurve(await loadFamilyOfName(app, name), name);
-    const made = await format.made(app, taken);
-    const bytes = typeof made === "string" ? new TextEncoder().encode(made) : made;
-    files.push({ name: `${fileStem(taken)}${format.ending}`, type: format.type, bytes });
-    if (performance.now() - rested > EXPORT_SLICE) {
-      told(files.length);
+    const exported = solveNamedCurve(await loadFamilyOfName(app, name), name);
+    const content = await format.render(app, exported);
+    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
+    files.push({ name: `${fileStem(exported)}${format.ending}`, type: format.type, bytes });
+    if (performance.now() - yieldedAt > EXPORT_SLICE) {
+      onProgress(files.length);
       await new Promise((done) => {
         setTimeout(done);
       });
-      rested = performance.now();
+      yieldedAt = performance.now();
     }
   }
   return files.length === 1
@@ -115,21 +115,21 @@ export async function exportManifest(app, names) {
 /** The command line that takes curves of some names away. */
 export async function exportCommandLine(app, names) {
   const families = new Map();
-  const beside = [];
+  const extra = [];
   for (const name of names) {
     const family = await loadFamilyOfName(app, name);
     families.set(family.id, family);
     const curve = manifestCase(family, name);
-    if (curve.beside !== null) beside.push({ ...curve, asked: name });
+    if (curve.extraCircuit !== null) extra.push({ ...curve, requested: name });
   }
-  const plain = names.filter((name) => !beside.some(({ asked }) => asked === name));
+  const plain = names.filter((name) => !extra.some(({ requested }) => requested === name));
   const command = plain.length ? exportCommand(shortenCurveNames(plain, families), plain.length) : "";
-  if (beside.length === 0) return command;
+  if (extra.length === 0) return command;
   return (
     command +
     extraCircuitsCommand(
-      beside.map(({ name }) => name),
-      curveNamesInManifest(beside),
+      extra.map(({ name }) => name),
+      curveNamesInManifest(extra),
     )
   );
 }

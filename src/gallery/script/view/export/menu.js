@@ -8,21 +8,21 @@ import { saveFile } from "./save.js";
 /**
  * A button with a menu of everything that can be taken away of some curves: `names` are
  * "family:cell.trace.circuit", with changed parameters behind "?", in an array or from a function that is
- * asked when something is taken.
+ * currentNames when something is taken.
  */
 export function exportMenu(app, names) {
-  const asked = () => (typeof names === "function" ? names() : names);
-  const told = h("span", { class: "export-status", "aria-live": "polite" });
-  const tell = (sentence) => fill(told, sentence);
+  const currentNames = () => (typeof names === "function" ? names() : names);
+  const status = h("span", { class: "export-status", "aria-live": "polite" });
+  const report = (sentence) => fill(status, sentence);
   const task = (work) => () => {
-    tell("Working");
-    return work(asked()).then(tell, (error) => tell(error.message));
+    report("Working");
+    return work(currentNames()).then(report, (error) => report(error.message));
   };
   const entries = [
     ...EXPORT_FORMATS.map((format) => [
       format.label,
       format.note,
-      task((list) => saveCurves(app, list, format, tell)),
+      task((list) => saveCurves(app, list, format, report)),
     ]),
     ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
     [
@@ -36,11 +36,11 @@ export function exportMenu(app, names) {
       task(async (list) => copyToClipboard("the command line", await exportCommandLine(app, list))),
     ],
   ];
-  return h("div", { class: "export" }, menuButton("Take away", entries), told);
+  return h("div", { class: "export" }, menuButton("Export", entries), status);
 }
 
-async function saveCurves(app, names, format, tell) {
-  const file = await exportFile(app, names, format, (done) => tell(`${done} of ${names.length}`));
+async function saveCurves(app, names, format, report) {
+  const file = await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`));
   saveFile(file);
   return `Saved as ${file.name}`;
 }
@@ -83,20 +83,20 @@ function menuButton(label, entries) {
   );
   const menu = h("div", { class: "export-menu", role: "menu", "aria-label": label, hidden: true }, items);
   const element = h("div", { class: "export-dropdown" }, button, menu);
-  const away = (event) => {
+  const closeOutside = (event) => {
     if (!element.contains(event.target)) close(false);
   };
   const open = (item) => {
     menu.hidden = false;
     button.setAttribute("aria-expanded", "true");
     keepInWindow(menu);
-    document.addEventListener("pointerdown", away);
+    document.addEventListener("pointerdown", closeOutside);
     item.focus();
   };
   const close = (returns) => {
     menu.hidden = true;
     button.setAttribute("aria-expanded", "false");
-    document.removeEventListener("pointerdown", away);
+    document.removeEventListener("pointerdown", closeOutside);
     if (returns) button.focus();
   };
   button.addEventListener("click", () => (menu.hidden ? open(items[0]) : close(true)));

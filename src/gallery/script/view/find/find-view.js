@@ -22,49 +22,49 @@ const ADDRESS_DELAY = 250;
 export const findRoute = {
   name: "find",
   label: "Find",
-  way: (app) => routeAddress("find", {}, app),
-  opens: (place, app) => matchesRoute("find", place, app),
-  view: (app, { query }) => {
-    const finding = new FindView(app, parseFindQuery(query));
+  href: (app) => routeAddress("find", {}, app),
+  matches: (target, app) => matchesRoute("find", target, app),
+  open: (app, { query }) => {
+    const view = new FindView(app, parseFindQuery(query));
     return {
       title: "Find",
-      element: finding.element,
-      shown: () => finding.shown(),
-      update: (place) => finding.update(parseFindQuery(place.query)),
-      leave: () => finding.leave(),
+      element: view.element,
+      shown: () => view.shown(),
+      update: (target) => view.update(parseFindQuery(target.query)),
+      leave: () => view.leave(),
     };
   },
 };
 
 class FindView {
-  constructor(app, question) {
-    Object.assign(this, { app, question });
-    this.panel = new FilterPanel((name, filter) => this.filtered(name, filter));
+  constructor(app, query) {
+    Object.assign(this, { app, query });
+    this.panel = new FilterPanel((name, filter) => this.setFilter(name, filter));
     this.tiles = new ResultTiles(app);
     this.list = new ResultRows(app, (name) =>
-      this.sortBy(name, this.question.sort.name === name ? !this.question.sort.down : false),
+      this.sortBy(name, this.query.sort.name === name ? !this.query.sort.down : false),
     );
-    this.counted = h("p", { class: "counted" }, "Loading");
-    this.told = h("p", { class: "note", hidden: true });
+    this.countLabel = h("p", { class: "counted" }, "Loading");
+    this.message = h("p", { class: "note", hidden: true });
     this.results = h("div", { class: "found", tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
-      onchange: (event) => this.sortBy(event.target.value, this.question.sort.down),
+      onchange: (event) => this.sortBy(event.target.value, this.query.sort.down),
     });
     this.direction = h("button", {
       type: "button",
-      onclick: () => this.sortBy(this.question.sort.name, !this.question.sort.down),
+      onclick: () => this.sortBy(this.query.sort.name, !this.query.sort.down),
     });
     this.families = h("div", { class: "family-choice" });
-    this.element = this.laidOut();
-    this.begin();
+    this.element = this.buildElement();
+    this.load();
   }
 
-  laidOut() {
+  buildElement() {
     const show = (name, label) =>
       h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
-    this.shows = [show("sheet", "Sheet"), show("table", "Table")];
-    const clearAll = () => this.unfiltered(new Map());
+    this.displayButtons = [show("sheet", "Sheet"), show("table", "Table")];
+    const clearAll = () => this.setFilters(new Map());
     this.clear = h("button", { type: "button", class: "quiet", onclick: clearAll }, "Clear all filters");
     const wide = window.matchMedia("(min-width: 60rem)").matches;
     return h(
@@ -73,7 +73,7 @@ class FindView {
       h(
         "div",
         { class: "head" },
-        h("div", {}, h("h1", {}, "Find"), this.counted, this.told),
+        h("div", {}, h("h1", {}, "Find"), this.countLabel, this.message),
         exportMenu(this.app, () => this.names()),
       ),
       h(
@@ -95,7 +95,7 @@ class FindView {
             h("span", { class: "field row" }, h("label", { for: "find-sort" }, "Sort by"), this.sorter),
             this.direction,
             this.clear,
-            h("div", { class: "segments end", role: "group", "aria-label": "Show as" }, this.shows),
+            h("div", { class: "segments end", role: "group", "aria-label": "Show as" }, this.displayButtons),
           ),
           this.results,
         ),
@@ -104,41 +104,41 @@ class FindView {
   }
 
   /** Loads what is asked about, and asks again whenever more of it has come. */
-  begin() {
-    const { app, question } = this;
+  load() {
+    const { app, query } = this;
     this.stop?.();
-    const listed = requestedFamilies(app.atlas, question.families);
+    const listed = requestedFamilies(app.atlas, query.families);
     fill(
       this.families,
       familyChooser(app.atlas, listed, (families) =>
-        this.put({ ...this.question, families }),
+        this.setQuery({ ...this.query, families }),
       ),
     );
     this.stop = loadFamilies(
       app.atlas,
       listed,
-      (families, done, all) => this.come(families, done, all),
-      (sentence) => this.tell(sentence),
+      (families, done, all) => this.setFamilies(families, done, all),
+      (sentence) => this.showMessage(sentence),
     );
   }
 
-  come(families, done, all) {
+  setFamilies(families, done, all) {
     this.table = new CurveTable(families);
     this.orders = new Orders(this.table);
     this.columns = filterColumns(
       this.table,
       this.app.atlas.measures,
-      new Set([...this.question.filters.keys(), this.question.sort.name]),
+      new Set([...this.query.filters.keys(), this.query.sort.name]),
     );
     this.loading = done < all ? ` · ${done} of ${all} families loaded` : "";
-    this.ask();
+    this.applyQuery();
   }
 
-  /** Sets all filters and controls as the question has them. */
-  ask() {
+  /** Sets all filters and controls as the query has them. */
+  applyQuery() {
     this.filters = new Filters(this.table);
-    for (const [name, filter] of this.question.filters) this.filters.set(name, filter);
-    this.panel.put(this.columns, this.table, this.question);
+    for (const [name, filter] of this.query.filters) this.filters.set(name, filter);
+    this.panel.setColumns(this.columns, this.table, this.query);
     fill(
       this.sorter,
       h("option", { value: "" }, "the atlas's order"),
@@ -147,77 +147,77 @@ class FindView {
     this.show();
   }
 
-  filtered(name, filter) {
-    if (filter) this.question.filters.set(name, filter);
-    else this.question.filters.delete(name);
+  setFilter(name, filter) {
+    if (filter) this.query.filters.set(name, filter);
+    else this.query.filters.delete(name);
     const began = performance.now();
     this.filters.set(name, filter);
     this.show();
     this.element.dataset.milliseconds = (performance.now() - began).toFixed(1);
-    this.addressed();
+    this.writeAddress();
   }
 
   sortBy(name, down) {
-    this.question.sort = { name, down };
+    this.query.sort = { name, down };
     this.show();
-    this.addressed();
+    this.writeAddress();
   }
 
   showAs(name) {
-    this.question.show = name;
+    this.query.show = name;
     this.show();
-    this.addressed();
+    this.writeAddress();
   }
 
-  put(question) {
-    const isOther = String(question.families) !== String(this.question.families);
-    this.question = question;
-    if (isOther) this.begin();
-    else if (this.table) this.ask();
-    this.addressed();
+  setQuery(query) {
+    const isOther = String(query.families) !== String(this.query.families);
+    this.query = query;
+    if (isOther) this.load();
+    else if (this.table) this.applyQuery();
+    this.writeAddress();
   }
 
   /** Goes on with other filters, which leaves no button that was pressed for it. */
-  unfiltered(filters) {
-    this.put({ ...this.question, filters });
+  setFilters(filters) {
+    this.setQuery({ ...this.query, filters });
     this.results.focus({ preventScroll: true });
   }
 
   /** Shows what the filters leave. */
   show() {
-    const { sort, show } = this.question;
+    const { sort, show } = this.query;
     const column = this.columns.find(({ name }) => name === sort.name);
     this.rows = passingRows(this.orders.by(column?.name, column?.kind, sort.down), this.filters.failing);
     this.panel.show(this.filters);
     this.sorter.value = column?.name ?? "";
     fill(this.direction, sort.down ? "Greatest first" : "Least first");
     this.direction.disabled = !column;
-    this.clear.hidden = this.question.filters.size === 0;
-    this.shows.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
+    this.clear.hidden = this.query.filters.size === 0;
+    this.displayButtons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
     this.count();
     // While an end is dragged, curves are laid out once a frame.
-    this.laying ??= requestAnimationFrame(() => this.lay());
+    this.laying ??= requestAnimationFrame(() => this.layOut());
   }
 
-  lay() {
+  layOut() {
     this.laying = null;
-    const { sort, show } = this.question;
+    const { sort, show } = this.query;
     const column = this.columns.find(({ name }) => name === sort.name);
     if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
       const without = (name) =>
-        this.unfiltered(new Map([...this.question.filters].filter(([other]) => other !== name)));
+        this.setFilters(new Map([...this.query.filters].filter(([other]) => other !== name)));
       fill(this.results, noResults(this.filters, without));
       return;
     }
-    const view = show === "table" ? this.list : this.tiles;
-    if (view.element.parentElement !== this.results) fill(this.results, view.element);
-    if (show === "table") this.list.put(this.table, this.rows, this.columnsShown(column), sort);
-    else this.tiles.put(this.table, this.rows, column ? (row) => this.valueText(column, row) : () => null);
+    const list = show === "table" ? this.list : this.tiles;
+    if (list.element.parentElement !== this.results) fill(this.results, list.element);
+    if (show === "table") this.list.setRows(this.table, this.rows, this.shownColumns(column), sort);
+    else this.tiles.setRows(this.table, this.rows, column ? (row) => this.valueText(column, row) : () => null);
   }
 
   /** Columns that are sorted by or filtered come before those that are always shown, to be in sight. */
-  columnsShown(column) {
-    const isNamed = ({ name }) => name === column?.name || this.question.filters.has(name);
+  shownColumns(column) {
+    const isNamed = ({ name }) => name === column?.name || this.query.filters.has(name);
     const isFirst = ({ group }) => group === "first";
     const named = this.columns.filter((one) => isNamed(one) && !isFirst(one));
     return [...named, ...this.columns.filter(isFirst)];
@@ -237,31 +237,31 @@ class FindView {
       all === 0
         ? "No curves are loaded: choose families"
         : `${left.toLocaleString("en")} of ${all.toLocaleString("en")} curves`;
-    fill(this.counted, h("b", {}, sentence), this.loading);
+    fill(this.countLabel, h("b", {}, sentence), this.loading);
     window.clearTimeout(this.saying);
-    this.saying = window.setTimeout(() => this.app.say(sentence), 2 * ADDRESS_DELAY);
+    this.saying = window.setTimeout(() => this.app.announce(sentence), 2 * ADDRESS_DELAY);
   }
 
-  tell(sentence) {
-    this.told.hidden = false;
-    fill(this.told, sentence);
+  showMessage(sentence) {
+    this.message.hidden = false;
+    fill(this.message, sentence);
   }
 
   names() {
     return Array.from(this.rows ?? [], (row) => this.table.nameOf(row));
   }
 
-  addressed() {
+  writeAddress() {
     window.clearTimeout(this.writing);
     this.writing = window.setTimeout(
-      () => this.app.replace(routeAddress("find", formatFindQuery(this.question), this.app)),
+      () => this.app.replace(routeAddress("find", formatFindQuery(this.query), this.app)),
       ADDRESS_DELAY,
     );
   }
 
   /** A further address of this room. */
-  update(question) {
-    this.put(question);
+  update(query) {
+    this.setQuery(query);
     return true;
   }
 

@@ -25,11 +25,11 @@ export class RangeFilter {
       this.behind,
       this.front,
     );
-    this.ends = ["low", "high"].map((end) => this.madeEnd(end, words));
-    this.inputs = ["low", "high"].map((end) => this.madeInput(end, words));
+    this.ends = ["low", "high"].map((end) => this.createHandle(end, words));
+    this.inputs = ["low", "high"].map((end) => this.createInput(end, words));
     this.track = h(
       "div",
-      { class: "track", onpointerdown: (event) => this.pressed(event) },
+      { class: "track", onpointerdown: (event) => this.startDrag(event) },
       picture,
       this.ends,
     );
@@ -40,7 +40,7 @@ export class RangeFilter {
         class: "quiet clear",
         hidden: true,
         "aria-label": `All of ${words}`,
-        onclick: () => this.put({}),
+        onclick: () => this.setFilter({}),
       },
       "×",
     );
@@ -64,24 +64,24 @@ export class RangeFilter {
         this.inputs[1],
       ),
     );
-    this.laid();
+    this.render();
   }
 
   highest() {
     return Math.max(...this.scale.counts, 1);
   }
 
-  madeEnd(end, words) {
+  createHandle(end, words) {
     return h("span", {
       class: `end ${end}`,
       role: "slider",
       tabindex: "0",
       "aria-label": `${words}, ${end === "low" ? "least" : "greatest"}`,
-      onkeydown: (event) => this.typed(event, end),
+      onkeydown: (event) => this.handleKey(event, end),
     });
   }
 
-  madeInput(end, words) {
+  createInput(end, words) {
     return h("input", {
       type: "text",
       inputmode: "decimal",
@@ -91,19 +91,19 @@ export class RangeFilter {
         const text = event.target.value.trim().replace(",", ".");
         const isNumber = text === "" || Number.isFinite(Number(text));
         event.target.setAttribute("aria-invalid", String(!isNumber));
-        if (isNumber) this.put({ ...this.filter, [end]: text === "" ? undefined : Number(text) });
+        if (isNumber) this.setFilter({ ...this.filter, [end]: text === "" ? undefined : Number(text) });
       },
     });
   }
 
   /** Takes a filter, lays its ends, and tells of it. */
-  put({ low, high }) {
+  setFilter({ low, high }) {
     this.filter = { low, high };
-    this.laid();
+    this.render();
     this.changed(low === undefined && high === undefined ? null : { low, high });
   }
 
-  laid() {
+  render() {
     const { scale, filter, ends, inputs } = this;
     const places = [
       filter.low === undefined ? 0 : scale.placeOf(filter.low),
@@ -129,7 +129,7 @@ export class RangeFilter {
     this.front.setAttribute("d", histogramBars(binCounts(this.scale, rows), this.highest()));
   }
 
-  endAt(place, end) {
+  moveEnd(place, end) {
     const other = end === "low" ? this.filter.high : this.filter.low;
     let value =
       place <= 0 && end === "low"
@@ -139,10 +139,10 @@ export class RangeFilter {
           : Number(formatBound(this.scale.valueAt(place)));
     if (value !== undefined && other !== undefined)
       value = end === "low" ? Math.min(value, other) : Math.max(value, other);
-    this.put({ ...this.filter, [end]: value });
+    this.setFilter({ ...this.filter, [end]: value });
   }
 
-  pressed(event) {
+  startDrag(event) {
     const { left, width } = this.track.getBoundingClientRect();
     const placeOf = ({ clientX }) => Math.min(Math.max((clientX - left) / width, 0), 1);
     const at = placeOf(event);
@@ -152,7 +152,7 @@ export class RangeFilter {
     event.preventDefault();
     this.ends[end === "low" ? 0 : 1].focus();
     this.track.setPointerCapture(event.pointerId);
-    const move = (moved) => this.endAt(placeOf(moved), end);
+    const move = (moved) => this.moveEnd(placeOf(moved), end);
     move(event);
     this.track.onpointermove = move;
     this.track.onlostpointercapture = () => {
@@ -160,14 +160,14 @@ export class RangeFilter {
     };
   }
 
-  typed(event, end) {
+  handleKey(event, end) {
     const now =
       this.filter[end] === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(this.filter[end]);
     const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -8, PageUp: 8 };
     const to = event.key === "Home" ? 0 : event.key === "End" ? 1 : now + steps[event.key] / 100;
     if (Number.isNaN(to)) return;
     event.preventDefault();
-    this.endAt(Math.min(Math.max(to, 0), 1), end);
+    this.moveEnd(Math.min(Math.max(to, 0), 1), end);
   }
 }
 

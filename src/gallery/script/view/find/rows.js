@@ -52,7 +52,7 @@ export class ResultRows {
     this.paper.end();
   }
 
-  put(table, rows, columns, sort) {
+  setRows(table, rows, columns, sort) {
     Object.assign(this, { table, rows, columns });
     this.figures.setAttribute("aria-rowcount", rows.length + 1);
     const heading = ({ name, kind }) =>

@@ -28,7 +28,7 @@ export class ResultTiles extends TileWindow {
   }
 
   /** Shows rows in place of those that were there. */
-  put(table, rows, valueOf) {
+  setRows(table, rows, valueOf) {
     Object.assign(this, { table, rows, valueOf, count: rows.length });
     for (const element of this.there.values()) element.remove();
     this.there.clear();
@@ -67,8 +67,8 @@ export class ResultTiles extends TileWindow {
   draw(element, k) {
     const { table } = this;
     const row = this.rows[k];
-    const leaf = element.querySelector(".tile-picture");
+    const picture = element.querySelector(".tile-picture");
     const family = table.families[table.family[row]];
-    leaf.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(leaf)));
+    picture.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(picture)));
   }
 }

@@ -6,7 +6,7 @@ import { planePoint } from "../../draw/paper-view.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";
 import { PoseSolver } from "./pose-solver.js";
 
-// How far beyond a limit a hand on the crank goes before it comes back on the other branch, in degrees.
+// How far beyond a limit a pointer on the crank goes before it comes back on the other branch, in degrees.
 const LIMIT_SLACK = 3;
 
 /**
@@ -15,9 +15,9 @@ const LIMIT_SLACK = 3;
  */
 export function enableDragging(stage, plate) {
   const { picture } = stage;
-  const hands = new Map();
+  const pointers = new Map();
   let drag = null;
-  let holding = null;
+  let dragPointer = null;
   const pointOf = (event) => {
     const box = picture.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -25,11 +25,11 @@ export function enableDragging(stage, plate) {
   const down = (event) => {
     if (event.button !== 0 || !plate.study || plate.reason) return;
     const at = pointOf(event);
-    hands.set(event.pointerId, at);
+    pointers.set(event.pointerId, at);
     const joint = event.target.closest?.("[data-joint]")?.dataset.joint;
-    if (joint !== undefined && hands.size === 1) {
-      plate.drive.hold();
-      holding = event.pointerId;
+    if (joint !== undefined && pointers.size === 1) {
+      plate.drive.pause();
+      dragPointer = event.pointerId;
       drag = startDrag(plate, stage, Number(joint), planePoint(stage.view, at));
       stage.element.classList.add("dragging");
     }
@@ -39,19 +39,19 @@ export function enableDragging(stage, plate) {
     }
   };
   const moved = (event) => {
-    const before = hands.get(event.pointerId);
+    const before = pointers.get(event.pointerId);
     if (!before) return;
     const at = pointOf(event);
     if (drag) {
       // A second finger beside the one that drags does nothing.
-      if (event.pointerId === holding) drag(planePoint(stage.view, at));
-    } else if (hands.size === 2) pinch(stage, hands, event.pointerId, at);
+      if (event.pointerId === dragPointer) drag(planePoint(stage.view, at));
+    } else if (pointers.size === 2) pinch(stage, pointers, event.pointerId, at);
     else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
-    hands.set(event.pointerId, at);
+    pointers.set(event.pointerId, at);
   };
   const up = (event) => {
-    if (!hands.delete(event.pointerId)) return;
-    if (hands.size > 0) return;
+    if (!pointers.delete(event.pointerId)) return;
+    if (pointers.size > 0) return;
     drag = null;
     stage.element.classList.remove("dragging");
     plate.drive.place.isBeyond = false;
@@ -78,34 +78,34 @@ export function enableDragging(stage, plate) {
   return () => window.removeEventListener("scroll", scroll);
 }
 
-function pinch(stage, hands, id, at) {
-  const [other] = [...hands].find(([key]) => key !== id)?.slice(1) ?? [];
+function pinch(stage, pointers, id, at) {
+  const [other] = [...pointers].find(([key]) => key !== id)?.slice(1) ?? [];
   if (!other) return;
-  const before = hands.get(id);
+  const before = pointers.get(id);
   const apart = ([x, y]) => Math.hypot(x - other[0], y - other[1]);
   if (apart(before) > 0)
     stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
   stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
 }
 
-// A function to be called with the places, in the plane, where the hand is.
-function startDrag(plate, stage, joint, hand) {
+// A function to be called with the places, in the plane, where the pointer is.
+function startDrag(plate, stage, joint, pointer) {
   const { step } = plate.study.linkage.joints[joint];
   const isCrank = step.kind === "crank" && !plate.study.linkage.seenFrom;
-  return isCrank ? dragCrank(plate, step.pivot, joint, hand) : dragJoint(plate, joint, hand);
+  return isCrank ? dragCrank(plate, step.pivot, joint, pointer) : dragJoint(plate, joint, pointer);
 }
 
-// The crank follows the direction of the hand about its pivot, turn after turn, and over limits.
-function dragCrank(plate, pivot, pin, hand) {
+// The crank follows the direction of the pointer about its pivot, turn after turn, and over limits.
+function dragCrank(plate, pivot, pin, pointer) {
   const { study, pose, drive } = plate;
   const { place } = drive;
   const sense = study.linkage.placement.mirror ? -1 : 1;
   const directionOf = ([x, y]) => (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
   const turned = (from, to) => sense * (((((to - from + 180) % 360) + 360) % 360) - 180);
-  let direction = directionOf(hand);
+  let direction = directionOf(pointer);
   let wanted = place.input + turned(directionOf([pose[2 * pin], pose[2 * pin + 1]]), direction);
   const follow = () => {
-    wanted = followInput(plate.study.course, place, wanted, LIMIT_SLACK);
+    wanted = followInput(plate.study.timeline, place, wanted, LIMIT_SLACK);
     drive.move();
   };
   follow();
@@ -117,21 +117,21 @@ function dragCrank(plate, pivot, pin, hand) {
   };
 }
 
-// Any other joint goes along its path to where it is nearest the hand.
-function dragJoint(plate, joint, hand) {
+// Any other joint goes along its path to where it is nearest the pointer.
+function dragJoint(plate, joint, pointer) {
   const alone = linkageWithOnePoint(plate.study.linkage, joint);
   const poser = new PoseSolver(alone.linkage);
   const { pose } = plate;
-  const [offX, offY] = [pose[2 * joint] - hand[0], pose[2 * joint + 1] - hand[1]];
+  const [offX, offY] = [pose[2 * joint] - pointer[0], pose[2 * joint + 1] - pointer[1]];
   const spot = {};
   return ([x, y]) => {
-    const { course } = plate.study;
+    const { timeline } = plate.study;
     const distance = (part) => {
-      placeAtPart(course, part, spot);
-      const at = poser.take(course.passes[spot.pass], spot.input);
+      placeAtPart(timeline, part, spot);
+      const at = poser.solve(timeline.passes[spot.pass], spot.input);
       const far = Math.hypot(at[2 * alone.joint] - x - offX, at[2 * alone.joint + 1] - y - offY);
       return Number.isFinite(far) ? far : Infinity;
     };
-    plate.drive.seek(nearestPart(course, plate.drive.part, distance));
+    plate.drive.seek(nearestPart(timeline, plate.drive.part, distance));
   };
 }

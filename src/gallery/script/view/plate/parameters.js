@@ -5,8 +5,8 @@ import { roundBelow } from "../../draw/paper-view.js";
 
 /**
  * What a plate offers to change: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind` is
- * "free" for what the atlas varies, "kept" for what it keeps, "follows" for what is derived from others, and
- * "freed" for that when it has been changed; `low` to `high` is a sensible range, `grain` the step of a
+ * "free" for what the atlas varies, "fixed" for what it keeps, "derived" for what is derived from others, and
+ * "unlinked" for that when it has been changed; `low` to `high` is a sensible range, `grain` the step of a
  * slider.
  */
 export function changeableParameters(family, cell, trace, changes) {
@@ -18,14 +18,14 @@ export function changeableParameters(family, cell, trace, changes) {
   const derived = new Map(family.derived);
   const offered = family.names.map((name, slot) => {
     const bounds = family.template.parameters[slot] ?? {};
-    const follows = derived.has(slot) && typeof derived.get(slot) !== "number";
+    const isDerived = derived.has(slot) && typeof derived.get(slot) !== "number";
     const kind = family.free.includes(slot)
       ? "free"
-      : !follows
-        ? "kept"
+      : !isDerived
+        ? "fixed"
         : changes.has(name)
-          ? "freed"
-          : "follows";
+          ? "unlinked"
+          : "derived";
     const spread = spreadOfSlot(family, slot);
     const range = sliderRange(recorded[slot], spread, bounds, size, whole.has(slot));
     return {
@@ -48,17 +48,17 @@ function changeableCoordinates({ template }, recorded, values, trace, changes, s
     .filter((way) => !point[way].isParameter)
     .map((way) => {
       const name = `${point.name}.${way}`;
-      const [kept, follows] = [point[way].at(recorded), !point[way].isKept];
-      const kind = !follows ? "kept" : changes.has(name) ? "freed" : "follows";
+      const [recordedValue, isDerived] = [point[way].at(recorded), !point[way].isKept];
+      const kind = !isDerived ? "fixed" : changes.has(name) ? "unlinked" : "derived";
       const value = changes.get(name) ?? point[way].at(values);
       return {
         name,
         kind,
         value,
-        recorded: kept,
+        recorded: recordedValue,
         min: null,
         max: null,
-        ...sliderRange(kept, [kept, kept], {}, size, false),
+        ...sliderRange(recordedValue, [recordedValue, recordedValue], {}, size, false),
       };
     });
 }

@@ -6,7 +6,7 @@ import { OVERLAYS } from "./overlays.js";
 import { parseChanges } from "./parameters.js";
 
 /**
- * { changes: Map, asked: the place of a circuit among all, or null, on: Set of overlays' names } of a query.
+ * { changes: Map, requestedCircuit: the place of a circuit among all, or null, on: Set of overlays' names } of a query.
  */
 export function readPlateQuery(family, trace, query) {
   const circuit = Number(query.get("circuit"));
@@ -14,15 +14,16 @@ export function readPlateQuery(family, trace, query) {
   const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
   return {
     changes: parseChanges(family, trace, query),
-    asked: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
+    requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
   };
 }
 
 /** The address of a plate, as short as it can be: what is as it was at first is not said. */
-export function plateAddress({ family, curve, changes, asked, on, study }) {
+export function plateAddress({ family, curve, changes, requestedCircuit, on, study }) {
   const query = new Map(changes);
-  if (asked !== null && asked !== study?.home) query.set("circuit", asked + 1);
+  if (requestedCircuit !== null && requestedCircuit !== study?.home)
+    query.set("circuit", requestedCircuit + 1);
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
   return address([family.id, "curve", curveKey(family, curve)], query);
@@ -33,24 +34,24 @@ export function plateAddress({ family, curve, changes, asked, on, study }) {
  * that the atlas does not have is named by its number among all: "evans:1.1.1?circuit=2".
  */
 export function plateCurveName({ family, curve, changes, study }) {
-  const { key, beside } = keyOfShownCircuit(family, curve, study);
+  const { key, extraCircuit } = keyOfShownCircuit(family, curve, study);
   const words = [...changes].map(([name, value]) => `${encodeURIComponent(name)}=${value}`);
-  if (beside) words.push(`circuit=${beside}`);
+  if (extraCircuit) words.push(`circuit=${extraCircuit}`);
   return `${family.id}:${key}${words.length ? `?${words.join("&")}` : ""}`;
 }
 
 /** Whether a plate shows a circuit that the atlas does not have. */
 export function isExtraCircuit({ family, curve, study }) {
-  return keyOfShownCircuit(family, curve, study).beside !== null;
+  return keyOfShownCircuit(family, curve, study).extraCircuit !== null;
 }
 
 /** The key of the curve on the circuit that a study shows; its own with a number where there is none. */
 function keyOfShownCircuit(family, curve, study) {
   const own = curveKey(family, curve);
-  if (!study || study.shown === study.home) return { key: own, beside: null };
+  if (!study || study.shown === study.home) return { key: own, extraCircuit: null };
   // Only where the atlas takes all circuits are they numbered as a plate counts them.
   const key = family.template.circuits === "all" ? own.replace(/\d+$/, study.shown + 1) : null;
   return key !== null && findCurve(family, key) !== undefined
-    ? { key, beside: null }
-    : { key: own, beside: study.shown + 1 };
+    ? { key, extraCircuit: null }
+    : { key: own, extraCircuit: study.shown + 1 };
 }

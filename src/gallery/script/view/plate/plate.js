@@ -36,7 +36,7 @@ export class Plate {
   constructor(app, family, curve, query) {
     Object.assign(this, { app, family, curve, study: null, pose: null });
     this.trace = family.curves.trace[curve];
-    this.#furnish();
+    this.#createControls();
     this.layout = plateLayout(this);
     this.element = this.layout.element;
     this.release = enableDragging(this.stage, this);
@@ -46,7 +46,7 @@ export class Plate {
     this.#settle();
   }
 
-  #furnish() {
+  #createControls() {
     const { app, family, curve } = this;
     this.drive = new Drive({
       moved: () => this.#draw(),
@@ -58,7 +58,7 @@ export class Plate {
     this.overlays = new Overlays(this.stage);
     this.transport = new Transport(this.drive, this.stage);
     this.dial = new DialView();
-    this.speed = new SpeedView((part) => this.drive.seekByHand(part));
+    this.speed = new SpeedView((part) => this.drive.seekAndPause(part));
     this.sliders = new Sliders(family.legend, {
       change: (name, value) => this.#change(() => this.changes.set(name, value)),
       clear: (name) => this.#change(() => this.changes.delete(name)),
@@ -96,7 +96,7 @@ export class Plate {
   }
 
   /** Takes another query of the same curve's address. */
-  takeQuery(query) {
+  setQuery(query) {
     Object.assign(this, readPlateQuery(this.family, this.trace, query));
     this.#restudy(false);
     this.#settle(false);
@@ -115,17 +115,17 @@ export class Plate {
 
   // Behind what cannot be assembled from the first, the linkage of the atlas is to be seen.
   #showRecorded() {
-    const { changes, asked } = this;
-    Object.assign(this, { changes: new Map(), asked: null });
+    const { changes, requestedCircuit } = this;
+    Object.assign(this, { changes: new Map(), requestedCircuit: null });
     this.#restudy(false);
-    Object.assign(this, { changes, asked });
+    Object.assign(this, { changes, requestedCircuit });
     this.#restudy(false);
   }
 
   // Makes the study of what is changed now; one that cannot be assembled leaves the last that could in view.
   #restudy(isRough) {
     const { family, curve, changes } = this;
-    const study = studyOf(family, curve, changes, this.asked, isRough);
+    const study = studyOf(family, curve, changes, this.requestedCircuit, isRough);
     this.sliders.show(changeableParameters(family, family.curves.cell[curve], this.trace, changes));
     this.reason = study.reason ?? null;
     this.candidates = study.routes ? study : null;
@@ -140,7 +140,7 @@ export class Plate {
     this.poser = new PoseSolver(study.linkage);
     this.velocity = new PointVelocity(study);
     this.path = pathOfStudy(study, isRough ? ROUGH_PATH : FINE_PATH);
-    this.drive.take(study);
+    this.drive.setStudy(study);
     this.#show(isRough);
   }
 
@@ -151,7 +151,7 @@ export class Plate {
     this.overlays.show(study, this.on, isRough);
     this.transport.show(study, circuitTitle(study.linkage, study.routes[study.shown]));
     this.dial.show(study);
-    const partOf = ({ pass, input }) => clampPart(drive.course, partOfInput(drive.course, pass, input));
+    const partOf = ({ pass, input }) => clampPart(drive.timeline, partOfInput(drive.timeline, pass, input));
     this.speed.show(study, path, this.stretch && [partOf(this.stretch.from), partOf(this.stretch.to)]);
     this.stage.keepInFrame();
     this.#draw();
@@ -163,7 +163,7 @@ export class Plate {
     this.measured = this.isRecorded || isRough ? null : measuresOfStudy(family, study);
     const isKnown = this.isRecorded || !isRough;
     this.stretch = isKnown ? straightStretch(study, family, curve, this.measured) : null;
-    this.transport.tellStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
+    this.transport.showStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
   }
 
   #paths(isRough) {
@@ -196,14 +196,14 @@ export class Plate {
     this.measures.show(this.reason ? null : this.measured);
     this.switches.show(this.candidates, study, this.on, isExtraCircuit(this));
     this.layout.refresh();
-    if (this.reason) this.app.say(`It cannot be assembled: ${this.reason}`);
+    if (this.reason) this.app.announce(`It cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
     if (isAddressed && this.element.isConnected) this.app.replace(plateAddress(this));
   }
 
   #reset() {
     this.changes.clear();
-    this.asked = null;
+    this.requestedCircuit = null;
     this.#restudy(false);
     this.stage.fit();
     this.#settle();
@@ -222,7 +222,7 @@ export class Plate {
   }
 
   #chooseCircuit(k) {
-    this.asked = k;
+    this.requestedCircuit = k;
     this.#restudy(false);
     if (!this.reason) {
       this.drive.begin();
@@ -240,13 +240,13 @@ export class Plate {
       part,
       place: { input },
     } = drive;
-    this.pose = poser.take(pass, input);
+    this.pose = poser.solve(pass, input);
     stage.pose(this.pose);
     this.overlays.pose(this.pose, stage.view, pass, input);
     this.dial.pose(this.pose);
-    this.transport.now(part, input);
+    this.transport.update(part, input);
     const velocity = this.velocity.at(pass, input);
-    this.speed.now(part, Math.hypot(...velocity));
+    this.speed.update(part, Math.hypot(...velocity));
     const frame = { top: this.speed.top, size: stage.size, heading: Math.sign(pass.to - pass.from) };
     stage.moving.speed(this.on.has("velocity") ? velocityArrow(velocity, frame) : null);
   }

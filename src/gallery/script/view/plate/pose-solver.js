@@ -17,7 +17,7 @@ export class PoseSolver {
   }
 
   /** The pose at an input of a pass; at its ends exactly as the circuit has them. */
-  take(pass, input) {
+  solve(pass, input) {
     const { linkage, columns, inputs } = this;
     const stop = stopAt(linkage.input, input);
     inputs.at[0] = stop.at;

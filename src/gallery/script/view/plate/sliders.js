@@ -20,12 +20,12 @@ export class Sliders {
     this.on = on;
     this.rows = new Map();
     this.free = h("div", { class: "parameters" });
-    this.kept = h("div", { class: "parameters" });
+    this.locked = h("div", { class: "parameters" });
     this.more = h(
       "details",
       { class: "locked-parameters" },
       h("summary", {}, "Kept in the atlas, and what follows"),
-      this.kept,
+      this.locked,
     );
     this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "As in the atlas");
     this.element = h(
@@ -57,23 +57,23 @@ export class Sliders {
     row.range.min = Math.min(low, value);
     row.range.max = Math.max(high, value);
     if (Number(row.range.value) !== value) row.range.value = value;
-    row.range.disabled = kind === "follows";
+    row.range.disabled = kind === "derived";
     row.range.setAttribute("aria-valuetext", formatInputNumber(value));
-    row.field.readOnly = kind === "follows";
+    row.field.readOnly = kind === "derived";
     if (document.activeElement !== row.field) row.field.value = formatInputNumber(value);
     const { min, max } = parameter;
     const isOut =
       (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
     row.field.setAttribute("aria-invalid", String(isOut));
-    const isTied = kind === "follows" || kind === "freed";
-    const label = kind === "follows" ? "Set free" : kind === "freed" ? "Let follow" : "Back";
+    const isDependent = kind === "derived" || kind === "unlinked";
+    const label = kind === "derived" ? "Set free" : kind === "unlinked" ? "Let follow" : "Back";
     row.button.textContent = label;
     row.button.setAttribute(
       "aria-label",
-      `${label}: ${parameter.name}${isTied ? "" : ` to ${formatInputNumber(recorded)}`}`,
+      `${label}: ${parameter.name}${isDependent ? "" : ` to ${formatInputNumber(recorded)}`}`,
     );
-    row.button.classList.toggle("unneeded", !isTied && !isChangedParameter(parameter));
-    row.button.disabled = !isTied && !isChangedParameter(parameter);
+    row.button.classList.toggle("unneeded", !isDependent && !isChangedParameter(parameter));
+    row.button.disabled = !isDependent && !isChangedParameter(parameter);
   }
 
   #build(parameters) {
@@ -84,13 +84,13 @@ export class Sliders {
       this.free,
       rows.filter(isFree).map(([, { element }]) => element),
     );
-    const kept = rows.filter((row) => !isFree(row));
+    const locked = rows.filter((row) => !isFree(row));
     fill(
-      this.kept,
-      kept.map(([, { element }]) => element),
+      this.locked,
+      locked.map(([, { element }]) => element),
     );
-    this.more.hidden = kept.length === 0;
-    this.more.open = rows.length <= 6 || rows.length === kept.length;
+    this.more.hidden = locked.length === 0;
+    this.more.open = rows.length <= 6 || rows.length === locked.length;
   }
 
   #row(parameter) {
@@ -150,13 +150,13 @@ function stepSlider(event, row, on) {
 }
 
 function toggleLink({ name, kind, value }, on) {
-  if (kind === "follows") on.change(name, value);
+  if (kind === "derived") on.change(name, value);
   else on.clear(name);
   on.settle();
 }
 
 function isChangedParameter({ kind, value, recorded }) {
-  return kind === "freed" || (kind !== "follows" && value !== recorded);
+  return kind === "unlinked" || (kind !== "derived" && value !== recorded);
 }
 
 /** A number as it is typed: up to ten significant digits. */

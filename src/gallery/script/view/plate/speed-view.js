@@ -57,21 +57,21 @@ export class SpeedView {
   }
 
   /** `stretch` are the parts [from, to] of the straight portion, or null. */
-  show({ linkage, course }, path, stretch) {
+  show({ linkage, timeline }, path, stretch) {
     const { isLength } = linkage.input;
     const { inputs, speeds } = speedsOfPath(path, isLength ? 1 : 180 / Math.PI);
     const parts = [];
     let k = 0;
     inputs.forEach((at, i) => {
       while (k < path.starts.length - 1 && i >= path.starts[k + 1]) k += 1;
-      parts.push(partOfInput(course, k, at));
+      parts.push(partOfInput(timeline, k, at));
     });
     this.top = shownSpeed(speeds);
     this.unit = isLength ? "a unit of input" : "a radian of input";
     this.line.setAttribute("d", speedData(parts, speeds, this.top, SPEED_FRAME));
     this.limits.setAttribute(
       "d",
-      turningParts(course)
+      turningParts(timeline)
         .map((part) => `M${pixel(part * SPEED_FRAME.width)} 0V${SPEED_FRAME.height}`)
         .join(""),
     );
@@ -87,7 +87,7 @@ export class SpeedView {
     );
   }
 
-  now(part, speed) {
+  update(part, speed) {
     const x = pixel(part * SPEED_FRAME.width);
     this.mark.setAttribute("transform", `translate(${x} 0)`);
     const isFinite = Number.isFinite(speed);

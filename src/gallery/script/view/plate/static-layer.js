@@ -44,7 +44,7 @@ export class StaticLayer {
     this.limits = [];
   }
 
-  show({ linkage, circuit, course, mechanism }, { dashes, lead, others, band }) {
+  show({ linkage, circuit, timeline, mechanism }, { dashes, lead, others, band }) {
     const { fixed, frame, guides, wheels } = mechanism;
     const at = (joint) => [circuit.x[joint][0], circuit.y[joint][0]];
     this.pivots = fixed.map(at);
@@ -54,7 +54,7 @@ export class StaticLayer {
     );
     this.#data("wheels", wheels.map(({ joint, radius }) => circleData(...at(joint), radius)).join(""));
     this.#data("guides", guides.map(([x0, y0, x1, y1]) => polylineData([x0, y0, x1, y1])).join(""));
-    const { arc, limits } = crankRange(linkage, circuit, course, fixed);
+    const { arc, limits } = crankRange(linkage, circuit, timeline, fixed);
     this.limits = limits;
     this.#data("crank-range", arc);
     this.#data("others", others);
@@ -97,9 +97,9 @@ export class StaticLayer {
 
 // Where the crank's pin goes, as path data, and its places at the limits of the input, each with the pivot,
 // [x, y, ox, oy]; of a crank on a fixed pivot that has limits.
-function crankRange({ joints }, { x, y, count, input }, course, fixed) {
+function crankRange({ joints }, { x, y, count, input }, timeline, fixed) {
   const pin = joints.findIndex(({ step }) => step.kind === "crank" && fixed.includes(step.pivot));
-  if (pin < 0 || turningParts(course).length === 0) return { arc: "", limits: [] };
+  if (pin < 0 || turningParts(timeline).length === 0) return { arc: "", limits: [] };
   const { pivot } = joints[pin].step;
   let [least, most] = [0, 0];
   for (let i = 0; i < count; i++) {

@@ -18,14 +18,14 @@ const STUDY_SAMPLES = 240;
 /**
  * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } where it cannot
  * be assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
- * others, course, mechanism, box, size, fourBar, isCouplerPoint, template }.
+ * others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
  * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names,
- * `shown` that of the one that is shown, which is `asked` where there is one; -1 where there is none.
+ * `shown` that of the one that is shown, which is `requested` where there is one; -1 where there is none.
  * `circuit` is `shown`, sampled; `joint` the traced one, `others` the further traced ones. `box` is what the
- * linkage sweeps. A rough study of a circuit that was not asked for knows no other circuits.
+ * linkage sweeps. A rough study of a circuit that was not requested for knows no other circuits.
  */
-export function studyOf(family, curve, changes, asked = null, isRough = false) {
+export function studyOf(family, curve, changes, requested = null, isRough = false) {
   const { cell, trace, circuit } = family.curves;
   const values = changedValues(family, cell[curve], changes);
   const changed = templateWithChanges(family.template, trace[curve], values, changes);
@@ -38,13 +38,13 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
   }
   const recorded = routesOf(linkage);
   const all =
-    isRough && asked === null
+    isRough && requested === null
       ? recorded
       : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
   if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
   const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
-  const shown = routes[asked] ? asked : home;
+  const shown = routes[requested] ? requested : home;
   if (shown < 0) {
     const reason =
       recorded.shortfall ??
@@ -83,7 +83,7 @@ function studyShownCircuit({ linkage, routes, shown }, trace) {
     circuit,
     joint,
     others,
-    course: timelineOf(routes[shown]),
+    timeline: timelineOf(routes[shown]),
     mechanism,
     box,
     curveBox,

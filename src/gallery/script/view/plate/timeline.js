@@ -1,4 +1,4 @@
-// A circuit as a course to travel: places on it by part, 0 at its beginning and 1 at its end, and by pass and
+// A circuit as a timeline to travel: places on it by part, 0 at its beginning and 1 at its end, and by pass and
 // input.
 //
 // Equal parts are equal times of play: the input goes evenly, and slows down towards limits, as a hand would
@@ -7,7 +7,7 @@
 import { smoothInput } from "../../kinematics/spacing.js";
 
 /**
- * The course of a circuit { passes, closed }: { passes, closed, starts }, `starts` being the part each pass
+ * The timeline of a circuit { passes, closed }: { passes, closed, starts }, `starts` being the part each pass
  * begins at.
  */
 export function timelineOf({ passes, closed }) {
@@ -21,7 +21,7 @@ export function timelineOf({ passes, closed }) {
   return { passes, closed, starts, whole };
 }
 
-/** Puts { pass, input } of a part of a course into `place`: the place of the pass, and its input. */
+/** Puts { pass, input } of a part of a timeline into `place`: the place of the pass, and its input. */
 export function placeAtPart({ passes, starts }, part, place) {
   let k = 0;
   while (k < passes.length - 1 && part >= starts[k + 1]) k += 1;
@@ -33,7 +33,7 @@ export function placeAtPart({ passes, starts }, part, place) {
   return place;
 }
 
-/** The part of a course at which a pass has an input. */
+/** The part of a timeline at which a pass has an input. */
 export function partOfInput({ passes, starts }, k, input) {
   const { from, to, begin, end } = passes[k];
   const eased = to === from ? 0 : Math.min(Math.max((input - from) / (to - from), 0), 1);
@@ -45,7 +45,7 @@ export function partOfInput({ passes, starts }, k, input) {
   return starts[k] + (starts[k + 1] - starts[k]) * share;
 }
 
-/** The places where the input turns round, or may not go on, as parts of the course; of a full turn none. */
+/** The places where the input turns round, or may not go on, as parts of the timeline; of a full turn none. */
 export function turningParts({ passes, closed, starts }) {
   const parts = [];
   passes.forEach((pass, k) => {
@@ -57,19 +57,19 @@ export function turningParts({ passes, closed, starts }) {
   return parts;
 }
 
-/** A part brought back onto the course: round a closed one, to the ends of another. */
+/** A part brought back onto the timeline: round a closed one, to the ends of another. */
 export function clampPart({ closed }, part) {
   return closed ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1);
 }
 
 /**
- * Moves a place { pass, input } of a course towards the input `wanted`, which a hand on the crank asks for,
+ * Moves a place { pass, input } of a timeline towards the input `wanted`, which a hand on the crank asks for,
  * and returns `wanted` as it is then to be counted, whole turns having been taken off. Over the end of a pass
  * it goes on to the next one. Where the input turns round there, it stays at the limit; a hand that goes
  * `slack` beyond comes back on the other branch. `place.isBeyond` remembers that it has.
  */
-export function followInput(course, place, wanted, slack) {
-  const { passes, closed } = course;
+export function followInput(timeline, place, wanted, slack) {
+  const { passes, closed } = timeline;
   let want = wanted;
   for (let guard = 0; guard <= passes.length + 1; guard++) {
     const pass = passes[place.pass];
@@ -111,13 +111,13 @@ function adjacentPass(passes, k, forward, closed) {
 }
 
 /**
- * The part of a course, within `reach` of a part, at which a distance is least: `distance(part)` is asked for
- * on parts of the course. A hand that drags a joint goes on along its path so.
+ * The part of a timeline, within `reach` of a part, at which a distance is least: `distance(part)` is asked for
+ * on parts of the timeline. A hand that drags a joint goes on along its path so.
  */
-export function nearestPart(course, from, distance, reach = 0.15) {
+export function nearestPart(timeline, from, distance, reach = 0.15) {
   const STEPS = 24;
-  const at = (part) => distance(clampPart(course, part));
-  const [low, high] = course.closed
+  const at = (part) => distance(clampPart(timeline, part));
+  const [low, high] = timeline.closed
     ? [from - reach, from + reach]
     : [Math.max(from - reach, 0), Math.min(from + reach, 1)];
   const step = (high - low) / (2 * STEPS);
@@ -136,5 +136,5 @@ export function nearestPart(course, from, distance, reach = 0.15) {
     else a = c;
   }
   const middle = (a + b) / 2;
-  return clampPart(course, at(middle) < least ? middle : best);
+  return clampPart(timeline, at(middle) < least ? middle : best);
 }

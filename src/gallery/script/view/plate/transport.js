@@ -32,7 +32,7 @@ export class Transport {
       step: "any",
       value: "0",
       "aria-label": "Place on the circuit",
-      oninput: () => drive.seekByHand(Number(this.scrub.value)),
+      oninput: () => drive.seekAndPause(Number(this.scrub.value)),
       onkeydown: (event) => stepByKey(event, drive),
     });
     this.input = h("span", { class: "input-now" });
@@ -71,7 +71,7 @@ export class Transport {
         ),
       ),
     );
-    this.told = 0;
+    this.announced = 0;
     this.playing(false);
   }
 
@@ -80,15 +80,15 @@ export class Transport {
     return Number(this.rate.value);
   }
 
-  show({ linkage, course, shortfall }, title) {
+  show({ linkage, timeline, shortfall }, title) {
     this.isLength = linkage.input.isLength;
-    this.course = course;
+    this.timeline = timeline;
     this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
     this.#enable(true);
   }
 
   /** What is told of the straight portion; null while it is not known. */
-  tellStraight(words) {
+  showStraight(words) {
     this.straight.classList.toggle("stale", words === null);
     if (words !== null) this.straight.textContent = words;
   }
@@ -106,18 +106,18 @@ export class Transport {
     this.isPlaying = isPlaying;
     this.play.textContent = isPlaying ? "Pause" : "Play";
     this.play.setAttribute("aria-pressed", String(isPlaying));
-    if (!isPlaying) this.told = 0;
+    if (!isPlaying) this.announced = 0;
   }
 
-  now(part, input) {
+  update(part, input) {
     const text = this.isLength ? formatDecimals(input, 4) : `${formatDecimals(input, 1)}°`;
     this.input.textContent = text;
     if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
       this.scrub.value = part;
     // A screen reader need not hear sixty angles in a second.
     const time = performance.now();
-    if (this.isPlaying && time - this.told < 500) return;
-    this.told = time;
+    if (this.isPlaying && time - this.announced < 500) return;
+    this.announced = time;
     this.scrub.setAttribute("aria-valuetext", `input ${text}`);
   }
 }

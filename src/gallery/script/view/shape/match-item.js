@@ -12,7 +12,7 @@ export function matchItem(app, one, shape, { by, part }) {
   const { family, curve, name } = one;
   const caption = family.cells.caption[family.curves.cell[curve]];
   const other = by === "rms" ? "greatest" : "rms";
-  const told = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
+  const percent = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
   const share = part ? `, ${Math.round(100 * (one.to - one.from))} % of the curve` : "";
   return h(
     "li",
@@ -21,7 +21,7 @@ export function matchItem(app, one, shape, { by, part }) {
       "a",
       { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
       matchPicture(one, shape, { width: 220, height: 170 }),
-      h("span", { class: "label" }, h("b", {}, told(by)), ` ${told(other)}${share}`),
+      h("span", { class: "label" }, h("b", {}, percent(by)), ` ${percent(other)}${share}`),
       h("span", { class: "label" }, formatCaption(caption || name)),
     ),
     h(

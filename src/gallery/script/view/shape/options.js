@@ -5,24 +5,24 @@ import { h } from "../dom.js";
 const MIN_SHARES = [0.05, 0.1, 0.15, 0.25, 0.5];
 
 /** The controls of a question (question.js), which they write in before `changed()`: { element, mark() }. */
-export function shapeOptions(asked, changed) {
-  const put = (name, value) => {
-    asked[name] = value;
+export function shapeOptions(query, changed) {
+  const set = (name, value) => {
+    query[name] = value;
     changed();
   };
   const [whole, part] = [false, true].map((isPart) =>
-    h("input", { type: "radio", name: "shape-part", onchange: () => put("part", isPart) }),
+    h("input", { type: "radio", name: "shape-part", onchange: () => set("part", isPart) }),
   );
   const mark = () => {
-    [whole.checked, part.checked] = [!asked.part, asked.part === true];
+    [whole.checked, part.checked] = [!query.part, query.part === true];
   };
   mark();
   const mirror = h("input", {
     type: "checkbox",
     name: "mirror",
-    onchange: () => put("mirror", mirror.checked),
+    onchange: () => set("mirror", mirror.checked),
   });
-  mirror.checked = asked.mirror;
+  mirror.checked = query.mirror;
   const element = h(
     "fieldset",
     { class: "shape-options" },
@@ -32,10 +32,10 @@ export function shapeOptions(asked, changed) {
       "div",
       { class: "toolbar" },
       h("label", { class: "check" }, part, "a part of a curve, no less than"),
-      minShareSelect(asked.least, (least) => put("least", least)),
+      minShareSelect(query.least, (least) => set("least", least)),
     ),
     h("label", { class: "check" }, mirror, "mirror images too"),
-    rankingSelect(asked.by, (by) => put("by", by)),
+    rankingSelect(query.by, (by) => set("by", by)),
   );
   return { element, mark };
 }

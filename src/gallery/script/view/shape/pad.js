@@ -11,8 +11,8 @@ const PEN_STEP = 5;
 
 /** A pad of 400 × 300; `drawn(points, closed)` is called with a shape, y up, when it is finished. */
 export class DrawingPad {
-  constructor(drawn, say) {
-    Object.assign(this, { drawn, say });
+  constructor(ondrawn, announce) {
+    Object.assign(this, { ondrawn, announce });
     this.points = [];
     this.pen = [PAD_WIDTH / 2, PAD_HEIGHT / 2];
     this.line = s("path", { class: "drawn" });
@@ -27,8 +27,8 @@ export class DrawingPad {
         role: "application",
         "aria-label": "Drawing pad",
         "aria-describedby": "pad-help",
-        onpointerdown: (event) => this.pressed(event),
-        onkeydown: (event) => this.typed(event),
+        onpointerdown: (event) => this.startStroke(event),
+        onkeydown: (event) => this.handleKey(event),
       },
       s("path", { class: "grid", d: gridLines() }),
       this.line,
@@ -55,15 +55,15 @@ export class DrawingPad {
     this.points = xs.map((_, k) => place(2 * k));
     this.closed = closed;
     this.isByKeys = false;
-    this.laid();
+    this.render();
   }
 
   clear() {
     [this.points, this.closed] = [[], false];
-    this.laid();
+    this.render();
   }
 
-  laid() {
+  render() {
     const path = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
     this.line.setAttribute("d", this.closed ? `${path}Z` : path);
     fill(this.dots, this.isByKeys ? this.points.map(([cx, cy]) => s("circle", { cx, cy, r: 3 })) : null);
@@ -79,17 +79,17 @@ export class DrawingPad {
     ];
   }
 
-  pressed(event) {
+  startStroke(event) {
     if (event.button) return;
     event.preventDefault();
     this.element.focus({ preventScroll: true });
     this.element.setPointerCapture(event.pointerId);
     [this.points, this.closed, this.isByKeys] = [[this.placeOf(event)], false, false];
-    this.laid();
+    this.render();
     this.element.onpointermove = (moved) => {
       const seen = moved.getCoalescedEvents?.() ?? [];
       for (const one of seen.length ? seen : [moved]) this.points.push(this.placeOf(one));
-      this.laid();
+      this.render();
     };
     this.element.onlostpointercapture = () => {
       [this.element.onpointermove, this.element.onlostpointercapture] = [null, null];
@@ -105,19 +105,19 @@ export class DrawingPad {
     if (this.points.length < 2) return;
     const flat = this.flat();
     this.closed = closed ?? looksClosed(flat);
-    this.laid();
-    this.drawn(flat.length > 600 ? simplified(flat, this.closed, 300) : flat, this.closed);
+    this.render();
+    this.ondrawn(flat.length > 600 ? simplified(flat, this.closed, 300) : flat, this.closed);
   }
 
-  typed(event) {
+  handleKey(event) {
     const step = event.shiftKey ? 5 * PEN_STEP : PEN_STEP;
     const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[
       event.key
     ];
     const acts = {
-      Enter: () => this.set(),
-      " ": () => this.set(),
-      Backspace: () => this.takeBack(),
+      Enter: () => this.addPoint(),
+      " ": () => this.addPoint(),
+      Backspace: () => this.removePoint(),
       Escape: () => this.clear(),
       c: () => this.finish(true),
     };
@@ -128,22 +128,22 @@ export class DrawingPad {
       Math.min(Math.max(this.pen[0] + move[0], 0), PAD_WIDTH),
       Math.min(Math.max(this.pen[1] + move[1], 0), PAD_HEIGHT),
     ];
-    this.say(`${Math.round(this.pen[0])}, ${Math.round(PAD_HEIGHT - this.pen[1])}`);
-    this.laid();
+    this.announce(`${Math.round(this.pen[0])}, ${Math.round(PAD_HEIGHT - this.pen[1])}`);
+    this.render();
   }
 
-  set() {
+  addPoint() {
     if (!this.isByKeys) [this.points, this.closed, this.isByKeys] = [[], false, true];
     this.points.push([...this.pen]);
-    this.say(`Point ${this.points.length}`);
-    this.laid();
+    this.announce(`Point ${this.points.length}`);
+    this.render();
     if (this.points.length > 2) this.finish(false);
   }
 
-  takeBack() {
+  removePoint() {
     this.points.pop();
     this.closed = false;
-    this.laid();
+    this.render();
     if (this.points.length > 2) this.finish(false);
   }
 }

@@ -23,16 +23,16 @@ const MAX_RESULTS = 36;
 export const shapeRoute = {
   name: "shape",
   label: "By shape",
-  way: (app) => routeAddress("shape", {}, app),
-  opens: (place, app) => matchesRoute("shape", place, app),
-  view: async (app, { query }) => {
-    const room = new ShapeView(app, query);
-    await room.begin();
+  href: (app) => routeAddress("shape", {}, app),
+  matches: (target, app) => matchesRoute("shape", target, app),
+  open: async (app, { query }) => {
+    const view = new ShapeView(app, query);
+    await view.start();
     return {
       title: "By shape",
-      element: room.element,
-      update: (place) => room.update(place.query),
-      leave: () => room.leave(),
+      element: view.element,
+      update: (target) => view.update(target.query),
+      leave: () => view.leave(),
     };
   },
 };
@@ -43,26 +43,26 @@ class ShapeView {
     this.turn = 0;
     this.indexes = [];
     this.pad = new DrawingPad(
-      (points, closed) => this.drawn(points, closed),
-      (text) => app.say(text),
+      (points, closed) => this.setDrawnShape(points, closed),
+      (text) => app.announce(text),
     );
     this.status = h("p", { class: "counted" }, "Draw a curve, paste one, or begin with one of the atlas");
     this.results = h("ol", { class: "matches" });
     this.families = h("div", {});
-    this.asked = parseShapeQuery(query);
-    this.options = shapeOptions(this.asked, () => this.ask());
-    this.element = this.laidOut();
+    this.query = parseShapeQuery(query);
+    this.options = shapeOptions(this.query, () => this.submit());
+    this.element = this.buildElement();
   }
 
-  laidOut() {
+  buildElement() {
     const clear = () => {
       this.pad.clear();
       this.pad.element.focus();
     };
     const use = ({ points, closed, said }) => {
       this.pad.show(points, closed);
-      this.drawn(points, closed);
-      this.app.say(`${said} read`);
+      this.setDrawnShape(points, closed);
+      this.app.announce(`${said} read`);
     };
     return h(
       "div",
@@ -86,18 +86,18 @@ class ShapeView {
     );
   }
 
-  async begin() {
-    await this.take();
-    const { app, asked } = this;
+  async start() {
+    await this.loadShape();
+    const { app, query } = this;
     this.unwatch ??= watchPins(app, this.element);
     this.stop?.();
-    const listed = requestedFamilies(app.atlas, asked.families);
+    const listed = requestedFamilies(app.atlas, query.families);
     fill(
       this.families,
       familyChooser(app.atlas, listed, (families) => {
-        asked.families = families;
-        this.addressed();
-        this.begin();
+        query.families = families;
+        this.writeAddress();
+        this.start();
       }),
     );
     this.stop = loadFamilies(
@@ -108,45 +108,45 @@ class ShapeView {
         this.isWhole = done === all;
         this.search();
       },
-      (sentence) => app.say(sentence),
+      (sentence) => app.announce(sentence),
     );
   }
 
   /** Takes the shape of the address: a drawn one, or a curve of the atlas. */
-  async take() {
-    const { asked, app } = this;
-    const drawn = asked.d && decodedShape(asked.d);
-    if (drawn) this.given(drawn.points, drawn.closed);
-    if (drawn || !asked.like) return;
-    const [id, key] = asked.like.split(":");
+  async loadShape() {
+    const { query, app } = this;
+    const drawn = query.d && decodedShape(query.d);
+    if (drawn) this.setShape(drawn.points, drawn.closed);
+    if (drawn || !query.like) return;
+    const [id, key] = query.like.split(":");
     const family = await app.atlas.family(id);
     const curve = findCurve(family, key ?? "");
     if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
-    this.given(curvePoints(family, curve), family.curves.closed[curve] === 1);
+    this.setShape(curvePoints(family, curve), family.curves.closed[curve] === 1);
   }
 
-  given(points, closed) {
+  setShape(points, closed) {
     this.pad.show(points, closed);
     this.shape = askedShape(points, closed);
-    this.asked.part ??= !closed;
+    this.query.part ??= !closed;
     this.options.mark();
   }
 
-  drawn(points, closed) {
+  setDrawnShape(points, closed) {
     this.shape = askedShape(points, closed);
     if (!this.shape) return;
-    Object.assign(this.asked, { d: encodedShape(this.shape.points, closed), like: null, part: !closed });
+    Object.assign(this.query, { d: encodedShape(this.shape.points, closed), like: null, part: !closed });
     this.options.mark();
-    this.ask();
+    this.submit();
   }
 
   /** Searches what is loaded; a later search stops an earlier one. */
   async search() {
     if (!this.shape || !this.loaded) return;
     this.turn += 1;
-    const mine = this.turn;
-    const stopped = () => mine !== this.turn;
-    const { part, least, mirror, by } = this.asked;
+    const turn = this.turn;
+    const stopped = () => turn !== this.turn;
+    const { part, least, mirror, by } = this.query;
     this.results.setAttribute("aria-busy", "true");
     const indexes = [];
     for (const family of this.loaded) {
@@ -169,29 +169,29 @@ class ShapeView {
   }
 
   show(found) {
-    const { by } = this.asked;
+    const { by } = this.query;
     const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
     const ranked = `by their ${by} deviation in % of the shape’s extent`;
     const sentence = found.length
       ? `The ${found.length === 1 ? "" : `${found.length} `}nearest of ${count.toLocaleString("en")} curves, ${ranked}`
       : "Nothing is like this";
     fill(this.status, sentence);
-    this.app.say(sentence);
+    this.app.announce(sentence);
     this.results.removeAttribute("aria-busy");
     fill(
       this.results,
-      found.map((one) => matchItem(this.app, one, this.shape, this.asked)),
+      found.map((one) => matchItem(this.app, one, this.shape, this.query)),
     );
   }
 
   /** What is asked is another: so are the address and what is found. */
-  ask() {
-    this.addressed();
+  submit() {
+    this.writeAddress();
     this.search();
   }
 
-  addressed() {
-    this.app.replace(routeAddress("shape", formatShapeQuery(this.asked), this.app));
+  writeAddress() {
+    this.app.replace(routeAddress("shape", formatShapeQuery(this.query), this.app));
   }
 
   /** Another shape has another address, and is shown anew. */
