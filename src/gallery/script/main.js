@@ -1,4 +1,4 @@
-// The gallery begins here.
+// The entry point of the gallery.
 
 import { openAtlas } from "./data/atlas.js";
 import { tabPins } from "./view/pins.js";
@@ -13,7 +13,7 @@ import { familyRoute } from "./view/family.js";
 
 const app = { atlas: openAtlas(document, window), pins: tabPins(window) };
 
-/** The rooms, the particular before the general. */
+/** The routes, the more specific first. */
 const routes = [overviewRoute, findRoute, shapeRoute, compareRoute, plateRoute, pageRoute, familyRoute];
 
 openShell(app, routes, document.getElementById("gallery"));

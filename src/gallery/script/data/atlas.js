@@ -1,12 +1,12 @@
-// The atlas: what the page says of all families, and the families themselves, each loaded when it is first
-// asked for.
+// The atlas: the summary of all families, and the data of each family, loaded on first use.
 
 import { FamilyReader } from "./family.js";
 
 /**
- * The atlas of `document`: { title, program, measures, families: [{ id, title, … }], book, family(id) }.
+ * Opens the atlas of `document`: { title, program, measures, families: [{ id, title, … }], book, family(id)
+ * }.
  *
- * A page that is opened from disk can fetch nothing, but it can load scripts: those of families call
+ * A page opened from disk cannot fetch files but can load scripts; the scripts of families call
  * `couplerAtlas`.
  */
 export function openAtlas(document, window) {
@@ -29,7 +29,7 @@ export function openAtlas(document, window) {
       const script = document.createElement("script");
       script.src = shown.script;
       const failed = () => reject(new Error(`${shown.script} cannot be read: render the atlas again`));
-      // Scripts run one at a time, and each is followed by its event.
+      // Scripts run one at a time, each followed by its load event.
       script.onload = () => {
         script.remove();
         if (loaded?.id === shown.id) resolve(loaded);
@@ -48,7 +48,7 @@ export function openAtlas(document, window) {
   return { ...summary, family };
 }
 
-/** The file of a page, numbered from 1, or null where pages have none. */
+/** The file of a page, numbered from 1; null if the family's pages are not written as files. */
 export function pageFile(atlas, id, page) {
   const shown = atlas.families.find((family) => family.id === id);
   if (!shown?.page_format || page > shown.pages) return null;

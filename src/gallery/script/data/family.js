@@ -1,19 +1,19 @@
-// A family of the atlas, put together from the statements of its script.
+// The data of a family, assembled from the statements of its script.
 
 import { concatenateArrays, unpackArray } from "./packed.js";
 
-/** The code of a word that a curve does not have. */
+/** The code of a missing word. */
 export const NO_WORD = 255;
 
 /**
- * Collects the statements of a family's script; `finish()` is the family:
+ * Collects the statements of a family's script. `finish()` returns the family:
  *
- * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper { width, height, color
- *   "#rrggbb", which older data lack }, dash_deg, straight, template, names, free, derived), and
+ * what `begin` passes (id, title, source, legend, linkage, layout, sampling, paper { width, height, color
+ *   "#rrggbb", missing in older data }, dash_deg, straight, template, names, free, derived), and
  * cells { count, number, values (count × names), status (0 ok, 1 partial, 2 none), reason, caption, note },
  * curves { count, cell, trace, circuit, page (from 1; 0: on none), closed, measures, words,
  *   box (x0 y0 x1 y1), start, points },
- * pages [{ views: [{ cell, scale, origin, curves: [curve] }] }], cells and curves by their places from 0.
+ * pages [{ views: [{ cell, scale, origin, curves: [curve] }] }]; cells and curves are indices from 0.
  */
 export class FamilyReader {
   constructor(head) {
@@ -72,7 +72,7 @@ function joinCurves(chunks) {
   const counts = all("count", Uint16Array);
   let [at, before] = [0, 0];
   for (const chunk of chunks) {
-    // Within a chunk cells are counted from its first.
+    // Cell indices are relative to the chunk.
     const curves = unpackArray(chunk.curves.cell).length;
     for (let k = 0; k < curves; k += 1) cell[at + k] += before;
     at += curves;
@@ -104,7 +104,7 @@ function joinMeasures(parts) {
   );
 }
 
-/** Words of chunks under one numbering. */
+/** Joins the words of chunks under one numbering. */
 function joinWords(parts) {
   const names = Object.keys(parts[0]?.words ?? {});
   return Object.fromEntries(
@@ -122,7 +122,7 @@ function joinWords(parts) {
   );
 }
 
-/** Where each curve is, by its key. */
+/** The index of each curve, by its key. */
 function indexCurves(family) {
   const places = new Map();
   for (let k = 0; k < family.curves.count; k += 1) places.set(curveKey(family, k), k);
@@ -140,18 +140,18 @@ function resolvePage(family, views) {
   return { views: views.map(seen) };
 }
 
-/** What a curve is called in addresses: the numbers of its cell, its trace and its circuit. */
+/** The key of a curve in addresses: the numbers of its cell, its trace and its circuit. */
 export function curveKey(family, curve) {
   const { cell, trace, circuit } = family.curves;
   return `${family.cells.number[cell[curve]]}.${trace[curve]}.${circuit[curve]}`;
 }
 
-/** The place of the curve of a name, or undefined. */
+/** The index of the curve with a key, or undefined. */
 export function findCurve(family, key) {
   return family.places.get(key);
 }
 
-/** The points of a curve, [x0, y0, x1, y1, …], good to 1/65535 of its extent. */
+/** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. */
 export function curvePoints(family, curve) {
   const { box, start, points } = family.curves;
   const [x0, y0, x1, y1] = box.subarray(4 * curve, 4 * curve + 4);
@@ -170,7 +170,7 @@ export function cellValues(family, cell) {
   return family.cells.values.slice(cell * width, (cell + 1) * width);
 }
 
-/** What was measured of a curve under a name: a number, a word, or undefined where it does not apply. */
+/** The value of a measure of a curve: a number, a word, or undefined if it does not apply. */
 export function measureValue(family, curve, name) {
   const numbers = family.curves.measures[name];
   if (numbers) return Number.isNaN(numbers[curve]) ? undefined : numbers[curve];

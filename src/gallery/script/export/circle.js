@@ -1,18 +1,18 @@
-// Whether a path is a circle, or a part of one.
+// Recognizes paths that are circles or circular arcs.
 
 import { roundToPlaces } from "./digits.js";
 
-// How far a point of a circle may be from it, in parts of its radius.
+// The largest distance of a point from the circle, relative to its radius.
 const OFF_CIRCLE = 1e-9;
-// A part of a circle larger than this, in parts of the path's extent, is drawn as a line.
+// A larger arc, relative to the path's extent, is drawn as a polyline.
 const LARGEST_CIRCLE = 1e4;
-// Through fewer points than this there may be a circle by chance.
+// Fewer points may lie on a circle by chance.
 const FEWEST_ON_CIRCLE = 12;
 
 /**
- * The circle on which all points of a path and some further ones are, all { x, y }: { x, y, radius, arc:
- * [from, to] in degrees counter-clockwise, or null where it is whole }; null where there is none. The path
- * may go over it to and fro.
+ * The circle that contains all points of a path and some further points, all { x, y }: { x, y, radius, arc:
+ * [from, to] in degrees counter-clockwise, or null for a full circle }; null if there is none. The path may
+ * go back and forth on it.
  */
 export function circleOfPath(path, further) {
   if (path.length + further.length < FEWEST_ON_CIRCLE) return null;
@@ -35,12 +35,12 @@ export function circleOfPath(path, further) {
   }
   const isWhole = ((most.angle - least.angle) * 180) / Math.PI >= 360 * (1 - OFF_CIRCLE);
   const arc = isWhole ? null : [least, most].map(({ at }) => directionDeg(at.x - x, at.y - y));
-  // Digits beyond what the points are good for say nothing.
+  // Further digits are not significant.
   const places = 12 - Math.ceil(Math.log10(radius));
   return { x: roundToPlaces(x, places), y: roundToPlaces(y, places), radius: roundToPlaces(radius, places), arc };
 }
 
-/** The longer side of the box round points { x, y }. */
+/** The longer side of the bounding box of points { x, y }. */
 export function extentOfPath(points) {
   let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const { x, y } of points) {
@@ -49,10 +49,10 @@ export function extentOfPath(points) {
   return points.length > 0 ? Math.max(x1 - x0, y1 - y0) : 0;
 }
 
-// The circle through the first point, the one furthest from it, and the one furthest from their line.
+// The circle through the first point, the point furthest from it, and the point furthest from their line.
 function circleThrough(path) {
   const a = path[0];
-  // Of equals the last.
+  // Of equally distant points, the last.
   const furthest = (value) => path.reduce((best, p) => (value(p) >= value(best) ? p : best));
   const b = furthest((p) => (p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y));
   const [abx, aby] = [b.x - a.x, b.y - a.y];
@@ -66,7 +66,7 @@ function circleThrough(path) {
   return Number.isFinite(radius) && radius > 0 ? { x: a.x + x, y: a.y + y, radius } : null;
 }
 
-// A direction in degrees from 0 up to 360, to nine places.
+// A direction in degrees from 0 up to 360, to nine decimal places.
 function directionDeg(x, y) {
   const deg = roundToPlaces((Math.atan2(y, x) * 180) / Math.PI, 9);
   return roundToPlaces(deg < 0 ? deg + 360 : deg, 9);

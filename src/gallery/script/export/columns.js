@@ -1,4 +1,4 @@
-// The further columns of points.csv.
+// The optional columns of points.csv.
 
 import { poleOfRates } from "../kinematics/instant.js";
 import {
@@ -15,8 +15,8 @@ import {
 import { ratesToJerkAt } from "../kinematics/poses.js";
 
 /**
- * What each column is at a sample { linkage, rates, input, side, velocity, acceleration, jerk (of the traced
- * joint), pole() }, rates to a radian of input or a unit of length.
+ * The value of each column at a sample { linkage, rates, input, side, velocity, acceleration, jerk (of the
+ * traced joint), pole() }; rates are per radian of input or per unit of length.
  */
 const COLUMN_VALUES = new Map([
   ["vx", ({ velocity: [vx] }) => vx],
@@ -45,18 +45,15 @@ const COLUMN_VALUES = new Map([
   ["beta_deg", betaAt],
 ]);
 
-/** The names of all further columns, in the order of the program. */
+/** The names of all optional columns, in the program's order. */
 export function columnNames() {
   return [...COLUMN_VALUES.keys()];
 }
 
-/**
- * The columns `names` of a joint at a sample of a circuit of a linkage; not a number where one does not
- * apply.
- */
+/** The columns `names` of a joint at a sample of a circuit; NaN where one does not apply. */
 export function columnsAtSample(names, linkage, course, joint, sample) {
   if (names.length === 0) return [];
-  // A closed circuit begins where its last pass ends, perhaps a few turns on.
+  // A closed circuit starts where its last pass ends, possibly several turns later.
   const pass = course.passes[course.pass[sample]];
   const input = sample === 0 && course.closed && pass.end.flat !== 0 ? pass.to : course.input[sample];
   const rates = ratesToJerkAt(linkage, pass, input);
@@ -79,7 +76,7 @@ function curvatureOfRates({ velocity: [vx, vy], acceleration: [ax, ay] }) {
   return (vx * ay - vy * ax) / Math.sqrt(vx * vx + vy * vy) ** 3;
 }
 
-// Its derivative by the length of the path.
+// The derivative of the curvature with respect to arc length.
 function curvatureRateOfRates({ velocity: [vx, vy], acceleration: [ax, ay], jerk: [jx, jy] }) {
   const v2 = vx * vx + vy * vy;
   const bend = vx * ay - vy * ax;

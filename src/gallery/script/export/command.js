@@ -1,8 +1,8 @@
-// The command lines that make again what is exported away.
+// Command lines that export the same curves with the program.
 
 /**
- * The command that takes away so many curves, which the words name (shortenCurveNames); the manifest is in the
- * folder.
+ * The command that exports `count` curves, selected by `words` (shortenCurveNames), from a manifest in the
+ * atlas's folder.
  */
 export function exportCommand(words, count, manifest = "atlas.toml") {
   const formats = ["svg", "moving-svg", "png", "dxf", "csv", "json", "toml"];
@@ -12,8 +12,9 @@ export function exportCommand(words, count, manifest = "atlas.toml") {
 }
 
 /**
- * What to do for curves on circuits beside the atlas, with the command; `names` are theirs, `words` those in
- * the manifest fragment (curveNamesInManifest), null of what it cannot say.
+ * Instructions and the command for curves on circuits that the atlas does not contain. `names` are the
+ * curves' names; `words` are their names in the manifest fragment (curveNamesInManifest), null where a
+ * manifest cannot describe the curve.
  */
 export function extraCircuitsCommand(names, words) {
   const unsaid = names.filter((_, k) => words[k] === null);
@@ -28,8 +29,8 @@ export function extraCircuitsCommand(names, words) {
 }
 
 /**
- * Names of curves in as few words as name the same: all curves of a family by its id, all of a cell by its
- * number. `families` has the families by their ids.
+ * The shortest list of words that selects the same curves: a family's id for all its curves, a cell's number
+ * for all curves of the cell. `families` maps ids to families.
  */
 export function shortenCurveNames(names, families) {
   const words = [];
@@ -59,7 +60,7 @@ export function shortenCurveNames(names, families) {
   return [...shortened, ...words];
 }
 
-/** A word for a shell; "?" and "&" mean something else there. */
+/** Quotes a word for a shell, where "?" and "&" are special. */
 function quoteForShell(word) {
   return /^[\w:.,=/-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }

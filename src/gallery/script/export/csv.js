@@ -3,7 +3,7 @@
 import { columnsAtSample } from "./columns.js";
 import { shortestDigits } from "./digits.js";
 
-/** The names of the columns behind cell, trace and circuit. */
+/** The names of the columns after cell, trace and circuit. */
 export function pointColumns({ linkage, family }) {
   const further = Array.from({ length: Math.max(linkage.dyads - 1, 0) }, (_, k) => `branch_${k + 2}`);
   const input = linkage.input.isLength ? "input_length" : "input_deg";
@@ -24,7 +24,7 @@ export function pointRows(exported) {
   ]);
 }
 
-/** The curve's rows of points.csv, under its header. */
+/** The curve's rows of points.csv, with the header. */
 export function csvOfCurve(exported) {
   const { cell, trace, circuit } = exported;
   const lines = pointRows(exported).map((row) => [cell, trace, circuit, ...row].map(shortestDigits).join(","));

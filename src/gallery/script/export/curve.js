@@ -1,4 +1,4 @@
-// A curve that is exported away: found by its name, and solved anew as the atlas sampled it.
+// Looks up a curve by its name and solves it for export, sampled as in the atlas.
 
 import { LinkageError } from "../kinematics/assembly.js";
 import { changedValues, templateWithChanges } from "../kinematics/changes.js";
@@ -9,9 +9,9 @@ import { measureValue } from "../data/family.js";
 import { shortestDigits } from "./digits.js";
 
 /**
- * What a name says, "evans:12.1.1?p=2.5&k=2": { family, key, cell, trace, circuit, changes: Map of names to
- * numbers }; null where it is none. The change "circuit" is another circuit of the linkage, counted from 1
- * among all that it has, which an atlas that takes one alone does not have.
+ * Parses the name of a curve, "evans:12.1.1?p=2.5&k=2": { family, key, cell, trace, circuit, changes: Map of
+ * names to numbers }; null if it is not a name. The change "circuit" selects a circuit by its number among
+ * all circuits of the linkage; an atlas of one circuit for each cell does not contain the others.
  */
 export function parseCurveName(name) {
   const found = /^([^:?]+):((\d+)\.(\d+)\.(\d+))(?:\?(.*))?$/.exec(name);
@@ -34,7 +34,7 @@ export function parseCurveName(name) {
   };
 }
 
-/** The changes of a name apart: those of parameters, and another circuit's number, or null. */
+/** Separates changed parameters from the number of an extra circuit, which is null if there is none. */
 function splitChanges(family, all) {
   const extraCircuit = family.names.includes("circuit") ? null : (all?.get("circuit") ?? null);
   const changes = new Map([...(all ?? [])].filter(([word]) => extraCircuit === null || word !== "circuit"));
@@ -42,12 +42,12 @@ function splitChanges(family, all) {
 }
 
 /**
- * The curve of a name of `family`, solved: { name, family, cell (its number), place (its cell's, from 0),
- * curve (its place, from 0), trace, circuit (its number), beside (the same, of a circuit that the name asks
- * for beside the atlas, else null), changes, values, template, linkage, motion, course (the sampled circuit),
- * joint, status, reason }. The motion of such a circuit is that of all circuits.
+ * Solves the curve with a name of `family`: { name, family, cell (number), place (the cell's index), curve
+ * (index), trace, circuit (number), extraCircuit (the circuit's number if the atlas does not contain it, else
+ * null), changes, values, template, linkage, motion, course (the sampled circuit), joint, status, reason }.
+ * For an extra circuit, the motion has all circuits.
  *
- * @throws {Error} a sentence on why there is no such curve
+ * @throws {Error} a sentence that says why there is no such curve
  */
 export function solveNamedCurve(family, name) {
   const parsed = parseCurveName(name) ?? {};
@@ -88,8 +88,8 @@ export function solveNamedCurve(family, name) {
 }
 
 /**
- * What a manifest has to say of the curve of a name of `family`: { family, name, trace, beside, values,
- * changes }; nothing is solved.
+ * The manifest case of the curve with a name of `family`: { family, name, trace, extraCircuit, values,
+ * changes }. Solves nothing.
  */
 export function manifestCase(family, name) {
   const { key, trace, changes: all } = parseCurveName(name) ?? {};
@@ -100,7 +100,7 @@ export function manifestCase(family, name) {
   return { family, name: formatCurveName(family.id, key, changes, extraCircuit), trace, extraCircuit, values, changes };
 }
 
-// A linkage that cannot be put together is told of by its curve's name.
+// If the linkage cannot be assembled, the error names the curve.
 function solveMotion(template, values, sampling, name) {
   try {
     const linkage = linkageOf(template, values);
@@ -118,8 +118,8 @@ function formatCurveName(id, key, changes, extraCircuit) {
 }
 
 /**
- * The name of a exported curve's file, without its ending: "evans-12-1-1", "evans-12-1-1-p-2.5", and, on a
- * circuit beside the atlas, "evans-12-1-circuit-2".
+ * The name of the curve's file without its extension: "evans-12-1-1", "evans-12-1-1-p-2.5", or, for a circuit
+ * that the atlas does not contain, "evans-12-1-circuit-2".
  */
 export function fileStem({ family, cell, trace, circuit, extraCircuit, changes }) {
   const changed = [...changes].map(([name, value]) => `-${name}-${shortestDigits(value)}`);
@@ -128,8 +128,8 @@ export function fileStem({ family, cell, trace, circuit, extraCircuit, changes }
 }
 
 /**
- * What is measured of a exported curve, [[name, number | string | null], …] under `names` and in their order: as
- * the atlas has it, or, of one with changed parameters or beside it, exported anew.
+ * The measures `names` of an exported curve, [[name, number | string | null], …]: those of the atlas, or
+ * computed if parameters are changed or the atlas does not contain the circuit.
  */
 export function measuresOfCurve(exported, names) {
   const { family, curve, changes, extraCircuit, linkage, motion, course, joint } = exported;
@@ -139,8 +139,8 @@ export function measuresOfCurve(exported, names) {
 }
 
 /**
- * The pose a linkage is shown in for CAD: { x, y } of a joint at the sample a third of the way through its
- * circuit, where no dyad of a linkage that goes there and back is near its limit.
+ * The pose of the linkage in CAD files: { x, y } of a joint at the sample a third of the way through the
+ * circuit, where no dyad of an oscillating linkage is near its limit.
  */
 export function exportPose({ course: { x, y, count } }) {
   const sample = Math.floor(count / 3);

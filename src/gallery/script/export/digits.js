@@ -1,8 +1,8 @@
-// Numbers as the program writes them, to the last digit.
+// Formats numbers as the program writes them, to the last digit.
 
 /**
- * A number in the fewest digits that read back to it: written out from 1e-5 up to 1e16, beyond with an
- * exponent; zero without a sign, `inf`, and nothing where it is not a number.
+ * The shortest digits that parse back to a number: positional from 1e-5 up to 1e16, otherwise with an
+ * exponent. Zero has no sign; infinity is `inf`; NaN is empty.
  */
 export function shortestDigits(value) {
   if (value === 0) return "0";
@@ -14,8 +14,8 @@ export function shortestDigits(value) {
 }
 
 /**
- * The same with a point or an exponent always: some readers of DXF take a number without either for a whole
- * one.
+ * The same, always with a decimal point or an exponent: some DXF readers take a number without either for an
+ * integer.
  */
 export function realDigits(value) {
   if (value === 0) return "0.0";
@@ -25,7 +25,7 @@ export function realDigits(value) {
   return digits.includes(".") ? digits : `${digits}.0`;
 }
 
-/** A number to so many decimal places, none where that is negative; zero has no sign. */
+/** Rounds a number to decimal places, to an integer if `places` is negative; zero has no sign. */
 export function roundToPlaces(value, places) {
   return Number(value.toFixed(Math.min(Math.max(places, 0), 100))) + 0;
 }

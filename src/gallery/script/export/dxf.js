@@ -1,7 +1,6 @@
-// A drawing in the Drawing Interchange Format of AutoCAD R12 (AC1009), which every CAD program reads (AutoCAD
-// Release 12 Customization Manual, chapter 11). The curve is a polyline, or a circle or an arc where it is
-// one; the linkage is lines in one pose, its joints points, the fixed ones on a layer of their own. R12 has
-// no way to name a unit.
+// Writes a drawing in AutoCAD R12 DXF (AC1009), which every CAD program reads (AutoCAD Release 12
+// Customization Manual, chapter 11). The curve is a polyline, a circle or an arc; the linkage is drawn as
+// lines in one pose; joints are points, with fixed pivots on a layer of their own. R12 cannot name a unit.
 
 import { mechanismOf } from "../draw/mechanism.js";
 import { circleOfPath, extentOfPath } from "./circle.js";
@@ -9,7 +8,7 @@ import { realDigits } from "./digits.js";
 import { polylineOfCurve } from "./polyline.js";
 import { exportPose } from "./curve.js";
 
-// 0 is always there; colours by AutoCAD's numbers: 1 is red, 5 blue, 7 black on white.
+// Layer 0 is required. AutoCAD colour numbers: 1 is red, 5 blue, 7 black on white.
 const DXF_LAYERS = [
   ["0", 7],
   ["CURVE", 1],
@@ -18,10 +17,10 @@ const DXF_LAYERS = [
   ["PIVOTS", 7],
 ];
 
-/** How far a chord of a polyline is from the curve at most, in parts of the curve's extent. */
+/** The chord error of a polyline, relative to the curve's extent. */
 const DXF_CHORD = 1e-4;
 
-/** A exported curve as a DXF document; `program` is the program's name and version. */
+/** An exported curve as a DXF document; `program` is the program's name and version. */
 export function dxfOfCurve(exported, program, chord = DXF_CHORD) {
   const samples = samplesOfCurve(exported);
   const path = polylineOfCurve(exported, chord * extentOfPath(samples));
@@ -57,7 +56,7 @@ export function dxfOfCurve(exported, program, chord = DXF_CHORD) {
   ].join("");
 }
 
-/** The samples of a exported curve, [{ x, y }, …], those that have a place. */
+/** The samples of an exported curve, [{ x, y }, …]; samples without a finite position are left out. */
 function samplesOfCurve({ course: { x, y, count }, joint }) {
   const all = Array.from({ length: count }, (_, k) => ({ x: x[joint][k], y: y[joint][k] }));
   return all.filter((p) => Number.isFinite(p.x) && Number.isFinite(p.y));
@@ -83,7 +82,7 @@ function dxfHeader(points) {
   const most = { x: Math.max(...xs), y: Math.max(...ys) };
   const corner = (name, { x, y }, isSpatial) =>
     dxfGroup(9, name) + dxfNumber(10, x) + dxfNumber(20, y) + (isSpatial ? dxfNumber(30, 0) : "");
-  // Decimal numbers, of as many places as it shows; angles in decimal degrees from the x-axis,
+  // Decimal numbers, with as many places as are shown; angles in decimal degrees from the x-axis,
   // counter-clockwise.
   const settings = [
     ["$LUNITS", 2],
@@ -103,7 +102,7 @@ function dxfHeader(points) {
       corner("$LIMMAX", most),
       ...settings.map(([name, value]) => dxfGroup(9, name) + dxfGroup(70, value)),
       dxfGroup(9, "$ANGBASE") + dxfNumber(50, 0),
-      // Points are shown as circles with a cross, of a hundredth of the drawing.
+      // Points are shown as circles with a cross, a hundredth of the drawing in size.
       dxfGroup(9, "$PDMODE") + dxfGroup(70, 34),
       dxfGroup(9, "$PDSIZE") + dxfNumber(40, Math.max(most.x - least.x, most.y - least.y) / 100),
     ].join(""),
@@ -136,7 +135,7 @@ function dxfTables() {
   );
 }
 
-// A group of a code and a value, each on a line of its own.
+// A group: a code and a value, each on its own line.
 function dxfGroup(code, value) {
   return `${String(code).padStart(3)}\n${value}\n`;
 }
@@ -162,8 +161,7 @@ function dxfCircle({ x, y, radius, arc }) {
   return dxfEntity(arc ? "ARC" : "CIRCLE", "CURVE", dxfPlace(10, { x, y }), dxfNumber(40, radius), ...ends);
 }
 
-// Of a closed polyline the last point is the first, and is not said twice. The polyline's own place is a
-// dummy.
+// A closed polyline does not repeat its first point. The polyline's own position is a dummy.
 function dxfPolyline(path, closed) {
   const vertices = closed && path.length > 1 ? path.slice(0, -1) : path;
   return [

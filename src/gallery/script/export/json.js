@@ -1,4 +1,4 @@
-// Everything that is known of a curve, for programs: docs/export.md describes it.
+// Writes everything known about a curve as JSON; docs/export.md describes the format.
 
 import { headingOf } from "../kinematics/pass.js";
 import { sideOf } from "../kinematics/signs.js";
@@ -9,7 +9,7 @@ import { measuresOfCurve } from "./curve.js";
 /** The version of the format. */
 const JSON_FORMAT_VERSION = 1;
 
-/** A exported curve as JSON; `measures` are the names of all measures, in the order of the atlas. */
+/** An exported curve as JSON; `measures` are the names of all measures, in the order of the atlas. */
 export function jsonOfCurve(exported, measures) {
   const { name, family, cell, trace, circuit, values, linkage, motion, joint, status, reason } = exported;
   const width = family.template.parameters.length;
@@ -38,7 +38,8 @@ export function jsonOfCurve(exported, measures) {
   });
 }
 
-// Of every pass its ends, with the joints whose dyads lie flat there, and the sides of all two-valued joints.
+// The ends of each pass, the joints whose dyads are extended or folded there, and the sides of all two-valued
+// joints.
 function circuitInJson(linkage, course) {
   const end = ({ at, flat }) => {
     const isFlat = ({ step }) =>
@@ -54,7 +55,7 @@ function circuitInJson(linkage, course) {
   return { closed: course.closed, passes };
 }
 
-// Whether the input turns round at the end of a pass.
+// Whether the input reverses at the end of a pass.
 function turnsAfterPass({ passes, closed }, k) {
   const isLast = k + 1 === passes.length;
   return (!isLast || closed) && headingOf(passes[k]) !== headingOf(passes[(k + 1) % passes.length]);

@@ -1,9 +1,8 @@
-// A piece of a manifest that has the cells of curves once more: a family for each linkage and the way it is
-// sampled.
+// Writes a manifest fragment that contains the cells of curves: one family for each linkage and sampling.
 
 import { shortestDigits } from "./digits.js";
 
-/** The linkages that the program knows by itself. */
+/** The linkages of the built-in catalogue. */
 export const CATALOGUE = [
   "chebyshev",
   "cognates",
@@ -28,9 +27,9 @@ export const CATALOGUE = [
 ];
 
 /**
- * The families of some curves { family, values, name, beside, changes }, in their order, as TOML; to be put
- * into a manifest that has an [atlas], and the linkages of the atlas's own that they name. A cell that
- * several curves are exported of stands once. Of a circuit beside the atlas all circuits are exported.
+ * The families of curves { family, values, name, extraCircuit, changes }, in their order, as TOML. The
+ * fragment belongs in a manifest with an [atlas] and the custom linkages that it names. A cell shared by
+ * several curves appears once. A curve on a circuit that the atlas does not contain selects all circuits.
  */
 export function manifestOfCurves(curves) {
   const tables = familiesOfCurves(curves).map(familyInManifest);
@@ -38,8 +37,8 @@ export function manifestOfCurves(curves) {
 }
 
 /**
- * The names that curves on circuits beside the atlas have in their manifest, "evans-taken:1.1.2"; null of one
- * whose traced point was moved, for no parameter says that.
+ * The names in the manifest of curves on circuits that the atlas does not contain, "evans-taken:1.1.2"; null
+ * if the traced point was moved, which no parameter describes.
  */
 export function curveNamesInManifest(curves) {
   const families = familiesOfCurves(curves);
@@ -51,7 +50,7 @@ export function curveNamesInManifest(curves) {
   });
 }
 
-// A family for each linkage, title and way of sampling, { settings, title, linkage, number, curves }.
+// One family for each linkage, title and sampling: { settings, title, linkage, number, curves }.
 function familiesOfCurves(curves) {
   const families = [];
   for (const curve of curves) {
@@ -68,7 +67,7 @@ function familiesOfCurves(curves) {
   return families.map((family, k) => ({ ...family, number: earlier(k) + 1 }));
 }
 
-// The cells of a family in their order, with the names of the curves that each is there for.
+// The cells of a family in their order, with the names of their curves.
 function rowsOfFamily({ curves }) {
   const rows = new Map();
   for (const { family, values, name } of curves) {
@@ -104,7 +103,7 @@ function familyInManifest(made) {
   return `${lines.join("\n")}\n${settings}cases = [\n${cases.join("")}]\n`;
 }
 
-// A traced point that was moved on its link, "M.along", is no parameter: that is for a linkage of one's own.
+// A traced point moved on its link, "M.along", is not a parameter: it needs a custom linkage.
 function movedPointComment({ family, name, changes }) {
   const moved = [...(changes ?? [])].filter(([word]) => !family.names.includes(word));
   if (moved.length === 0) return [];
@@ -112,7 +111,7 @@ function movedPointComment({ family, name, changes }) {
   return [`# Of ${name}, ${words.join(" and ")} is for a [[linkage]] of your own: no parameter says it.`];
 }
 
-// A circuit that the atlas does not have is one of all.
+// Notes a circuit that the atlas does not contain.
 function extraCircuitComment({ name, extraCircuit }) {
   return extraCircuit === null ? [] : [`# ${name} is circuit ${extraCircuit} of all: of each cell the others come too.`];
 }
@@ -122,7 +121,7 @@ function caseInManifest(family, values) {
   return pairs.length > 0 ? `{ ${pairs.join(", ")} }` : "{}";
 }
 
-// What a family says beside its cells: by it families of one linkage are told apart.
+// The settings of a family other than its cells; they distinguish families of one linkage.
 function settingsInManifest({ linkage, template, sampling, straight, columns }, hasAll) {
   const isLength = template.joints.some((joint) => "piston" in joint);
   const input = (value) => (isLength ? shortestDigits(value) : `"${shortestDigits(value)} deg"`);
@@ -145,14 +144,14 @@ function settingsInManifest({ linkage, template, sampling, straight, columns }, 
   return lines.map((line) => `${line}\n`).join("");
 }
 
-// Mirrored or not, and turned by so many degrees: to nine places, the digits a manifest will have had.
+// Mirroring and rotation; the angle is rounded to nine places to recover the digits of the manifest.
 function placementInManifest(mirror, cos, sin) {
   const deg = (Math.atan2(sin, cos) * 180) / Math.PI;
   const rounded = Math.sign(deg) * (Math.round(Math.abs(deg) * 1e9) / 1e9) + 0;
   return `{ mirror = ${mirror}, rotate = "${shortestDigits(rounded)} deg" }`;
 }
 
-// A text in TOML.
+// Quotes a TOML string.
 function tomlString(text) {
   const escaped = text.replace(/["\\]/g, "\\$&").replace(/[\u0000-\u001f\u007f-\u009f]/g, (c) => {
     return `\\u${c.charCodeAt(0).toString(16).toUpperCase().padStart(4, "0")}`;

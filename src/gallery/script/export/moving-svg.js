@@ -1,16 +1,16 @@
-// A plate that moves by itself.
+// Writes an animated plate.
 
 import { samplerOf, sampledCircuit } from "../kinematics/sampling.js";
 import { passLength } from "../kinematics/pass.js";
 import { svgOfPoses } from "./svg.js";
 
 /**
- * A exported curve as SVG with its linkage moving over the circuit, again and again, without any script: slower
- * towards its limits, as a crank is that is turned by hand; there and back where the circuit does not close.
+ * An exported curve as SVG with its linkage moving over the circuit in a loop, without a script: slower
+ * towards limits, and back and forth if the circuit is not closed.
  */
 export function movingSvgOfCurve(exported) {
-  // Between two poses places go straight: over 3 degrees no pin is off its circle by more than a thousandth
-  // of its radius.
+  // Positions are interpolated linearly between poses: over 3 degrees no pin leaves its circle by more than a
+  // thousandth of the radius.
   const [STEP_DEG, SECONDS_TO_A_TURN] = [3, 4];
   const { linkage, course } = exported;
   const turned = course.passes.reduce((sum, pass) => sum + passLength(pass) / 360, 0);

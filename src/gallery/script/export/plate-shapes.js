@@ -1,12 +1,12 @@
-// The linkage of a exported curve as shapes of a plate, each with how its path data follows from a pose.
+// The linkage of an exported curve as shapes of a plate, each with its path data as a function of the pose.
 
 import { blockData, cylinderData, linkData, slotData, slotEnds } from "../draw/link-shapes.js";
 import { circleData, pixel } from "../draw/path-data.js";
 
-/** Radius of a pin on a plate, in its quarter millimetres. */
+/** The radius of a pin on a plate, in quarter millimetres. */
 const PLATE_PIN = 4;
 
-// Presentation of each kind of shape; a plate has its colours in itself, for it is looked at anywhere.
+// The style of each kind of shape. A plate contains its own colours, because it is shown in other programs.
 const PLATE_INK = "#191816";
 const PLATE_PAPER = "#fffdf8";
 const SHAPE_STYLES = {
@@ -18,8 +18,8 @@ const SHAPE_STYLES = {
 };
 
 /**
- * The shapes of a mechanism (draw/mechanism.js) from the lowest to the highest, [{ look: attributes, data(at,
- * scale) }]: `at` is the places of all joints on the plate, [X0, Y0, X1, Y1, …], `scale` its units to a unit
+ * The shapes of a mechanism (draw/mechanism.js) from bottom to top, [{ look: attributes, data(at, scale) }]:
+ * `at` are the positions of all joints on the plate, [X0, Y0, X1, Y1, …]; `scale` is in plate units per unit
  * of length.
  */
 export function plateShapes(mechanism, traced) {
@@ -47,7 +47,7 @@ export function plateShapes(mechanism, traced) {
         .join(""),
     );
   return [
-    // No plate hides what is behind it.
+    // Plates are transparent.
     ...plates.map((joints) => shape("body", (at) => linkData(joints, at, true))),
     ...plates.map((joints) => shape("link", (at) => linkData(joints, at, true))),
     ...bars.map((joints) => shape("link", (at) => linkData(joints, at, false))),

@@ -1,14 +1,14 @@
-// A plate as an image, drawn by the browser.
+// Rasterizes a plate with the browser.
 
 import { svgOfCurve, PLATE_SIZE } from "./svg.js";
 
-/** The resolution of plates as images, in pixels to the inch. */
+/** The resolution of PNG plates, in pixels per inch. */
 const PLATE_DPI = 300;
 
-/** A exported curve as the bytes of a PNG image, in a while. */
+/** An exported curve as the bytes of a PNG image. */
 export async function pngOfCurve(exported) {
   const image = new Image();
-  // The picture is the page's own as data, which no canvas holds against it.
+  // A data URL does not taint the canvas.
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgOfCurve(exported))}`;
   await image.decode();
   const canvas = document.createElement("canvas");

@@ -1,4 +1,4 @@
-// The path of a exported curve with as few points as its tolerance allows, as the program has it.
+// Approximates the path of an exported curve by a polyline with few points, as the program does.
 
 import { linkageWithOnePoint } from "../kinematics/linkage.js";
 import { passLength } from "../kinematics/pass.js";
@@ -6,9 +6,9 @@ import { posesAt } from "../kinematics/poses.js";
 import { distanceToChord } from "../kinematics/path.js";
 
 /**
- * The path over a circuit, [{ x, y }, …] from its beginning to its end. No chord is further than `tolerance`
- * from the curve: half of that is for the refinement, as judged at the middle of a chord's input, half for
- * the points left out again.
+ * The path over a circuit, [{ x, y }, …] from start to end. No chord is further than `tolerance` from the
+ * curve: half of it is for the refinement, tested at the middle of each chord's input, and half for the
+ * simplification.
  */
 export function polylineOfCurve({ linkage, course, joint }, tolerance) {
   const alone = linkageWithOnePoint(linkage, joint);
@@ -20,10 +20,10 @@ export function polylineOfCurve({ linkage, course, joint }, tolerance) {
   return out.filter(({ x, y }) => Number.isFinite(x) && Number.isFinite(y));
 }
 
-// Points of a pass, as many as it takes; each round halves the inputs of the chords that are off the curve.
+// Refines the points of a pass; each round bisects the inputs of chords that are too far from the curve.
 function refinePass(linkage, pass, joint, tolerance) {
-  // No chord spans more of a crank's turn than 3 degrees, nor more of a pass than a part in 64: a longer one
-  // may cross its curve at its middle.
+  // A chord spans at most 3 degrees of crank rotation and 1/64 of the pass: a longer one may cross its curve
+  // at the middle.
   const [LONGEST, FEWEST, ROUNDS, MOST] = [3, 64, 30, 100000];
   const length = passLength(pass);
   const longest = linkage.input.isLength ? length / FEWEST : Math.min(LONGEST, length / FEWEST);
@@ -62,9 +62,8 @@ function splitLongChords(nodes, middles, tolerance) {
 }
 
 /**
- * A polyline [{ x, y }, …] with as few of its points as a sweep from its beginning finds, first and last
- * among them: none of the others is further than `tolerance` from it (Zhao and Saalfeld, Auto-Carto 13,
- * 1997).
+ * Simplifies a polyline [{ x, y }, …] with a sweep from its start; keeps the first and last points. No
+ * removed point is further than `tolerance` from the result (Zhao and Saalfeld, Auto-Carto 13, 1997).
  */
 function simplifyPath(points, tolerance) {
   if (points.length < 2) return [...points];
@@ -83,7 +82,7 @@ function simplifyPath(points, tolerance) {
   return out;
 }
 
-// Narrows the directions in which a line passes all points so far by a point, if the line may end there.
+// Narrows the directions in which a line passes all points so far, if the line may end at this point.
 function narrowSleeve(sleeve, point, tolerance) {
   const [x, y] = [point.x - sleeve.anchor.x, point.y - sleeve.anchor.y];
   const distance = Math.sqrt(x * x + y * y);
@@ -93,7 +92,7 @@ function narrowSleeve(sleeve, point, tolerance) {
   if (!isWithin || distance < sleeve.reach) return false;
   if (distance > tolerance) {
     sleeve.reach = distance;
-    // The tangents from the anchor to the circle of the tolerance about the point.
+    // The tangents from the anchor to the circle with radius `tolerance` around the point.
     const part = Math.sqrt((distance - tolerance) * (distance + tolerance)) / (distance * distance);
     const aside = tolerance / (distance * distance);
     const right = [x * part + y * aside, y * part - x * aside];

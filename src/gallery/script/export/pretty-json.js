@@ -1,9 +1,8 @@
-// JSON that people can read, as the program lays it out: a line for each member, lists of plain values on one
-// line.
+// Formats JSON as the program does: a line for each member, lists of plain values on one line.
 
 import { shortestDigits } from "./digits.js";
 
-/** A value as text, with the end of a line. Numbers that are not finite are null. */
+/** A value as text with a final newline. Numbers that are not finite become null. */
 export function prettyJson(value) {
   return `${prettyValue(value, 0)}\n`;
 }

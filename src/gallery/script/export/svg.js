@@ -1,4 +1,4 @@
-// A plate of a exported curve with its linkage, as an SVG of its own: 200 by 150 mm, in quarter millimetres.
+// Draws a plate of an exported curve and its linkage as SVG: 200 by 150 mm, in quarter millimetres.
 
 import { finePath } from "../kinematics/path.js";
 import { dashData, dashesOfPeriod } from "../draw/dashes.js";
@@ -10,10 +10,10 @@ import { shortestDigits } from "./digits.js";
 import { plateShapes } from "./plate-shapes.js";
 import { exportPose } from "./curve.js";
 
-/** The plate's size in millimetres, and its units to a millimetre. */
+/** The plate's size in millimetres, and its units per millimetre. */
 export const PLATE_SIZE = { width: 200, height: 150, units: 4 };
 
-/** A exported curve as SVG. */
+/** An exported curve as SVG. */
 export function svgOfCurve(exported) {
   const pose = exportPose(exported);
   const joints = exported.linkage.joints.map((_, joint) => pose(joint));
@@ -21,8 +21,8 @@ export function svgOfCurve(exported) {
 }
 
 /**
- * A plate of a exported curve with its linkage in one pose, or moving through several over so many seconds,
- * again and again; a pose is the place { x, y } of each joint.
+ * A plate of an exported curve with its linkage in one pose, or animated through several in `seconds`, in a
+ * loop; a pose has the position { x, y } of each joint.
  */
 export function svgOfPoses(exported, poses, seconds) {
   const mechanism = mechanismOf(exported.linkage, exported.course);
@@ -54,7 +54,7 @@ export function svgOfPoses(exported, poses, seconds) {
   return `<svg${attributesOf(head)}>\n${body.join("")}</svg>\n`;
 }
 
-// The box in the middle of what the lettering leaves.
+// The view centred in the area above the lettering.
 function viewOfPlate(box) {
   const { width, height, units } = PLATE_SIZE;
   const [top, foot, side] = [84, 84, 48];
@@ -66,7 +66,7 @@ function viewOfPlate(box) {
   return { ...view, x: view.x + side, y: view.y + top };
 }
 
-// What stays where it is: the frame, guides and wheels, and the curve in dashes on its own light line.
+// The static parts: the frame, guides and wheels, and the dashed curve on a light line.
 function staticShapes(exported, { frame, guides, wheels }, view) {
   const { linkage, course, joint, family } = exported;
   const place = (x, y) => [view.x + view.scale * x, view.y - view.scale * y];
@@ -95,12 +95,13 @@ function staticShapes(exported, { frame, guides, wheels }, view) {
   return `<g class="curve">\n${drawn.join("")}</g>\n`;
 }
 
-// The input a dash and its gap span: the family's, or, of a length, a round part of the longest pass.
+// The input covered by a dash and its gap: the family's, or, for a length, a round fraction of the longest
+// pass.
 function dashPeriodOfCurve(family, linkage, { passes }) {
   return linkage.input.isLength ? roundBelow(Math.max(...passes.map(passLength)) / 20) : family.dash_deg;
 }
 
-// Title, name and parameters, and a bar for the scale.
+// The title, the name, the parameters and a scale bar.
 function lettering(exported, view) {
   const { family, place, changes, values, name } = exported;
   const { width, height, units } = PLATE_SIZE;
@@ -124,7 +125,7 @@ function lettering(exported, view) {
   ].join("");
 }
 
-// Path data that goes through frames at equal steps of time.
+// Path data animated through frames at equal time steps.
 function animateElement(frames, seconds) {
   if (frames.every((frame) => frame === frames[0])) return "";
   const values = frames.join(";");
@@ -142,7 +143,7 @@ function attributesOf(attributes) {
     .join("");
 }
 
-/** A text in XML; what XML cannot have in any way is left out. */
+/** Escapes text for XML and removes characters that XML does not allow. */
 function escapeXml(text) {
   const entities = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
   return text

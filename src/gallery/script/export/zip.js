@@ -1,6 +1,6 @@
-// Several files in one: a ZIP archive without compression (PKWARE, APPNOTE 6.3, sections 4.3 and 4.4).
+// Writes a ZIP archive without compression (PKWARE, APPNOTE 6.3, sections 4.3 and 4.4).
 
-/** An archive of files [{ name, bytes }] with plain names, as bytes. The same files make the same archive. */
+/** An archive of files [{ name, bytes }] as bytes. The same files give the same archive. */
 export function zipOfFiles(files) {
   const entries = files.map(({ name, bytes }) => ({
     name: new TextEncoder().encode(name),
@@ -33,8 +33,7 @@ export function zipOfFiles(files) {
   return joinedBytes([...parts, ...directory, end]);
 }
 
-// What an archive says of a file twice: the version it takes, names in UTF-8, stored as it is, the first of
-// January 1980.
+// The fields of both headers of a file: version needed, UTF-8 names, stored, 1 January 1980.
 function zipFacts({ name, bytes, crc }) {
   return [
     [2, 20],
@@ -50,7 +49,7 @@ function zipFacts({ name, bytes, crc }) {
   ];
 }
 
-// A signature and fields [bytes, value], the least byte first.
+// A signature and fields [bytes, value], little-endian.
 function zipRecord(signature, fields) {
   const all = [[4, signature], ...fields];
   const out = new DataView(new ArrayBuffer(all.reduce((sum, [size]) => sum + size, 0)));
@@ -73,7 +72,7 @@ function joinedBytes(parts) {
   return out;
 }
 
-/** The checksum of bytes, CRC-32 as ZIP and PNG have it. */
+/** The CRC-32 checksum of bytes, as ZIP and PNG define it. */
 export function crc32OfBytes(bytes) {
   let crc = 0xffffffff;
   for (const byte of bytes) {

@@ -1,4 +1,4 @@
-// Which columns of a table can be asked about, in the order in which people ask.
+// The columns of a table that can be filtered, the most useful first.
 
 import { NO_WORD } from "../data/family.js";
 import { DERIVED_COLUMNS } from "./table.js";
@@ -15,8 +15,8 @@ const FIRST_NUMBERS = [
 const LATER_WORDS = ["type", "shortest", "symmetry"];
 
 /**
- * The columns of a table with two different values: [{ name, group: "first" | "more" | "parameters", kind:
- * "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are there whatever their values.
+ * The columns of a table with at least two different values: [{ name, group: "first" | "more" | "parameters",
+ * kind: "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are always included.
  */
 export function filterColumns(table, measures, kept = new Set()) {
   const told = new Map(measures.map((measure) => [measure.name, measure]));

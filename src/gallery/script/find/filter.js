@@ -1,8 +1,8 @@
-// Which rows of a table pass its filters.
+// Filters the rows of a table.
 
 /**
- * Filters of a table by the names of columns: { low, high } of numbers, either of them missing, both within;
- * or a Set of words. A row that misses what a filter asks for does not pass it.
+ * Filters of a table by column name: { low, high } for numbers (both optional, inclusive), or a Set of words.
+ * A row without a value does not pass.
  */
 export class Filters {
   constructor(table) {
@@ -12,7 +12,7 @@ export class Filters {
     this.passing = null;
   }
 
-  /** Sets the filter of a column, or takes it away with null. */
+  /** Sets the filter of a column; null removes it. */
   set(name, filter) {
     const before = this.fails.get(name);
     const after = filter && this.failuresOf(name, filter);
@@ -36,7 +36,7 @@ export class Filters {
     }
     const [low, high] = [filter.low ?? -Infinity, filter.high ?? Infinity];
     const values = this.table.numbers(name);
-    // A comparison with a missing number is false.
+    // A comparison with NaN is false.
     for (let row = 0; row < out.length; row += 1)
       out[row] = values[row] >= low && values[row] <= high ? 0 : 1;
     return out;
@@ -52,13 +52,13 @@ export class Filters {
     return this.passing;
   }
 
-  /** How many rows would pass without the filter of a column. */
+  /** The number of rows that pass without the filter of a column. */
   countWithout(name) {
     const own = this.fails.get(name);
     return this.failing.reduce((count, fails, row) => count + (fails === (own ? own[row] : 0) ? 1 : 0), 0);
   }
 
-  /** Of each word of a column, how many rows have it that pass all other filters. */
+  /** For each word of a column, the number of rows that have it and pass all other filters. */
   wordCounts(name) {
     const { values, codes } = this.table.words(name);
     const own = this.fails.get(name);

@@ -1,8 +1,8 @@
-// The order of rows by a column.
+// Sorts rows by a column.
 
 import { NO_WORD } from "../data/family.js";
 
-/** Orders of a table's rows, each reckoned once. */
+/** The sort orders of a table's rows, cached. */
 export class Orders {
   constructor(table) {
     this.table = table;
@@ -10,9 +10,8 @@ export class Orders {
   }
 
   /**
-   * All rows by a column of numbers or of words (`kind`), the least first, or the greatest if `down`; rows
-   * without a value come last both ways, and rows of one value in the table's order. Without a name, the
-   * table's order.
+   * All rows sorted by a column of numbers or words (`kind`), ascending, or descending if `down`. Rows
+   * without a value come last in both cases; ties keep the table's order. Without a name, the table's order.
    */
   by(name, kind, down) {
     const key = `${down ? "-" : ""}${kind} ${name}`;
@@ -28,7 +27,7 @@ export class Orders {
     return rows.sort((a, b) => {
       const [u, v] = [values[a], values[b]];
       if (Number.isNaN(u) || Number.isNaN(v)) return Number.isNaN(u) - Number.isNaN(v) || a - b;
-      // Infinities of one sign have no difference.
+      // The difference of equal infinities is NaN.
       return (u === v ? 0 : sign * (u < v ? -1 : 1)) || a - b;
     });
   }
@@ -40,7 +39,7 @@ function wordRanks({ values, codes }) {
   return Float64Array.from(codes, (code) => (code === NO_WORD ? NaN : ranks[code]));
 }
 
-/** Of rows in an order, those that pass. */
+/** The rows of an order that pass. */
 export function passingRows(order, failing) {
   const rows = new Uint32Array(order.length);
   let count = 0;

@@ -1,11 +1,11 @@
-// What is asked of the atlas, and its address:
+// The query of the Find view and its address:
 // `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
 
 const OTHER_KEYS = new Set(["family", "sort", "show"]);
 
 /**
- * The question of an address's query: { families: [id] or null for all, filters: Map of column to a Set of
- * words or { low, high }, sort: { name, down } , show: "sheet" | "table" }.
+ * Parses the query of an address: { families: [id] or null for all, filters: Map of column to a Set of words
+ * or { low, high }, sort: { name, down }, show: "sheet" | "table" }.
  */
 export function parseFindQuery(query) {
   const families = query.get("family");
@@ -31,7 +31,7 @@ function parseFilter(text) {
   return low === undefined && high === undefined ? null : { low, high };
 }
 
-/** The query of a question, as data/address.js writes it. */
+/** The inverse of parseFindQuery, as data/address.js writes it. */
 export function formatFindQuery({ families, filters, sort, show }) {
   const query = new Map();
   if (families) query.set("family", families.join(","));

@@ -1,8 +1,8 @@
-// All curves of some families as one table: a row for each, a column for each measure and parameter.
+// All curves of some families as one table: a row for each curve, a column for each measure and parameter.
 
 import { NO_WORD, curveKey } from "../data/family.js";
 
-/** Columns that are reckoned from measures: what people ask for that no one measure says. */
+/** Columns computed from measures, for frequent queries that no single measure answers. */
 export const DERIVED_COLUMNS = {
   mu_worst_deg: {
     unit: "deg",
@@ -28,10 +28,7 @@ export const DERIVED_COLUMNS = {
 const SYMMETRY_WORDS = ["not symmetric", "symmetric"];
 const INPUT_WORDS = ["between limits", "full turn"];
 
-/**
- * The rows of families: `family[row]`, `curve[row]` say whose; columns are made when they are first asked
- * for.
- */
+/** The rows of families: `family[row]` and `curve[row]` are indices. Columns are computed on first use. */
 export class CurveTable {
   constructor(families) {
     this.families = families;
@@ -46,13 +43,13 @@ export class CurveTable {
     });
   }
 
-  /** The name of a row's curve beyond its family. */
+  /** The name of a row's curve, with its family. */
   nameOf(row) {
     const family = this.families[this.family[row]];
     return `${family.id}:${curveKey(family, this.curve[row])}`;
   }
 
-  /** A column of numbers, f64[count], NaN where they are missing; a parameter's name has "p." before it. */
+  /** A column of numbers, f64[count], NaN where missing; a parameter's name is prefixed with "p.". */
   numbers(name) {
     if (!this.cache.has(name)) this.cache.set(name, this.computeNumbers(name));
     return this.cache.get(name);
@@ -75,7 +72,7 @@ export class CurveTable {
     return out;
   }
 
-  /** A column of words: { values, codes u8[count] }, NO_WORD where there is none. */
+  /** A column of words: { values, codes u8[count] }, NO_WORD where missing. */
   words(name) {
     const key = `words ${name}`;
     if (!this.cache.has(key)) this.cache.set(key, this.computeWords(name));

@@ -1,16 +1,15 @@
-// The curve that is brought forward on a page, while the page recedes, and what it does where it is pointed
-// at.
+// The highlighted curve of a page and the readings at the pointer; the rest of the page is dimmed.
 
 import { h, fill } from "./dom.js";
 import { solveCurveOrNull } from "./curve-reading.js";
 import { formatNumber } from "./labels.js";
 
-// The chord error of the curve that is brought forward, in pixels.
+// The chord error of the highlighted curve, in pixels.
 const HIGHLIGHT_ERROR = 0.1;
 
 /**
- * At most one curve of a page is forward: the one that is pointed at or has the focus, else the one that was
- * chosen.
+ * Highlights at most one curve of a page: the one under the pointer or with the focus, otherwise the selected
+ * one.
  */
 export class CurveHighlight {
   constructor(page) {
@@ -18,7 +17,7 @@ export class CurveHighlight {
     this.reset();
   }
 
-  /** Another page: nothing is forward. */
+  /** Resets the highlight for another page. */
   reset() {
     [this.selected, this.pointed, this.curve, this.solved, this.at] = [null, null, null, null, null];
     this.solutions = new Map();
@@ -26,7 +25,7 @@ export class CurveHighlight {
     this.page.reading.hidden = true;
   }
 
-  /** The pointer is at a place in millimetres, near a drawn curve or none. */
+  /** Handles a pointer at a position in millimetres, near the curve `found` or none. */
   hover(found, place) {
     if (!found) {
       if (this.pointed !== null) this.leave();
@@ -37,7 +36,7 @@ export class CurveHighlight {
     this.read(place);
   }
 
-  /** A link of the page's curves has the focus. */
+  /** Handles focus on a curve's link. */
   focus(curve) {
     this.pointed = curve;
     this.highlight(curve);
@@ -46,20 +45,23 @@ export class CurveHighlight {
     this.readInput(0, this.solved?.passes[0].from);
   }
 
-  /** A link beside the page is looked at: the list stays. */
+  /** Highlights the curve of a link in the panel; the panel keeps its list. */
   preview(curve) {
     this.pointed = curve;
     this.highlight(curve, { updatesPanel: false });
   }
 
-  /** Nothing is pointed at. What is beside the page stays, to be read and followed. */
+  /**
+   * Handles the pointer leaving the curves. The panel keeps its content so that it can be read and its links
+   * followed.
+   */
   leave() {
     this.pointed = null;
     if (this.selected === null) this.clear();
     else this.highlight(this.selected);
   }
 
-  /** A curve (null: none) stays forward, read at a place in millimetres. */
+  /** Selects a curve (null: none) and reads it at a position in millimetres. */
   select(curve, place = null) {
     this.selected = curve;
     this.pointed = null;
@@ -100,7 +102,7 @@ export class CurveHighlight {
     this.page.reading.hidden = true;
   }
 
-  /** The solver's own curve, at the fineness of the present zoom; null where it has none. */
+  /** The curve solved at the accuracy of the current zoom; null if it cannot be solved. */
   solve(curve) {
     const { view } = this.drawnOf(curve);
     const fineness = Math.max(0, Math.round(Math.log2(this.page.zoom.magnification)));
@@ -144,7 +146,7 @@ export class CurveHighlight {
     this.position();
   }
 
-  /** Goes along the curve by so much of the input, from one pass to the next. */
+  /** Moves the reading along the curve by an increment of the input, from pass to pass. */
   stepAlong(by) {
     if (!this.solved || !this.at) return;
     const { passes } = this.solved;
@@ -168,10 +170,7 @@ export class CurveHighlight {
     );
   }
 
-  /**
-   * The zoom has changed: the curve is as fine as it asks for, and what is read stands where the point is
-   * now.
-   */
+  /** Refines the curve for a changed zoom and moves the reading to its point. */
   updateZoom() {
     if (this.curve === null) return;
     const solved = this.solve(this.curve);
@@ -182,7 +181,7 @@ export class CurveHighlight {
     this.position();
   }
 
-  /** Puts the point and what is read there where the zoom has them. */
+  /** Positions the point and the reading for the current zoom. */
   position() {
     const { page, at } = this;
     if (!at || this.curve === null || !at.place.every(Number.isFinite)) return;
@@ -208,14 +207,17 @@ export class CurveHighlight {
   }
 }
 
-/** Where something of a size stands beside a point, before or after it as is wished, if there is room. */
+/**
+ * The position of a label of a given size next to a point, before or after it as preferred, if there is
+ * space.
+ */
 function positionNextTo(at, size, room, isBefore) {
   const [before, after] = [at - 16 - size, at + 16];
   if (isBefore) return before < 0 ? after : before;
   return after + size > room ? before : after;
 }
 
-/** What is read at a place of a curve: [[name, figure with unit], …]. */
+/** The readings at a point of a curve: [[name, value with unit], …]. */
 function readingRows({ input, speed, mu }, { isLength, passes }) {
   return [
     ["input", isLength ? formatNumber(input) : formatInputAngle(input, passes)],
@@ -224,7 +226,7 @@ function readingRows({ input, speed, mu }, { isLength, passes }) {
   ];
 }
 
-/** Degrees of input; where it goes on round, the end of its period is its beginning. */
+/** Degrees of input; for a full rotation, the end of the period equals its start. */
 function formatInputAngle(input, passes) {
   const text = input.toFixed(1);
   const period = Math.abs(passes[0].to - passes[0].from);

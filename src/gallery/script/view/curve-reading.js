@@ -1,4 +1,4 @@
-// What a curve does at a place on it: input, speed, transmission angle, as the page's own solver has them.
+// The readings of a curve at a point: input, speed, transmission angle, from the page's solver.
 
 import { cellValues } from "../data/family.js";
 import { routesOf } from "../kinematics/circuit.js";
@@ -8,14 +8,15 @@ import { finePath } from "../kinematics/path.js";
 import { poseAt, ratesAt } from "../kinematics/poses.js";
 import { linkageOf } from "../kinematics/template.js";
 
-// So many steps of Gauss and Newton bring a place on a chord onto the curve.
+// The number of Gauss-Newton steps that project a point of a chord onto the curve.
 const FOOT_STEPS = 4;
 
 /**
- * The curve of a family, solved: { path: { points, inputs, starts }, isLength, nearTo(x, y), atInput(pass,
- * input) }, the path fine to `tolerance` in the plane's unit. `nearTo` reads it at the foot of a place in the
- * plane: { pass, input, place: [x, y], speed, mu }, the input in degrees or a length, the speed |dP/dinput|
- * per radian or unit of length, mu in degrees or null. Null where the linkage has no such circuit.
+ * Solves a curve of a family: { path: { points, inputs, starts }, isLength, nearTo(x, y), atInput(pass,
+ * input) }. The path is accurate to `tolerance` in units of the plane. `nearTo` returns the reading at the
+ * nearest point of the curve: { pass, input, place: [x, y], speed, mu }, with the input in degrees or as a
+ * length, the speed |dP/dinput| per radian or unit of length, and mu in degrees or null. Null if the linkage
+ * has no such circuit.
  */
 function solveCurve(family, curve, tolerance) {
   const { cell, trace, circuit } = family.curves;
@@ -41,7 +42,7 @@ function solveCurve(family, curve, tolerance) {
   };
 }
 
-/** `solveCurve`, or null where the page cannot solve the linkage: then there is the data alone. */
+/** `solveCurve`, or null if the page cannot solve the linkage; the stored points remain. */
 export function solveCurveOrNull(family, curve, tolerance) {
   try {
     return solveCurve(family, curve, tolerance);
@@ -51,7 +52,7 @@ export function solveCurveOrNull(family, curve, tolerance) {
 }
 
 function readingAtInput({ linkage, joint, fourBar }, motion, pass, input) {
-  // At some limits there are no rates, but there is a pose.
+  // At some limits the rates are undefined, but the pose exists.
   const pose = poseAt(linkage, motion, input);
   const { velocity } = ratesAt(linkage, motion, input);
   return {
@@ -63,7 +64,7 @@ function readingAtInput({ linkage, joint, fourBar }, motion, pass, input) {
   };
 }
 
-/** The pass and the input of the nearest place on a path, along its chords. */
+/** The pass and the input of the nearest point on a path, along its chords. */
 function footOnPath({ points, inputs, starts }, x, y) {
   let [least, at, part] = [Infinity, 1, 0];
   for (let k = 1; k < inputs.length; k += 1) {
@@ -78,7 +79,7 @@ function footOnPath({ points, inputs, starts }, x, y) {
   return { pass: Math.max(pass, 0), input: inputs[at - 1] + part * (inputs[at] - inputs[at - 1]) };
 }
 
-/** The input at which a joint is nearest to a place, sought from one close by. */
+/** The input at which a joint is nearest to a point, starting from a nearby input. */
 function footOfPlace({ linkage, joint }, pass, from, x, y) {
   const degrees = linkage.input.isLength ? 1 : 180 / Math.PI;
   const [low, high] = [Math.min(pass.from, pass.to), Math.max(pass.from, pass.to)];
@@ -89,7 +90,7 @@ function footOfPlace({ linkage, joint }, pass, from, x, y) {
     const square = vx * vx + vy * vy;
     if (!Number.isFinite(square) || square === 0) break;
     const ahead = ((x - place[2 * joint]) * vx + (y - place[2 * joint + 1]) * vy) / square;
-    // A step beyond a few degrees leaves the part of the curve that is meant.
+    // A larger step would leave this part of the curve.
     const bounded = Math.min(Math.max(ahead * degrees, -2), 2);
     input = Math.min(Math.max(input + bounded, low), high);
   }

@@ -1,4 +1,4 @@
-// A family: what it is, and its pages, or its curves, on a contact sheet.
+// A family: its description, and its pages or curves as a grid of thumbnails.
 
 import { address } from "../data/address.js";
 import { findCurve, curveKey } from "../data/family.js";
@@ -14,8 +14,8 @@ import { pageThumbnail } from "./page-thumbnail.js";
 import { thumbnail } from "./thumbnail.js";
 
 /**
- * The room of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` goes to that page's
- * tile.
+ * The route of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` scrolls to that
+ * page's tile.
  */
 export const familyRoute = {
   name: "sheet",

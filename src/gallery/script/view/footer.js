@@ -1,8 +1,8 @@
-// What stands below every room: what made the atlas, its book, and how much there is of it.
+// The footer of the page: the program, the book, and the size of the atlas.
 
 import { h } from "./dom.js";
 
-/** The foot of the gallery. */
+/** The footer of the gallery. */
 export function footer(atlas) {
   const sum = (of) => atlas.families.reduce((total, family) => total + of(family), 0);
   const facts = [
@@ -33,12 +33,12 @@ export function footer(atlas) {
   );
 }
 
-/** "1 page", "7,800 curves". */
+/** A count with its noun: "1 page", "7,800 curves". */
 export function formatCount(number, one, many) {
   return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
 }
 
-/** Bytes in the unit that suits them, of a thousand: "380 kB", "6.4 MB". */
+/** A number of bytes in decimal units: "380 kB", "6.4 MB". */
 export function formatBytes(bytes) {
   if (bytes < 1e6) return `${Math.round(bytes / 1000)} kB`;
   return `${(bytes / 1e6).toFixed(1)} MB`;

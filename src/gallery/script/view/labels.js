@@ -1,4 +1,4 @@
-// Measures and values in words and figures, with their units.
+// Labels and formatted values of measures, with their units.
 
 import { measureValue } from "../data/family.js";
 import { h } from "./dom.js";
@@ -50,17 +50,17 @@ const STANDALONE_LABELS = {
   dwell_y: "centre of the circular portion, y",
 };
 
-/** What a measure is called where it does not stand in the order of the columns. */
+/** The label of a measure outside the order of the columns. */
 export function standaloneMeasureLabel(name) {
   return STANDALONE_LABELS[name] ?? measureLabel(name);
 }
 
-/** What a measure is called in words; read in the order of the columns, "its" is of the portion before. */
+/** The label of a measure in the order of the columns, where "its" refers to the portion before. */
 export function measureLabel(name) {
   return MEASURE_LABELS[name] ?? name.replace(/_deg$/, "").replaceAll("_", " ");
 }
 
-/** A number to so many significant digits, without idle noughts, with a true minus sign. */
+/** A number with significant digits, without trailing zeros and with a true minus sign. */
 export function formatNumber(number, digits = 4) {
   if (number === Infinity) return "unbounded";
   if (!Number.isFinite(number)) return "–";
@@ -72,23 +72,20 @@ export function formatNumber(number, digits = 4) {
   return String(Number(number.toPrecision(digits))).replace("-", "−");
 }
 
-/** What was measured of a curve, in words with its unit; undefined where it does not apply. */
+/** The value of a measure with its unit; undefined if it does not apply. */
 export function measureText(family, curve, { name, unit }) {
   const value = measureValue(family, curve, name);
   if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
   return isInDegrees(family, { name, unit }) ? `${formatNumber(value)}°` : formatNumber(value);
 }
 
-/** Whether a measure of a family is in degrees: of a linkage that is driven by a length, inputs are not. */
+/** Whether a measure of a family is in degrees: if the input is a length, inputs are not. */
 export function isInDegrees({ template }, { name, unit }) {
   const isLength = template.joints.some((joint) => joint.piston !== undefined);
   return unit === "deg" && !(isLength && /^(straight|dwell|input)_/.test(name));
 }
 
-/**
- * A caption as on the page: letters before a sign of equality slanted, and none of "a = 2.59" on a line of
- * its own.
- */
+/** A caption as on the page: names before an equals sign in italics, with no line break in "a = 2.59". */
 export function formatCaption(caption) {
   return caption
     .split(/([A-Za-z][\w]*(?= = ))/)

@@ -1,14 +1,14 @@
-// What of a family could not be assembled, and why.
+// The linkages of a family that could not be assembled, and why.
 
 import { h } from "./dom.js";
 import { formatCount } from "./footer.js";
 
-// So many linkages are named for each reason.
+// The number of linkages named for each reason.
 const MAX_NAMES_PER_REASON = 12;
 
 /**
- * The linkages of a family that could not be assembled, or only in part, by reason, to be unfolded; null
- * where there are none.
+ * A collapsed list of the linkages of a family that could not be assembled, or only partially, by reason;
+ * null if there are none.
  */
 export function notAssembledSummary(family) {
   const { status, reason, caption, number, count } = family.cells;

@@ -1,8 +1,8 @@
-// What is drawn only when it comes into sight.
+// Calls a function for elements when they become visible.
 
 /**
- * Calls `seen(element)` once for each element watched, when it comes within a screen's half of the window.
- * Returns { watch(element), end() }.
+ * Calls `seen(element)` once for each watched element when it comes within half a window height of the
+ * window. Returns { watch(element), end() }.
  */
 export function onceVisible(seen) {
   const observer = new IntersectionObserver(

@@ -1,4 +1,4 @@
-// All families of the atlas, each by its first page.
+// All families of the atlas, each with its first page.
 
 import { address } from "../data/address.js";
 import { fill, h } from "./dom.js";
@@ -6,12 +6,12 @@ import { formatCount } from "./footer.js";
 import { onceVisible } from "./once-visible.js";
 import { pageThumbnail } from "./page-thumbnail.js";
 
-// With so many families or more they can be searched by name.
+// From this many families on, there is a search field.
 const MANY_FAMILIES = 8;
-// Fewer than these have room to be shown large.
+// Fewer families than this are shown large.
 const FEW_FAMILIES = 4;
 
-/** The room with all families: `#/?q=straight` those whose names have the words. */
+/** The route of all families; `#/?q=straight` shows those that match the words. */
 export const overviewRoute = {
   name: "families",
   label: "Families",
@@ -76,9 +76,7 @@ function familyTile(family) {
   );
 }
 
-/**
- * How much there is of a family, in words: curves, pages, and linkages where they are not as many as curves.
- */
+/** The counts of a family: curves, pages, and linkages if their number differs from that of the curves. */
 export function familyCounts(family) {
   return [
     formatCount(family.curves, "curve", "curves"),
@@ -89,12 +87,12 @@ export function familyCounts(family) {
     .join(" · ");
 }
 
-/** How many linkages of a family could not be assembled, in words. */
+/** The number of linkages of a family that could not be assembled. */
 function notAssembledNote({ not_assembled: none, kept }) {
   return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage", "linkages")} could not be assembled`;
 }
 
-/** The source of a family, without the legend that its pages add to it. */
+/** The source of a family, without the legend that its pages append to it. */
 export function familySource({ source, legend }) {
   const ending = ` · ${legend}`;
   return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
@@ -113,8 +111,8 @@ async function showFirstPage(app, { id }, tile) {
 }
 
 /**
- * A field that leaves the families whose title, linkage or name has all the words in it; the address keeps
- * them.
+ * A field that shows only the families whose title, linkage or id contains all its words; the address
+ * contains them.
  */
 function familySearch(app, tiles, query) {
   const total = tiles.size;

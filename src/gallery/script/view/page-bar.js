@@ -1,4 +1,4 @@
-// The controls of a page: which page, and how near.
+// The toolbar of a page: page number and zoom.
 
 import { address } from "../data/address.js";
 import { h } from "./dom.js";
@@ -6,9 +6,9 @@ import { pageField } from "./page-field.js";
 import { printedColorsButton } from "./settings.js";
 
 /**
- * { element, update({ page, magnification, isFit }) }: ways to the page before and after, a field for the number of
- * a page, and buttons for nearer, further, and the whole page. `listed` is the family as the atlas lists it,
- * `go(page)` opens a page, `zoom()` is the Zoom.
+ * The toolbar { element, update({ page, magnification, isFit }) }: links to the previous and next page, a
+ * field for the page number, and zoom buttons. `listed` is the family's entry in the atlas, `go(page)` opens
+ * a page, `zoom()` returns the Zoom.
  */
 export function pageBar(listed, { go, zoom }) {
   const contents = h("a", { class: "button contents" }, "All pages");
@@ -35,7 +35,7 @@ function stepLink(label, sign, rel) {
   return h("a", { class: "button", rel, "aria-label": label, title: label, role: "link" }, sign);
 }
 
-/** Leads a step to a page, or nowhere if there is none. */
+/** Points a link at a page, or disables it if there is no such page. */
 function setStepTarget(link, { id, pages }, page) {
   const isThere = page >= 1 && page <= pages;
   if (isThere) link.setAttribute("href", address([id, page]));

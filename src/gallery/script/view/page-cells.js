@@ -1,8 +1,8 @@
-// Which linkages stand on a page, those that could not be assembled among them.
+// The linkages on a page, including those that could not be assembled.
 
 /**
- * The places of the cells of a page, numbered from 1, in order. What is drawn is known; where a linkage that
- * is not would stand follows from the number of linkages on a page, or of pages for a linkage.
+ * The cells on a page, numbered from 1, in order. Drawn cells are listed in the data; the position of a cell
+ * that is not drawn follows from the number of panels per page, or of pages per linkage.
  */
 export function cellsOnPage(family, page) {
   const views = family.pages[page - 1]?.views ?? [];
@@ -17,7 +17,7 @@ export function cellsOnPage(family, page) {
   return [...drawn].sort((a, b) => a - b);
 }
 
-// So many panels a page of each family has, once reckoned: it takes a look at all pages.
+// The number of panels per page of each family, cached because it takes a scan of all pages.
 const PANELS_PER_PAGE = new WeakMap();
 
 function panelsPerPage(family) {
@@ -25,7 +25,10 @@ function panelsPerPage(family) {
   return PANELS_PER_PAGE.get(family);
 }
 
-/** The least number of panels on a page that agrees with where the drawn ones stand; 0 where none does. */
+/**
+ * The smallest number of panels per page that agrees with the positions of the drawn cells; 0 if there is
+ * none.
+ */
 function inferPanelsPerPage({ cells: { count }, pages }) {
   const agrees = (each) =>
     pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
@@ -35,7 +38,7 @@ function inferPanelsPerPage({ cells: { count }, pages }) {
   return pages.length === 1 ? count : 0;
 }
 
-/** What is on a page, in a few words: the caption of its one linkage, or the numbers of its linkages. */
+/** The label of a page: the caption of its only linkage, or the numbers of its linkages. */
 export function pageLabel(family, page) {
   const cells = cellsOnPage(family, page);
   if (cells.length === 0) return family.layout === "chart" ? "chart" : "";

@@ -1,10 +1,10 @@
-// Which curve of a page is meant by a place on it.
+// Finds the curve of a page at a position.
 
 import { curvePoints } from "../data/family.js";
 
 /**
- * The curves of a page's views on paper: [{ curve, view, points, box }], points [x0, y0, …] and box [x0, y0,
- * x1, y1] in millimetres, y down.
+ * The curves of a page's views on paper: [{ curve, view, points, box }], with points [x0, y0, …] and box [x0,
+ * y0, x1, y1] in millimetres, y down.
  */
 export function curvesOnPaper(family, views) {
   return views.flatMap((view) =>
@@ -24,10 +24,7 @@ export function curvesOnPaper(family, views) {
   );
 }
 
-/**
- * The one of `drawn` nearest to a place in millimetres, no further than `reach`; undefined where there is
- * none.
- */
+/** The curve of `drawn` nearest to a position in millimetres, within `reach`; undefined if there is none. */
 export function nearestCurve(drawn, [x, y], reach) {
   let nearest;
   let least = reach * reach;
@@ -51,7 +48,7 @@ function squaredDistanceToPolyline({ points, closed }, x, y) {
   return least;
 }
 
-/** The square of the distance of a place from a segment. */
+/** The squared distance of a point from a segment. */
 function squaredDistanceToSegment(x, y, x0, y0, x1, y1) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   const length = dx * dx + dy * dy;

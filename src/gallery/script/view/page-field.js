@@ -1,11 +1,8 @@
-// A field for the number of a page.
+// A field for a page number.
 
 import { h } from "./dom.js";
 
-/**
- * A form { element, field } that asks for one of the `pages` of a family; `go(page)` is called with one there
- * is.
- */
+/** A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number. */
 export function pageField({ pages }, label, go) {
   const field = h("input", { type: "number", min: 1, max: pages, step: 1, "aria-label": "Page" });
   const asked = (event) => {

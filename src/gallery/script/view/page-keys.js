@@ -1,8 +1,8 @@
-// The keys of a page.
+// The keyboard commands of a page.
 
 import { h } from "./dom.js";
 
-/** What a key does on a page's desk: a function, or null where it does nothing there. */
+/** The action of a key on a page: a function, or null if there is none. */
 export function keyAction(event, view) {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
   return curveKeyAction(event, view) ?? pageKeyAction(event.key, view);
@@ -29,13 +29,13 @@ function pageKeyAction(key, view) {
       view.remember();
     },
   };
-  // A page that is seen whole leaves arrows to the window, which may have more below it.
+  // When the whole page is visible, the arrow keys scroll the window.
   const ways = { ArrowLeft: [dx, 0], ArrowRight: [-dx, 0], ArrowUp: [0, dy], ArrowDown: [0, -dy] };
   if (key in ways && !zoom.isFit) return () => zoom.pan(...ways[key]);
   return acts[key] ?? null;
 }
 
-/** On a curve arrows go from one to the next, and with Shift along it. */
+/** On a curve, arrow keys move to the next curve, and with Shift along the curve. */
 function curveKeyAction({ key, shiftKey, target }, view) {
   const link = target.closest?.("a[data-curve]");
   if (!link) return null;
@@ -61,7 +61,7 @@ function curveKeyAction({ key, shiftKey, target }, view) {
   return acts[key] ?? ends[key] ?? (key === "Escape" ? away : null);
 }
 
-/** What can be done on a page by wheel and keys, or by touch, as the element "page-keys". */
+/** The help for wheel, keyboard and touch, as the element "page-keys". */
 export function keyHelp() {
   return h(
     "p",

@@ -1,4 +1,4 @@
-// What stands beside a page: its curves, or the one that is brought forward.
+// The panel next to a page: its list of curves, or the highlighted curve.
 
 import { address } from "../data/address.js";
 import { curveKey, measureValue } from "../data/family.js";
@@ -8,9 +8,9 @@ import { formatCaption, formatNumber, measureLabel, measureText } from "./labels
 import { pinButton } from "./pin-button.js";
 import { thumbnail } from "./thumbnail.js";
 
-/** The curves of a page as links, and what could not be assembled. */
+/** The curves of a page as links, and the linkages that could not be assembled. */
 export function curveListPanel(family, page, drawn, { onenter, onleave }) {
-  // Of one linkage with several points each row says the point alone.
+  // If all curves are of one linkage, each row shows only its point.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
   const links = new Map(
     drawn.map(({ curve }) => [curve, curveRow(family, curve, { one, onenter, onleave })]),
@@ -81,13 +81,13 @@ function curveRow(family, curve, { one, onenter, onleave }) {
   );
 }
 
-/** Which of the traced points of its linkage draws a curve, where there are several. */
+/** The label of the traced point of a curve, if the linkage has several. */
 export function pointLabel(family, curve) {
   const { trace } = family.curves;
   return trace.some((number) => number > 1) ? `point ${trace[curve]}` : "";
 }
 
-/** Linkages that could not be assembled, each with the reason. */
+/** The linkages that could not be assembled, each with the reason. */
 function notAssembledList(family, cells) {
   const { number, caption, reason } = family.cells;
   return h(
@@ -109,7 +109,7 @@ function notAssembledList(family, cells) {
   );
 }
 
-/** A curve in figures: caption, class, parameters and measures, and what can be done with it. */
+/** The data of a curve: caption, class, parameters, measures and actions. */
 export function curvePanel(app, family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
@@ -155,10 +155,7 @@ function parameterFacts(family, cell) {
   ];
 }
 
-/**
- * The measures of a curve in words, each explained by its definition: at the pointer, and all below them on
- * demand.
- */
+/** The measures of a curve with tooltips, and all definitions in a collapsed list. */
 function measureFacts(atlas, family, curve) {
   const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
   const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));

@@ -1,4 +1,4 @@
-// The picture of a page, and over it the curve that is brought forward.
+// The picture of a page and the overlay of its curves.
 
 import { pageFile } from "../data/atlas.js";
 import { curveKey } from "../data/family.js";
@@ -7,12 +7,12 @@ import { fill, h, s } from "./dom.js";
 import { paperTone } from "./paper-tone.js";
 import { drawPage } from "./page-thumbnail.js";
 
-// The least breadth of the place of a link, in millimetres of paper.
+// The minimum width of the area of a link, in millimetres of paper.
 const MIN_LINK_WIDTH = 1;
 
 /**
- * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where
- * there is none that can be read. Settles when it can be painted.
+ * A page as an element with the paper's aspect ratio: the page's file, or its curves drawn from the data if
+ * there is no readable file. Resolves when it can be painted.
  */
 export async function pagePicture(app, family, page, label) {
   const { views } = family.pages[page - 1] ?? { views: [] };
@@ -35,8 +35,8 @@ export async function pagePicture(app, family, page, label) {
 }
 
 /**
- * What lies over the picture: a link for each curve of the page, unseen until it is brought forward. Returns
- * { element, links: Map of curve to link, show(curve, pathData), point([x, y] or null) }, places in
+ * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Returns {
+ * element, links: Map of curve to link, show(pathData), point([x, y] or null) }, with positions in
  * millimetres of paper.
  */
 export function pageOverlay(family, drawn, { onfocus, onblur }) {
@@ -70,9 +70,9 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
   };
 }
 
-/** What screen readers and the browser's own focus take for the place of a curve's link. */
+/** The area of a curve's link for screen readers and the browser's focus. */
 function linkArea([x0, y0, x1, y1]) {
-  // The box of a straight path has no breadth, and a rectangle without one is drawn by no browser.
+  // The box of a straight path has no width, and browsers do not draw a rectangle without one.
   const [width, height] = [Math.max(x1 - x0, MIN_LINK_WIDTH), Math.max(y1 - y0, MIN_LINK_WIDTH)];
   return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "link-area" });
 }

@@ -1,16 +1,16 @@
-// Pages drawn small.
+// Thumbnails of pages.
 
 import { pageFile } from "../data/atlas.js";
 import { h, s } from "./dom.js";
 import { paperTone } from "./paper-tone.js";
 import { curvePath } from "./thumbnail.js";
 
-// Places on paper closer than this, in millimetres, are one in a thumbnail.
+// Points closer than this, in millimetres of paper, are merged in a thumbnail.
 const PAPER_GRAIN = 1;
 
 /**
- * A page of a family small: its curves where they stand on it, drawn from the data; a chart, of which the
- * data knows no places, as the picture it is. Null where there is neither.
+ * The thumbnail of a page: its curves drawn from the data, or the file of a chart, whose curves are not in
+ * the data. Null if there is neither.
  */
 export function pageThumbnail(atlas, family, page) {
   const { views } = family.pages[page - 1] ?? { views: [] };
@@ -28,8 +28,8 @@ export function pageThumbnail(atlas, family, page) {
 }
 
 /**
- * The curves of some views of a page where they stand on its paper, in millimetres, as an SVG of the page's
- * shape.
+ * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect
+ * ratio.
  */
 export function drawPage(family, views, name, grain) {
   const { width, height } = family.paper;

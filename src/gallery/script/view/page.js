@@ -1,4 +1,4 @@
-// A page of a family, near or far, with the curve that is pointed at brought forward.
+// The view of a page, with zoom and the curve under the pointer highlighted.
 
 import { address } from "../data/address.js";
 import { pageFile } from "../data/atlas.js";
@@ -13,7 +13,7 @@ import { pageOverlay, pagePicture } from "./page-picture.js";
 import { watchPins } from "./pin-button.js";
 import { Zoom } from "./zoom.js";
 
-/** The room of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
+/** The route of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
 export const pageRoute = {
   name: "page",
   parent: "families",
@@ -29,7 +29,7 @@ export const pageRoute = {
   },
 };
 
-/** A page on the desk. */
+/** The view of a page. */
 class PageView {
   constructor(app, family, listed) {
     Object.assign(this, { app, family, listed });
@@ -71,7 +71,7 @@ class PageView {
     );
   }
 
-  /** Shows what an address says; of another family it is another view's. */
+  /** Shows the page of an address; returns false for another family. */
   update(target) {
     if (
       !pageRoute.matches(target) ||
@@ -99,13 +99,16 @@ class PageView {
     if (this.element.isConnected) this.applyQuery(query);
   }
 
-  /** The desk is in the window, and has a size: now there is somewhere to look, and its keys work at once. */
+  /**
+   * Called when the view is in the document and has a size: sets the position and takes the focus, so that
+   * keys work.
+   */
   shown() {
     this.applyQuery(this.query);
     this.viewport.focus({ preventScroll: true });
   }
 
-  /** Lays a page's picture on the desk, with its curves over it. */
+  /** Puts a page's picture and the overlay of its curves into the view. */
   setPicture(picture) {
     const { views } = this.family.pages[this.page - 1] ?? { views: [] };
     const hadFocus = this.sheet.contains(document.activeElement);
@@ -122,7 +125,7 @@ class PageView {
     this.prefetch();
   }
 
-  /** What an address says beyond the page: a curve, and where to look. */
+  /** Applies the rest of the address: a curve, and the zoom position. */
   applyQuery(query) {
     const [near, at] = [Number(query.get("zoom")), (query.get("at") ?? "").split(",").map(Number)];
     if (near > 1 && at.length === 2 && at.every(Number.isFinite)) this.zoom.showAt(near, at);
@@ -134,11 +137,11 @@ class PageView {
       this.highlight.select(null);
       this.showPanel();
     }
-    // A page that is turned stays as near as the one before, and its address says so.
+    // Another page keeps the zoom of the previous one, and its address contains it.
     this.zoomed();
   }
 
-  /** The curves of the page beside it, or the one that is forward. */
+  /** Shows the list of curves, or one curve, in the panel. */
   showPanel(curve = null) {
     const all = () => {
       this.highlight.select(null);
@@ -155,7 +158,7 @@ class PageView {
     fill(this.legend, this.family.legend ?? "");
   }
 
-  /** Has the pages before and after at hand. */
+  /** Prefetches the previous and the next page. */
   prefetch() {
     for (const page of [this.page + 1, this.page - 1]) {
       const file = page >= 1 && pageFile(this.app.atlas, this.family.id, page);
@@ -185,7 +188,7 @@ class PageView {
     this.remember();
   }
 
-  /** Whoever comes back from a plate finds its curve forward. */
+  /** Selects the curve of a link that is followed, so that it is highlighted on return. */
   followed({ target }) {
     const key = target.closest('a[href*="/curve/"]')?.getAttribute("href").split("/").at(-1);
     const curve = key && findCurve(this.family, key);
@@ -197,10 +200,7 @@ class PageView {
     this.remember();
   }
 
-  /**
-   * How far from a curve a pointer may be, in millimetres: some pixels, or 3 mm where these are few pixels
-   * too.
-   */
+  /** The pointer tolerance in millimetres: a number of pixels, or 3 mm if that is not much more. */
   reach(pixels) {
     return Math.max(pixels, Math.min(3 * this.zoom.scale, 2 * pixels)) / this.zoom.scale;
   }
@@ -224,7 +224,7 @@ class PageView {
     this.remembering = window.setTimeout(() => this.settled(), 400);
   }
 
-  /** The zoom has come to rest. */
+  /** Handles the end of a zoom. */
   settled() {
     const percent = `${Math.round(this.zoom.magnification * 100)} %`;
     if (this.announcedPercent !== undefined && percent !== this.announcedPercent) this.app.announce(`Zoom ${percent}`);
@@ -236,7 +236,7 @@ class PageView {
     this.bar.update({ page: this.page, magnification: this.zoom.magnification, isFit: this.zoom.isFit });
   }
 
-  /** Keeps in the address what is looked at. */
+  /** Writes the current state to the address. */
   remember() {
     if (this.hasLeft || this.page === undefined) return;
     const { isFit, magnification, middle } = this.zoom;

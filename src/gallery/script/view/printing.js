@@ -1,12 +1,10 @@
-// Lists of which only what is in sight is in the page, on paper: there they are whole, or so much of them as
-// anyone wants to hold.
+// Prints lists of which only the visible part is in the document: completely, or up to a maximum.
 
 import { h } from "./dom.js";
 
 /**
- * Before anything is printed calls `prettyValue()`, which puts into the page what is to be on paper and returns
- * the line that is to stand before it, or null; and `restore()` when it has been printed. Returns { isPrinting,
- * end() }.
+ * Calls `layOut()` before printing, which puts the printed items into the document and returns a line to
+ * precede them, or null, and `restore()` afterwards. Returns { isPrinting, end() }.
  */
 export function onPrint(element, layOut, restore) {
   let line = null;
@@ -34,7 +32,7 @@ export function onPrint(element, layOut, restore) {
   return state;
 }
 
-/** A line on how many of how many things are on paper, the first of them; null where it is one, or none. */
+/** A line that says how many of how many things are printed; null for one or none. */
 export function printedCountNote(printed, count, things) {
   if (count < 2) return null;
   const [some, all] = [printed, count].map((number) => number.toLocaleString("en"));

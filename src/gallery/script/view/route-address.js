@@ -1,17 +1,17 @@
-// The addresses of rooms that have a word of their own, where a family may be called by the same word.
+// Addresses of routes with a reserved word, which may also be the id of a family.
 
 import { address } from "../data/address.js";
 
 /**
- * Whether a place is in the room of a word, `#/find?…`: a family that is called so has what is below it, and
- * the word itself where a query says nothing that is not of the family's sheet.
+ * Whether an address matches the route of a word, `#/find?…`. A family with that id keeps the addresses below
+ * it, and the word itself if the query has only names of the family's view.
  */
 export function matchesRoute(word, { path, query }, { atlas }) {
   if (path.length !== 1 || path[0] !== word) return false;
   return !isFamily(atlas, word) || !isFamilyQuery(query);
 }
 
-/** The address of the room of a word with a query, which is never empty where a family is called so. */
+/** The address of a route with a query, which is never empty if a family has the same id. */
 export function routeAddress(word, query, { atlas }) {
   const short = address([word], query);
   const isTaken = !short.includes("?") && isFamily(atlas, word);

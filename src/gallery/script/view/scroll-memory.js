@@ -1,9 +1,8 @@
-// How far down each address was read, and where the focus was: whoever comes back finds it as it was left.
+// Restores the scroll position and the focus when a view is visited again through the history.
 
 /**
- * The memory of a window's history: `leave()` notes how far down the present entry is and takes up the next,
- * `arrive()` goes where that one was left, or to the top of a new one, but for views that go to a goal of
- * their own (`data-goal`).
+ * The scroll memory of a window: `leave()` records the position of the current history entry, `arrive()`
+ * restores that of the new one, or scrolls to the top, unless the view has its own target (`data-goal`).
  */
 export function scrollMemory() {
   const left = new Map();
@@ -33,8 +32,8 @@ export function scrollMemory() {
 }
 
 /**
- * Goes as far down as an address was left, once its room has been filled so far; whoever moves meanwhile goes
- * a way of his own. Gives a function that ends it.
+ * Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a
+ * function that ends it.
  */
 function restoreScroll({ depth, link }) {
   const moves = ["wheel", "pointerdown", "keydown"];
@@ -55,7 +54,7 @@ function restoreScroll({ depth, link }) {
   return end;
 }
 
-/** Gives the focus back to a link of the room, when what comes into sight by scrolling is there. */
+/** Restores the focus to a link when scrolling has created it. */
 function restoreFocus(href) {
   if (!href) return;
   requestAnimationFrame(() =>

@@ -1,5 +1,4 @@
-// The theme: as the system has it, light, or dark; remembered from one visit to the next where the browser
-// lets a page.
+// The theme: system, light or dark, remembered between visits if the browser allows storage.
 
 import { h } from "./dom.js";
 
@@ -13,8 +12,8 @@ const THEME_CHOICES = [
 ];
 
 /**
- * The choice of the theme, which takes effect at once. `data-theme` of <html> is always the one in effect,
- * light or dark; "themechange" is dispatched on document when it changes.
+ * The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or
+ * dark; "themechange" is dispatched on document when it changes.
  */
 export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -39,8 +38,8 @@ export function themeSelect() {
 }
 
 /**
- * A switch, of use in the dark alone: pages as they were printed, or turned to light ink on dark paper.
- * `data-pages` of <html> is "printed" or absent.
+ * A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is
+ * "printed" or absent.
  */
 export function printedColorsButton() {
   const root = document.documentElement;
@@ -71,11 +70,11 @@ function storedChoice(name) {
   }
 }
 
-/** Where the browser keeps nothing for pages from disk, a choice lasts as long as the page. */
+/** Without storage, a choice lasts until the page is closed. */
 function storeChoice(name, value) {
   try {
     window.localStorage.setItem(name, value);
   } catch {
-    // There is nothing to be done about it, and nothing lost but a convenience.
+    // Nothing can be done about it.
   }
 }

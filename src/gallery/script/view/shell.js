@@ -1,4 +1,4 @@
-// The frame of the gallery: its heading, the nav to its routes, the route itself, and what stands below.
+// The frame of the gallery: header, navigation, the current view and footer.
 
 import { address, parseAddress } from "../data/address.js";
 import { fill, h } from "./dom.js";
@@ -6,16 +6,16 @@ import { themeSelect } from "./settings.js";
 import { scrollMemory } from "./scroll-memory.js";
 import { footer } from "./footer.js";
 
-// A route that takes longer than this to open, in milliseconds, says that it is being opened.
+// The time in milliseconds after which opening a view is announced.
 const BUSY_DELAY = 250;
 
 /**
- * Opens the gallery in an element. `routes` are [{ name, label, way(app), under, opens(place, app),
- * view(app, place) }]: the first whose `opens` is true of an address shows it; `way` is the address of one
- * with a label, and one without stands `under` another. A view is, perhaps in a while, { element, title,
- * update(place), shown(), leave() }: `update`, where there is one, is told of further addresses of the same
- * route, and says whether it shows them; `shown` is called when the element is in the page; `leave` ends what
- * it began.
+ * Opens the gallery in an element. `routes` are [{ name, label, href(app), parent, matches(target, app),
+ * open(app, target) }]: the first whose `matches` is true for an address opens it. A route with a label is in
+ * the navigation, with the link `href`; one without belongs to its `parent`. `open` returns a view, or a
+ * promise of one: { element, title, update(target), shown(), leave() }. The optional `update` is called with
+ * further addresses of the same route and returns whether it handles them; `shown` is called when the element
+ * is in the document; `leave` releases resources.
  */
 export function openShell(app, routes, root) {
   const main = h("main", { id: "content", tabindex: "-1" });
@@ -47,7 +47,7 @@ export function openShell(app, routes, root) {
   );
   const router = new Router(app, routes, { main, nav, scroll: scrollMemory() });
   app.replace = (fragment) => {
-    // A link that was just followed goes before what a view still has to remember: its event is to come.
+    // A link that was just followed takes precedence over a view's update: its event is pending.
     if (window.location.hash !== router.fragment) return;
     window.history.replaceState(window.history.state, "", fragment);
     router.fragment = window.location.hash;
@@ -56,7 +56,7 @@ export function openShell(app, routes, root) {
   return router.navigate();
 }
 
-/** The nav to the routes, { element, mark(route) }; that to the pins says how many there are. */
+/** The navigation, { element, mark(route) }, with the number of pins. */
 function navigation(app, routes) {
   const count = h("span", { class: "count" });
   const links = new Map(
@@ -86,14 +86,14 @@ function navigation(app, routes) {
   return { element: h("nav", { class: "site-nav", "aria-label": "Gallery" }, [...links.values()]), mark };
 }
 
-/** What shows the route that the address says. */
+/** Opens the view of the current address. */
 class Router {
   constructor(app, routes, { main, nav, scroll }) {
     Object.assign(this, { app, routes, main, nav, scroll });
     [this.shown, this.turn, this.fragment] = [null, 0, null];
   }
 
-  /** Shows what the address says, in the view that is there if it can, or else in a new one. */
+  /** Shows the address in the current view if it handles it, otherwise in a new one. */
   async navigate() {
     this.fragment = window.location.hash;
     const target = parseAddress(this.fragment);
@@ -105,7 +105,7 @@ class Router {
     }
     this.turn += 1;
     const turn = this.turn;
-    // What was there rests, and is seen until there is something in its place.
+    // The previous view stays visible until the next one is ready.
     this.shown?.view.leave?.();
     this.shown = null;
     this.nav.mark(route);
@@ -134,14 +134,13 @@ class Router {
     fill(this.main, view.element);
     view.shown?.();
     this.scroll.arrive();
-    // The first view takes the focus only if it wants to; and where there is something to look at, it has it
-    // already.
+    // The first view does not take the focus; later ones do, unless they have set it.
     if (this.turn === 1) return;
     if (!this.main.contains(document.activeElement)) this.main.focus({ preventScroll: true });
     this.app.announce(view.title || this.app.atlas.title);
   }
 
-  /** Says what is wrong with an address, and where to go on from there. */
+  /** Shows what is wrong with an address, with links to continue. */
   showError(message, { path: [id] }) {
     const sentence = `${message[0].toUpperCase()}${message.slice(1)}`.replace(/[^.]$/, "$&.");
     this.setTitle("Not found");

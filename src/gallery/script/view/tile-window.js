@@ -1,19 +1,19 @@
-// A grid of any number of tiles, of which only those near the window are in the page.
+// A grid of any number of tiles, of which only those near the window are in the document.
 
 import { h } from "./dom.js";
 import { printedCountNote, onPrint } from "./printing.js";
 
-// So much time of a frame, in milliseconds, goes into drawing tiles that have come into sight.
+// The time per frame, in milliseconds, for drawing tiles that have become visible.
 const DRAWING_TIME = 8;
-// So much of a window's height above and below it is kept ready.
+// The fraction of the window's height above and below it that is kept ready.
 const TILES_AHEAD = 0.75;
-// So many tiles at most, from the first, are printed.
+// The maximum number of tiles printed.
 const PRINTED_TILES = 400;
 
 /**
- * A list of `count` tiles in columns of at least `least` pixels, `gap` apart, each `aspect` times as high as
- * wide, and `below` pixels more. `tile(k)` makes one, an element with a link in it, at once; `draw(element,
- * k)` puts in what takes longer, when there is time. `label` names the list.
+ * A list of `count` tiles in columns of at least `least` pixels, `gap` apart, with pictures of aspect ratio
+ * `aspect` (height to width) and `below` pixels for text. `tile(k)` creates a tile, an element with a link in
+ * it; `draw(element, k)` adds what takes longer, when there is time. `label` names the list.
  */
 export class TileWindow {
   constructor(options) {
@@ -33,7 +33,7 @@ export class TileWindow {
     this.listeners = { scroll: later, resize: later };
   }
 
-  /** The list is in the page, and has a width. */
+  /** Called when the list is in the document and has a width. */
   shown() {
     this.measure();
     this.sizes.observe(this.element);
@@ -46,7 +46,7 @@ export class TileWindow {
     );
   }
 
-  /** Ends what watches the window. */
+  /** Stops observing the window. */
   end() {
     this.sizes.disconnect();
     this.paper?.end();
@@ -55,7 +55,7 @@ export class TileWindow {
     this.queue = [];
   }
 
-  /** Brings a tile into the window and gives it the focus. */
+  /** Scrolls to a tile and focuses it. */
   show(k) {
     const row = Math.floor(k / this.columns) * this.pitch;
     const at = this.element.getBoundingClientRect().top + window.scrollY + row;
@@ -65,7 +65,7 @@ export class TileWindow {
     this.there.get(k)?.querySelector("a").focus({ preventScroll: true });
   }
 
-  /** From the top of a row to that of the next, in pixels. */
+  /** The vertical distance of rows, in pixels. */
   get pitch() {
     return this.high + this.gap;
   }
@@ -81,7 +81,7 @@ export class TileWindow {
     this.fill();
   }
 
-  /** The size of a tile's picture in pixels: alike of all, since to ask each would lay the page out each time. */
+  /** The size of a tile's picture in pixels. All are alike, and measuring each would force a layout. */
   sizeOfLeaf(picture) {
     if (this.sizedAt !== this.wide) {
       this.sizedAt = this.wide;
@@ -104,7 +104,7 @@ export class TileWindow {
     });
   }
 
-  /** Has the tiles near the window in the page, and no others but one with the focus. */
+  /** Puts the tiles near the window into the document, and removes others except one with the focus. */
   fill() {
     if (this.paper?.isPrinting) return;
     const top = -this.element.getBoundingClientRect().top;
@@ -127,7 +127,7 @@ export class TileWindow {
     element.setAttribute("aria-setsize", this.count);
     element.setAttribute("aria-posinset", k + 1);
     this.lay(element, k);
-    // In the order of the tiles, for whoever goes from one to the next.
+    // In tile order, for keyboard navigation.
     const after = Math.min(...[...this.there.keys()].filter((other) => other > k));
     this.element.insertBefore(element, this.there.get(after) ?? null);
     this.there.set(k, element);
@@ -144,7 +144,7 @@ export class TileWindow {
     if (this.queue.length) requestAnimationFrame(() => this.drawSome());
   }
 
-  /** Has the first tiles in the page and no others, as they are on paper. */
+  /** Puts the first tiles into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.count, PRINTED_TILES);
     for (const [k, element] of this.there) {

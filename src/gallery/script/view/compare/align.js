@@ -1,4 +1,4 @@
-// Curves laid over the first of them.
+// Aligns curves with the first of them.
 
 import { curvePoints } from "../../data/family.js";
 import { askedShape } from "../../shape/asked.js";
@@ -8,8 +8,9 @@ import { searching } from "../../shape/search.js";
 import { identity, placed } from "../../shape/similarity.js";
 
 /**
- * Lays a curve, { family, curve }, over the first by an alignment's name: { points, closed, similarity, rms,
- * greatest }, deviations by the extent of the first. The best similarity is that of the search by shape.
+ * Aligns a curve, { family, curve }, with the first: { points, closed, similarity, rms, greatest };
+ * deviations are relative to the extent of the first. `align` is a key of ALIGNMENTS; the best fit is that of
+ * the search by shape.
  */
 export function alignCurve(first, one, align) {
   const closed = one.family.curves.closed[one.curve] === 1;
@@ -30,7 +31,7 @@ export function alignCurve(first, one, align) {
   return { points, closed, similarity, ...deviation };
 }
 
-/** The one curve, compared with a shape as the search by shape compares them. */
+/** Compares one curve with a shape, as the search by shape does. */
 function compareWithShape(shape, { family, curve }, mirror) {
   const alone = { ...family, curves: { ...family.curves, count: 1, ...onlyCurve(family.curves, curve) } };
   const index = runToEnd(indexing(alone));
@@ -57,7 +58,7 @@ function runToEnd(generator) {
   }
 }
 
-/** What brings the middle of one's box, and its diagonal if asked, to the other's. */
+/** The similarity that matches the centres of the bounding boxes and, for "size", their diagonals. */
 function boxAlignment(base, own, align) {
   if (align === "none") return identity();
   const [a, b] = [middleAndSize(base), middleAndSize(own)];

@@ -1,4 +1,4 @@
-// The room where pinned curves are compared.
+// The view that compares pinned curves.
 
 import { address } from "../../data/address.js";
 import { fill, h } from "../dom.js";
@@ -12,7 +12,7 @@ import { factsTable } from "./facts.js";
 import { refinePicture } from "./refine.js";
 import { letterOf, overlaidPicture, sideBySidePictures, strokeSample } from "./picture.js";
 
-/** `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`: opening such an address pins its curves. */
+/** The route `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`; opening it pins its curves. */
 export const compareRoute = {
   name: "compare",
   label: "Compare",
@@ -33,7 +33,10 @@ export const compareRoute = {
   },
 };
 
-/** What gives the focus back to the control of the same name when what is in an element has been replaced. */
+/**
+ * Returns a function that restores the focus to the control with the same name after an element's content has
+ * been replaced.
+ */
 function keepFocus(element) {
   const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
   const held = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
@@ -70,7 +73,7 @@ class CompareView {
     else await this.refresh();
   }
 
-  /** Shows what is pinned now, and says so in the address. */
+  /** Shows the pinned curves and updates the address. */
   async refresh() {
     const { app, query } = this;
     const names = [...app.pins.names];
@@ -78,7 +81,7 @@ class CompareView {
     for (const name of names) {
       if (!this.loaded.has(name)) this.loaded.set(name, await loadComparedCurve(app.atlas, name));
     }
-    // More may have been pinned meanwhile.
+    // The pins may have changed meanwhile.
     if (String(names) !== String(app.pins.names)) return;
     const found = names.map((name) => this.loaded.get(name));
     this.show(

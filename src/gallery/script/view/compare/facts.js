@@ -1,10 +1,13 @@
-// The facts of curves side by side, with what differs made visible.
+// The parameters and measures of curves next to each other, with differences emphasized.
 
 import { cellValues, measureValue } from "../../data/family.js";
 import { h } from "../dom.js";
 import { formatNumber, standaloneMeasureLabel, measureText } from "../labels.js";
 
-/** A table of what is known of curves, [{ family, curve, name }]: a column for each, differing rows first. */
+/**
+ * A table of parameters and measures of curves, [{ family, curve, name }]: a column for each, differing rows
+ * first.
+ */
 export function factsTable(curves, measures, labels) {
   const rows = [...parameterRows(curves), ...measureRows(curves, measures)].filter(({ texts }) =>
     texts.some((text) => text !== "–"),

@@ -1,12 +1,12 @@
-// The curves that are compared: those of the atlas, and those whose parameters were changed on a plate.
+// Loads the curves to compare, from the atlas or with parameters changed on a plate.
 
 import { findCurve } from "../../data/family.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
 import { parseCurveName, solveNamedCurve, measuresOfCurve } from "../../export/curve.js";
 
 /**
- * The curve of a name, "evans:12.1.1" or "evans:12.1.1?p=2.5": { name, family, curve, key, changes: Map }, or
- * { name, reason } with a sentence on why there is none.
+ * The curve with a name, "evans:12.1.1" or "evans:12.1.1?p=2.5": { name, family, curve, key, changes: Map },
+ * or { name, reason } with a sentence that says why there is none.
  */
 export async function loadComparedCurve(atlas, name) {
   try {
@@ -17,16 +17,16 @@ export async function loadComparedCurve(atlas, name) {
     if (changes.size === 0) return { name, family, curve, key, changes };
     return { name, family: changedFamily(family, name, atlas.measures), curve: 0, key, changes };
   } catch (error) {
-    // Sentences of what is solved begin with the name.
+    // Messages of the solver start with the name.
     return { name, reason: error.message.replace(`${name}: `, "") };
   }
 }
 
 /**
- * What a name with changed parameters makes of a family: one with this curve alone, solved and measured by
- * the page, so that it is drawn, laid over others and told of as the curves of the atlas are.
+ * A family that contains only the curve with changed parameters, solved and measured by the page, so that it
+ * can be drawn, aligned and described like the curves of the atlas.
  *
- * @throws {Error} a sentence on why it cannot be assembled
+ * @throws {Error} a sentence that says why it cannot be assembled
  */
 function changedFamily(family, name, measures) {
   const exported = solveNamedCurve(family, name);
@@ -62,7 +62,7 @@ function changedFamily(family, name, measures) {
   };
 }
 
-/** Measures of a exported curve as a family has them, numbers and words apart. */
+/** Splits the measures of an exported curve into numbers and words, as a family stores them. */
 function splitMeasures(exported, measures) {
   const isWord = new Map(measures.map(({ name, word }) => [name, word]));
   const [numbers, words] = [{}, {}];
@@ -74,7 +74,7 @@ function splitMeasures(exported, measures) {
   return { numbers, words };
 }
 
-/** The places of a joint over a sampled circuit as a family packs them: { box, start, points }. */
+/** The positions of a joint over a sampled circuit, as a family stores them: { box, start, points }. */
 function packPoints({ x, y, count }, joint) {
   const box = Float64Array.from(widenedBox(emptyBox(), x[joint], y[joint], count));
   const points = new Uint16Array(2 * count);

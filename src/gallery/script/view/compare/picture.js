@@ -1,4 +1,4 @@
-// Curves over one another, told apart by ink, dashes and letters.
+// Overlaid curves, distinguished by colour, dash pattern and letter.
 
 import { s } from "../dom.js";
 import { viewOfOutlines, outlineData } from "../shape/match-picture.js";
@@ -6,12 +6,12 @@ import { viewOfOutlines, outlineData } from "../shape/match-picture.js";
 const OVER_WIDE = 720;
 const OVER_LOW = 240;
 const OVER_HIGH = 540;
-// So far from the edges curves keep, and letters from their curves, in the picture's pixels: a letter has
-// room on either side of a curve, and stays in the frame.
+// The margin of the picture and the distance of letters from their curves, in picture pixels: a letter fits
+// on either side of a curve.
 const OVER_INSET = 34;
 const LETTER_AWAY = 16;
 const FINE_DECIMALS = 3;
-// Side by side each curve has a frame of this size, in the picture's pixels.
+// The frame of each curve side by side, in picture pixels.
 const SIDE_WIDE = 300;
 const SIDE_HIGH = 220;
 const SIDE_INSET = 8;
@@ -21,15 +21,15 @@ export function letterOf(k) {
   return String.fromCharCode(65 + k);
 }
 
-/** The class of the k-th curve's line: an ink and a dash of its own. */
+/** The class of the k-th curve's line, which sets its colour and dash pattern. */
 function strokeClass(k) {
   return `compared ink-${(k % 5) + 1} dash-${k % 6}`;
 }
 
 /**
- * A picture of outlines, [{ points, closed }], over one another, each with its letter: { element, scale,
- * redraw(k, points) }. `scale` is of its pixels to the unit of the points; `redraw` puts finer points in
- * place of those of an outline.
+ * A picture of overlaid outlines, [{ points, closed }], each with its letter: { element, scale, redraw(k,
+ * points) }. `scale` is in picture pixels per unit of length; `redraw` replaces the points of an outline by
+ * finer ones.
  */
 export function overlaidPicture(outlines, label) {
   const all = outlines.map(({ points }) => points);
@@ -50,9 +50,9 @@ export function overlaidPicture(outlines, label) {
 }
 
 /**
- * Pictures of outlines, [{ points, closed }], side by side: all frames show the same part of the plane, so
- * that what is laid over one another is seen at the same place and size. { elements, scale, redraw } are as
- * of overlaidPicture.
+ * Pictures of outlines, [{ points, closed }], side by side. All frames show the same part of the plane, so
+ * that aligned curves appear at the same position and size. { elements, scale, redraw } as for
+ * overlaidPicture.
  */
 export function sideBySidePictures(outlines) {
   const all = outlines.map(({ points }) => points);
@@ -67,11 +67,11 @@ export function sideBySidePictures(outlines) {
 }
 
 /**
- * The letter of the k-th of so many outlines, beside its line, on the side away from the outline's middle.
+ * The letter of the k-th of `count` outlines, next to its line, on the side away from the outline's centre.
  */
 function letterLabel({ points, closed }, k, count, view) {
   const places = points.length / 2;
-  // Letters stand at different places of curves that lie over one another, and not at the ends of open ones.
+  // Letters are spread along overlaid curves, and away from the ends of open ones.
   const part = (k + 0.5) / count;
   const at = Math.floor((closed ? part : 0.1 + 0.8 * part) * places);
   const seen = (index) => {
@@ -96,7 +96,7 @@ function meanPixel(points, { scale, x, y }) {
   return [x + scale * mean(0), y - scale * mean(1)];
 }
 
-/** As high as the outlines need at full width, within bounds. */
+/** The height that the outlines need at full width, within bounds. */
 function heightFor(outlines) {
   const side = (part) => {
     const values = outlines.flatMap((points) => Array.from(points).filter((_, k) => k % 2 === part));
@@ -109,7 +109,7 @@ function heightFor(outlines) {
   return Math.round(Math.min(Math.max(wanted, OVER_LOW), OVER_HIGH));
 }
 
-/** A short line as the k-th curve's is. */
+/** A short sample of the k-th curve's line. */
 export function strokeSample(k) {
   return s(
     "svg",

@@ -1,8 +1,8 @@
-// What is compared, and how: the address of the room of comparison.
+// The query of the Compare view and its address.
 
-/** Curves at most that are compared. */
+/** The maximum number of curves compared. */
 export const MAX_COMPARED = 12;
-/** How curves are laid over one another: { name: label }. */
+/** How curves are aligned: { name: label }. */
 export const ALIGNMENTS = {
   none: "as they are",
   place: "middles together",
@@ -11,7 +11,7 @@ export const ALIGNMENTS = {
   mirrored: "turned or mirrored to fit",
 };
 
-/** The question of a query: { names or null, view: "side" | "over", align }. */
+/** Parses a query: { names or null, view: "side" | "over", align }. */
 export function parseComparisonQuery(query) {
   const names = query.get("c");
   const align = query.get("align");
@@ -22,7 +22,7 @@ export function parseComparisonQuery(query) {
   };
 }
 
-/** The query of it. */
+/** The inverse of parseComparisonQuery. */
 export function formatComparisonQuery({ view, align }, names) {
   return {
     c: names.join(","),

@@ -1,14 +1,14 @@
-// Curves laid over one another as the page's own solver has them, in place of the points of the data.
+// Redraws compared curves from the page's solver, in place of the stored points.
 
 import { placed } from "../../shape/similarity.js";
 import { solveCurveOrNull } from "../curve-reading.js";
 
-// The chord error of a curve in the picture, in its pixels.
+// The chord error of a curve, in picture pixels.
 const REFINED_ERROR = 0.05;
 
 /**
- * Draws the curves of a picture (overlaidPicture) anew as they are solved, one after another, so that the page
- * stays awake: `curves` are [{ family, curve }] and `laid` what alignCurve() has of each. Gives a function that
+ * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking
+ * the page. `curves` are [{ family, curve }], `aligned` the results of alignCurve(). Returns a function that
  * stops it.
  */
 export function refinePicture(picture, curves, aligned) {

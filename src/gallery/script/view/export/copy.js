@@ -1,10 +1,10 @@
-// Text for the clipboard, which a page that was opened from disk may not be let near.
+// Copies text to the clipboard, which browsers may deny to a page opened from disk.
 
 import { h } from "../dom.js";
 
 /**
- * Copies a text, or shows it selected to be copied by hand; whether it was copied, in a while. `what` says
- * what it is.
+ * Copies a text, or shows it selected for manual copying; resolves to whether it was copied. `what` describes
+ * the text.
  */
 export async function copyText(what, text) {
   try {
@@ -16,7 +16,7 @@ export async function copyText(what, text) {
   }
 }
 
-// A dialog with the text selected, until it is closed.
+// Shows a dialog with the text selected, until it is closed.
 function showCopyDialog(what, text) {
   const area = h("textarea", {
     readonly: true,

@@ -1,4 +1,4 @@
-// From names of curves to files.
+// Exports curves by name to files.
 
 import { extraCircuitsCommand, exportCommand, shortenCurveNames } from "../../export/command.js";
 import { csvOfCurve } from "../../export/csv.js";
@@ -12,8 +12,7 @@ import { fileStem, manifestCase, parseCurveName, solveNamedCurve } from "../../e
 import { zipOfFiles } from "../../export/zip.js";
 
 /**
- * What curves can be saved as: { label, note, ending, type, render(app, exported) -> text or bytes, perhaps in a
- * while }.
+ * The export formats: { label, note, ending, type, render(app, exported) -> text or bytes, or a promise }.
  */
 export const EXPORT_FORMATS = [
   {
@@ -60,9 +59,9 @@ export const EXPORT_FORMATS = [
   },
 ];
 
-// The page is left to itself so often, in milliseconds, while many curves are made.
+// The time in milliseconds after which an export of many curves yields to the page.
 const EXPORT_SLICE = 40;
-// More curves than this are the program's work.
+// The maximum number of curves exported by the page.
 const MAX_EXPORTED = 1000;
 
 function measureNames({ atlas }) {
@@ -70,8 +69,8 @@ function measureNames({ atlas }) {
 }
 
 /**
- * Curves of some names as one file { name, type, bytes }, several in an archive; `onProgress` is onProgress how many are
- * done.
+ * Exports curves by name as one file { name, type, bytes }, an archive if there are several; calls
+ * `onProgress` with the number of finished curves.
  */
 export async function exportFile(app, names, format, onProgress = () => {}) {
   if (names.length === 0) throw new Error("There is no curve to take away");
@@ -105,14 +104,14 @@ function loadFamilyOfName(app, name) {
     : Promise.reject(new Error(`“${name}” is no name of a curve`));
 }
 
-/** The piece of a manifest that has curves of some names once more. */
+/** The manifest fragment of curves by name. */
 export async function exportManifest(app, names) {
   const curves = [];
   for (const name of names) curves.push(manifestCase(await loadFamilyOfName(app, name), name));
   return manifestOfCurves(curves);
 }
 
-/** The command line that takes curves of some names away. */
+/** The command line that exports curves by name. */
 export async function exportCommandLine(app, names) {
   const families = new Map();
   const extra = [];

@@ -1,4 +1,4 @@
-// The menu by which curves are taken away.
+// The export menu.
 
 import { fill, h } from "../dom.js";
 import { copyText } from "./copy.js";
@@ -6,9 +6,8 @@ import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from ".
 import { saveFile } from "./save.js";
 
 /**
- * A button with a menu of everything that can be taken away of some curves: `names` are
- * "family:cell.trace.circuit", with changed parameters behind "?", in an array or from a function that is
- * currentNames when something is taken.
+ * A button with a menu of all export formats. `names` are "family:cell.trace.circuit", with changed
+ * parameters after "?", as an array or as a function called at the time of the export.
  */
 export function exportMenu(app, names) {
   const currentNames = () => (typeof names === "function" ? names() : names);
@@ -56,8 +55,8 @@ async function copyToClipboard(what, text) {
 }
 
 /**
- * A button that opens a menu of entries [[label, note, action], …]: arrows, Home and End go from one to the
- * next, a letter to the next that begins with it, Escape closes it, and so does whatever happens elsewhere.
+ * A button that opens a menu of entries [[label, note, action], …]. Arrow keys, Home and End move between
+ * entries, a letter moves to the next entry that starts with it; Escape or a click elsewhere closes the menu.
  */
 function menuButton(label, entries) {
   const button = h(
@@ -127,7 +126,7 @@ function handleMenuKey(event, items, close) {
     Home: 0,
     End: count - 1,
   }[event.key];
-  // The keys of the room behind are not meant while a menu is open.
+  // Keys of the view do not apply while a menu is open.
   if (event.key !== "Tab") event.stopPropagation();
   if (event.key === "Escape") close(true);
   else if (next !== undefined) items[next].focus();
@@ -136,7 +135,7 @@ function handleMenuKey(event, items, close) {
   event.preventDefault();
 }
 
-// A menu that would go over the edge of the window is hung on its other side.
+// Flips a menu that would overflow the window.
 function keepInWindow(menu) {
   menu.classList.remove("over", "left");
   const { left, bottom, height } = menu.getBoundingClientRect();

@@ -1,4 +1,4 @@
-// Files that the browser saves where it saves things.
+// Saves files with the browser's download.
 
 /** Saves { name, type, bytes }. */
 export function saveFile({ name, type, bytes }) {
@@ -9,6 +9,6 @@ export function saveFile({ name, type, bytes }) {
   document.body.append(link);
   link.click();
   link.remove();
-  // The browser has begun to read it by then.
+  // The browser has read the object by then.
   setTimeout(() => URL.revokeObjectURL(url), 60000);
 }

@@ -1,4 +1,4 @@
-// Columns in words.
+// Labels of columns.
 
 import { formatNumber, isInDegrees, standaloneMeasureLabel } from "../labels.js";
 
@@ -12,13 +12,13 @@ const COLUMN_LABELS = {
   family: "family",
 };
 
-/** What a column is called. */
+/** The label of a column. */
 export function columnLabel(name) {
   if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
   return COLUMN_LABELS[name] ?? standaloneMeasureLabel(name);
 }
 
-/** The number of a column as it is written beside a curve of a family. */
+/** A number of a column, formatted for a curve of a family. */
 export function columnValueText(column, family, value) {
   if (Number.isNaN(value)) return "–";
   return isInDegrees(family, column) ? `${formatNumber(value)}°` : formatNumber(value);

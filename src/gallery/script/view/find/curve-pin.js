@@ -1,9 +1,9 @@
-// Pins of what is found, by a button and by a key.
+// Pin buttons of search results.
 
 import { h } from "../dom.js";
 import { pinButton } from "../pin-button.js";
 
-/** A button beside the link of a curve, whose `data-name` is the curve's, that pins it. */
+/** A button next to the link of a curve that pins the curve. The link's `data-name` is the curve's name. */
 export function curvePinButton(app, name) {
   return pinButton(
     app,
@@ -14,7 +14,7 @@ export function curvePinButton(app, name) {
   );
 }
 
-/** Has the letter p on the link of a curve press the button beside it. */
+/** Handles the key p on the link of a curve: presses the pin button next to it. */
 export function pinOnKey(event) {
   const { name } = event.target.dataset;
   if (event.key !== "p" || !name || event.ctrlKey || event.metaKey || event.altKey) return;

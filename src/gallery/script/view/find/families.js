@@ -1,11 +1,11 @@
-// Which families are looked through.
+// Selects the families to search.
 
 import { h } from "../dom.js";
 import { formatFamilyBytes } from "./loading.js";
 
 /**
- * Boxes for the families of an atlas; `changed(ids)` is called with those ticked, null for all. Nothing for
- * an only family.
+ * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if
+ * there is only one family.
  */
 export function familyChooser(atlas, loaded, changed) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);

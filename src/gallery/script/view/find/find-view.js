@@ -1,4 +1,4 @@
-// The room where curves are found by what was measured of them.
+// The view that finds curves by their measures.
 
 import { filterColumns } from "../../find/columns.js";
 import { Filters } from "../../find/filter.js";
@@ -18,7 +18,7 @@ import { ResultTiles } from "./tiles.js";
 
 const ADDRESS_DELAY = 250;
 
-/** `#/find?…`: filters on every measure and parameter, and the curves that they leave. */
+/** The route `#/find?…`: filters on every measure and parameter, and the curves that pass. */
 export const findRoute = {
   name: "find",
   label: "Find",
@@ -103,7 +103,7 @@ class FindView {
     );
   }
 
-  /** Loads what is asked about, and asks again whenever more of it has come. */
+  /** Loads the requested families and applies the query as they arrive. */
   load() {
     const { app, query } = this;
     this.stop?.();
@@ -134,7 +134,7 @@ class FindView {
     this.applyQuery();
   }
 
-  /** Sets all filters and controls as the query has them. */
+  /** Sets all filters and controls from the query. */
   applyQuery() {
     this.filters = new Filters(this.table);
     for (const [name, filter] of this.query.filters) this.filters.set(name, filter);
@@ -177,13 +177,16 @@ class FindView {
     this.writeAddress();
   }
 
-  /** Goes on with other filters, which leaves no button that was pressed for it. */
+  /**
+   * Replaces all filters and moves the focus to the results, since the button that was pressed may be
+   * removed.
+   */
   setFilters(filters) {
     this.setQuery({ ...this.query, filters });
     this.results.focus({ preventScroll: true });
   }
 
-  /** Shows what the filters leave. */
+  /** Shows the curves that pass the filters. */
   show() {
     const { sort, show } = this.query;
     const column = this.columns.find(({ name }) => name === sort.name);
@@ -195,7 +198,7 @@ class FindView {
     this.clear.hidden = this.query.filters.size === 0;
     this.displayButtons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
     this.count();
-    // While an end is dragged, curves are laid out once a frame.
+    // While a bound is dragged, the results are laid out once per frame.
     this.laying ??= requestAnimationFrame(() => this.layOut());
   }
 
@@ -215,7 +218,7 @@ class FindView {
     else this.tiles.setRows(this.table, this.rows, column ? (row) => this.valueText(column, row) : () => null);
   }
 
-  /** Columns that are sorted by or filtered come before those that are always shown, to be in sight. */
+  /** Sorted and filtered columns come first, so that they are visible. */
   shownColumns(column) {
     const isNamed = ({ name }) => name === column?.name || this.query.filters.has(name);
     const isFirst = ({ group }) => group === "first";
@@ -259,7 +262,7 @@ class FindView {
     );
   }
 
-  /** A further address of this room. */
+  /** Handles another address of this route. */
   update(query) {
     this.setQuery(query);
     return true;

@@ -1,12 +1,12 @@
-// What is said where filters leave nothing.
+// The message shown when no curve passes the filters.
 
 import { h } from "../dom.js";
 import { formatCount } from "../footer.js";
 import { columnLabel } from "./column-label.js";
 
 /**
- * A sentence for filters that no curve passes, and for each a button that takes it away, with how many curves
- * that would leave; `without(name)` is called with the name of its column.
+ * A message for filters that no curve passes, and for each filter a button that removes it, with the number
+ * of curves that would pass then; calls `without(name)` with the name of its column.
  */
 export function noResults(filters, without) {
   const names = [...filters.fails.keys()];

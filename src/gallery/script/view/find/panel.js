@@ -1,10 +1,10 @@
-// The filters of a table, those that people want first before the others.
+// The panel of filters, the most useful first.
 
 import { fill, h } from "../dom.js";
 import { RangeFilter } from "./range-filter.js";
 import { WordFilter } from "./word-filter.js";
 
-/** `changed(name, filter)` is called whenever a filter is changed; null takes it away. */
+/** Calls `changed(name, filter)` when a filter is changed; null removes it. */
 export class FilterPanel {
   constructor(changed) {
     this.changed = changed;
@@ -13,7 +13,7 @@ export class FilterPanel {
     this.opened = new Set();
   }
 
-  /** Makes the filters of a table's columns, as a question has them. */
+  /** Creates the filters for the columns of a table, set as in a query. */
   setColumns(columns, table, query) {
     this.filters.clear();
     const groups = { first: [], more: [], parameters: [] };
@@ -53,7 +53,7 @@ export class FilterPanel {
     );
   }
 
-  /** Shows what filters leave, in the groups that are unfolded. */
+  /** Shows the counts of the remaining rows, in groups that are open. */
   show(filters) {
     this.shown = filters;
     const rows = filters.rows();

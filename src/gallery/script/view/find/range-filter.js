@@ -1,10 +1,10 @@
-// A filter of numbers: a histogram with two ends to drag, and their numbers to type.
+// A filter for numbers: a histogram with two handles to drag, and fields for their values.
 
 import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
 import { h, s } from "../dom.js";
 import { columnLabel } from "./column-label.js";
 
-/** `changed(filter)` is called with { low, high } or null whenever an end is moved. */
+/** Calls `changed(filter)` with { low, high } or null when a bound is changed. */
 export class RangeFilter {
   constructor(column, table, filter, changed) {
     Object.assign(this, { column, changed });
@@ -96,7 +96,7 @@ export class RangeFilter {
     });
   }
 
-  /** Takes a filter, lays its ends, and tells of it. */
+  /** Sets the filter, positions the handles and reports the change. */
   setFilter({ low, high }) {
     this.filter = { low, high };
     this.render();
@@ -124,7 +124,7 @@ export class RangeFilter {
     this.element.classList.toggle("set", !this.clear.hidden);
   }
 
-  /** Draws how many of the rows that are left are in each bin. */
+  /** Draws the number of remaining rows in each bin. */
   show(rows) {
     this.front.setAttribute("d", histogramBars(binCounts(this.scale, rows), this.highest()));
   }
@@ -171,7 +171,7 @@ export class RangeFilter {
   }
 }
 
-/** Bars of counts in a box of BINS × 1; small ones are made to be seen. */
+/** Bars of counts in a box of BINS × 1; small bars have a minimum height. */
 function histogramBars(counts, highest) {
   let path = "";
   counts.forEach((count, k) => {

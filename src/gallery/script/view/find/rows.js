@@ -1,4 +1,4 @@
-// What the filters leave, as a table of which only the rows near the window are in the page.
+// The results as a table; only the rows near the window are in the document.
 
 import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
@@ -10,10 +10,10 @@ import { pinOnKey, curvePinButton } from "./curve-pin.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
-// So many rows at most, from the first, are printed.
+// The maximum number of rows printed.
 const PRINTED_ROWS = 1000;
 
-/** A table of rows; `sorted(name)` is called when a heading is pressed. */
+/** A table of rows; calls `sorted(name)` when a column heading is pressed. */
 export class ResultRows {
   constructor(app, sorted) {
     Object.assign(this, { app, sorted });
@@ -70,7 +70,7 @@ export class ResultRows {
           sort.name === name ? (sort.down ? " ↓" : " ↑") : "",
         ),
       );
-    // A heading that has been pressed keeps the focus, though it is made anew.
+    // A heading that was pressed keeps the focus when it is replaced.
     const held = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
     fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
     if (held >= 0) this.head.querySelectorAll("button")[held]?.focus();
@@ -94,7 +94,7 @@ export class ResultRows {
     fill(this.body, space(first), shown, space(this.rows.length - last));
   }
 
-  /** Has the first rows in the page and no others, as they are on paper. */
+  /** Puts the first rows into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.rows.length, PRINTED_ROWS);
     fill(

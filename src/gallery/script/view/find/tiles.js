@@ -1,4 +1,4 @@
-// What the filters leave, as a contact sheet.
+// The results as a grid of thumbnails.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
@@ -11,7 +11,8 @@ import { thumbnail } from "../thumbnail.js";
 import { pinOnKey, curvePinButton } from "./curve-pin.js";
 
 /**
- * Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null.
+ * Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or
+ * null.
  */
 export class ResultTiles extends TileWindow {
   constructor(app) {
@@ -27,7 +28,7 @@ export class ResultTiles extends TileWindow {
     this.unwatch();
   }
 
-  /** Shows rows in place of those that were there. */
+  /** Replaces the rows shown. */
   setRows(table, rows, valueOf) {
     Object.assign(this, { table, rows, valueOf, count: rows.length });
     for (const element of this.there.values()) element.remove();

@@ -1,9 +1,9 @@
-// A filter of words: boxes to tick, with counts.
+// A filter for words: checkboxes with counts.
 
 import { h } from "../dom.js";
 import { columnLabel } from "./column-label.js";
 
-/** `changed(filter)` is called with a Set of words, or null for all. */
+/** Calls `changed(filter)` with a Set of words, or null for all. */
 export class WordFilter {
   constructor(column, table, filter, changed) {
     Object.assign(this, { column, changed });
@@ -31,7 +31,7 @@ export class WordFilter {
     this.changed(this.chosen.size ? new Set(this.chosen) : null);
   }
 
-  /** Shows how many rows each word would leave. */
+  /** Shows how many rows pass with each word. */
   show(counts) {
     counts.forEach((count, k) => {
       this.counts[k].textContent = count.toLocaleString("en");

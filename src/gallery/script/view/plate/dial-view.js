@@ -7,11 +7,11 @@ import { formatDecimals } from "./study.js";
 
 const DIAL_CENTRE = [100, 98];
 const DIAL_RADIUS = 78;
-// A linkage is said to run well while its transmission angle keeps so far from 0 and 180.
+// The transmission angle of a good linkage stays at least this far from 0 and 180.
 const GOOD_TRANSMISSION_DEG = 40;
 
 /**
- * The dial: `show(study)` its range, `pose(pose)` where it is now. Hidden where the linkage is no four-bar.
+ * The dial: `show(study)` sets its range, `pose(pose)` its needle. Hidden if the linkage is not a four-bar.
  */
 export class DialView {
   constructor() {
@@ -96,7 +96,7 @@ export class DialView {
   }
 }
 
-// Least and greatest over the samples of a circuit, which have its limits among them.
+// The least and greatest angle over the samples of a circuit, which include its limits.
 function dialRange({ linkage, fourBar, circuit }) {
   const pose = new Float64Array(2 * linkage.joints.length);
   let [least, most] = [180, 0];

@@ -1,17 +1,17 @@
-// Hands on the stage: a joint is dragged along its path, the crank about its pivot, the picture moved and
-// zoomed.
+// Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the
+// picture.
 
 import { linkageWithOnePoint } from "../../kinematics/linkage.js";
 import { planePoint } from "../../draw/paper-view.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";
 import { PoseSolver } from "./pose-solver.js";
 
-// How far beyond a limit a pointer on the crank goes before it comes back on the other branch, in degrees.
+// How far the pointer drags the crank beyond a limit before it returns on the other branch, in degrees.
 const LIMIT_SLACK = 3;
 
 /**
- * Takes pointers on a stage. `plate` has study, pose, reason (why there is nothing to be dragged, or null)
- * and drive. Returns a function that takes the listeners off.
+ * Handles pointers on a stage. `plate` has study, pose, reason (why nothing can be dragged, or null) and
+ * drive. Returns a function that removes the listeners.
  */
 export function enableDragging(stage, plate) {
   const { picture } = stage;
@@ -43,7 +43,7 @@ export function enableDragging(stage, plate) {
     if (!before) return;
     const at = pointOf(event);
     if (drag) {
-      // A second finger beside the one that drags does nothing.
+      // Only the pointer that started the drag moves the joint.
       if (event.pointerId === dragPointer) drag(planePoint(stage.view, at));
     } else if (pointers.size === 2) pinch(stage, pointers, event.pointerId, at);
     else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
@@ -61,7 +61,7 @@ export function enableDragging(stage, plate) {
     scrolled = performance.now();
   };
   const wheel = (event) => {
-    // A page that is being scrolled goes on over the picture.
+    // A page that is scrolling continues to scroll over the picture.
     if (!event.ctrlKey && performance.now() - scrolled < 400) return;
     event.preventDefault();
     stage.zoom(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0015)), pointOf(event));
@@ -88,14 +88,14 @@ function pinch(stage, pointers, id, at) {
   stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
 }
 
-// A function to be called with the places, in the plane, where the pointer is.
+// Starts a drag; returns a function that takes the pointer's positions in the plane.
 function startDrag(plate, stage, joint, pointer) {
   const { step } = plate.study.linkage.joints[joint];
   const isCrank = step.kind === "crank" && !plate.study.linkage.seenFrom;
   return isCrank ? dragCrank(plate, step.pivot, joint, pointer) : dragJoint(plate, joint, pointer);
 }
 
-// The crank follows the direction of the pointer about its pivot, turn after turn, and over limits.
+// The crank follows the direction of the pointer about its pivot, over several turns and over limits.
 function dragCrank(plate, pivot, pin, pointer) {
   const { study, pose, drive } = plate;
   const { place } = drive;
@@ -117,7 +117,7 @@ function dragCrank(plate, pivot, pin, pointer) {
   };
 }
 
-// Any other joint goes along its path to where it is nearest the pointer.
+// Any other joint moves along its path to the point nearest to the pointer.
 function dragJoint(plate, joint, pointer) {
   const alone = linkageWithOnePoint(plate.study.linkage, joint);
   const poser = new PoseSolver(alone.linkage);

@@ -1,15 +1,14 @@
-// What moves a linkage along its circuit: time, the slider, keys, hands.
+// Moves a linkage along its circuit: by time, slider, keys or dragging.
 
 import { clampPart, partOfInput, placeAtPart, turningParts } from "./timeline.js";
 import { Player } from "./player.js";
 
-// A range shorter than this many degrees is not rattled through: it takes as long as this would.
+// A shorter range, in degrees, takes as long as this one, so that it is not played too fast.
 const SHORTEST_RANGE = 150;
 
 /**
- * A place on the timeline of a study: `part`, and `place` { pass, input }. `on` has moved(),
- * playing(isPlaying), and rate(), the degrees of input to a second. `isHalted` while there is nothing to
- * move.
+ * A position on the timeline of a study: `part`, and `place` { pass, input }. `on` has moved(),
+ * playing(isPlaying), and rate(), in degrees of input per second. `isHalted` while there is nothing to move.
  */
 export class Drive {
   constructor(on) {
@@ -22,7 +21,7 @@ export class Drive {
     this.player = new Player((seconds) => this.#advance(seconds));
   }
 
-  /** Takes the timeline of a study: at the same input as before, or as near it as there is. */
+  /** Sets the study; keeps the input, or the nearest one possible. */
   setStudy({ timeline, linkage }) {
     const isFirst = this.timeline === null;
     this.timeline = timeline;
@@ -39,13 +38,13 @@ export class Drive {
     this.part = partOfInput(timeline, this.place.pass, this.place.input);
   }
 
-  /** To where a plate opens: some way along, where links seldom lie on one another. */
+  /** Moves to the initial position of a plate, where links seldom overlap. */
   begin() {
     this.part = this.timeline.closed ? 0.13 : 0.3;
     placeAtPart(this.timeline, this.part, this.place);
   }
 
-  /** The pass that the place is on. */
+  /** The current pass. */
   get pass() {
     return this.timeline.passes[this.place.pass];
   }
@@ -57,32 +56,32 @@ export class Drive {
     this.on.playing(this.player.isPlaying);
   }
 
-  /** A hand has taken hold of the linkage. */
+  /** Pauses for input by the user. */
   pause() {
     this.toggle(false);
   }
 
-  /** `place` has been moved. */
+  /** Reports a change of `place`. */
   move() {
     this.part = partOfInput(this.timeline, this.place.pass, this.place.input);
     this.on.moved();
   }
 
-  /** Goes to a part of the timeline. */
+  /** Moves to a part of the timeline. */
   seek(part) {
     this.part = part;
     placeAtPart(this.timeline, part, this.place);
     this.on.moved();
   }
 
-  /** The same, when a hand asks for it. */
+  /** Pauses and moves to a part of the timeline. */
   seekAndPause(part) {
     if (this.isHalted) return;
     this.pause();
     this.seek(part);
   }
 
-  /** So many degrees on along the timeline, or 1/200 of a stroke; over limits. */
+  /** Steps by degrees, or by 1/200 of a stroke, along the timeline, and over limits. */
   step(direction, times = 1) {
     if (this.isHalted) return;
     this.pause();
@@ -95,11 +94,11 @@ export class Drive {
       this.move();
       return;
     }
-    // A step over a limit ends beyond it, by so much of the timeline.
+    // A step over a limit continues beyond it.
     this.seek(clampPart(this.timeline, this.part + by / this.timeline.whole));
   }
 
-  /** To the next place where the input turns round, or, of a full turn, to its beginning. */
+  /** Moves to the next limit position, or, for a full rotation, to its start. */
   toLimit(direction) {
     if (this.isHalted) return;
     this.pause();
@@ -117,7 +116,7 @@ export class Drive {
     if (this.isHalted) return;
     const { closed, whole } = this.timeline;
     const rate = this.on.rate();
-    // An actuator's stroke takes as long as a turn.
+    // A stroke takes as long as a rotation.
     const range = this.isLength ? 360 : Math.max(whole, SHORTEST_RANGE);
     let part = this.part + (this.heading * seconds * rate) / range;
     if (!closed && (part > 1 || part < 0)) {

@@ -1,4 +1,4 @@
-// All that is told of a curve: where it comes from, and its measures, beside those of changed parameters.
+// The data of a curve: its origin, and its measures next to those of changed parameters.
 
 import { address } from "../../data/address.js";
 import { curveKey, measureValue } from "../../data/family.js";
@@ -8,12 +8,12 @@ import { familySource } from "../overview.js";
 import { measureLabel } from "../labels.js";
 import { formatLength } from "./speed-view.js";
 
-/** The heading's words of a cell: what it is called, and what is noted of it. */
+/** The caption and the note of a cell. */
 export function cellHeading(family, cell) {
   return { caption: family.cells.caption[cell], note: family.cells.note[cell] };
 }
 
-/** The list of where a curve is from and what it is. */
+/** The list of a curve's origin. */
 export function curveOrigin(app, family, curve) {
   const cell = family.curves.cell[curve];
   const page = family.curves.page[curve];
@@ -46,7 +46,8 @@ export function curveOrigin(app, family, curve) {
 }
 
 /**
- * The table of measures: `show(now)` puts those of the page beside the recorded ones, null takes them off.
+ * The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes
+ * them.
  */
 export class MeasureTable {
   constructor(app, family, curve, isLength) {
@@ -86,7 +87,7 @@ export class MeasureTable {
     this.show(null);
   }
 
-  /** `now` is { name: number or word } of changed parameters, or null where nothing is changed. */
+  /** `now` is { name: number or word } for changed parameters, or null if nothing is changed. */
   show(now) {
     this.table.classList.toggle("with-changes", now !== null);
     fill(
@@ -95,7 +96,7 @@ export class MeasureTable {
     );
     for (const row of this.rows) {
       const value = now?.[row.measure.name];
-      // What neither has is not told.
+      // Measures that apply to neither are hidden.
       row.element.hidden = row.recorded === undefined && (value === undefined || Number.isNaN(value));
       fill(row.now, now ? formatMeasure(row.measure, value, row.isLength) : "");
       fill(row.change, now ? formatMeasureChange(row.measure, row.recorded, value) : "");
@@ -117,7 +118,7 @@ function measureRow(name, measure, recorded, isLength) {
   return { element, measure, recorded, now, change, isLength: ofLength };
 }
 
-/** A measure in words: with its unit, in four or five digits; empty where it does not apply. */
+/** The value of a measure with its unit, in four or five digits; empty if it does not apply. */
 function formatMeasure({ word, unit }, value, isLength = false) {
   if (value === undefined || value === null || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;

@@ -1,4 +1,4 @@
-// The keys of a plate, wherever the focus is but in a field of its own.
+// The keyboard commands of a plate, active unless a field has the focus.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
@@ -36,7 +36,7 @@ function handlePlateKey(plate, event) {
   event.preventDefault();
 }
 
-/** The address of the curve before (-1) or after (1) one of a family; null at the ends. */
+/** The address of the previous (-1) or next (1) curve of a family; null at the ends. */
 export function neighbourAddress(family, curve, way) {
   const next = curve + way;
   return next >= 0 && next < family.curves.count

@@ -1,4 +1,4 @@
-// What stands where on a plate.
+// The layout of a plate.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";

@@ -1,4 +1,4 @@
-// What of a plate moves: links, pins, sliders and what goes with the traced point, in pixels of the screen.
+// The moving parts of a plate: links, pins, sliders and the traced point, in screen pixels.
 
 import { arrowData, blockData, cylinderData, linkData, slotData, slotEnds } from "../../draw/link-shapes.js";
 import { pixel, placedData } from "../../draw/path-data.js";
@@ -7,7 +7,7 @@ import { JointNames } from "./joint-names.js";
 
 const PIN_RADIUS = 4.5;
 
-/** The upper sheet of a stage. */
+/** The upper layer of a stage. */
 export class MovingLayer {
   constructor() {
     this.links = s("g", {});
@@ -40,7 +40,7 @@ export class MovingLayer {
     this.arrow = null;
   }
 
-  /** Makes the elements of a study's linkage; those of one that is made alike stay. */
+  /** Creates the elements of a study's linkage; reuses them for a linkage of the same structure. */
   show(study) {
     this.study = study;
     const { mechanism, linkage, joint } = study;
@@ -55,7 +55,7 @@ export class MovingLayer {
     this.at =
       this.at.length === 2 * linkage.joints.length ? this.at : new Float64Array(2 * linkage.joints.length);
     if (likeness === this.likeness) {
-      // The ends of slots are numbers of the study.
+      // The ends of slots depend on the study.
       this.parts.forEach((part) => {
         if (part.slot !== undefined) part.kept = mechanism.slots[part.slot];
       });
@@ -70,7 +70,7 @@ export class MovingLayer {
     this.names.show(study);
   }
 
-  /** Where the plane lies now; the pose is drawn again. */
+  /** Sets the view of the plane and redraws the pose. */
   place(view) {
     this.view = view;
     if (this.poseNow) this.pose(this.poseNow, view);
@@ -97,7 +97,7 @@ export class MovingLayer {
     this.#arrow();
   }
 
-  /** The velocity of the traced point in pixels, [dx, dy], or null. */
+  /** Sets the velocity of the traced point in pixels, [dx, dy], or null. */
   speed(arrow) {
     this.arrow = arrow;
     this.#arrow();
@@ -130,7 +130,7 @@ function putCircle(element, at, joint) {
   element.setAttribute("cy", pixel(y));
 }
 
-// Paths, each with how its data follows from the places of joints.
+// Paths, each with its data as a function of the joint positions.
 function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
   const path = (name) => s("path", { class: name });
   const link = (joints, isPlate) => ({
@@ -162,7 +162,7 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
       return slotData(ends[0], ends[1], ends[2], ends[3]);
     },
   });
-  // A block in a slot lies along the slot, one on a guide along the guide.
+  // A block in a slot is aligned with the slot, a block on a guide with the guide.
   const block = ({ at: joint, line: [p, q] }) => ({
     element: path("hollow"),
     data: (at) =>
@@ -191,7 +191,7 @@ function circlesOfMechanism({ mechanism, joint: traced }) {
   ];
 }
 
-// What a hand can take hold of: the crank along its length, and every joint that moves.
+// The drag handles: the crank along its length, and every moving joint.
 function handlesOfStudy({ linkage, mechanism, joint: traced }, sheet) {
   const joints = [...new Set([...mechanism.pins, traced, ...mechanism.slots.map(({ through }) => through)])];
   const cranks = linkage.joints.map(({ step }, id) =>

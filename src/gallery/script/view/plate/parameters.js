@@ -1,13 +1,13 @@
-// What can be changed of a linkage on its plate (changes are as in kinematics/changes.js).
+// The parameters of a linkage that can be changed on its plate (changes as in kinematics/changes.js).
 
 import { changedValues, tracedPoint } from "../../kinematics/changes.js";
 import { roundBelow } from "../../draw/paper-view.js";
 
 /**
- * What a plate offers to change: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind` is
- * "free" for what the atlas varies, "fixed" for what it keeps, "derived" for what is derived from others, and
- * "unlinked" for that when it has been changed; `low` to `high` is a sensible range, `grain` the step of a
- * slider.
+ * The parameters that can be changed: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind`
+ * is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an expression gives
+ * it, and "unlinked" if a derived one has been changed. `low` to `high` is the range of the slider, `grain`
+ * its step.
  */
 export function changeableParameters(family, cell, trace, changes) {
   const width = family.names.length;
@@ -72,7 +72,7 @@ function spreadOfSlot({ cells, names }, slot) {
   return [least, most];
 }
 
-// The slots that must be whole numbers: the teeth of gears.
+// The slots that must be integers: the numbers of teeth of gears.
 function wholeSlots({ joints }) {
   const ratios = joints.flatMap((joint) => ("gear" in joint ? joint.ratio : []));
   return new Set(ratios.filter((part) => Array.isArray(part) && part.length === 1).map(([[slot]]) => slot));
@@ -83,7 +83,7 @@ function sliderRange(recorded, [least, most], { min, max }, size, isWhole) {
   const reach = Math.max(most - least, 0.6 * Math.abs(recorded)) || size;
   let low = Math.min(least, recorded - 0.5 * reach);
   let high = Math.max(most, recorded + 0.5 * reach);
-  // A bound of 0 is itself left out.
+  // A bound of 0 is exclusive.
   if (min === 0 && low <= 0) low = 0.1 * Math.min(least, recorded);
   else if (min !== null && min !== undefined) low = Math.max(low, min);
   if (max === 0 && high >= 0) high = 0.1 * Math.max(most, recorded);
@@ -91,13 +91,13 @@ function sliderRange(recorded, [least, most], { min, max }, size, isWhole) {
   return { low, high, grain: roundBelow((high - low) / 400) || 0.01 };
 }
 
-/** A value rounded to a grain, with no more decimals than that has. */
+/** Rounds a value to a multiple of `grain`, with no more decimals than it has. */
 export function roundedToGrain(value, grain) {
   const decimals = Math.max(0, -Math.floor(Math.log10(grain) + 1e-9));
   return Number((Math.round(value / grain) * grain).toFixed(Math.min(decimals, 12)));
 }
 
-/** The changes that a query (a Map of words) says, of what can be changed; the rest is left out. */
+/** The changes in a query (a Map of words); names that cannot be changed are ignored. */
 export function parseChanges(family, trace, query) {
   const point = tracedPoint(family.template, trace);
   const known = new Set([...family.names, ...(point ? [`${point.name}.along`, `${point.name}.across`] : [])]);

@@ -8,18 +8,21 @@ import { roundBelow } from "../../draw/paper-view.js";
 import { formatLength } from "./speed-view.js";
 import { formatDecimals } from "./study.js";
 
-// More other points than this are drawn by fewer of their samples.
+// With more other points than this, fewer of their samples are drawn.
 const MANY_POINTS = 12;
 
-/** The input a dash and its gap span: the family's, or, of a length, a round part of the longest pass. */
+/**
+ * The input covered by a dash and its gap: the family's, or, for a length, a round fraction of the longest
+ * pass.
+ */
 function dashPeriod(family, { linkage, circuit }) {
   if (!linkage.input.isLength) return family.dash_deg;
   return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
 }
 
 /**
- * Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its
- * straight portion. `on` has the names of what is switched on.
+ * Path data { dashes, lead, others, band } of a study's curve, from its path and the stretch of its straight
+ * portion. `on` has the names of the selected overlays.
  */
 export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
   const { circuit, others } = study;
@@ -42,7 +45,8 @@ function sampledPathData({ x, y, count, closed }, joint, stride, grid) {
 }
 
 /**
- * What is told of a curve's straight portion: its length, how far it leaves its line, and the input it spans.
+ * The description of a curve's straight portion: its length, its deviation from the line, and its range of
+ * input.
  */
 export function straightSummary({ linkage }, family, curve, measures) {
   const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
@@ -55,9 +59,8 @@ export function straightSummary({ linkage }, family, curve, measures) {
 }
 
 /**
- * The straight portion of a study's curve as a stretch (draw/band.js), from the measures { name: value } of
- * the page, or, where they are null, those of the atlas. Null where there is none, or one too short to be
- * seen.
+ * The straight portion of a study's curve as a stretch (draw/band.js), from the computed measures { name:
+ * value }, or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
  */
 export function straightStretch(study, family, curve, measures) {
   const { linkage, circuit, joint, curveBox } = study;

@@ -1,4 +1,4 @@
-// What the query of a plate's address says: changed parameters, the circuit, and what is switched on.
+// The query of a plate's address: changed parameters, the circuit, and the overlays.
 
 import { address } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
@@ -6,7 +6,8 @@ import { OVERLAYS } from "./overlays.js";
 import { parseChanges } from "./parameters.js";
 
 /**
- * { changes: Map, requestedCircuit: the place of a circuit among all, or null, on: Set of overlays' names } of a query.
+ * Parses a query: { changes: Map, requestedCircuit: the index of a circuit among all, or null, on: Set of
+ * names of overlays }.
  */
 export function readPlateQuery(family, trace, query) {
   const circuit = Number(query.get("circuit"));
@@ -19,7 +20,7 @@ export function readPlateQuery(family, trace, query) {
   };
 }
 
-/** The address of a plate, as short as it can be: what is as it was at first is not said. */
+/** The shortest address of a plate; defaults are left out. */
 export function plateAddress({ family, curve, changes, requestedCircuit, on, study }) {
   const query = new Map(changes);
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
@@ -30,8 +31,8 @@ export function plateAddress({ family, curve, changes, requestedCircuit, on, stu
 }
 
 /**
- * The name of a curve beyond its family, on the circuit that is shown, with what is changed of it; a circuit
- * that the atlas does not have is named by its number among all: "evans:1.1.1?circuit=2".
+ * The name of the curve on the shown circuit, with its family and changes. A circuit that the atlas does not
+ * contain is given by its number among all: "evans:1.1.1?circuit=2".
  */
 export function plateCurveName({ family, curve, changes, study }) {
   const { key, extraCircuit } = keyOfShownCircuit(family, curve, study);
@@ -40,16 +41,19 @@ export function plateCurveName({ family, curve, changes, study }) {
   return `${family.id}:${key}${words.length ? `?${words.join("&")}` : ""}`;
 }
 
-/** Whether a plate shows a circuit that the atlas does not have. */
+/** Whether a plate shows a circuit that the atlas does not contain. */
 export function isExtraCircuit({ family, curve, study }) {
   return keyOfShownCircuit(family, curve, study).extraCircuit !== null;
 }
 
-/** The key of the curve on the circuit that a study shows; its own with a number where there is none. */
+/**
+ * The key of the curve on the shown circuit; if the atlas does not contain it, the curve's own key and the
+ * circuit's number.
+ */
 function keyOfShownCircuit(family, curve, study) {
   const own = curveKey(family, curve);
   if (!study || study.shown === study.home) return { key: own, extraCircuit: null };
-  // Only where the atlas takes all circuits are they numbered as a plate counts them.
+  // The atlas numbers circuits as a plate does only if it contains all circuits.
   const key = family.template.circuits === "all" ? own.replace(/\d+$/, study.shown + 1) : null;
   return key !== null && findCurve(family, key) !== undefined
     ? { key, extraCircuit: null }

@@ -1,4 +1,4 @@
-// A plate: the state of a linkage that is being looked at, and what happens when a hand does something to it.
+// A plate: the state of the linkage of a curve, and the response to input.
 
 import { clampPart, partOfInput } from "./timeline.js";
 import { DialView } from "./dial-view.js";
@@ -22,15 +22,15 @@ import { Switches } from "./switches.js";
 import { Transport } from "./transport.js";
 import { PointVelocity, velocityArrow } from "./velocity.js";
 
-// Chord errors of a path, by parts of the size: rough while a slider is being moved, fine once it rests for
-// so many milliseconds.
+// Chord errors of a path relative to its size: rough while a slider is being moved, fine when it has rested
+// for REST_MILLISECONDS.
 const ROUGH_PATH = 3e-4;
 const FINE_PATH = 2e-5;
 const REST_MILLISECONDS = 160;
 
 /**
- * The plate of a curve of a family, with what a query of its address says; `element` is shown, then `shown()`
- * called.
+ * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
+ * `shown()`.
  */
 export class Plate {
   constructor(app, family, curve, query) {
@@ -75,8 +75,8 @@ export class Plate {
   }
 
   /**
-   * To be called when the element is in the page: measures the frame, and begins to play where motion is
-   * welcome.
+   * Called when the element is in the document: measures the frame, and starts the motion unless reduced
+   * motion is preferred.
    */
   shown() {
     this.stage.observe();
@@ -95,7 +95,7 @@ export class Plate {
     window.cancelAnimationFrame(this.waiting);
   }
 
-  /** Takes another query of the same curve's address. */
+  /** Handles another query of the same curve's address. */
   setQuery(query) {
     Object.assign(this, readPlateQuery(this.family, this.trace, query));
     this.#restudy(false);
@@ -103,17 +103,17 @@ export class Plate {
     return true;
   }
 
-  /** The name of the curve beyond its family, with what is changed of it. */
+  /** The name of the curve, with its family and changes. */
   get name() {
     return plateCurveName(this);
   }
 
-  /** Whether what is shown is what the atlas has. */
+  /** Whether the atlas contains what is shown. */
   get isRecorded() {
     return this.changes.size === 0 && this.study !== null && this.study.shown === this.study.home;
   }
 
-  // Behind what cannot be assembled from the first, the linkage of the atlas is to be seen.
+  // If the address cannot be assembled, the linkage of the atlas is shown behind the message.
   #showRecorded() {
     const { changes, requestedCircuit } = this;
     Object.assign(this, { changes: new Map(), requestedCircuit: null });
@@ -122,7 +122,7 @@ export class Plate {
     this.#restudy(false);
   }
 
-  // Makes the study of what is changed now; one that cannot be assembled leaves the last that could in view.
+  // Creates the study of the current changes; if it cannot be assembled, the previous one stays visible.
   #restudy(isRough) {
     const { family, curve, changes } = this;
     const study = studyOf(family, curve, changes, this.requestedCircuit, isRough);
@@ -157,7 +157,7 @@ export class Plate {
     this.#draw();
   }
 
-  // The straight portion: the atlas's own of what it has, that of the page's measures of what is changed.
+  // The straight portion from the measures of the atlas, or from computed ones if something is changed.
   #markStraight(isRough) {
     const { study, family, curve } = this;
     this.measured = this.isRecorded || isRough ? null : measuresOfStudy(family, study);
@@ -173,7 +173,7 @@ export class Plate {
   #change(make) {
     make();
     this.#settleSoon(REST_MILLISECONDS);
-    // However fast a slider reports, one study to a frame is all that can be seen.
+    // At most one study per frame.
     this.waiting ||= window.requestAnimationFrame(() => {
       this.waiting = 0;
       this.#restudy(true);
@@ -190,7 +190,7 @@ export class Plate {
     }, after);
   }
 
-  // What follows a change when hands rest: measures, the address, words.
+  // Updates the measures, the address and the texts after a change.
   #settle(isAddressed = true) {
     const { family, curve, study } = this;
     this.measures.show(this.reason ? null : this.measured);

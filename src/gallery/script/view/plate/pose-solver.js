@@ -1,11 +1,11 @@
-// A linkage's pose at one input, again and again, in the same arrays: sixty times a second nothing is left to
-// be swept up but a few small objects.
+// Solves the pose of a linkage repeatedly into the same arrays, to keep garbage collection small at sixty
+// frames per second.
 
 import { newColumns, placeJoints, seeColumns, stopAt } from "../../kinematics/columns.js";
 import { placeEnd } from "../../kinematics/ends.js";
 import { modesOf } from "../../kinematics/signs.js";
 
-/** Poses of a linkage. `pose` is [x0, y0, x1, y1, …] of all joints in the plane, after each `take`. */
+/** Poses of a linkage. `pose` is [x0, y0, x1, y1, …] of all joints in the plane, after each `solve`. */
 export class PoseSolver {
   constructor(linkage) {
     this.linkage = linkage;
@@ -16,7 +16,7 @@ export class PoseSolver {
     this.modes = new Map();
   }
 
-  /** The pose at an input of a pass; at its ends exactly as the circuit has them. */
+  /** The pose at an input of a pass; at the ends exactly as in the circuit. */
   solve(pass, input) {
     const { linkage, columns, inputs } = this;
     const stop = stopAt(linkage.input, input);

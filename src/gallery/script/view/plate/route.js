@@ -1,9 +1,9 @@
-// The room of a curve's plate.
+// The route of a curve's plate.
 
 import { findCurve } from "../../data/family.js";
 import { Plate } from "./plate.js";
 
-/** `#/evans/curve/12.1.1?p=2.5`: the linkage of a curve, moving, and all that can be done with it. */
+/** The route `#/evans/curve/12.1.1?p=2.5`: the linkage of a curve in motion. */
 export const plateRoute = {
   name: "curve",
   parent: "families",

@@ -11,9 +11,9 @@ const PARAMETER_KINDS = {
 };
 
 /**
- * The controls of parameters (parameters.js), below `legend`, what their letters mean. `on` has change(name,
- * value), clear(name), settle() when a hand lets go, and reset(). `show(parameters)` says what they are now;
- * rows stay while their names do.
+ * The controls of parameters (parameters.js), below `legend`, which explains their letters. `on` has
+ * change(name, value), clear(name), settle() at the end of a drag, and reset(). `show(parameters)` updates
+ * the values; rows are reused while the names are the same.
  */
 export class Sliders {
   constructor(legend, on) {
@@ -47,13 +47,13 @@ export class Sliders {
     this.reset.disabled = !parameters.some((parameter) => isChangedParameter(parameter));
   }
 
-  /** Marks what is wrong: the names whose values are out of bounds. */
+  /** Updates a row and marks a value that is out of bounds. */
   #refresh(parameter) {
     const row = this.rows.get(parameter.name);
     const { value, recorded, kind, low, high } = parameter;
     row.parameter = parameter;
     row.element.className = `parameter ${kind}${isChangedParameter(parameter) ? " changed" : ""}`;
-    // A value that was typed may lie beyond the range that is sensible.
+    // A typed value may exceed the slider's range.
     row.range.min = Math.min(low, value);
     row.range.max = Math.max(high, value);
     if (Number(row.range.value) !== value) row.range.value = value;
@@ -139,7 +139,7 @@ export class Sliders {
   }
 }
 
-// The browser's own steps of a slider without steps are coarse: ours are its grain, with shift ten of them.
+// Steps of the slider by keys: one grain, with Shift ten.
 function stepSlider(event, row, on) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
   if (!(event.key in ways) || event.ctrlKey || event.metaKey || event.altKey) return;

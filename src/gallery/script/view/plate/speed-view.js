@@ -8,7 +8,10 @@ import { formatDecimals } from "./study.js";
 
 const SPEED_FRAME = { width: 300, height: 84 };
 
-/** The graph: `show(study, path)`, then `now(part, speed)`; `choose(part)` is called where it is pressed. */
+/**
+ * The graph: `show(study, path, stretch)`, then `update(part, speed)`; calls `choose(part)` when it is
+ * pressed.
+ */
 export class SpeedView {
   constructor(choose) {
     this.line = s("path", { class: "speed-line" });
@@ -56,7 +59,7 @@ export class SpeedView {
     this.unit = "";
   }
 
-  /** `stretch` are the parts [from, to] of the straight portion, or null. */
+  /** `stretch` is the range of parts [from, to] of the straight portion, or null. */
   show({ linkage, timeline }, path, stretch) {
     const { isLength } = linkage.input;
     const { inputs, speeds } = speedsOfPath(path, isLength ? 1 : 180 / Math.PI);
@@ -106,7 +109,7 @@ function bandData([from, to]) {
   return to >= from ? field(from, to) : field(from, 1) + field(0, to);
 }
 
-/** A length or speed in four significant digits, with a true minus. */
+/** A length or speed in four significant digits, with a true minus sign. */
 export function formatLength(value) {
   if (!Number.isFinite(value)) return "∞";
   if (value === 0) return "0";

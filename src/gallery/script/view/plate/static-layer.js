@@ -1,5 +1,5 @@
-// What of a plate stays where it is while the linkage moves: the curve in dashes, other curves, guides,
-// wheels, the straight portion, the fixed centrode, the ground, and a scale.
+// The static parts of a plate: the dashed curve, other curves, guides, wheels, the straight portion, the
+// fixed centrode, the ground, and a scale bar.
 
 import { groundData } from "../../draw/hatching.js";
 import { circleData, pixel, polylineData } from "../../draw/path-data.js";
@@ -7,11 +7,11 @@ import { roundBelow } from "../../draw/paper-view.js";
 import { s } from "../dom.js";
 import { turningParts } from "./timeline.js";
 
-/** The lower sheet of a stage. */
+/** The lower layer of a stage. */
 export class StaticLayer {
   constructor() {
     const path = (name) => s("path", { class: name, "vector-effect": "non-scaling-stroke" });
-    // In the plane: one transform places all of it, and pens keep their weight.
+    // In the plane: one transform positions everything, and line widths are constant.
     this.plane = {};
     for (const name of [
       "frame-line",
@@ -63,12 +63,12 @@ export class StaticLayer {
     this.#data("dashes", dashes);
   }
 
-  /** The straight portion's band, as path data in the plane, or "". */
+  /** Sets the band of the straight portion, as path data in the plane, or "". */
   band(data) {
     this.#data("band", data);
   }
 
-  /** The fixed centrode, likewise. */
+  /** Sets the fixed centrode, as path data in the plane. */
   centrode(data) {
     this.#data("centrode", data);
   }
@@ -95,8 +95,8 @@ export class StaticLayer {
   }
 }
 
-// Where the crank's pin goes, as path data, and its places at the limits of the input, each with the pivot,
-// [x, y, ox, oy]; of a crank on a fixed pivot that has limits.
+// The arc of the crank pin as path data, and its positions at the limits of the input, each with the pivot,
+// [x, y, ox, oy]; for a crank on a fixed pivot that has limits.
 function crankRange({ joints }, { x, y, count, input }, timeline, fixed) {
   const pin = joints.findIndex(({ step }) => step.kind === "crank" && fixed.includes(step.pivot));
   if (pin < 0 || turningParts(timeline).length === 0) return { arc: "", limits: [] };
@@ -115,7 +115,7 @@ function crankRange({ joints }, { x, y, count, input }, timeline, fixed) {
   };
 }
 
-// A stroke across the crank's range, as long at any zoom.
+// A mark across the arc of the crank pin, of constant length at any zoom.
 function limitData([px, py, ox, oy], { scale, x, y }) {
   const [dx, dy] = [px - ox, oy - py];
   const by = 9 / Math.hypot(dx, dy);

@@ -1,4 +1,4 @@
-// A linkage as a plate studies it: assembled, all its circuits, the one that is shown.
+// The study of a linkage: the assembled linkage, all its circuits, and the one shown.
 
 import { changedValues, templateWithChanges } from "../../kinematics/changes.js";
 import { routesOf } from "../../kinematics/circuit.js";
@@ -12,18 +12,18 @@ import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
 import { timelineOf } from "./timeline.js";
 
-// So many samples over a circuit show what its other points and its sliders do.
+// The number of samples of a circuit for other points and for rough updates.
 const STUDY_SAMPLES = 240;
 
 /**
- * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } where it cannot
- * be assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
- * others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
+ * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } if it cannot be
+ * assembled, with `reason` a sentence; otherwise { values, linkage, routes, home, shown, shortfall, circuit,
+ * joint, others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
- * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names,
- * `shown` that of the one that is shown, which is `requested` where there is one; -1 where there is none.
- * `circuit` is `shown`, sampled; `joint` the traced one, `others` the further traced ones. `box` is what the
- * linkage sweeps. A rough study of a circuit that was not requested for knows no other circuits.
+ * `routes` are all circuits { passes, closed }; `home` is the index of the one that the address names,
+ * `shown` of the one that is shown, which is `requested` if it exists; -1 if there is none. `circuit` is the
+ * shown circuit, sampled; `joint` is the traced joint, `others` are further traced joints. `box` is the area
+ * swept by the linkage. A rough study without a requested circuit has no other circuits.
  */
 export function studyOf(family, curve, changes, requested = null, isRough = false) {
   const { cell, trace, circuit } = family.curves;
@@ -93,7 +93,7 @@ function studyShownCircuit({ linkage, routes, shown }, trace) {
   };
 }
 
-// Other points' curves are in the frame as long as the linkage does not become small in it.
+// The frame includes the curves of other points unless the linkage would become small in it.
 function boxWithOthers(box, circuit, others) {
   const wide = [...box];
   for (const other of others) widenedBox(wide, circuit.x[other], circuit.y[other], circuit.count);
@@ -101,7 +101,7 @@ function boxWithOthers(box, circuit, others) {
   return extent(wide) <= 1.6 * extent(box) ? wide : box;
 }
 
-/** The path of a study's traced joint, to a part of its size. */
+/** The path of a study's traced joint, accurate to a fraction of its size. */
 export function pathOfStudy({ linkage, circuit, joint, size }, part) {
   return finePath(linkage, circuit, joint, part * size);
 }
@@ -118,7 +118,7 @@ function indexOfRoute(routes, route) {
   return routes.findIndex(isOn);
 }
 
-/** What a circuit is called: "branch 1, a full turn", "−75.5° to 75.5°, branches 1 and −1". */
+/** The title of a circuit: "a full turn, branch 1", "−75.5° to 75.5°, branch 1 and −1". */
 export function circuitTitle(linkage, { passes, closed }) {
   const told = (at) => (linkage.input.isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
@@ -145,7 +145,7 @@ function branchLabel({ dyads }, signs) {
   return Array.from({ length: dyads }, (_, k) => (sideOf(signs, k) > 0 ? "1" : "−1")).join("/");
 }
 
-/** A number with so many decimals and a true minus. */
+/** A number with a fixed number of decimals and a true minus sign. */
 export function formatDecimals(value, decimals) {
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");

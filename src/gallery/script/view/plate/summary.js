@@ -1,10 +1,10 @@
-// A plate in words, for those who do not see it.
+// The text alternative of a plate.
 
 import { measureValue } from "../../data/family.js";
 import { formatDecimals, circuitTitle } from "./study.js";
 import { formatLength } from "./speed-view.js";
 
-/** What is drawn, in a few sentences. */
+/** A few sentences that describe the drawing. */
 export function summaryOfStudy(family, curve, study, isRecorded) {
   const { linkage, routes, shown, mechanism, joint, fourBar } = study;
   const words = [];

@@ -1,4 +1,4 @@
-// What is switched on over the linkage, and which of its circuits is shown.
+// Checkboxes for the overlays, and the choice of the circuit.
 
 import { fill, h } from "../dom.js";
 import { cognatesOfStudy, OVERLAYS } from "./overlays.js";
@@ -48,10 +48,10 @@ export class Switches {
   }
 
   /**
-   * `candidates` has the linkage and routes of what was asked for, `study` what is drawn, `isBeside`
-   * whether the atlas lacks its circuit.
+   * `candidates` has the linkage and routes of the current parameters, `study` is what is drawn, `isExtra`
+   * says whether the atlas lacks its circuit.
    */
-  show(candidates, study, on, isBeside) {
+  show(candidates, study, on, isExtra) {
     for (const { name, there } of OVERLAYS) {
       const { box, row } = this.boxes.get(name);
       row.hidden = !study || !there(study);
@@ -64,7 +64,7 @@ export class Switches {
       routes.map((route, k) => this.#circuit(candidates, route, k)),
     );
     this.circuitSection.hidden = routes.length < 2;
-    this.aside.hidden = !isBeside;
+    this.aside.hidden = !isExtra;
   }
 
   #circuit({ linkage, home, shown }, route, k) {

@@ -1,14 +1,14 @@
-// A circuit as a timeline to travel: places on it by part, 0 at its beginning and 1 at its end, and by pass and
+// A timeline over a circuit: positions are given by part, 0 at the start and 1 at the end, or by pass and
 // input.
 //
-// Equal parts are equal times of play: the input goes evenly, and slows down towards limits, as a hand would
-// move it, so that no joint leaps there.
+// Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
+// there.
 
 import { smoothInput } from "../../kinematics/spacing.js";
 
 /**
- * The timeline of a circuit { passes, closed }: { passes, closed, starts }, `starts` being the part each pass
- * begins at.
+ * The timeline of a circuit { passes, closed }: { passes, closed, starts, whole }, where `starts` has the
+ * part at which each pass starts and `whole` is the total input travel.
  */
 export function timelineOf({ passes, closed }) {
   const lengths = passes.map(({ from, to }) => Math.abs(to - from));
@@ -21,7 +21,7 @@ export function timelineOf({ passes, closed }) {
   return { passes, closed, starts, whole };
 }
 
-/** Puts { pass, input } of a part of a timeline into `place`: the place of the pass, and its input. */
+/** Sets `place` to the pass index and the input at a part of a timeline. */
 export function placeAtPart({ passes, starts }, part, place) {
   let k = 0;
   while (k < passes.length - 1 && part >= starts[k + 1]) k += 1;
@@ -45,7 +45,9 @@ export function partOfInput({ passes, starts }, k, input) {
   return starts[k] + (starts[k + 1] - starts[k]) * share;
 }
 
-/** The places where the input turns round, or may not go on, as parts of the timeline; of a full turn none. */
+/**
+ * The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation.
+ */
 export function turningParts({ passes, closed, starts }) {
   const parts = [];
   passes.forEach((pass, k) => {
@@ -57,16 +59,16 @@ export function turningParts({ passes, closed, starts }) {
   return parts;
 }
 
-/** A part brought back onto the timeline: round a closed one, to the ends of another. */
+/** Wraps a part onto a closed timeline, or clamps it to the ends of an open one. */
 export function clampPart({ closed }, part) {
   return closed ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1);
 }
 
 /**
- * Moves a place { pass, input } of a timeline towards the input `wanted`, which a hand on the crank asks for,
- * and returns `wanted` as it is then to be counted, whole turns having been taken off. Over the end of a pass
- * it goes on to the next one. Where the input turns round there, it stays at the limit; a hand that goes
- * `slack` beyond comes back on the other branch. `place.isBeyond` remembers that it has.
+ * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns
+ * `wanted` less the full turns that were completed. Continues over the end of a pass onto the next one. Where
+ * the input reverses, it stays at the limit; a drag more than `slack` beyond returns on the other branch,
+ * which `place.isBeyond` records.
  */
 export function followInput(timeline, place, wanted, slack) {
   const { passes, closed } = timeline;
@@ -87,7 +89,7 @@ export function followInput(timeline, place, wanted, slack) {
     const meets = forward ? passes[next].from : passes[next].to;
     const away = forward ? passes[next].to : passes[next].from;
     if (Math.sign(away - meets) === Math.sign(want - edge)) {
-      // The motion goes on the same way: the seam of a turn, or a change point.
+      // The motion continues in the same direction: the seam of a rotation, or a change point.
       want -= edge - meets;
       place.pass = next;
       place.input = meets;
@@ -111,8 +113,8 @@ function adjacentPass(passes, k, forward, closed) {
 }
 
 /**
- * The part of a timeline, within `reach` of a part, at which a distance is least: `distance(part)` is asked for
- * on parts of the timeline. A hand that drags a joint goes on along its path so.
+ * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged
+ * joint follows its path with it.
  */
 export function nearestPart(timeline, from, distance, reach = 0.15) {
   const STEPS = 24;

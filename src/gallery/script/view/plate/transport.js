@@ -1,9 +1,9 @@
-// What drives the motion: play and pause, speed, the slider over the circuit, steps, and limits.
+// The playback controls: play and pause, speed, the slider over the circuit, steps, and limits.
 
 import { h } from "../dom.js";
 import { formatDecimals } from "./study.js";
 
-/** Rates of play, in degrees of input to a second, and what they are called. */
+/** Playback rates, in degrees of input per second, and their labels. */
 const PLAY_RATES = [
   [15, "¼"],
   [30, "½"],
@@ -13,8 +13,8 @@ const PLAY_RATES = [
 ];
 
 /**
- * The controls under a stage, of a drive and of the stage's view. `show(study, title)`, `now(part, input)`
- * and `playing(isPlaying)` say what there is to see.
+ * The controls below a stage, for a drive and the stage's view. `show(study, title)`, `update(part, input)`
+ * and `playing(isPlaying)` update them.
  */
 export class Transport {
   constructor(drive, stage) {
@@ -75,7 +75,7 @@ export class Transport {
     this.playing(false);
   }
 
-  /** Degrees of input to a second. */
+  /** Degrees of input per second. */
   get speed() {
     return Number(this.rate.value);
   }
@@ -87,13 +87,13 @@ export class Transport {
     this.#enable(true);
   }
 
-  /** What is told of the straight portion; null while it is not known. */
+  /** Shows the description of the straight portion; null while it is unknown. */
   showStraight(words) {
     this.straight.classList.toggle("stale", words === null);
     if (words !== null) this.straight.textContent = words;
   }
 
-  /** Nothing to drive. */
+  /** Disables the controls. */
   stop() {
     this.#enable(false);
   }
@@ -114,7 +114,7 @@ export class Transport {
     this.input.textContent = text;
     if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
       this.scrub.value = part;
-    // A screen reader need not hear sixty angles in a second.
+    // Limits announcements to screen readers to two per second.
     const time = performance.now();
     if (this.isPlaying && time - this.announced < 500) return;
     this.announced = time;
@@ -122,9 +122,7 @@ export class Transport {
   }
 }
 
-/**
- * Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits.
- */
+/** Arrow keys step by a degree, or a fraction of a stroke, with Shift by ten; Home and End move to limits. */
 export function stepByKey(event, drive) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
   const limits = { Home: -1, End: 1 };

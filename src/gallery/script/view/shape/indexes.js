@@ -1,4 +1,4 @@
-// The indexes of families by shape, kept as long as the page is open.
+// The shape indexes of families, cached while the page is open.
 
 import { indexing, indexingWindows } from "../../shape/indexing.js";
 import { runInSlices } from "./slices.js";
@@ -6,7 +6,7 @@ import { runInSlices } from "./slices.js";
 const SHAPE_INDEXES = new WeakMap();
 
 /**
- * The index of a family; with windows no shorter than `least` of a curve, unless that is null. Null if
+ * The shape index of a family, with windows no shorter than `least` of a curve unless that is null. Null if
  * stopped.
  */
 export async function shapeIndex(family, least, stopped) {

@@ -1,4 +1,4 @@
-// A curve that is like the shape, in the list of what was found.
+// A result of the search by shape.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
@@ -7,7 +7,7 @@ import { formatCaption } from "../labels.js";
 import { pinButton } from "../pin-button.js";
 import { matchPicture } from "./match-picture.js";
 
-/** The item of a result of `searching` for a shape, asked for as a question (question.js) says. */
+/** The list item of a result of `searching` for a shape with the options of a query (query.js). */
 export function matchItem(app, one, shape, { by, part }) {
   const { family, curve, name } = one;
   const caption = family.cells.caption[family.curves.cell[curve]];

@@ -1,4 +1,4 @@
-// A curve with a shape laid over it as it fits best.
+// A curve with the best fit of a shape overlaid.
 
 import { curvePoints } from "../../data/family.js";
 import { inverted, placed } from "../../shape/similarity.js";
@@ -7,7 +7,7 @@ import { s } from "../dom.js";
 
 const MATCH_INSET = 6;
 
-/** The picture of a result of `searching` with the shape that was asked for, of `width` × `height` pixels. */
+/** The picture of a result of `searching` with the shape overlaid, `width` × `height` pixels. */
 export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
@@ -32,7 +32,7 @@ export function matchPicture({ family, curve, similarity, from, to }, shape, { w
 }
 
 /**
- * The view that has some outlines in a frame, `inset` pixels from its edges: { scale, x, y } with X = x +
+ * The view that fits outlines into a frame, `inset` pixels from its edges: { scale, x, y } with X = x +
  * scale·px, Y = y − scale·py.
  */
 export function viewOfOutlines(outlines, width, height, inset = MATCH_INSET) {
@@ -47,7 +47,7 @@ export function viewOfOutlines(outlines, width, height, inset = MATCH_INSET) {
   return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
 }
 
-/** The path data of an outline in a view, to so many decimals of a pixel. */
+/** The path data of an outline in a view, with a number of decimals of a pixel. */
 export function outlineData(points, closed, { scale, x, y }, decimals = 1) {
   let path = "";
   for (let k = 0; k < points.length; k += 2) {

@@ -1,10 +1,10 @@
-// How a shape is compared: whole curves or parts of them, with their mirror images, ranked by what.
+// The options of the search by shape: whole or partial curves, mirror images, ranking.
 
 import { h } from "../dom.js";
 
 const MIN_SHARES = [0.05, 0.1, 0.15, 0.25, 0.5];
 
-/** The controls of a question (question.js), which they write in before `changed()`: { element, mark() }. */
+/** The controls of a query (query.js), which they change before calling `changed()`: { element, mark() }. */
 export function shapeOptions(query, changed) {
   const set = (name, value) => {
     query[name] = value;

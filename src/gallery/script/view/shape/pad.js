@@ -1,4 +1,4 @@
-// The pad on which a shape is drawn.
+// The drawing pad.
 
 import { simplified } from "../../shape/encode.js";
 import { looksClosed } from "../../shape/outline.js";
@@ -6,10 +6,10 @@ import { fill, h, s } from "../dom.js";
 
 const PAD_WIDTH = 400;
 const PAD_HEIGHT = 300;
-// The keys move the pen by this much, and by five times as much with Shift.
+// The arrow keys move the pen by this much, with Shift by five times as much.
 const PEN_STEP = 5;
 
-/** A pad of 400 × 300; `drawn(points, closed)` is called with a shape, y up, when it is finished. */
+/** A pad of 400 × 300; calls `ondrawn(points, closed)` with a finished shape, y up. */
 export class DrawingPad {
   constructor(ondrawn, announce) {
     Object.assign(this, { ondrawn, announce });

@@ -1,10 +1,11 @@
-// A field for shapes that come from elsewhere.
+// A field for shapes from other programs.
 
 import { shapeIn } from "../../shape/parse.js";
 import { fill, h } from "../dom.js";
 
 /**
- * The field; `use({ points, closed, said })` is called with what was read, and what cannot be read is told.
+ * The field; calls `use({ points, closed, said })` with the parsed shape, and shows a message if it cannot be
+ * read.
  */
 export function pasteField(use) {
   const text = h("textarea", {

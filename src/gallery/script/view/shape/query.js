@@ -1,12 +1,11 @@
-// What is asked of the room of shapes, and its address: `?d=…` or `?like=evans:12.1.1`, and how it is
-// compared.
+// The query of the search by shape and its address: `?d=…` or `?like=evans:12.1.1`, and options.
 
 const DEFAULT_MIN_SHARE = 0.15;
 
 /**
- * The question of a query: { d: a drawn shape or undefined, like: a curve's name or undefined, part: whether
- * it is a part of a curve, null as long as nobody has said, least: the least part of a curve, mirror, by:
- * "rms" | "greatest", families: [id] or null for all }.
+ * Parses a query: { d: a drawn shape or undefined, like: a curve's name or undefined, part: whether it is a
+ * part of a curve, or null if not set, least: the least part of a curve, mirror, by: "rms" | "greatest",
+ * families: [id] or null for all }.
  */
 export function parseShapeQuery(query) {
   const least = Number(query.get("least"));
@@ -21,7 +20,7 @@ export function parseShapeQuery(query) {
   };
 }
 
-/** The query of it. */
+/** The inverse of parseShapeQuery. */
 export function formatShapeQuery({ d, like, part, least, mirror, by, families }) {
   return {
     d,

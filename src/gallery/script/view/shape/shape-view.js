@@ -1,4 +1,4 @@
-// The room where curves are found that are like a shape.
+// The view that finds curves by shape.
 
 import { findCurve, curvePoints } from "../../data/family.js";
 import { askedShape } from "../../shape/asked.js";
@@ -19,7 +19,10 @@ import { runInSlices } from "./slices.js";
 
 const MAX_RESULTS = 36;
 
-/** `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`. */
+/**
+ * The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`,
+ * `family`.
+ */
 export const shapeRoute = {
   name: "shape",
   label: "By shape",
@@ -112,7 +115,7 @@ class ShapeView {
     );
   }
 
-  /** Takes the shape of the address: a drawn one, or a curve of the atlas. */
+  /** Loads the shape of the address: a drawn one, or a curve of the atlas. */
   async loadShape() {
     const { query, app } = this;
     const drawn = query.d && decodedShape(query.d);
@@ -140,7 +143,7 @@ class ShapeView {
     this.submit();
   }
 
-  /** Searches what is loaded; a later search stops an earlier one. */
+  /** Searches the loaded families; a later search stops an earlier one. */
   async search() {
     if (!this.shape || !this.loaded) return;
     this.turn += 1;
@@ -163,7 +166,7 @@ class ShapeView {
     if (!found) return;
     this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
     this.show(found.slice(0, MAX_RESULTS));
-    // What a search for parts needs is made while nothing is asked.
+    // Prepares the index for partial curves while idle.
     if (!part && this.isWhole)
       for (const family of this.loaded) if (!(await shapeIndex(family, least, stopped))) return;
   }
@@ -184,7 +187,7 @@ class ShapeView {
     );
   }
 
-  /** What is asked is another: so are the address and what is found. */
+  /** Updates the address and the results after a change of the query. */
   submit() {
     this.writeAddress();
     this.search();
@@ -194,7 +197,7 @@ class ShapeView {
     this.app.replace(routeAddress("shape", formatShapeQuery(this.query), this.app));
   }
 
-  /** Another shape has another address, and is shown anew. */
+  /** An address with another shape opens a new view. */
   update() {
     return false;
   }

@@ -1,11 +1,11 @@
-// Long work in short slices, so that the page stays awake.
+// Runs long computations in slices without blocking the page.
 
-// A slice's time, in milliseconds, before the page has its turn.
+// The length of a slice, in milliseconds.
 const SLICE_MS = 12;
 
 /**
- * Runs a generator to its end in slices and gives its value; null as soon as `stopped()` is true. Between
- * slices whatever has been pressed goes first.
+ * Runs a generator to its end in slices and returns its value; null as soon as `stopped()` is true. The page
+ * handles input between slices.
  */
 export async function runInSlices(generator, stopped = () => false) {
   const channel = new MessageChannel();
