@@ -44,7 +44,7 @@ const tests = [
       const { page } = gallery;
       await loaded(page);
       const all = await numberLeft(page);
-      await page.getByLabel("transmission angle at least, at least").fill("30");
+      await page.getByLabel("worst transmission angle, at least").fill("30");
       await page.keyboard.press("Enter");
       await eventually(async () => (await numberLeft(page)) < all, "fewer are left");
       const left = await numberLeft(page);
@@ -68,7 +68,7 @@ const tests = [
       const gallery = await opened(browser, large, "/find");
       const { page } = gallery;
       await loaded(page);
-      const end = page.getByRole("slider", { name: "transmission angle at least, least" });
+      const end = page.getByRole("slider", { name: "worst transmission angle, minimum" });
       await end.focus();
       const all = await numberLeft(page);
       for (let k = 0; k < 5; k += 1) await page.keyboard.press("PageUp");
@@ -125,7 +125,7 @@ const tests = [
         /^class/,
         "the heading keeps the focus",
       );
-      await page.getByRole("button", { name: "Sheet" }).click();
+      await page.getByRole("button", { name: "Grid" }).click();
       await page.locator(".results a").first().focus();
       await page.keyboard.press("Enter");
       await eventually(async () => (await gallery.fragment()).includes("/curve/"), "Enter opens the plate");
@@ -203,7 +203,7 @@ const tests = [
         .locator(".matches > li > a")
         .evaluateAll((links) => links.slice(0, 5).map((link) => link.dataset.name));
       assert.ok(again.includes(name), "the address draws it again");
-      await page.getByLabel("a part of a curve, no less than").check();
+      await page.getByLabel("a part of a curve, at least").check();
       await eventually(
         async () => (await gallery.fragment()).includes("part=yes"),
         "parts are in the address",
@@ -240,11 +240,11 @@ const tests = [
         await page.keyboard.press(keys);
       await ranked(page);
       assert.match(await gallery.fragment(), /d=c/);
-      await page.getByLabel("Or paste points or a path").fill("hello");
-      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      await page.getByLabel("Paste points or a path").fill("hello");
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
       assert.match(await page.getByRole("alert").innerText(), /Fewer than two/);
-      await page.getByLabel("Or paste points or a path").fill("M0 0L100 0A50 20 0 0 1 0 0Z");
-      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      await page.getByLabel("Paste points or a path").fill("M0 0L100 0A50 20 0 0 1 0 0Z");
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
       await ranked(page);
       assert.equal(await page.getByRole("alert").innerText(), "");
       await gallery.close();
@@ -270,8 +270,8 @@ const tests = [
       const { page } = gallery;
       // An ellipse twice as long as wide, drawn as a circle that is stretched and sheared.
       const paste = async (text) => {
-        await page.getByLabel("Or paste points or a path").fill(text);
-        await page.getByRole("button", { name: "Use what is pasted" }).click();
+        await page.getByLabel("Paste points or a path").fill(text);
+        await page.getByRole("button", { name: "Use pasted shape" }).click();
         await ranked(page);
         return page.locator(".matches .label b").allInnerTexts();
       };
@@ -281,8 +281,8 @@ const tests = [
       );
       assert.deepEqual(transformed.slice(0, 5), plain.slice(0, 5));
       assert.notDeepEqual((await paste('<circle r="50"/>')).slice(0, 5), plain.slice(0, 5));
-      await page.getByLabel("Or paste points or a path").fill('<circle r="50" transform="turn(3)"/>');
-      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      await page.getByLabel("Paste points or a path").fill('<circle r="50" transform="turn(3)"/>');
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
       assert.match(await page.getByRole("alert").innerText(), /transform “turn\(3\)” cannot be read/);
       await gallery.close();
     },
@@ -299,7 +299,7 @@ const tests = [
       );
       assert.match(await page.locator(".site-nav .count").innerText(), /3/);
       assert.ok((await page.locator(".compared-facts td.other").count()) > 3, "differences are marked");
-      await page.getByRole("button", { name: "Over one another" }).click();
+      await page.getByRole("button", { name: "Overlay" }).click();
       assert.equal(await page.locator(".over path").count(), 3);
       const dashes = await page
         .locator(".over path")
@@ -316,7 +316,7 @@ const tests = [
       assert.equal(strayed, 0, "letters stay in the frame");
       const deviation = async () => parseFloat(await page.locator(".deviation").first().innerText());
       const fitted = await deviation();
-      await page.getByLabel("Aligned").selectOption("none");
+      await page.getByLabel("Alignment").selectOption("none");
       assert.ok((await deviation()) >= fitted);
       assert.match(await gallery.fragment(), /view=over.*align=none/);
       await page.getByRole("button", { name: "Move A back" }).click();

@@ -95,7 +95,7 @@ const TESTS = [
       );
       await firefox.evaluate(() => {
         [...document.querySelectorAll("button")].find((button) => button.textContent === "Pause").click();
-        document.querySelector('input[aria-label="Place on the circuit"]').focus();
+        document.querySelector('input[aria-label="Position on the circuit"]').focus();
       });
       // Home, and the arrow to the right.
       await firefox.keys("\uE011\uE014");
@@ -148,7 +148,7 @@ const TESTS = [
       await firefox.eventually(countOf, "no menu", ".export-button");
       await firefox.evaluate(() => {
         document.querySelector(".export-button").click();
-        for (const name of [/^SVG *still/, /^PNG/])
+        for (const name of [/^SVG *static/, /^PNG/])
           [...document.querySelectorAll(".export-menu button")]
             .find((entry) => name.test(entry.textContent))
             .click();

@@ -181,7 +181,7 @@ check("1.10", "a place keeps how far it was read", on(large, "/hrones-nelson"), 
 });
 
 check("1.11", "addresses that lead nowhere say so", on(atlas, "/nowhere/at/all"), async (g, page) => {
-  assert.match(await page.locator("main").innerText(), /nothing at this address/);
+  assert.match(await page.locator("main").innerText(), /no page at this address/);
   await g.go("/evans/7");
   assert.match(await page.getByRole("alert").innerText(), /^Evans linkage has 1 pages? only\. /);
   const family = page.locator("main a", { hasText: "Evans linkage" });
@@ -200,7 +200,7 @@ check(
       const g = await opened(browser, odd.folder, "/evans-chart/1");
       const { page } = g;
       await page.waitForSelector(".page-sheet img");
-      assert.match(await page.locator(".page-panel").innerText(), /A chart\s+Of 35 curves/);
+      assert.match(await page.locator(".page-panel").innerText(), /A chart\s+Computed from 35 curves/);
       await page.locator(".page-panel a").click();
       await page.waitForSelector(".window svg path");
       assert.equal(await page.locator(".window > li").first().getAttribute("aria-setsize"), "35");

@@ -26,7 +26,7 @@ export const PARAMETERS = [
       near(Number(most), at(3.5), 0.006, "greatest transmission angle");
       const [recorded, , change] = await measureNow(page, "least transmission angle");
       near(Number(change), at(1.5) - Number(recorded), 0.02, "the change");
-      await page.getByRole("button", { name: "As in the atlas" }).click();
+      await page.getByRole("button", { name: "Reset all" }).click();
       await eventually(
         async () => (await plate.fragment()) === "/evans/curve/1.1.1",
         "the address keeps the change",
@@ -62,7 +62,7 @@ export const PARAMETERS = [
       assert.equal(await fieldOf(page, "M.along").inputValue(), "5.18");
       await changed(page, "k", 1.5);
       assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
-      await page.getByRole("button", { name: /Set free: M\.along/ }).click();
+      await page.getByRole("button", { name: /Unlink: M\.along/ }).click();
       await changed(page, "k", 2);
       assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
       await plate.close();
@@ -77,7 +77,7 @@ export const PARAMETERS = [
       await changed(page, "p", 9);
       const reason = page.locator(".stage .reason");
       assert.ok(await reason.isVisible());
-      assert.match(await reason.textContent(), /^It cannot be assembled: .{10,}/);
+      assert.match(await reason.textContent(), /^Cannot be assembled: .{10,}/);
       assert.ok(await page.getByRole("button", { name: "Play" }).isDisabled());
       assert.ok((await page.locator(".link").count()) > 2);
       await changed(page, "p", -1);
@@ -99,7 +99,7 @@ export const PARAMETERS = [
       assert.ok((await page.locator(".dashes").getAttribute("d")).length > 100);
       await page.keyboard.press("+");
       await page.keyboard.press("ArrowRight");
-      await page.getByRole("button", { name: /^Back: p/ }).click();
+      await page.getByRole("button", { name: /^Reset: p/ }).click();
       await eventually(() => page.locator(".stage .reason").isHidden(), "it stays impossible");
       await plate.close();
     },

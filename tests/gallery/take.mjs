@@ -174,13 +174,13 @@ function testNumbersAndWords(families) {
   assert.match(exportCommand([`${all[0]}?p=3`], 1), /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=3' /);
   assert.throws(() => solveNamedCurve(evans, "evans:99.1.1"), /there is no curve/);
   assert.throws(() => solveNamedCurve(evans, "evans:1.1.1?p=-1"), /must be more than 0/);
-  assert.throws(() => solveNamedCurve(evans, "evans:1.1.1?circuit=9"), /this circuit is there no more/);
+  assert.throws(() => solveNamedCurve(evans, "evans:1.1.1?circuit=9"), /this circuit no longer exists/);
   const moved = manifestCase(evans, "evans:1.1.1?M.along=1&circuit=2");
-  assert.match(extraCircuitsCommand([moved.name], curveNamesInManifest([moved])), /^# The atlas.*\n# Nor can a manifest say/);
+  assert.match(extraCircuitsCommand([moved.name], curveNamesInManifest([moved])), /^# The atlas.*\n# A manifest cannot describe/);
   const changed = solveNamedCurve(evans, "evans:1.1.1?p=3&M.along=1");
   assert.equal(changed.values[0], 3);
   const fragment = manifestOfCurves([manifestCase(evans, changed.name)]);
-  assert.match(fragment, /# Of evans:1\.1\.1\?p=3&M\.along=1, M\.along = 1 is for a \[\[linkage\]\]/);
+  assert.match(fragment, /# evans:1\.1\.1\?p=3&M\.along=1: M\.along = 1 needs a \[\[linkage\]\]/);
 }
 
 // The fragment of everything is a manifest's own, says the program.

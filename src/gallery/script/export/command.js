@@ -17,14 +17,14 @@ export function exportCommand(words, count, manifest = "atlas.toml") {
  * manifest cannot describe the curve.
  */
 export function extraCircuitsCommand(names, words) {
-  const unsaid = names.filter((_, k) => words[k] === null);
+  const undescribed = names.filter((_, k) => words[k] === null);
   const said = words.filter((word) => word !== null);
   const lines = [
-    `# The atlas does not have the circuit of ${names.join(", ")}.`,
-    ...unsaid.map((name) => `# Nor can a manifest say the moved point of ${name}.`),
+    `# The atlas does not contain the circuit of ${names.join(", ")}.`,
+    ...undescribed.map((name) => `# A manifest cannot describe the moved point of ${name}.`),
   ];
   if (said.length === 0) return `${lines.join("\n")}\n`;
-  lines.push("# Its manifest fragment has all circuits: put it under an [atlas] into circuits.toml.");
+  lines.push("# The manifest fragment selects all circuits: save it below an [atlas] table as circuits.toml.");
   return `${lines.join("\n")}\n${exportCommand(said, said.length, "circuits.toml")}`;
 }
 

@@ -62,7 +62,7 @@ export function solveNamedCurve(family, name) {
   const template = extraCircuit === null ? changed.template : { ...changed.template, circuits: "all" };
   const { linkage, motion } = solveMotion(template, values, family.sampling, name);
   const course = motion.circuits[circuit - 1];
-  if (!course) throw new Error(`${name}: ${motion.shortfall ?? "this circuit is there no more"}`);
+  if (!course) throw new Error(`${name}: ${motion.shortfall ?? "this circuit no longer exists"}`);
   const joint = linkage.traced[(changed.trace ?? linkage.traced.length) - 1];
   const reason = motion.shortfall ?? null;
   const status = reason === null ? "ok" : "partial";

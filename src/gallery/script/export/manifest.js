@@ -108,12 +108,12 @@ function movedPointComment({ family, name, changes }) {
   const moved = [...(changes ?? [])].filter(([word]) => !family.names.includes(word));
   if (moved.length === 0) return [];
   const words = moved.map(([word, value]) => `${word} = ${shortestDigits(value)}`);
-  return [`# Of ${name}, ${words.join(" and ")} is for a [[linkage]] of your own: no parameter says it.`];
+  return [`# ${name}: ${words.join(" and ")} needs a [[linkage]] of your own; it is not a parameter.`];
 }
 
 // Notes a circuit that the atlas does not contain.
 function extraCircuitComment({ name, extraCircuit }) {
-  return extraCircuit === null ? [] : [`# ${name} is circuit ${extraCircuit} of all: of each cell the others come too.`];
+  return extraCircuit === null ? [] : [`# ${name} is circuit ${extraCircuit} of all; the other circuits of its cell are included.`];
 }
 
 function caseInManifest(family, values) {

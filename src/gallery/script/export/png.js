@@ -18,6 +18,6 @@ export async function pngOfCurve(exported) {
   const blob = await new Promise((done) => {
     canvas.toBlob(done, "image/png");
   });
-  if (!blob) throw new Error("the browser cannot make an image of this size");
+  if (!blob) throw new Error("the browser cannot create an image of this size");
   return new Uint8Array(await blob.arrayBuffer());
 }

@@ -7,18 +7,18 @@ export const DERIVED_COLUMNS = {
   mu_worst_deg: {
     unit: "deg",
     definition:
-      "how far the transmission angle stays from 0 and 180 all round: the lesser of its least " +
-      "and 180 less its greatest",
+      "least distance of the transmission angle from 0 and 180 over the circuit: the lesser of its " +
+      "minimum and 180 minus its maximum",
     compute: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
   },
   straight_tolerance: {
     unit: "",
-    definition: "departure of the straightest portion from its line, by the portion's length",
+    definition: "deviation of the straightest portion from its line, divided by its length",
     compute: (at) => at("straight_deviation") / at("straight_length"),
   },
   straight_share: {
     unit: "",
-    definition: "length of the straightest portion, by the greater side of the curve's box",
+    definition: "length of the straightest portion, divided by the longer side of the curve's bounding box",
     compute: (at) =>
       at("straight_length") /
       Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),

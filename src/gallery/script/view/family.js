@@ -73,7 +73,7 @@ function familyHeader(family, listed) {
 
 function samplingLabel({ step, samples, spacing }) {
   if (step !== undefined) return `a sample every ${step}° of input`;
-  return `${samples} samples a circuit${spacing ? `, spaced ${spacing}` : ""}`;
+  return `${samples} samples per circuit${spacing ? `, ${spacing} spacing` : ""}`;
 }
 
 function familyToolbar(family, listed, hasCurves) {
@@ -92,7 +92,7 @@ function familyToolbar(family, listed, hasCurves) {
       listed.pages ? way("Pages", {}, !hasCurves) : null,
       way("Curves", { show: "curves" }, hasCurves),
     ),
-    h("a", { class: "button", href: address(["find"], { family: family.id }) }, "Find among its curves"),
+    h("a", { class: "button", href: address(["find"], { family: family.id }) }, "Find curves"),
     listed.pages > 1 && !hasCurves ? pageJump(family, listed) : null,
   );
 }

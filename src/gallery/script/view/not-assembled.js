@@ -15,7 +15,7 @@ export function notAssembledSummary(family) {
   const reasons = new Map();
   for (let cell = 0; cell < count; cell += 1) {
     if (status[cell] === 0) continue;
-    const sentence = `${status[cell] === 1 ? "in part: " : ""}${reason[cell]}`;
+    const sentence = `${status[cell] === 1 ? "partial: " : ""}${reason[cell]}`;
     reasons.set(sentence, [...(reasons.get(sentence) ?? []), cell]);
   }
   if (reasons.size === 0) return null;
@@ -23,7 +23,7 @@ export function notAssembledSummary(family) {
   const part = status.filter((code) => code === 1).length;
   const sums = [
     none ? `${formatCount(none, "linkage", "linkages")} could not be assembled` : null,
-    part ? `${formatCount(part, "linkage", "linkages")} only in part` : null,
+    part ? `${formatCount(part, "linkage", "linkages")} assembled only in part` : null,
   ];
   const named = (cells) =>
     cells

@@ -55,9 +55,9 @@ function zoomControls(zoom) {
   const segments = h(
     "div",
     { class: "segments" },
-    button("Further", "−", 1 / 1.5),
+    button("Zoom out", "−", 1 / 1.5),
     whole,
-    button("Nearer", "+", 1.5),
+    button("Zoom in", "+", 1.5),
   );
   const update = (magnification, isFit) => {
     level.textContent = `${Math.round(magnification * 100)} %`;

@@ -69,14 +69,14 @@ export function keyHelp() {
     h(
       "span",
       { class: "by-keys" },
-      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move what is near; ",
-      "n and p: the next page and the one before. ",
-      "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
+      "Wheel, pinch, + and −: zoom; 0: fit the page; arrow keys: pan; ",
+      "n and p: next and previous page. ",
+      "Tab: select a curve; arrow keys: next curve, with Shift along the curve; Enter: open its plate.",
     ),
     h(
       "span",
       { class: "by-touch" },
-      "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate.",
+      "Pinch to zoom. Tap a curve to highlight it, and again to open its plate.",
     ),
   );
 }

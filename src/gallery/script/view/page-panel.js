@@ -39,13 +39,13 @@ function noCurvesNote(family) {
   const [heading, sentence] =
     family.layout === "chart"
       ? ["A chart", chartCurvesNote(family)]
-      : ["No curves", "Nothing is drawn on this page."];
+      : ["No curves", "No curves are drawn on this page."];
   return [h("h2", {}, heading), h("p", { class: "note" }, sentence)];
 }
 
 function chartCurvesNote(family) {
   return [
-    "Of ",
+    "Computed from ",
     h("a", { href: address([family.id], { show: "curves" }) }, `${family.curves.count} curves`),
     ", which are not drawn on it.",
   ];
@@ -127,11 +127,11 @@ export function curvePanel(app, family, curve, { onall }) {
         .map((word) => [h("span", { class: "tag" }, word), " "]),
     ),
     family.cells.note[at] ? h("p", { class: "note" }, family.cells.note[at]) : null,
-    family.cells.status[at] === 1 ? h("p", { class: "note" }, `In part: ${family.cells.reason[at]}`) : null,
+    family.cells.status[at] === 1 ? h("p", { class: "note" }, `Partial: ${family.cells.reason[at]}`) : null,
     h(
       "div",
       { class: "toolbar no-print" },
-      h("a", { class: "button", href: address([family.id, "curve", key]) }, "Open its plate"),
+      h("a", { class: "button", href: address([family.id, "curve", key]) }, "Open plate"),
       pinButton(app, `${family.id}:${key}`),
       h("button", { type: "button", class: "quiet", onclick: onall }, "All curves"),
     ),
@@ -172,7 +172,7 @@ function measureFacts(atlas, family, curve) {
     h(
       "details",
       { class: "definitions note" },
-      h("summary", {}, "What they mean"),
+      h("summary", {}, "Definitions"),
       h(
         "dl",
         {},

@@ -31,7 +31,7 @@ export async function pagePicture(app, family, page, label) {
     const drawing = drawPage(family, views, "picture drawn thumbnail", 0.05);
     return h("div", { class: "picture", role: "img", "aria-label": label }, drawing);
   }
-  return h("p", { class: "picture nothing" }, "This page is a chart, which was not written as SVG or PNG.");
+  return h("p", { class: "picture nothing" }, "This page is a chart that was not written as SVG or PNG.");
 }
 
 /**

@@ -22,7 +22,7 @@ export const pageRoute = {
     const family = await app.atlas.family(target.path[0]);
     const listed = app.atlas.families.find(({ id }) => id === family.id);
     if (Number(target.path[1]) > listed.pages)
-      throw new Error(`${family.title} has ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`} only.`);
+      throw new Error(`${family.title} has only ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`}.`);
     const view = new PageView(app, family, listed);
     await view.open(target);
     return view;

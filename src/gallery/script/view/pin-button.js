@@ -11,7 +11,7 @@ export function pinButton(app, name, attributes = {}, ...children) {
     const { pin } = button.dataset;
     app.pins.toggle(pin);
     markPin(app, button);
-    app.announce(app.pins.has(pin) ? `${pin} pinned` : `${pin} no longer pinned`);
+    app.announce(app.pins.has(pin) ? `${pin} pinned` : `${pin} unpinned`);
   };
   const button = h("button", { type: "button", "data-pin": name, onclick: act, ...attributes }, ...children);
   markPin(app, button);

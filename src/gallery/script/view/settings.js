@@ -52,7 +52,7 @@ export function printedColorsButton() {
     apply(root.dataset.pages !== "printed");
     storeChoice(PAGES_KEY, root.dataset.pages ?? "turned");
   };
-  const button = h("button", { type: "button", class: "as-printed", onclick: act }, "As printed");
+  const button = h("button", { type: "button", class: "as-printed", onclick: act }, "Printed colours");
   apply(storedChoice(PAGES_KEY) === "printed");
   return button;
 }

@@ -33,7 +33,7 @@ export function openShell(app, routes, root) {
   };
   fill(
     root,
-    h("a", { class: "skip", href: "#content", onclick: skip }, "Skip to the content"),
+    h("a", { class: "skip", href: "#content", onclick: skip }, "Skip to content"),
     h(
       "header",
       { class: "masthead" },
@@ -111,7 +111,7 @@ class Router {
     this.nav.mark(route);
     const waiting = window.setTimeout(() => this.showBusy(), BUSY_DELAY);
     try {
-      if (!route) throw new Error("There is nothing at this address.");
+      if (!route) throw new Error("There is no page at this address.");
       const view = await route.open(this.app, target);
       if (turn === this.turn) this.showView(route, view);
       else view.leave?.();
@@ -125,7 +125,7 @@ class Router {
 
   showBusy() {
     this.main.setAttribute("aria-busy", "true");
-    this.app.announce("Opening");
+    this.app.announce("Loading");
   }
 
   showView(route, view) {

@@ -104,9 +104,9 @@ class CompareView {
       this.count,
       all.length
         ? `${all.length} pinned`
-        : "Nothing is pinned yet. Pin curves in Find (p), By shape, on a page or on a plate.",
+        : "No curves are pinned. Pin curves in Find (p), By shape, on a page or on a plate.",
       beyond ? `; the first ${MAX_COMPARED} are compared` : "",
-      missing.map(({ name, reason }) => `; without ${name}: ${reason}`),
+      missing.map(({ name, reason }) => `; skipped ${name}: ${reason}`),
     );
     fill(this.exportSlot, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
@@ -167,9 +167,9 @@ class CompareView {
         "div",
         { class: "segments", role: "group", "aria-label": "Show" },
         view("side", "Side by side"),
-        view("over", "Over one another"),
+        view("over", "Overlay"),
       ),
-      h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Aligned"), align),
+      h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Alignment"), align),
       h("button", { type: "button", class: "quiet end", onclick: () => app.pins.set([]) }, "Unpin all"),
     ];
   }
@@ -205,7 +205,7 @@ class CompareView {
           ? h(
               "p",
               { class: "deviation" },
-              `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} at most`,
+              `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} maximum`,
             )
           : null,
       ),

@@ -25,11 +25,11 @@ export function factsTable(curves, measures, labels) {
   const same = rows.filter(({ differs }) => !differs);
   return h(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": "Facts compared" },
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": "Comparison of parameters and measures" },
     h(
       "table",
       { class: "figures compared-facts" },
-      h("caption", { class: "note" }, "What is not as in the first is in bold."),
+      h("caption", { class: "note" }, "Differences from the first curve are in bold."),
       h(
         "thead",
         {},
@@ -48,7 +48,7 @@ export function factsTable(curves, measures, labels) {
             h(
               "tr",
               {},
-              h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "The same of all"),
+              h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "Identical"),
             ),
             same.map(line),
           )

@@ -4,11 +4,11 @@
 export const MAX_COMPARED = 12;
 /** How curves are aligned: { name: label }. */
 export const ALIGNMENTS = {
-  none: "as they are",
-  place: "middles together",
-  size: "middles and sizes",
-  similar: "turned to fit",
-  mirrored: "turned or mirrored to fit",
+  none: "none",
+  place: "centred",
+  size: "centred and scaled",
+  similar: "best fit",
+  mirrored: "best fit with mirroring",
 };
 
 /** Parses a query: { names or null, view: "side" | "over", align }. */

@@ -29,7 +29,7 @@ function showCopyDialog(what, text) {
   const dialog = h(
     "dialog",
     { class: "export-copy", "aria-label": `Copy ${what}` },
-    h("p", {}, "The browser keeps the clipboard from pages on disk: copy the text with Ctrl+C or ⌘C."),
+    h("p", {}, "The browser denies clipboard access to pages on disk. Press Ctrl+C or ⌘C to copy the text."),
     area,
     close,
   );

@@ -17,13 +17,13 @@ import { zipOfFiles } from "../../export/zip.js";
 export const EXPORT_FORMATS = [
   {
     label: "SVG",
-    note: "still",
+    note: "static",
     ending: ".svg",
     type: "image/svg+xml",
     render: (app, exported) => svgOfCurve(exported),
   },
   {
-    label: "SVG, moving by itself",
+    label: "Animated SVG",
     note: ".svg",
     ending: "-moving.svg",
     type: "image/svg+xml",
@@ -31,7 +31,7 @@ export const EXPORT_FORMATS = [
   },
   {
     label: "PNG",
-    note: "300 to the inch",
+    note: "300 dpi",
     ending: ".png",
     type: "image/png",
     render: (app, exported) => pngOfCurve(exported),
@@ -52,7 +52,7 @@ export const EXPORT_FORMATS = [
   },
   {
     label: "JSON",
-    note: "all that is known",
+    note: "all data",
     ending: ".json",
     type: "application/json",
     render: (app, exported) => jsonOfCurve(exported, measureNames(app)),
@@ -73,9 +73,9 @@ function measureNames({ atlas }) {
  * `onProgress` with the number of finished curves.
  */
 export async function exportFile(app, names, format, onProgress = () => {}) {
-  if (names.length === 0) throw new Error("There is no curve to take away");
+  if (names.length === 0) throw new Error("There is no curve to export");
   if (names.length > MAX_EXPORTED) {
-    throw new Error(`Take ${MAX_EXPORTED} curves at most here: the command line takes all ${names.length}`);
+    throw new Error(`Cannot export more than ${MAX_EXPORTED} curves here; use the command line for all ${names.length}`);
   }
   const files = [];
   let yieldedAt = performance.now();
@@ -101,7 +101,7 @@ function loadFamilyOfName(app, name) {
   const parsed = parseCurveName(name);
   return parsed
     ? app.atlas.family(parsed.family)
-    : Promise.reject(new Error(`“${name}” is no name of a curve`));
+    : Promise.reject(new Error(`“${name}” is not the name of a curve`));
 }
 
 /** The manifest fragment of curves by name. */

@@ -14,7 +14,7 @@ export function exportMenu(app, names) {
   const status = h("span", { class: "export-status", "aria-live": "polite" });
   const report = (sentence) => fill(status, sentence);
   const task = (work) => () => {
-    report("Working");
+    report("Exporting");
     return work(currentNames()).then(report, (error) => report(error.message));
   };
   const entries = [
@@ -25,12 +25,12 @@ export function exportMenu(app, names) {
     ]),
     ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
     [
-      "Copy the manifest fragment",
+      "Copy manifest fragment",
       "",
       task(async (list) => copyToClipboard("the manifest fragment", await exportManifest(app, list))),
     ],
     [
-      "Copy the command line",
+      "Copy command line",
       "",
       task(async (list) => copyToClipboard("the command line", await exportCommandLine(app, list))),
     ],

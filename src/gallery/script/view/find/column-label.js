@@ -3,9 +3,9 @@
 import { formatNumber, isInDegrees, standaloneMeasureLabel } from "../labels.js";
 
 const COLUMN_LABELS = {
-  mu_worst_deg: "transmission angle at least",
-  straight_tolerance: "straight within, by its length",
-  straight_share: "straight portion, by the extent",
+  mu_worst_deg: "worst transmission angle",
+  straight_tolerance: "deviation of the straight portion, by its length",
+  straight_share: "length of the straight portion, by the extent",
   symmetric: "symmetry",
   turn: "input",
   symmetry: "kind of symmetry",

@@ -63,7 +63,7 @@ class FindView {
   buildElement() {
     const show = (name, label) =>
       h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
-    this.displayButtons = [show("sheet", "Sheet"), show("table", "Table")];
+    this.displayButtons = [show("sheet", "Grid"), show("table", "Table")];
     const clearAll = () => this.setFilters(new Map());
     this.clear = h("button", { type: "button", class: "quiet", onclick: clearAll }, "Clear all filters");
     const wide = window.matchMedia("(min-width: 60rem)").matches;
@@ -141,7 +141,7 @@ class FindView {
     this.panel.setColumns(this.columns, this.table, this.query);
     fill(
       this.sorter,
-      h("option", { value: "" }, "the atlas's order"),
+      h("option", { value: "" }, "atlas order"),
       this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name))),
     );
     this.show();
@@ -193,7 +193,7 @@ class FindView {
     this.rows = passingRows(this.orders.by(column?.name, column?.kind, sort.down), this.filters.failing);
     this.panel.show(this.filters);
     this.sorter.value = column?.name ?? "";
-    fill(this.direction, sort.down ? "Greatest first" : "Least first");
+    fill(this.direction, sort.down ? "Descending" : "Ascending");
     this.direction.disabled = !column;
     this.clear.hidden = this.query.filters.size === 0;
     this.displayButtons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
@@ -238,7 +238,7 @@ class FindView {
     const [left, all] = [this.rows.length, this.table.count];
     const sentence =
       all === 0
-        ? "No curves are loaded: choose families"
+        ? "No curves are loaded; select families"
         : `${left.toLocaleString("en")} of ${all.toLocaleString("en")} curves`;
     fill(this.countLabel, h("b", {}, sentence), this.loading);
     window.clearTimeout(this.saying);

@@ -18,7 +18,7 @@ export function noResults(filters, without) {
       h(
         "button",
         { type: "button", onclick: () => without(name) },
-        `Without ${columnLabel(name)}: ${left}`,
+        `Remove ${columnLabel(name)}: ${left}`,
       ),
     );
   };

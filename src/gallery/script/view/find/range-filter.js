@@ -39,7 +39,7 @@ export class RangeFilter {
         type: "button",
         class: "quiet clear",
         hidden: true,
-        "aria-label": `All of ${words}`,
+        "aria-label": `Clear ${words}`,
         onclick: () => this.setFilter({}),
       },
       "×",
@@ -76,7 +76,7 @@ export class RangeFilter {
       class: `end ${end}`,
       role: "slider",
       tabindex: "0",
-      "aria-label": `${words}, ${end === "low" ? "least" : "greatest"}`,
+      "aria-label": `${words}, ${end === "low" ? "minimum" : "maximum"}`,
       onkeydown: (event) => this.handleKey(event, end),
     });
   }

@@ -70,7 +70,7 @@ export class MeasureTable {
         h(
           "tr",
           {},
-          ["Measure", "Atlas", "Now", "Change"].map((word, k) =>
+          ["Measure", "Atlas", "Current", "Change"].map((word, k) =>
             h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
           ),
         ),
@@ -92,7 +92,7 @@ export class MeasureTable {
     this.table.classList.toggle("with-changes", now !== null);
     fill(
       this.note,
-      now ? "The atlas's own measures, and those of the changed parameters as this page reckons them." : [],
+      now ? "The measures of the atlas, and those of the changed parameters, computed by this page." : [],
     );
     for (const row of this.rows) {
       const value = now?.[row.measure.name];

@@ -70,7 +70,7 @@ export function plateLayout(plate) {
     h(
       "div",
       { class: "plate-facts" },
-      h("section", {}, h("h2", {}, "Where it is from"), curveOrigin(app, family, curve)),
+      h("section", {}, h("h2", {}, "Origin"), curveOrigin(app, family, curve)),
       measures.element,
     ),
   );

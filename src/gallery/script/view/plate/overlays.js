@@ -12,12 +12,12 @@ import { s } from "../dom.js";
 
 /** The overlays, { name, label, isOn (the default), there(study) }. */
 export const OVERLAYS = [
-  { name: "names", label: "Names of joints", isOn: true, there: () => true },
+  { name: "names", label: "Joint names", isOn: true, there: () => true },
   { name: "straight", label: "Straight portion", isOn: true, there: () => true },
   { name: "others", label: "Curves of other points", isOn: true, there: ({ others }) => others.length > 0 },
   { name: "velocity", label: "Velocity", isOn: false, there: () => true },
   { name: "cognates", label: "Cognates", isOn: false, there: (study) => cognatesOfStudy(study) !== null },
-  { name: "centrodes", label: "Centrodes and pole", isOn: false, there: hasPole },
+  { name: "centrodes", label: "Centrodes and instant centre", isOn: false, there: hasPole },
   { name: "inflection", label: "Inflection circle", isOn: false, there: hasPole },
 ];
 

@@ -196,7 +196,7 @@ export class Plate {
     this.measures.show(this.reason ? null : this.measured);
     this.switches.show(this.candidates, study, this.on, isExtraCircuit(this));
     this.layout.refresh();
-    if (this.reason) this.app.announce(`It cannot be assembled: ${this.reason}`);
+    if (this.reason) this.app.announce(`Cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
     if (isAddressed && this.element.isConnected) this.app.replace(plateAddress(this));
   }

@@ -5,9 +5,9 @@ import { roundedToGrain } from "./parameters.js";
 
 const PARAMETER_KINDS = {
   free: "varied in the atlas",
-  kept: "kept in the atlas",
-  follows: "follows from the others",
-  freed: "set free",
+  fixed: "constant in the atlas",
+  derived: "derived from other parameters",
+  unlinked: "unlinked",
 };
 
 /**
@@ -24,10 +24,10 @@ export class Sliders {
     this.more = h(
       "details",
       { class: "locked-parameters" },
-      h("summary", {}, "Kept in the atlas, and what follows"),
+      h("summary", {}, "Locked parameters"),
       this.locked,
     );
-    this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "As in the atlas");
+    this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "Reset all");
     this.element = h(
       "section",
       { class: "gauge sliders" },
@@ -66,7 +66,7 @@ export class Sliders {
       (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
     row.field.setAttribute("aria-invalid", String(isOut));
     const isDependent = kind === "derived" || kind === "unlinked";
-    const label = kind === "derived" ? "Set free" : kind === "unlinked" ? "Let follow" : "Back";
+    const label = kind === "derived" ? "Unlink" : kind === "unlinked" ? "Relink" : "Reset";
     row.button.textContent = label;
     row.button.setAttribute(
       "aria-label",

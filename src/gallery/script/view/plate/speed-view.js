@@ -70,7 +70,7 @@ export class SpeedView {
       parts.push(partOfInput(timeline, k, at));
     });
     this.top = shownSpeed(speeds);
-    this.unit = isLength ? "a unit of input" : "a radian of input";
+    this.unit = isLength ? "unit of input" : "radian of input";
     this.line.setAttribute("d", speedData(parts, speeds, this.top, SPEED_FRAME));
     this.limits.setAttribute(
       "d",
@@ -82,11 +82,11 @@ export class SpeedView {
     const finite = speeds.filter(Number.isFinite);
     const [least, most] = [Math.min(...finite), Math.max(...finite)];
     const isCut = most > this.top * 1.05;
-    const until = isCut ? "without bound towards the limits" : `to ${formatLength(most)}`;
-    this.foot.textContent = `from ${formatLength(least)} ${until}, in lengths to ${this.unit}`;
+    const until = isCut ? "unbounded towards the limits" : `to ${formatLength(most)}`;
+    this.foot.textContent = `from ${formatLength(least)} ${until}, in lengths per ${this.unit}`;
     this.drawing.setAttribute(
       "aria-label",
-      `Speed of the traced point over the circuit: from ${formatLength(least)} ${until} to ${this.unit}`,
+      `Speed of the traced point over the circuit: from ${formatLength(least)} ${until} per ${this.unit}`,
     );
   }
 

@@ -71,7 +71,7 @@ export class Stage {
     this.reason.hidden = reason === null;
     fill(
       this.reason,
-      reason === null ? [] : `It cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
+      reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
     );
   }
 

@@ -42,13 +42,13 @@ export function studyOf(family, curve, changes, requested = null, isRough = fals
       ? recorded
       : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
-  if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
+  if (routes.length === 0) return { values, reason: all.shortfall ?? "no value of the input allows assembly" };
   const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
   const shown = routes[requested] ? requested : home;
   if (shown < 0) {
     const reason =
       recorded.shortfall ??
-      "the circuit of this curve is there no more: it has come together with another, or apart";
+      "the circuit of this curve no longer exists: it has merged with another, or split";
     return { values, linkage, routes, home, shown, reason };
   }
   const study = {
@@ -76,7 +76,7 @@ function studyShownCircuit({ linkage, routes, shown }, trace) {
   const curveBox = widenedBox(emptyBox(), circuit.x[joint], circuit.y[joint], circuit.count);
   const size = Math.hypot(box[2] - box[0], box[3] - box[1]);
   if (!(size > 0) || !Number.isFinite(size))
-    return { reason: "its lengths are too unlike one another to be drawn" };
+    return { reason: "its lengths differ too much to be drawn" };
   const fourBar = fourBarOf(linkage);
   const isCouplerPoint = fourBar !== null && isOnCoupler(linkage, fourBar, joint);
   return {

@@ -24,8 +24,8 @@ export class Switches {
     this.aside = h(
       "p",
       { class: "note", hidden: true },
-      "The atlas does not have this circuit. It is taken away as the page solves it; no command line names it " +
-        "yet, and the manifest fragment takes all circuits.",
+      "The atlas does not contain this circuit. Files are exported from this page’s solution; no command line " +
+        "names the circuit yet, and the manifest fragment selects all circuits.",
     );
     this.circuitSection = h(
       "section",
@@ -37,7 +37,7 @@ export class Switches {
     this.element = h(
       "section",
       { class: "gauge switches" },
-      h("h3", {}, "Shown"),
+      h("h3", {}, "Overlays"),
       h(
         "div",
         { class: "checks" },
@@ -80,7 +80,7 @@ export class Switches {
       "label",
       { class: "check" },
       radio,
-      h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve’s") : null),
+      h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve") : null),
     );
   }
 
@@ -88,7 +88,7 @@ export class Switches {
     const pair = study && on.has("cognates") ? cognatesOfStudy(study) : null;
     this.lengths.hidden = !pair;
     if (!pair) return;
-    const head = ["", "itself", "first", "second"];
+    const head = ["", "original", "first", "second"];
     const rows = ["frame", "crank", "coupler", "rocker", "along", "across"].map((name, k) => [
       name,
       pair.cognates.map(({ lengths, point }) => lengths[name] ?? point[k - 4]),
@@ -108,7 +108,7 @@ export class Switches {
         h(
           "table",
           { class: "figures" },
-          h("caption", { class: "visually-hidden" }, "The three four-bars that draw this curve"),
+          h("caption", { class: "visually-hidden" }, "The three four-bars that trace this curve"),
           h(
             "thead",
             {},

@@ -31,7 +31,7 @@ export class Transport {
       max: "1",
       step: "any",
       value: "0",
-      "aria-label": "Place on the circuit",
+      "aria-label": "Position on the circuit",
       oninput: () => drive.seekAndPause(Number(this.scrub.value)),
       onkeydown: (event) => stepByKey(event, drive),
     });
@@ -40,7 +40,7 @@ export class Transport {
     this.straight = h("p", { class: "note straight-note" });
     this.rate = h(
       "select",
-      { "aria-label": "Speed of play", class: "rate" },
+      { "aria-label": "Playback speed", class: "rate" },
       PLAY_RATES.map(([rate, label]) => h("option", { value: rate, selected: rate === 60 }, `${label} ×`)),
     );
     const button = (label, title, onclick, keys) =>
@@ -50,8 +50,8 @@ export class Transport {
         label,
       );
     this.toLimits = [
-      button("⇤", "To the limit before, or the beginning", () => drive.toLimit(-1), "Home"),
-      button("⇥", "To the next limit, or the end", () => drive.toLimit(1), "End"),
+      button("⇤", "Previous limit or start", () => drive.toLimit(-1), "Home"),
+      button("⇥", "Next limit or end", () => drive.toLimit(1), "End"),
     ];
     this.element = h(
       "div",
@@ -67,7 +67,7 @@ export class Transport {
           this.rate,
           button("−", "Zoom out", () => stage.zoom(1 / 1.3), "-"),
           button("+", "Zoom in", () => stage.zoom(1.3), "+"),
-          button("Fit", "Fit into the frame", () => stage.fit(), "0"),
+          button("Fit", "Fit to frame", () => stage.fit(), "0"),
         ),
       ),
     );

@@ -27,7 +27,7 @@ export function matchItem(app, one, shape, { by, part }) {
     h(
       "span",
       { class: "acts" },
-      h("a", { href: address(["shape"], { like: name }) }, "Like this"),
+      h("a", { href: address(["shape"], { like: name }) }, "Find similar"),
       pinButton(app, name, { class: "quiet" }, "Pin", h("span", { class: "visually-hidden" }, ` ${name}`)),
     ),
   );

@@ -26,15 +26,15 @@ export function shapeOptions(query, changed) {
   const element = h(
     "fieldset",
     { class: "shape-options" },
-    h("legend", {}, "What is drawn is"),
+    h("legend", {}, "The shape is"),
     h("label", { class: "check" }, whole, "a whole curve"),
     h(
       "div",
       { class: "toolbar" },
-      h("label", { class: "check" }, part, "a part of a curve, no less than"),
+      h("label", { class: "check" }, part, "a part of a curve, at least"),
       minShareSelect(query.least, (least) => set("least", least)),
     ),
-    h("label", { class: "check" }, mirror, "mirror images too"),
+    h("label", { class: "check" }, mirror, "Include mirror images"),
     rankingSelect(query.by, (by) => set("by", by)),
   );
   return { element, mark };
@@ -44,7 +44,7 @@ function minShareSelect(least, choose) {
   const values = [...new Set([...MIN_SHARES, least])].sort((a, b) => a - b);
   const choice = h(
     "select",
-    { "aria-label": "Least part of a curve", onchange: () => choose(Number(choice.value)) },
+    { "aria-label": "Minimum part of a curve", onchange: () => choose(Number(choice.value)) },
     values.map((value) => h("option", { value }, `${Math.round(100 * value)} %`)),
   );
   choice.value = String(least);
@@ -59,5 +59,5 @@ function rankingSelect(by, choose) {
     h("option", { value: "greatest" }, "greatest deviation"),
   );
   choice.value = by;
-  return h("span", { class: "field row" }, h("label", { for: "shape-by" }, "Ranked by"), choice);
+  return h("span", { class: "field row" }, h("label", { for: "shape-by" }, "Rank by"), choice);
 }

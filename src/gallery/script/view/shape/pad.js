@@ -38,8 +38,8 @@ export class DrawingPad {
     this.help = h(
       "p",
       { class: "note", id: "pad-help" },
-      "Draw in one stroke. With keys: arrows move the pen (Shift: further), Enter sets a point, ",
-      "Backspace takes one back, C closes, Escape begins anew.",
+      "Draw in one stroke. Keys: arrows move the pen (Shift: further), Enter adds a point, ",
+      "Backspace removes the last point, C closes the curve, Escape clears it.",
     );
   }
 

@@ -26,9 +26,9 @@ export function pasteField(use) {
   return h(
     "div",
     { class: "field" },
-    h("label", { for: "shape-text" }, "Or paste points or a path"),
+    h("label", { for: "shape-text" }, "Paste points or a path"),
     text,
     wrong,
-    h("div", {}, h("button", { type: "button", onclick: read }, "Use what is pasted")),
+    h("div", {}, h("button", { type: "button", onclick: read }, "Use pasted shape")),
   );
 }

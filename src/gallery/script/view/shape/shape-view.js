@@ -49,7 +49,7 @@ class ShapeView {
       (points, closed) => this.setDrawnShape(points, closed),
       (text) => app.announce(text),
     );
-    this.status = h("p", { class: "counted" }, "Draw a curve, paste one, or begin with one of the atlas");
+    this.status = h("p", { class: "counted" }, "Draw or paste a curve, or start from a curve of the atlas");
     this.results = h("ol", { class: "matches" });
     this.families = h("div", {});
     this.query = parseShapeQuery(query);
@@ -79,7 +79,7 @@ class ShapeView {
           { class: "panel" },
           this.pad.element,
           this.pad.help,
-          h("div", { class: "toolbar" }, h("button", { type: "button", onclick: clear }, "Clear the pad")),
+          h("div", { class: "toolbar" }, h("button", { type: "button", onclick: clear }, "Clear")),
           this.options.element,
           pasteField(use),
           this.families,
@@ -153,7 +153,7 @@ class ShapeView {
     this.results.setAttribute("aria-busy", "true");
     const indexes = [];
     for (const family of this.loaded) {
-      fill(this.status, "Looking through ", family.title);
+      fill(this.status, "Searching ", family.title);
       const index = await shapeIndex(family, part ? least : null, stopped);
       if (!index) return;
       indexes.push(index);
@@ -174,10 +174,10 @@ class ShapeView {
   show(found) {
     const { by } = this.query;
     const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
-    const ranked = `by their ${by} deviation in % of the shape’s extent`;
+    const ranked = `ranked by ${by} deviation in % of the shape’s extent`;
     const sentence = found.length
       ? `The ${found.length === 1 ? "" : `${found.length} `}nearest of ${count.toLocaleString("en")} curves, ${ranked}`
-      : "Nothing is like this";
+      : "No similar curve found";
     fill(this.status, sentence);
     this.app.announce(sentence);
     this.results.removeAttribute("aria-busy");
