@@ -37,7 +37,8 @@ export function circleOfPath(path, further) {
   const arc = isWhole ? null : [least, most].map(({ at }) => directionDeg(at.x - x, at.y - y));
   // Further digits are not significant.
   const places = 12 - Math.ceil(Math.log10(radius));
-  return { x: roundToPlaces(x, places), y: roundToPlaces(y, places), radius: roundToPlaces(radius, places), arc };
+  const rounded = (value) => roundToPlaces(value, places);
+  return { x: rounded(x), y: rounded(y), radius: rounded(radius), arc };
 }
 
 /** The longer side of the bounding box of points { x, y }. */

@@ -24,7 +24,7 @@ export function extraCircuitsCommand(names, words) {
     ...undescribed.map((name) => `# A manifest cannot describe the moved point of ${name}.`),
   ];
   if (said.length === 0) return `${lines.join("\n")}\n`;
-  lines.push("# The manifest fragment selects all circuits: save it below an [atlas] table as circuits.toml.");
+  lines.push("# The manifest fragment has all circuits: save it below an [atlas] table as circuits.toml.");
   return `${lines.join("\n")}\n${exportCommand(said, said.length, "circuits.toml")}`;
 }
 

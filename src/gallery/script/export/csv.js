@@ -27,6 +27,7 @@ export function pointRows(exported) {
 /** The curve's rows of points.csv, with the header. */
 export function csvOfCurve(exported) {
   const { cell, trace, circuit } = exported;
-  const lines = pointRows(exported).map((row) => [cell, trace, circuit, ...row].map(shortestDigits).join(","));
+  const line = (row) => [cell, trace, circuit, ...row].map(shortestDigits).join(",");
+  const lines = pointRows(exported).map(line);
   return `${["cell,trace,circuit", ...pointColumns(exported)].join(",")}\n${lines.join("\n")}\n`;
 }

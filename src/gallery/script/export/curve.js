@@ -97,7 +97,8 @@ export function manifestCase(family, name) {
   const curve = family.places.get(key);
   if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
   const values = changedValues(family, family.curves.cell[curve], changes);
-  return { family, name: formatCurveName(family.id, key, changes, extraCircuit), trace, extraCircuit, values, changes };
+  const fullName = formatCurveName(family.id, key, changes, extraCircuit);
+  return { family, name: fullName, trace, extraCircuit, values, changes };
 }
 
 // If the linkage cannot be assembled, the error names the curve.
@@ -133,7 +134,8 @@ export function fileStem({ family, cell, trace, circuit, extraCircuit, changes }
  */
 export function measuresOfCurve(exported, names) {
   const { family, curve, changes, extraCircuit, linkage, motion, course, joint } = exported;
-  if (changes.size === 0 && extraCircuit === null) return names.map((name) => [name, measureValue(family, curve, name) ?? null]);
+  if (changes.size === 0 && extraCircuit === null)
+    return names.map((name) => [name, measureValue(family, curve, name) ?? null]);
   const found = measuresOf(linkage, motion, course, joint, { straight: family.straight });
   return names.map((name) => [name, found[name] ?? null]);
 }

@@ -45,8 +45,8 @@ export function curveNamesInManifest(curves) {
   return curves.map((curve) => {
     const family = families.find((other) => other.curves.includes(curve));
     const cell = [...rowsOfFamily(family).keys()].indexOf(caseInManifest(curve.family, curve.values)) + 1;
-    const isSaid = movedPointComment(curve).length === 0;
-    return isSaid ? `${idInManifest(family)}:${cell}.${curve.trace}.${curve.beside}` : null;
+    const isExpressible = movedPointComment(curve).length === 0;
+    return isExpressible ? `${idInManifest(family)}:${cell}.${curve.trace}.${curve.extraCircuit}` : null;
   });
 }
 
@@ -81,9 +81,9 @@ function idInManifest({ linkage, number }) {
   return `${linkage.slice(0, 50).replace(/-+$/, "")}-taken${number > 1 ? `-${number}` : ""}`;
 }
 
-function familyInManifest(made) {
-  const { settings, title, linkage, curves } = made;
-  const rows = rowsOfFamily(made);
+function familyInManifest(group) {
+  const { settings, title, linkage, curves } = group;
+  const rows = rowsOfFamily(group);
   const columns = Math.min(rows.size, 3);
   const panels = [columns, Math.min(Math.ceil(rows.size / columns), 3)];
   const own = CATALOGUE.includes(linkage)
@@ -94,7 +94,7 @@ function familyInManifest(made) {
     .join("");
   const lines = [
     `${own}${moved}\n[[family]]`,
-    `id = "${idInManifest(made)}"`,
+    `id = "${idInManifest(group)}"`,
     `linkage = "${linkage}"`,
     `title = ${tomlString(title)}`,
     `panels = [${panels.join(", ")}]`,
@@ -113,7 +113,8 @@ function movedPointComment({ family, name, changes }) {
 
 // Notes a circuit that the atlas does not contain.
 function extraCircuitComment({ name, extraCircuit }) {
-  return extraCircuit === null ? [] : [`# ${name} is circuit ${extraCircuit} of all; the other circuits of its cell are included.`];
+  if (extraCircuit === null) return [];
+  return [`# ${name} is circuit ${extraCircuit} of all; the other circuits of its cell are included.`];
 }
 
 function caseInManifest(family, values) {

@@ -18,13 +18,13 @@ const SHAPE_STYLES = {
 };
 
 /**
- * The shapes of a mechanism (draw/mechanism.js) from bottom to top, [{ look: attributes, data(at, scale) }]:
+ * The shapes of a mechanism (draw/mechanism.js) from bottom to top, [{ style: attributes, data(at, scale) }]:
  * `at` are the positions of all joints on the plate, [X0, Y0, X1, Y1, …]; `scale` is in plate units per unit
  * of length.
  */
 export function plateShapes(mechanism, traced) {
   const { bars, plates, blocks, slots, actuators, fixed, pins } = mechanism;
-  const shape = (kind, data) => ({ look: SHAPE_STYLES[kind], data });
+  const shape = (kind, data) => ({ style: SHAPE_STYLES[kind], data });
   const ends = new Float64Array(4);
   const stem = (slot) =>
     shape("link", (at, scale) => {

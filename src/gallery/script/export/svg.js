@@ -30,9 +30,9 @@ export function svgOfPoses(exported, poses, seconds) {
   const placed = poses.map((pose) =>
     pose.flatMap(({ x, y }) => [view.x + view.scale * x, view.y - view.scale * y]),
   );
-  const shapes = plateShapes(mechanism, exported.joint).map(({ look, data }) => {
+  const shapes = plateShapes(mechanism, exported.joint).map(({ style, data }) => {
     const frames = placed.map((at) => data(at, view.scale));
-    return pathElement({ d: frames[0], ...look }, frames.length > 1 ? animateElement(frames, seconds) : "");
+    return pathElement({ d: frames[0], ...style }, frames.length > 1 ? animateElement(frames, seconds) : "");
   });
   const { width, height, units } = PLATE_SIZE;
   const head = {
@@ -91,7 +91,7 @@ function staticShapes(exported, { frame, guides, wheels }, view) {
       { stroke: "#7d2115", "stroke-width": 2, "stroke-linecap": "butt" },
     ],
   ];
-  const drawn = parts.filter(([d]) => d !== "").map(([d, look]) => pathElement({ d, ...look }, ""));
+  const drawn = parts.filter(([d]) => d !== "").map(([d, style]) => pathElement({ d, ...style }, ""));
   return `<g class="curve">\n${drawn.join("")}</g>\n`;
 }
 

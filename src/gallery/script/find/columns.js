@@ -19,12 +19,12 @@ const LATER_WORDS = ["type", "shortest", "symmetry"];
  * kind: "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are always included.
  */
 export function filterColumns(table, measures, kept = new Set()) {
-  const told = new Map(measures.map((measure) => [measure.name, measure]));
+  const byName = new Map(measures.map((measure) => [measure.name, measure]));
   const numbers = measures.filter(({ word }) => !word).map(({ name }) => name);
   const words = measures.filter(({ word }) => word).map(({ name }) => name);
   const parameters = [...new Set(table.families.flatMap(({ names }) => names))].map((name) => `p.${name}`);
   const column = (group, kind) => (name) => {
-    const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? told.get(name) ?? {};
+    const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
     return { name, group, kind, unit, definition };
   };
   const listed = [
@@ -37,9 +37,9 @@ export function filterColumns(table, measures, kept = new Set()) {
     ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
     ...parameters.map(column("parameters", "numbers")),
   ];
-  return listed.filter(
-    ({ name, kind }) => kept.has(name) || (kind === "words" ? hasDistinctWords : hasDistinctNumbers)(table, name),
-  );
+  const hasDistinctValues = ({ name, kind }) =>
+    kind === "words" ? hasDistinctWords(table, name) : hasDistinctNumbers(table, name);
+  return listed.filter((column) => kept.has(column.name) || hasDistinctValues(column));
 }
 
 function hasDistinctWords(table, name) {

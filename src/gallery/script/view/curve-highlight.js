@@ -211,10 +211,10 @@ export class CurveHighlight {
  * The position of a label of a given size next to a point, before or after it as preferred, if there is
  * space.
  */
-function positionNextTo(at, size, room, isBefore) {
+function positionNextTo(at, size, available, isBefore) {
   const [before, after] = [at - 16 - size, at + 16];
   if (isBefore) return before < 0 ? after : before;
-  return after + size > room ? before : after;
+  return after + size > available ? before : after;
 }
 
 /** The readings at a point of a curve: [[name, value with unit], …]. */

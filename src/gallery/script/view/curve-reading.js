@@ -28,7 +28,8 @@ function solveCurve(family, curve, tolerance) {
   if (!route) return null;
   const path = finePath(linkage, route, joint, tolerance);
   const fourBar = fourBarOf(linkage);
-  const atInput = (pass, input) => readingAtInput({ linkage, joint, fourBar }, route.passes[pass], pass, input);
+  const solved = { linkage, joint, fourBar };
+  const atInput = (pass, input) => readingAtInput(solved, route.passes[pass], pass, input);
   return {
     path,
     closed: route.closed,

@@ -164,7 +164,7 @@ function curveTiles(family) {
       ),
     draw: (element, k) => {
       const picture = element.querySelector(".tile-picture");
-      picture.append(thumbnail(family, [k], tiles.sizeOfLeaf(picture)));
+      picture.append(thumbnail(family, [k], tiles.sizeOfPicture(picture)));
     },
   });
   return tiles;

@@ -43,7 +43,8 @@ function squaredDistanceToPolyline({ points, closed }, x, y) {
   let least = n === 2 ? (x - points[0]) ** 2 + (y - points[1]) ** 2 : Infinity;
   for (let k = closed ? 0 : 2; k < n; k += 2) {
     const from = k === 0 ? n - 2 : k - 2;
-    least = Math.min(least, squaredDistanceToSegment(x, y, points[from], points[from + 1], points[k], points[k + 1]));
+    const segment = [points[from], points[from + 1], points[k], points[k + 1]];
+    least = Math.min(least, squaredDistanceToSegment(x, y, ...segment));
   }
   return least;
 }

@@ -143,14 +143,14 @@ export function curvePanel(app, family, curve, { onall }) {
 function parameterFacts(family, cell) {
   const width = family.names.length;
   const rows = family.names.map((name, k) => [name, family.cells.values[cell * width + k]]);
-  const told = rows.filter(([, value]) => Number.isFinite(value));
-  if (told.length === 0) return null;
+  const shown = rows.filter(([, value]) => Number.isFinite(value));
+  if (shown.length === 0) return null;
   return [
     h("h3", {}, "Parameters"),
     h(
       "dl",
       { class: "facts page-parameters" },
-      told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, formatNumber(value, 6))]),
+      shown.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, formatNumber(value, 6))]),
     ),
   ];
 }
@@ -158,13 +158,13 @@ function parameterFacts(family, cell) {
 /** The measures of a curve with tooltips, and all definitions in a collapsed list. */
 function measureFacts(atlas, family, curve) {
   const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
-  const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
+  const shown = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
   return [
     h("h3", {}, "Measures"),
     h(
       "dl",
       { class: "facts page-measures" },
-      told.map(([{ name, definition }, text]) => [
+      shown.map(([{ name, definition }, text]) => [
         h("dt", { title: definition }, measureLabel(name)),
         h("dd", {}, text),
       ]),
@@ -176,7 +176,7 @@ function measureFacts(atlas, family, curve) {
       h(
         "dl",
         {},
-        told.map(([{ name, definition }]) => [h("dt", {}, measureLabel(name)), h("dd", {}, definition)]),
+        shown.map(([{ name, definition }]) => [h("dt", {}, measureLabel(name)), h("dd", {}, definition)]),
       ),
     ),
   ];

@@ -74,7 +74,8 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
 function linkArea([x0, y0, x1, y1]) {
   // The box of a straight path has no width, and browsers do not draw a rectangle without one.
   const [width, height] = [Math.max(x1 - x0, MIN_LINK_WIDTH), Math.max(y1 - y0, MIN_LINK_WIDTH)];
-  return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "link-area" });
+  const corner = { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2 };
+  return s("rect", { ...corner, width, height, class: "link-area" });
 }
 
 function curveLink(family, curve, { onfocus, onblur }) {

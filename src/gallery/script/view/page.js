@@ -148,11 +148,14 @@ class PageView {
       this.showPanel();
       this.viewport.focus({ preventScroll: true });
     };
-    const enter = { onenter: (other) => this.highlight.preview(other), onleave: () => this.highlight.leave() };
+    const listeners = {
+      onenter: (other) => this.highlight.preview(other),
+      onleave: () => this.highlight.leave(),
+    };
     fill(
       this.panel,
       curve === null
-        ? curveListPanel(this.family, this.page, this.drawn, enter)
+        ? curveListPanel(this.family, this.page, this.drawn, listeners)
         : curvePanel(this.app, this.family, curve, { onall: all }),
     );
     fill(this.legend, this.family.legend ?? "");
@@ -227,7 +230,8 @@ class PageView {
   /** Handles the end of a zoom. */
   settled() {
     const percent = `${Math.round(this.zoom.magnification * 100)} %`;
-    if (this.announcedPercent !== undefined && percent !== this.announcedPercent) this.app.announce(`Zoom ${percent}`);
+    if (this.announcedPercent !== undefined && percent !== this.announcedPercent)
+      this.app.announce(`Zoom ${percent}`);
     this.announcedPercent = percent;
     this.remember();
   }

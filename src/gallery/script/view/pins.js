@@ -34,8 +34,8 @@ export function tabPins(window) {
   const pins = new Pins();
   const key = `coupler-atlas-pins ${window.location.pathname}`;
   try {
-    const kept = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
-    pins.set(kept.filter((name) => typeof name === "string"));
+    const stored = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
+    pins.set(stored.filter((name) => typeof name === "string"));
   } catch {
     // Unreadable pins are dropped.
   }

@@ -17,9 +17,9 @@ const THEME_CHOICES = [
  */
 export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  let wish = storedTheme();
+  let choice = storedTheme();
   const apply = () => {
-    const theme = wish === "system" ? (dark.matches ? "dark" : "light") : wish;
+    const theme = choice === "system" ? (dark.matches ? "dark" : "light") : choice;
     if (document.documentElement.dataset.theme === theme) return;
     document.documentElement.dataset.theme = theme;
     document.dispatchEvent(new CustomEvent("themechange", { detail: theme }));
@@ -27,12 +27,12 @@ export function themeSelect() {
   dark.addEventListener("change", apply);
   apply();
   const choose = (event) => {
-    wish = event.target.value;
-    storeChoice(THEME_KEY, wish);
+    choice = event.target.value;
+    storeChoice(THEME_KEY, choice);
     apply();
   };
   const options = THEME_CHOICES.map(([value, label]) =>
-    h("option", { value, selected: value === wish }, label),
+    h("option", { value, selected: value === choice }, label),
   );
   return h("select", { class: "theme quiet", "aria-label": "Theme", onchange: choose }, options);
 }

@@ -72,9 +72,9 @@ export class TileWindow {
 
   measure() {
     const { gap, count } = this;
-    const room = this.element.clientWidth;
-    this.columns = Math.max(1, Math.floor((room + gap) / (Math.min(this.least, room) + gap)));
-    this.wide = (room - gap * (this.columns - 1)) / this.columns;
+    const width = this.element.clientWidth;
+    this.columns = Math.max(1, Math.floor((width + gap) / (Math.min(this.least, width) + gap)));
+    this.wide = (width - gap * (this.columns - 1)) / this.columns;
     this.high = Math.round(this.wide * this.aspect) + this.below;
     this.element.style.height = `${Math.ceil(count / this.columns) * this.pitch - gap}px`;
     for (const [k, element] of this.there) this.lay(element, k);
@@ -82,12 +82,15 @@ export class TileWindow {
   }
 
   /** The size of a tile's picture in pixels. All are alike, and measuring each would force a layout. */
-  sizeOfLeaf(picture) {
+  sizeOfPicture(picture) {
     if (this.sizedAt !== this.wide) {
       this.sizedAt = this.wide;
-      this.leafSize = { width: Math.max(picture.clientWidth, 40), height: Math.max(picture.clientHeight, 40) };
+      this.pictureSize = {
+        width: Math.max(picture.clientWidth, 40),
+        height: Math.max(picture.clientHeight, 40),
+      };
     }
-    return this.leafSize;
+    return this.pictureSize;
   }
 
   lay({ style }, k) {

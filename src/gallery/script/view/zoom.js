@@ -138,7 +138,7 @@ export class Zoom {
   constrain() {
     const { clientWidth, clientHeight } = this.viewport;
     this.constrainedTo = { width: clientWidth, height: clientHeight };
-    const within = (at, size, room) => Math.min(Math.max(at, room / 2 - size), room / 2);
+    const within = (at, size, available) => Math.min(Math.max(at, available / 2 - size), available / 2);
     if (!this.isFit) {
       this.x = within(this.x, this.scale * this.width, clientWidth);
       this.y = within(this.y, this.scale * this.height, clientHeight);

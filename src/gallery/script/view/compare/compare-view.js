@@ -39,11 +39,11 @@ export const compareRoute = {
  */
 function keepFocus(element) {
   const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
-  const held = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
+  const focused = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
   return () => {
-    if (held === null || element.contains(document.activeElement)) return;
+    if (focused === null || element.contains(document.activeElement)) return;
     const again = [...element.querySelectorAll("button, select, a")].find(
-      (control) => nameOf(control) === held && !control.disabled,
+      (control) => nameOf(control) === focused && !control.disabled,
     );
     (again ?? element.querySelector("select, button"))?.focus();
   };

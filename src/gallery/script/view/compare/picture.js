@@ -105,8 +105,8 @@ function heightFor(outlines) {
       values.reduce((least, value) => Math.min(least, value), Infinity)
     );
   };
-  const wanted = ((OVER_WIDE - 2 * OVER_INSET) * side(1)) / (side(0) || 1) + 2 * OVER_INSET;
-  return Math.round(Math.min(Math.max(wanted, OVER_LOW), OVER_HIGH));
+  const height = ((OVER_WIDE - 2 * OVER_INSET) * side(1)) / (side(0) || 1) + 2 * OVER_INSET;
+  return Math.round(Math.min(Math.max(height, OVER_LOW), OVER_HIGH));
 }
 
 /** A short sample of the k-th curve's line. */

@@ -75,7 +75,8 @@ function measureNames({ atlas }) {
 export async function exportFile(app, names, format, onProgress = () => {}) {
   if (names.length === 0) throw new Error("There is no curve to export");
   if (names.length > MAX_EXPORTED) {
-    throw new Error(`Cannot export more than ${MAX_EXPORTED} curves here; use the command line for all ${names.length}`);
+    const limit = `Cannot export more than ${MAX_EXPORTED} curves here`;
+    throw new Error(`${limit}; use the command line for all ${names.length}`);
   }
   const files = [];
   let yieldedAt = performance.now();

@@ -45,6 +45,11 @@ export function familyChooser(atlas, loaded, changed) {
       ),
       h("button", { type: "button", class: "quiet", onclick: () => changed([]) }, "None"),
     ),
-    h("fieldset", { class: "words" }, h("legend", { class: "visually-hidden" }, "Families"), withCurves.map(box)),
+    h(
+      "fieldset",
+      { class: "words" },
+      h("legend", { class: "visually-hidden" }, "Families"),
+      withCurves.map(box),
+    ),
   );
 }

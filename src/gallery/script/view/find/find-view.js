@@ -196,7 +196,8 @@ class FindView {
     fill(this.direction, sort.down ? "Descending" : "Ascending");
     this.direction.disabled = !column;
     this.clear.hidden = this.query.filters.size === 0;
-    this.displayButtons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.show === show)));
+    for (const button of this.displayButtons)
+      button.setAttribute("aria-pressed", String(button.dataset.show === show));
     this.count();
     // While a bound is dragged, the results are laid out once per frame.
     this.laying ??= requestAnimationFrame(() => this.layOut());
@@ -215,7 +216,8 @@ class FindView {
     const list = show === "table" ? this.list : this.tiles;
     if (list.element.parentElement !== this.results) fill(this.results, list.element);
     if (show === "table") this.list.setRows(this.table, this.rows, this.shownColumns(column), sort);
-    else this.tiles.setRows(this.table, this.rows, column ? (row) => this.valueText(column, row) : () => null);
+    else
+      this.tiles.setRows(this.table, this.rows, (row) => (column ? this.valueText(column, row) : null));
   }
 
   /** Sorted and filtered columns come first, so that they are visible. */

@@ -20,7 +20,7 @@ export function loadFamilies(atlas, listed, onLoad, onError) {
   let stopped = false;
   const there = [];
   const load = async () => {
-    let told = performance.now();
+    let reportedAt = performance.now();
     for (const [k, { id }] of listed.entries()) {
       try {
         there.push(await atlas.family(id));
@@ -29,13 +29,13 @@ export function loadFamilies(atlas, listed, onLoad, onError) {
       }
       if (stopped) return;
       const isLast = k === listed.length - 1;
-      if (!isLast && performance.now() - told < 400) continue;
+      if (!isLast && performance.now() - reportedAt < 400) continue;
       onLoad([...there], k + 1, listed.length);
       // Lets the page handle input meanwhile.
       await new Promise((resume) => {
         setTimeout(resume, 0);
       });
-      told = performance.now();
+      reportedAt = performance.now();
     }
     if (!listed.length) onLoad([], 0, 0);
   };

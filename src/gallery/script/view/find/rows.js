@@ -71,9 +71,9 @@ export class ResultRows {
         ),
       );
     // A heading that was pressed keeps the focus when it is replaced.
-    const held = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
+    const focused = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
     fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
-    if (held >= 0) this.head.querySelectorAll("button")[held]?.focus();
+    if (focused >= 0) this.head.querySelectorAll("button")[focused]?.focus();
     this.fill();
   }
 

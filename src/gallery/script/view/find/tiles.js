@@ -70,6 +70,6 @@ export class ResultTiles extends TileWindow {
     const row = this.rows[k];
     const picture = element.querySelector(".tile-picture");
     const family = table.families[table.family[row]];
-    picture.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(picture)));
+    picture.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfPicture(picture)));
   }
 }

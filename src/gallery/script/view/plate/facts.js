@@ -37,11 +37,11 @@ export function curveOrigin(app, family, curve) {
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
     ["Source", familySource(family)],
   ];
-  const told = rows.filter(([, value]) => value);
+  const shown = rows.filter(([, value]) => value);
   return h(
     "dl",
     { class: "facts origin" },
-    told.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
+    shown.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
   );
 }
 

@@ -57,7 +57,7 @@ export class MovingLayer {
     if (likeness === this.likeness) {
       // The ends of slots depend on the study.
       this.parts.forEach((part) => {
-        if (part.slot !== undefined) part.kept = mechanism.slots[part.slot];
+        if (part.slot !== undefined) part.shape = mechanism.slots[part.slot];
       });
       return;
     }
@@ -142,23 +142,23 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
     element: path("hollow"),
     data: (at) => cylinderData(at[2 * p], at[2 * p + 1], at[2 * q], at[2 * q + 1]),
   });
-  const stem = (kept, slot) => ({
+  const stem = (shape, slot) => ({
     element: path("link"),
-    kept,
+    shape,
     slot,
     data: (at, scale, ends, part) => {
-      slotEnds(part.kept, at, scale, ends);
-      const { foot } = part.kept;
+      slotEnds(part.shape, at, scale, ends);
+      const { foot } = part.shape;
       const [x0, y0, x1, y1] = ends;
       return linkData([0, 1, 2], [at[2 * foot], at[2 * foot + 1], x0, y0, x1, y1], false);
     },
   });
-  const hole = (kept, slot) => ({
+  const hole = (shape, slot) => ({
     element: path("hollow"),
-    kept,
+    shape,
     slot,
     data: (at, scale, ends, part) => {
-      slotEnds(part.kept, at, scale, ends);
+      slotEnds(part.shape, at, scale, ends);
       return slotData(ends[0], ends[1], ends[2], ends[3]);
     },
   });

@@ -42,7 +42,7 @@ export function studyOf(family, curve, changes, requested = null, isRough = fals
       ? recorded
       : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
-  if (routes.length === 0) return { values, reason: all.shortfall ?? "no value of the input allows assembly" };
+  if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows assembly" };
   const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
   const shown = routes[requested] ? requested : home;
   if (shown < 0) {
@@ -120,14 +120,14 @@ function indexOfRoute(routes, route) {
 
 /** The title of a circuit: "a full turn, branch 1", "−75.5° to 75.5°, branch 1 and −1". */
 export function circuitTitle(linkage, { passes, closed }) {
-  const told = (at) => (linkage.input.isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
+  const formatInput = (at) => (linkage.input.isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
   const branches = [...new Set(passes.map(({ signs }) => branchLabel(linkage, signs)))].filter(Boolean);
   const turns =
     passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) &&
     closed;
-  const travel = turns ? turnsLabel(high - low) : `${told(low)} to ${told(high)}`;
+  const travel = turns ? turnsLabel(high - low) : `${formatInput(low)} to ${formatInput(high)}`;
   return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
 }
 

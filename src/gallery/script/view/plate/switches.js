@@ -24,8 +24,8 @@ export class Switches {
     this.aside = h(
       "p",
       { class: "note", hidden: true },
-      "The atlas does not contain this circuit. Files are exported from this page’s solution; no command line " +
-        "names the circuit yet, and the manifest fragment selects all circuits.",
+      "The atlas does not contain this circuit. Files are exported from this page’s solution; no command " +
+        "line names the circuit yet, and the manifest fragment selects all circuits.",
     );
     this.circuitSection = h(
       "section",

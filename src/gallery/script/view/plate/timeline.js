@@ -72,38 +72,38 @@ export function clampPart({ closed }, part) {
  */
 export function followInput(timeline, place, wanted, slack) {
   const { passes, closed } = timeline;
-  let want = wanted;
+  let target = wanted;
   for (let guard = 0; guard <= passes.length + 1; guard++) {
     const pass = passes[place.pass];
     const [low, high] = pass.from < pass.to ? [pass.from, pass.to] : [pass.to, pass.from];
-    if (want >= low && want <= high) {
-      place.input = want;
+    if (target >= low && target <= high) {
+      place.input = target;
       place.isBeyond = false;
-      return want;
+      return target;
     }
-    const edge = want > high ? high : low;
+    const edge = target > high ? high : low;
     const forward = edge === pass.to;
     place.input = edge;
     const next = adjacentPass(passes, place.pass, forward, closed);
-    if (next === null) return want;
+    if (next === null) return target;
     const meets = forward ? passes[next].from : passes[next].to;
     const away = forward ? passes[next].to : passes[next].from;
-    if (Math.sign(away - meets) === Math.sign(want - edge)) {
+    if (Math.sign(away - meets) === Math.sign(target - edge)) {
       // The motion continues in the same direction: the seam of a rotation, or a change point.
-      want -= edge - meets;
+      target -= edge - meets;
       place.pass = next;
       place.input = meets;
       continue;
     }
-    if (!place.isBeyond && Math.abs(want - edge) > slack) {
+    if (!place.isBeyond && Math.abs(target - edge) > slack) {
       place.pass = next;
       place.input = meets;
       place.isBeyond = true;
-      want -= edge - meets;
+      target -= edge - meets;
     }
-    return want;
+    return target;
   }
-  return want;
+  return target;
 }
 
 function adjacentPass(passes, k, forward, closed) {

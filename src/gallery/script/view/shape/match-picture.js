@@ -11,8 +11,8 @@ const MATCH_INSET = 6;
 export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
-  const laid = placed(inverted(similarity), shape.points);
-  const seen = viewOfOutlines([points, laid], width, height);
+  const fitted = placed(inverted(similarity), shape.points);
+  const view = viewOfOutlines([points, fitted], width, height);
   const isPart = from !== 0 || to !== 1;
   const part = isPart ? portion(points, closed, from, to, 96).points : points;
   return s(
@@ -25,9 +25,9 @@ export function matchPicture({ family, curve, similarity, from, to }, shape, { w
       "aria-hidden": "true",
       focusable: "false",
     },
-    s("path", { class: isPart ? "rest" : "curve", d: outlineData(points, closed, seen) }),
-    isPart ? s("path", { class: "curve", d: outlineData(part, false, seen) }) : null,
-    s("path", { class: "query-shape", d: outlineData(laid, shape.closed, seen) }),
+    s("path", { class: isPart ? "rest" : "curve", d: outlineData(points, closed, view) }),
+    isPart ? s("path", { class: "curve", d: outlineData(part, false, view) }) : null,
+    s("path", { class: "query-shape", d: outlineData(fitted, shape.closed, view) }),
   );
 }
 

@@ -175,8 +175,9 @@ class ShapeView {
     const { by } = this.query;
     const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
     const ranked = `ranked by ${by} deviation in % of the shape’s extent`;
+    const nearest = found.length === 1 ? "nearest" : `${found.length} nearest`;
     const sentence = found.length
-      ? `The ${found.length === 1 ? "" : `${found.length} `}nearest of ${count.toLocaleString("en")} curves, ${ranked}`
+      ? `The ${nearest} of ${count.toLocaleString("en")} curves, ${ranked}`
       : "No similar curve found";
     fill(this.status, sentence);
     this.app.announce(sentence);
