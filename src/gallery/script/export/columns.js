@@ -51,18 +51,19 @@ export function columnNames() {
 }
 
 /** The columns `names` of a joint at a sample of a circuit; NaN where one does not apply. */
-export function columnsAtSample(names, linkage, course, joint, sample) {
+export function columnsAtSample(names, linkage, circuitSamples, joint, sample) {
   if (names.length === 0) return [];
   // A closed circuit starts where its last pass ends, possibly several turns later.
-  const pass = course.passes[course.pass[sample]];
-  const input = sample === 0 && course.closed && pass.end.flat !== 0 ? pass.to : course.input[sample];
+  const pass = circuitSamples.passes[circuitSamples.pass[sample]];
+  const isSeam = sample === 0 && circuitSamples.closed && pass.end.flat !== 0;
+  const input = isSeam ? pass.to : circuitSamples.input[sample];
   const rates = ratesToJerkAt(linkage, pass, input);
   const ofJoint = (all) => all.subarray(2 * joint, 2 * joint + 2);
   const at = {
     linkage,
     rates,
-    input: course.input[sample],
-    side: (index) => course.branch(sample, index),
+    input: circuitSamples.input[sample],
+    side: (index) => circuitSamples.branch(sample, index),
     velocity: ofJoint(rates.velocity),
     acceleration: ofJoint(rates.acceleration),
     jerk: ofJoint(rates.jerk),

@@ -12,15 +12,15 @@ export function pointColumns({ linkage, family }) {
 
 /** The values of those columns, a row for each sample. */
 export function pointRows(exported) {
-  const { family, linkage, course, joint } = exported;
+  const { family, linkage, circuitSamples, joint } = exported;
   const dyads = Math.max(linkage.dyads, 1);
-  return Array.from({ length: course.count }, (_, k) => [
-    ...Array.from({ length: dyads }, (_unused, dyad) => course.branch(k, dyad)),
+  return Array.from({ length: circuitSamples.count }, (_, k) => [
+    ...Array.from({ length: dyads }, (_unused, dyad) => circuitSamples.branch(k, dyad)),
     k,
-    course.input[k],
-    course.x[joint][k],
-    course.y[joint][k],
-    ...columnsAtSample(family.columns ?? [], linkage, course, joint, k),
+    circuitSamples.input[k],
+    circuitSamples.x[joint][k],
+    circuitSamples.y[joint][k],
+    ...columnsAtSample(family.columns ?? [], linkage, circuitSamples, joint, k),
   ]);
 }
 

@@ -44,7 +44,7 @@ function splitChanges(family, all) {
 /**
  * Solves the curve with a name of `family`: { name, family, cell (number), place (the cell's index), curve
  * (index), trace, circuit (number), extraCircuit (the circuit's number if the atlas does not contain it, else
- * null), changes, values, template, linkage, motion, course (the sampled circuit), joint, status, reason }.
+ * null), changes, values, template, linkage, motion, circuitSamples, joint, status, reason }.
  * For an extra circuit, the motion has all circuits.
  *
  * @throws {Error} a sentence that says why there is no such curve
@@ -61,8 +61,8 @@ export function solveNamedCurve(family, name) {
   const changed = templateWithChanges(family.template, trace, values, changes);
   const template = extraCircuit === null ? changed.template : { ...changed.template, circuits: "all" };
   const { linkage, motion } = solveMotion(template, values, family.sampling, name);
-  const course = motion.circuits[circuit - 1];
-  if (!course) throw new Error(`${name}: ${motion.shortfall ?? "this circuit no longer exists"}`);
+  const circuitSamples = motion.circuits[circuit - 1];
+  if (!circuitSamples) throw new Error(`${name}: ${motion.shortfall ?? "this circuit no longer exists"}`);
   const joint = linkage.traced[(changed.trace ?? linkage.traced.length) - 1];
   const reason = motion.shortfall ?? null;
   const status = reason === null ? "ok" : "partial";
@@ -80,7 +80,7 @@ export function solveNamedCurve(family, name) {
     template,
     linkage,
     motion,
-    course,
+    circuitSamples,
     joint,
     status,
     reason,
@@ -133,10 +133,10 @@ export function fileStem({ family, cell, trace, circuit, extraCircuit, changes }
  * computed if parameters are changed or the atlas does not contain the circuit.
  */
 export function measuresOfCurve(exported, names) {
-  const { family, curve, changes, extraCircuit, linkage, motion, course, joint } = exported;
+  const { family, curve, changes, extraCircuit, linkage, motion, circuitSamples, joint } = exported;
   if (changes.size === 0 && extraCircuit === null)
     return names.map((name) => [name, measureValue(family, curve, name) ?? null]);
-  const found = measuresOf(linkage, motion, course, joint, { straight: family.straight });
+  const found = measuresOf(linkage, motion, circuitSamples, joint, { straight: family.straight });
   return names.map((name) => [name, found[name] ?? null]);
 }
 
@@ -144,7 +144,7 @@ export function measuresOfCurve(exported, names) {
  * The pose of the linkage in CAD files: { x, y } of a joint at the sample a third of the way through the
  * circuit, where no dyad of an oscillating linkage is near its limit.
  */
-export function exportPose({ course: { x, y, count } }) {
+export function exportPose({ circuitSamples: { x, y, count } }) {
   const sample = Math.floor(count / 3);
   return (joint) => ({ x: x[joint][sample], y: y[joint][sample] });
 }

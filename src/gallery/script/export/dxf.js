@@ -25,7 +25,7 @@ export function dxfOfCurve(exported, program, chord = DXF_CHORD) {
   const samples = samplesOfCurve(exported);
   const path = polylineOfCurve(exported, chord * extentOfPath(samples));
   const pose = exportPose(exported);
-  const { bars, plates, frame } = mechanismOf(exported.linkage, exported.course);
+  const { bars, plates, frame } = mechanismOf(exported.linkage, exported.circuitSamples);
   const isPlaced = (joint) => Number.isFinite(pose(joint).x) && Number.isFinite(pose(joint).y);
   const links = outlinesByLink(exported.linkage, bars, plates);
   const shown = [...new Set([...links.flatMap(({ joints }) => joints), ...frame, exported.joint])]
@@ -43,7 +43,7 @@ export function dxfOfCurve(exported, program, chord = DXF_CHORD) {
     dxfSection(
       "ENTITIES",
       [
-        circle ? dxfCircle(circle) : dxfPolyline(path, exported.course.closed),
+        circle ? dxfCircle(circle) : dxfPolyline(path, exported.circuitSamples.closed),
         ...lines.map(([from, to]) =>
           dxfEntity("LINE", "LINKAGE", dxfPlace(10, pose(from)), dxfPlace(11, pose(to))),
         ),
@@ -57,7 +57,7 @@ export function dxfOfCurve(exported, program, chord = DXF_CHORD) {
 }
 
 /** The samples of an exported curve, [{ x, y }, …]; samples without a finite position are left out. */
-function samplesOfCurve({ course: { x, y, count }, joint }) {
+function samplesOfCurve({ circuitSamples: { x, y, count }, joint }) {
   const all = Array.from({ length: count }, (_, k) => ({ x: x[joint][k], y: y[joint][k] }));
   return all.filter((p) => Number.isFinite(p.x) && Number.isFinite(p.y));
 }

@@ -31,7 +31,7 @@ export function jsonOfCurve(exported, measures) {
       step !== undefined ? { step } : spacing && spacing !== "even" ? { samples, spacing } : { samples },
     status,
     reason,
-    circuits: motion.circuits.map((course) => circuitInJson(linkage, course)),
+    circuits: motion.circuits.map((circuitSamples) => circuitInJson(linkage, circuitSamples)),
     columns: pointColumns(exported),
     points: pointRows(exported),
     measures: Object.fromEntries(measuresOfCurve(exported, measures)),
@@ -40,19 +40,19 @@ export function jsonOfCurve(exported, measures) {
 
 // The ends of each pass, the joints whose dyads are extended or folded there, and the sides of all two-valued
 // joints.
-function circuitInJson(linkage, course) {
+function circuitInJson(linkage, circuitSamples) {
   const end = ({ at, flat }) => {
     const isFlat = ({ step }) =>
       step.index !== undefined && step.index !== null && ((flat >> step.index) & 1) === 1;
     return { input: at, flat: linkage.joints.filter(isFlat).map((joint) => joint.name) };
   };
-  const passes = course.passes.map((pass, k) => ({
+  const passes = circuitSamples.passes.map((pass, k) => ({
     from: end(pass.begin),
     to: end(pass.end),
     branches: Array.from({ length: linkage.dyads }, (_, dyad) => sideOf(pass.signs, dyad)),
-    turns: turnsAfterPass(course, k),
+    turns: turnsAfterPass(circuitSamples, k),
   }));
-  return { closed: course.closed, passes };
+  return { closed: circuitSamples.closed, passes };
 }
 
 // Whether the input reverses at the end of a pass.

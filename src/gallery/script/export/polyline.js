@@ -10,10 +10,10 @@ import { distanceToChord } from "../kinematics/path.js";
  * curve: half of it is for the refinement, tested at the middle of each chord's input, and half for the
  * simplification.
  */
-export function polylineOfCurve({ linkage, course, joint }, tolerance) {
+export function polylineOfCurve({ linkage, circuitSamples, joint }, tolerance) {
   const alone = linkageWithOnePoint(linkage, joint);
   const out = [];
-  for (const pass of course.passes) {
+  for (const pass of circuitSamples.passes) {
     const points = refinePass(alone.linkage, pass, alone.joint, tolerance / 2);
     out.push(...simplifyPath(points, tolerance / 2).slice(out.length > 0 ? 1 : 0));
   }

@@ -25,8 +25,8 @@ export function svgOfCurve(exported) {
  * loop; a pose has the position { x, y } of each joint.
  */
 export function svgOfPoses(exported, poses, seconds) {
-  const mechanism = mechanismOf(exported.linkage, exported.course);
-  const view = viewOfPlate(sweptBox(mechanism, exported.course, [exported.joint]));
+  const mechanism = mechanismOf(exported.linkage, exported.circuitSamples);
+  const view = viewOfPlate(sweptBox(mechanism, exported.circuitSamples, [exported.joint]));
   const placed = poses.map((pose) =>
     pose.flatMap(({ x, y }) => [view.x + view.scale * x, view.y - view.scale * y]),
   );
@@ -68,15 +68,15 @@ function viewOfPlate(box) {
 
 // The static parts: the frame, guides and wheels, and the dashed curve on a light line.
 function staticShapes(exported, { frame, guides, wheels }, view) {
-  const { linkage, course, joint, family } = exported;
+  const { linkage, circuitSamples, joint, family } = exported;
   const place = (x, y) => [view.x + view.scale * x, view.y - view.scale * y];
-  const at = (id) => place(course.x[id][0], course.y[id][0]);
+  const at = (id) => place(circuitSamples.x[id][0], circuitSamples.y[id][0]);
   const hair = { stroke: "#8f8b80", "stroke-width": 0.6 };
-  const fine = finePath(linkage, course, joint, 0.05 / view.scale);
+  const fine = finePath(linkage, circuitSamples, joint, 0.05 / view.scale);
   const points = Float64Array.from(fine.points, (v, k) =>
     k % 2 === 0 ? view.x + view.scale * v : view.y - view.scale * v,
   );
-  const dashes = dashesOfPeriod(dashPeriodOfCurve(family, linkage, course));
+  const dashes = dashesOfPeriod(dashPeriodOfCurve(family, linkage, circuitSamples));
   const through = (places, closed) => polylineData(places.flat(), { closed });
   const parts = [
     [through(frame.map(at), frame.length > 2), hair],
