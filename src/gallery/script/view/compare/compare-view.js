@@ -115,7 +115,7 @@ class CompareView {
     this.stop?.();
     const isOver = query.view === "over" && curves.length > 1;
     const picture = isOver
-      ? overlaidPicture(aligned, `${labels.join(", ")}, ${ALIGNMENTS[query.align]}`)
+      ? overlaidPicture(aligned, `${labels.join(", ")}; alignment: ${ALIGNMENTS[query.align]}`)
       : sideBySidePictures(aligned);
     this.stop = refinePicture(picture, curves, aligned);
     fill(

@@ -1,7 +1,7 @@
 // Selects the families to search.
 
 import { h } from "../dom.js";
-import { formatFamilyBytes } from "./loading.js";
+import { formatBytes } from "../footer.js";
 
 /**
  * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if
@@ -41,7 +41,7 @@ export function familyChooser(atlas, loaded, changed) {
       h(
         "button",
         { type: "button", class: "quiet", onclick: () => changed(withCurves.map(({ id }) => id)) },
-        `All (${formatFamilyBytes(bytes)})`,
+        `All (${formatBytes(bytes)})`,
       ),
       h("button", { type: "button", class: "quiet", onclick: () => changed([]) }, "None"),
     ),

@@ -44,8 +44,3 @@ export function loadFamilies(atlas, listed, onLoad, onError) {
     stopped = true;
   };
 }
-
-/** A number of bytes: "6.4 MB". */
-export function formatFamilyBytes(bytes) {
-  return bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
-}
