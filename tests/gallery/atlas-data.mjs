@@ -27,7 +27,7 @@ function familyOf(file) {
     cells: (chunk) => reader.cells(chunk),
     page: (page) => reader.page(page),
     end: () => {
-      family = reader.finished();
+      family = reader.finish();
     },
   };
   new Function("couplerAtlas", readFileSync(file, "utf8"))(couplerAtlas);

@@ -8,7 +8,7 @@ const [small] = process.argv.slice(2);
 
 /** The boxes, in pixels within their frames, of the curves that stand side by side. */
 const boxesSideBySide = (page) =>
-  page.locator(".pinned-tiles .leaf").evaluateAll((frames) =>
+  page.locator(".pinned-tiles .tile-picture").evaluateAll((frames) =>
     frames.map((frame) => {
       const around = frame.getBoundingClientRect();
       const { left, top, width, height } = frame.querySelector("path").getBoundingClientRect();
@@ -41,10 +41,10 @@ export const COMPARING = [
       const wide = (k) => told["greatest x"][k] - told["least x"][k];
       const [first, second] = await boxesSideBySide(page);
       assert.ok(Math.abs(second[2] / first[2] / (wide(1) / wide(0)) - 1) < 0.02, "as they are, at one scale");
-      await page.getByLabel("Aligned").selectOption("place");
+      await page.getByLabel("Alignment").selectOption("place");
       const [a, b] = await boxesSideBySide(page);
       assert.ok(Math.abs(a[0] + a[2] / 2 - b[0] - b[2] / 2) < 1, "middles are at one place");
-      await page.getByLabel("Aligned").selectOption("size");
+      await page.getByLabel("Alignment").selectOption("size");
       const [c, d] = await boxesSideBySide(page);
       assert.ok(Math.abs(Math.hypot(c[2], c[3]) / Math.hypot(d[2], d[3]) - 1) < 0.02, "sizes are alike");
       await gallery.close();
@@ -71,13 +71,13 @@ export const COMPARING = [
       await field.fill("100");
       await field.press("Enter");
       await eventually(() => pin.isDisabled(), "there is nothing to pin");
-      await page.locator(".ways a", { hasText: "Compare" }).click();
+      await page.locator(".site-nav a", { hasText: "Compare" }).click();
       await eventually(
         async () => (await page.locator(".pinned-tiles > li").count()) === 2,
         "both are compared",
       );
       assert.match(await gallery.fragment(), /c=evans:3\.1\.1,evans:3\.1\.1%3Fp%3D3\.5$/);
-      const row = page.locator(".compared-facts tr", { hasText: "swing of the output" }).locator("td");
+      const row = page.locator(".compared-facts tr", { hasText: "output swing" }).locator("td");
       const [recorded, changed] = (await row.allTextContents()).map(parseFloat);
       assert.ok(Math.abs(changed - parseFloat(swing)) < 0.006, "measured as on the plate");
       assert.ok(Math.abs(changed - recorded) > 1);
@@ -86,7 +86,7 @@ export const COMPARING = [
       await gallery.go("/compare?c=evans:3.1.1,evans:3.1.1%3Fp%3D100");
       const lede = () => page.locator(".lede").innerText();
       await eventually(
-        async () => /without evans:3\.1\.1\?p=100: B cannot be placed/.test(await lede()),
+        async () => /skipped evans:3\.1\.1\?p=100: B cannot be placed/.test(await lede()),
         "what cannot be assembled is told",
       );
       await gallery.close();
@@ -104,7 +104,7 @@ export const COMPARING = [
         async () => (await page.locator(".plate button.pin").textContent()) === "Pinned",
         "it is still pinned",
       );
-      assert.match(await page.locator(".ways .count").innerText(), /1/);
+      assert.match(await page.locator(".site-nav .count").innerText(), /1/);
       await gallery.close();
     },
   ],

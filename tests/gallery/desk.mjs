@@ -35,7 +35,7 @@ export function check(point, sentence, place, test) {
 
 /** The box, in pixels of the window, of a curve on the page that is shown. */
 export function boxOfCurve(page, id, key) {
-  return page.locator(`.overlay a[href$="/${id}/curve/${key}"] .spot`).evaluate((spot) => {
+  return page.locator(`.overlay a[href$="/${id}/curve/${key}"] .link-area`).evaluate((spot) => {
     const { left, right, top, bottom } = spot.getBoundingClientRect();
     return { left, right, top, bottom };
   });
@@ -47,18 +47,18 @@ export async function pointAt(page, id, key) {
   for (let y = top; y <= bottom; y += 2) {
     await page.mouse.move((left + right) / 2, y);
     const href = await page
-      .locator(".beside .button")
+      .locator(".page-panel .button")
       .first()
       .getAttribute("href", { timeout: 200 })
       .catch(() => null);
-    if (href === `#/${id}/curve/${key}` && (await page.locator(".viewport.receded").count())) return true;
+    if (href === `#/${id}/curve/${key}` && (await page.locator(".viewport.dimmed").count())) return true;
   }
   return false;
 }
 
 /** How near the page is, in per cent of the whole. */
 export const nearness = (page) =>
-  page.locator(".near-by").evaluate((element) => parseInt(element.textContent, 10));
+  page.locator(".zoom-level").evaluate((element) => parseInt(element.textContent, 10));
 
 /** Where the sheet is in the window. */
 export const sheetBox = (page) => page.locator(".page-sheet").boundingBox();

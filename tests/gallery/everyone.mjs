@@ -26,14 +26,14 @@ check(
       assert.equal(nameless, 0, `controls without a name at ${fragment}`);
     }
     assert.match(await page.title(), /^Evans linkage, page 1 of 1 · An atlas of coupler curves$/);
-    assert.equal(await page.locator('.ways [aria-current="page"]').innerText(), "Families");
+    assert.equal(await page.locator('.site-nav [aria-current="page"]').innerText(), "Families");
     await page.reload();
     await page.waitForSelector("main > *");
     await page.locator(".skip").focus();
     const box = await page.locator(".skip").boundingBox();
     assert.ok(box.y >= 0, "it is seen when it has the focus");
     await page.keyboard.press("Enter");
-    assert.equal(await page.evaluate(() => document.activeElement.id), "room");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "content");
   },
 );
 
@@ -43,14 +43,14 @@ check(
   on(atlas, "/evans/1"),
   async (g, page) => {
     await page.locator(".skip").focus();
-    const seen = ["Skip to the content"];
+    const seen = ["Skip to content"];
     for (let k = 0; k < 80; k += 1) {
       await page.keyboard.press("Tab");
       const at = await page.evaluate(() => {
         const element = document.activeElement;
         if (element === document.body) return null;
         const { outlineStyle, outlineWidth } = getComputedStyle(element);
-        const spot = element.querySelector(".spot");
+        const spot = element.querySelector(".link-area");
         return {
           what: element.className.baseVal ?? element.className,
           text: element.getAttribute("aria-label") ?? element.textContent.trim().slice(0, 40),
@@ -65,13 +65,13 @@ check(
     }
     assert.ok(seen.length < 80, "Tab comes to an end");
     for (const name of [
-      "Skip to the content",
+      "Skip to content",
       "Families",
       "Theme",
       "All pages",
-      "Further",
+      "Zoom out",
       "Fit",
-      "Nearer",
+      "Zoom in",
     ]) {
       assert.ok(
         seen.some((text) => text.startsWith(name)),
@@ -141,7 +141,7 @@ check("7.4", "contrast of WCAG AA, light and dark", null, async ({ browser }) =>
       const texts = g.page.locator("h1, h2, h3, p, dt, dd, a, button, .tag, .label, .name, span");
       for (const element of await texts.filter({ hasText: /\S/, visible: true }).all()) {
         const isPassive = await element.evaluate(
-          (node) => node.closest("[aria-disabled=true], :disabled, .skip, .unseen") !== null,
+          (node) => node.closest("[aria-disabled=true], :disabled, .skip, .visually-hidden") !== null,
         );
         if (isPassive) continue;
         const contrast = await contrastOf(element);
@@ -192,7 +192,7 @@ check(
   on(atlas, "/evans/1", { colorScheme: "dark" }),
   async (g, page) => {
     await page.emulateMedia({ media: "print" });
-    for (const hidden of [".masthead", ".footer", ".page-bar", ".beside"])
+    for (const hidden of [".masthead", ".footer", ".page-bar", ".page-panel"])
       assert.ok(!(await page.locator(hidden).isVisible()), hidden);
     assert.ok(await page.locator(".page-sheet img").isVisible());
     assert.equal(
@@ -245,13 +245,13 @@ check(
   async (g, page) => {
     const filter = () => page.locator(".page-sheet img").evaluate((image) => getComputedStyle(image).filter);
     assert.match(await filter(), /invert/);
-    await page.getByRole("button", { name: "As printed" }).click();
+    await page.getByRole("button", { name: "Printed colours" }).click();
     assert.equal(await filter(), "none");
     await page.reload();
     await page.waitForSelector(".page-sheet img");
     assert.equal(await filter(), "none", "it is remembered");
     await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
-    assert.equal(await page.getByRole("button", { name: "As printed" }).count(), 0, "of no use in the light");
+    assert.equal(await page.getByRole("button", { name: "Printed colours" }).count(), 0, "of no use in the light");
   },
 );
 
@@ -264,7 +264,7 @@ check("7.11", "pages of dark paper are left alone in the dark", null, async ({ b
       page.locator(".page-sheet img").evaluate((image, name) => getComputedStyle(image)[name], property);
     await page.waitForSelector(".page-sheet img");
     assert.equal(await of("filter"), "none");
-    assert.equal(await page.getByRole("button", { name: "As printed" }).count(), 0, "of no use here");
+    assert.equal(await page.getByRole("button", { name: "Printed colours" }).count(), 0, "of no use here");
     await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
     assert.equal(await of("colorScheme"), "dark", "what comes forward is light on it");
     await page.getByRole("combobox", { name: "Theme" }).selectOption("dark");

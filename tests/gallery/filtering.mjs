@@ -18,7 +18,7 @@ export const FILTERING = [
       const told = () => page.locator(".found").innerText();
       await eventually(async () => /No curve passes/.test(await told()), "it is told");
       assert.equal(await counted(page), "0 of 323 curves");
-      const without = page.getByRole("button", { name: /^Without class: / });
+      const without = page.getByRole("button", { name: /^Remove class: / });
       const left = (await without.innerText()).match(/(\d+) curves?$/)[1];
       assert.ok(Number(left) > 0);
       await without.press("Enter");
@@ -33,7 +33,7 @@ export const FILTERING = [
       assert.equal(await page.getByRole("button", { name: "Clear all filters" }).count(), 0);
       // An address may ask for what no family here has.
       await gallery.go("/find?p.nothing=1..2");
-      await page.getByRole("button", { name: "Without parameter nothing: 323 curves" }).click();
+      await page.getByRole("button", { name: "Remove parameter nothing: 323 curves" }).click();
       assert.equal(await counted(page), "323 of 323 curves");
       await gallery.close();
     },
@@ -59,7 +59,7 @@ export const FILTERING = [
       const link = table.locator("tbody a").nth(2);
       await link.focus();
       await page.keyboard.press("p");
-      assert.match(await page.locator(".ways .count").innerText(), /1/);
+      assert.match(await page.locator(".site-nav .count").innerText(), /1/);
       await gallery.close();
     },
   ],

@@ -2,14 +2,14 @@
 
 import assert from "node:assert/strict";
 
-import { measured } from "../../src/gallery/script/data/family.js";
-import { columnsOf } from "../../src/gallery/script/find/columns.js";
+import { measureValue } from "../../src/gallery/script/data/family.js";
+import { filterColumns } from "../../src/gallery/script/find/columns.js";
 import { Filters } from "../../src/gallery/script/find/filter.js";
-import { BINS, countsIn, histogramOf } from "../../src/gallery/script/find/histogram.js";
-import { Orders, passing } from "../../src/gallery/script/find/order.js";
-import { queryOf, questionOf } from "../../src/gallery/script/find/question.js";
+import { BINS, binCounts, histogramOf } from "../../src/gallery/script/find/histogram.js";
+import { Orders, passingRows } from "../../src/gallery/script/find/order.js";
+import { formatFindQuery, parseFindQuery } from "../../src/gallery/script/find/query.js";
 import { CurveTable } from "../../src/gallery/script/find/table.js";
-import { address, parsedAddress } from "../../src/gallery/script/data/address.js";
+import { address, parseAddress } from "../../src/gallery/script/data/address.js";
 import { atlasOf } from "./atlas-data.mjs";
 
 /* A scale and its bins. */
@@ -30,7 +30,7 @@ import { atlasOf } from "./atlas-data.mjs";
   const infinite = histogramOf(Float64Array.of(1, 2, Infinity));
   assert.equal(infinite.high, 2);
   assert.equal(infinite.bins[2], BINS - 1);
-  assert.deepEqual([...countsIn(linear, [0, 5])].filter(Boolean), [1, 1]);
+  assert.deepEqual([...binCounts(linear, [0, 5])].filter(Boolean), [1, 1]);
   const single = histogramOf(Float64Array.of(5, 5));
   assert.equal(single.counts[0], 2);
 }
@@ -40,16 +40,16 @@ import { atlasOf } from "./atlas-data.mjs";
 {
   const fragment =
     "#/find?family=evans,watt&class=crank-rocker,double-rocker&mu_worst_deg=30..&length=..2.5e-3&p.a=-1.5..2&sort=-length&show=table";
-  const question = questionOf(parsedAddress(fragment).query);
+  const question = parseFindQuery(parseAddress(fragment).query);
   assert.deepEqual(question.families, ["evans", "watt"]);
   assert.deepEqual(question.filters.get("mu_worst_deg"), { low: 30, high: undefined });
   assert.deepEqual(question.filters.get("length"), { low: undefined, high: 0.0025 });
   assert.deepEqual(question.filters.get("p.a"), { low: -1.5, high: 2 });
   assert.deepEqual([...question.filters.get("class")], ["crank-rocker", "double-rocker"]);
   assert.deepEqual(question.sort, { name: "length", down: true });
-  const again = questionOf(parsedAddress(address(["find"], queryOf(question))).query);
+  const again = parseFindQuery(parseAddress(address(["find"], formatFindQuery(question))).query);
   assert.deepEqual(again, question);
-  assert.equal(questionOf(parsedAddress("#/find").query).families, null);
+  assert.equal(parseFindQuery(parseAddress("#/find").query).families, null);
 }
 
 /* Filters of atlases, against the plainest reckoning. */
@@ -61,19 +61,19 @@ for (const folder of process.argv.slice(2)) {
     table.count,
     told.families.reduce((sum, { curves }) => sum + curves, 0),
   );
-  const columns = columnsOf(table, told.measures);
+  const columns = filterColumns(table, told.measures);
   const numbers = columns.filter(({ kind }) => kind === "numbers");
   const filters = new Filters(table);
-  const at = (row, name) => measured(families[table.family[row]], table.curve[row], name);
+  const at = (row, name) => measureValue(families[table.family[row]], table.curve[row], name);
   const rows = Array.from({ length: table.count }, (_, row) => row);
 
   filters.set("mu_worst_deg", { low: 30 });
   const wanted = rows.filter((row) => at(row, "mu_min_deg") >= 30 && 180 - at(row, "mu_max_deg") >= 30);
-  assert.deepEqual([...filters.left()], wanted, "missing measures are left out");
+  assert.deepEqual([...filters.rows()], wanted, "missing measures are left out");
   assert.ok(wanted.length > 0 && wanted.length < table.count);
   filters.set("class", new Set(["crank-rocker"]));
   assert.deepEqual(
-    [...filters.left()],
+    [...filters.rows()],
     wanted.filter((row) => at(row, "class") === "crank-rocker"),
   );
   const { values } = table.words("class");
@@ -83,10 +83,10 @@ for (const folder of process.argv.slice(2)) {
   );
   filters.set("mu_worst_deg", null);
   filters.set("class", null);
-  assert.equal(filters.left().length, table.count);
+  assert.equal(filters.rows().length, table.count);
   filters.set("straight_tolerance", { high: 0.0005 });
   const straight = (row) => at(row, "straight_deviation") / at(row, "straight_length") <= 0.0005;
-  assert.deepEqual([...filters.left()], rows.filter(straight));
+  assert.deepEqual([...filters.rows()], rows.filter(straight));
 
   const orders = new Orders(table);
   for (const down of [false, true]) {
@@ -102,9 +102,9 @@ for (const folder of process.argv.slice(2)) {
   for (let k = 0; k < 40; k += 1) {
     const began = performance.now();
     filters.set("mu_worst_deg", { low: k });
-    const left = filters.left();
-    passing(orders.by("length", "numbers", true), filters.failing);
-    for (const scale of scales) countsIn(scale, left);
+    const left = filters.rows();
+    passingRows(orders.by("length", "numbers", true), filters.failing);
+    for (const scale of scales) binCounts(scale, left);
     for (const name of ["class", "symmetric", "turn"]) filters.wordCounts(name);
     times.push(performance.now() - began);
   }

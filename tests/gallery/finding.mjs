@@ -24,8 +24,8 @@ const numberLeft = async (page) => Number((await count(page)).split(" ")[0].repl
 const ranked = (page, within = 30000) =>
   eventually(
     async () =>
-      (await page.locator(".likenesses > li").count()) > 0 &&
-      (await page.locator(".likenesses[aria-busy]").count()) === 0,
+      (await page.locator(".matches > li").count()) > 0 &&
+      (await page.locator(".matches[aria-busy]").count()) === 0,
     "curves are ranked",
     within,
   );
@@ -44,11 +44,11 @@ const tests = [
       const { page } = gallery;
       await loaded(page);
       const all = await numberLeft(page);
-      await page.getByLabel("transmission angle at least, at least").fill("30");
+      await page.getByLabel("worst transmission angle, at least").fill("30");
       await page.keyboard.press("Enter");
       await eventually(async () => (await numberLeft(page)) < all, "fewer are left");
       const left = await numberLeft(page);
-      const time = await page.locator(".find-room").getAttribute("data-milliseconds");
+      const time = await page.locator(".find-view").getAttribute("data-milliseconds");
       console.log(`  ${left} of ${all} in ${time} ms`);
       await eventually(
         async () => (await gallery.fragment()).includes("mu_worst_deg=30.."),
@@ -68,7 +68,7 @@ const tests = [
       const gallery = await opened(browser, large, "/find");
       const { page } = gallery;
       await loaded(page);
-      const end = page.getByRole("slider", { name: "transmission angle at least, least" });
+      const end = page.getByRole("slider", { name: "worst transmission angle, minimum" });
       await end.focus();
       const all = await numberLeft(page);
       for (let k = 0; k < 5; k += 1) await page.keyboard.press("PageUp");
@@ -109,7 +109,7 @@ const tests = [
       assert.equal(await page.evaluate(() => document.activeElement.dataset.name), third);
       await page.keyboard.press("p");
       await eventually(
-        async () => (await page.locator(".ways .count").innerText()).includes("1"),
+        async () => (await page.locator(".site-nav .count").innerText()).includes("1"),
         "it is pinned",
       );
       await page.getByRole("button", { name: "Table" }).click();
@@ -125,7 +125,7 @@ const tests = [
         /^class/,
         "the heading keeps the focus",
       );
-      await page.getByRole("button", { name: "Sheet" }).click();
+      await page.getByRole("button", { name: "Grid" }).click();
       await page.locator(".results a").first().focus();
       await page.keyboard.press("Enter");
       await eventually(async () => (await gallery.fragment()).includes("/curve/"), "Enter opens the plate");
@@ -164,13 +164,13 @@ const tests = [
       const { page } = gallery;
       await ranked(page);
       const names = await page
-        .locator(".likenesses > li > a")
+        .locator(".matches > li > a")
         .evaluateAll((links) => links.slice(0, 3).map((link) => link.dataset.name));
       assert.ok(names.includes("evans:2.1.1"), `${names}`);
-      assert.match(await page.locator(".likenesses .label b").first().innerText(), /^0\.0\d % rms$/);
+      assert.match(await page.locator(".matches .label b").first().innerText(), /^0\.0\d % rms$/);
       assert.equal(
-        await page.locator(".likenesses .asked").count(),
-        await page.locator(".likenesses > li").count(),
+        await page.locator(".matches .query-shape").count(),
+        await page.locator(".matches > li").count(),
       );
       await gallery.close();
     },
@@ -191,30 +191,30 @@ const tests = [
       for (let k = 1; k <= 60; k += 1) await page.mouse.move(...at((2 * Math.PI * k) / 60));
       await page.mouse.up();
       await ranked(page);
-      console.log(`  searched in ${await page.locator(".shape-room").getAttribute("data-milliseconds")} ms`);
-      const first = await page.locator(".likenesses .label b").first().innerText();
+      console.log(`  searched in ${await page.locator(".shape-view").getAttribute("data-milliseconds")} ms`);
+      const first = await page.locator(".matches .label b").first().innerText();
       assert.ok(parseFloat(first) < 2, `an ellipse, nearly: ${first}`);
       const fragment = await gallery.fragment();
       assert.match(fragment, /d=c[\w-]{60,}/);
-      const name = await page.locator(".likenesses a").first().getAttribute("data-name");
+      const name = await page.locator(".matches a").first().getAttribute("data-name");
       await page.reload();
       await ranked(page);
       const again = await page
-        .locator(".likenesses > li > a")
+        .locator(".matches > li > a")
         .evaluateAll((links) => links.slice(0, 5).map((link) => link.dataset.name));
       assert.ok(again.includes(name), "the address draws it again");
-      await page.getByLabel("a part of a curve, no less than").check();
+      await page.getByLabel("a part of a curve, at least").check();
       await eventually(
         async () => (await gallery.fragment()).includes("part=yes"),
         "parts are in the address",
       );
       await eventually(
-        async () => / % of the curve/.test(await page.locator(".likenesses .label").first().innerText()),
+        async () => / % of the curve/.test(await page.locator(".matches .label").first().innerText()),
         "parts are found",
         60000,
       );
       console.log(
-        `  parts searched in ${await page.locator(".shape-room").getAttribute("data-milliseconds")} ms`,
+        `  parts searched in ${await page.locator(".shape-view").getAttribute("data-milliseconds")} ms`,
       );
       await gallery.close();
     },
@@ -240,11 +240,11 @@ const tests = [
         await page.keyboard.press(keys);
       await ranked(page);
       assert.match(await gallery.fragment(), /d=c/);
-      await page.getByLabel("Or paste points or a path").fill("hello");
-      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      await page.getByLabel("Paste points or a path").fill("hello");
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
       assert.match(await page.getByRole("alert").innerText(), /Fewer than two/);
-      await page.getByLabel("Or paste points or a path").fill("M0 0L100 0A50 20 0 0 1 0 0Z");
-      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      await page.getByLabel("Paste points or a path").fill("M0 0L100 0A50 20 0 0 1 0 0Z");
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
       await ranked(page);
       assert.equal(await page.getByRole("alert").innerText(), "");
       await gallery.close();
@@ -270,10 +270,10 @@ const tests = [
       const { page } = gallery;
       // An ellipse twice as long as wide, drawn as a circle that is stretched and sheared.
       const paste = async (text) => {
-        await page.getByLabel("Or paste points or a path").fill(text);
-        await page.getByRole("button", { name: "Use what is pasted" }).click();
+        await page.getByLabel("Paste points or a path").fill(text);
+        await page.getByRole("button", { name: "Use pasted shape" }).click();
         await ranked(page);
-        return page.locator(".likenesses .label b").allInnerTexts();
+        return page.locator(".matches .label b").allInnerTexts();
       };
       const plain = await paste('<ellipse rx="200" ry="100"/>');
       const transformed = await paste(
@@ -281,8 +281,8 @@ const tests = [
       );
       assert.deepEqual(transformed.slice(0, 5), plain.slice(0, 5));
       assert.notDeepEqual((await paste('<circle r="50"/>')).slice(0, 5), plain.slice(0, 5));
-      await page.getByLabel("Or paste points or a path").fill('<circle r="50" transform="turn(3)"/>');
-      await page.getByRole("button", { name: "Use what is pasted" }).click();
+      await page.getByLabel("Paste points or a path").fill('<circle r="50" transform="turn(3)"/>');
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
       assert.match(await page.getByRole("alert").innerText(), /transform “turn\(3\)” cannot be read/);
       await gallery.close();
     },
@@ -297,9 +297,9 @@ const tests = [
         async () => (await page.locator(".pinned-tiles > li").count()) === 3,
         "three are there",
       );
-      assert.match(await page.locator(".ways .count").innerText(), /3/);
+      assert.match(await page.locator(".site-nav .count").innerText(), /3/);
       assert.ok((await page.locator(".compared-facts td.other").count()) > 3, "differences are marked");
-      await page.getByRole("button", { name: "Over one another" }).click();
+      await page.getByRole("button", { name: "Overlay" }).click();
       assert.equal(await page.locator(".over path").count(), 3);
       const dashes = await page
         .locator(".over path")
@@ -316,7 +316,7 @@ const tests = [
       assert.equal(strayed, 0, "letters stay in the frame");
       const deviation = async () => parseFloat(await page.locator(".deviation").first().innerText());
       const fitted = await deviation();
-      await page.getByLabel("Aligned").selectOption("none");
+      await page.getByLabel("Alignment").selectOption("none");
       assert.ok((await deviation()) >= fitted);
       assert.match(await gallery.fragment(), /view=over.*align=none/);
       await page.getByRole("button", { name: "Move A back" }).click();

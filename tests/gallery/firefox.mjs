@@ -38,7 +38,7 @@ const TESTS = [
     "families and their pages are drawn, thousands of them as they are scrolled to",
     async (firefox) => {
       await at(firefox, atlas, "/");
-      await firefox.eventually(countOf, "no family is drawn", ".families .leaf path");
+      await firefox.eventually(countOf, "no family is drawn", ".families .tile-picture path");
       await at(firefox, large, "/hrones-nelson");
       await firefox.eventually(countOf, "no page is drawn", ".window svg path");
       await firefox.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));
@@ -54,12 +54,12 @@ const TESTS = [
       await at(firefox, large, "/hrones-nelson/100");
       await firefox.eventually(() => document.querySelector(".page-sheet img")?.complete, "no picture");
       const before = await boxOf(firefox, ".viewport");
-      const spot = await boxOf(firefox, '.overlay a[href$="/43.49.1"] .spot');
+      const spot = await boxOf(firefox, '.overlay a[href$="/43.49.1"] .link-area');
       const x = spot.left + spot.width / 2;
       const down = Array.from({ length: Math.floor(spot.height / 2) }, (_, k) => [x, spot.top + 2 * k]);
       for (const place of down) {
         await firefox.mouse([place]);
-        if (await firefox.evaluate(countOf, ".viewport.receded")) break;
+        if (await firefox.evaluate(countOf, ".viewport.dimmed")) break;
       }
       assert.match(await firefox.evaluate(() => document.querySelector(".reading").innerText), /input\s+\d/);
       // What is said beside it may need a bar to scroll by: the sheet must not move under the hand for it.
@@ -72,9 +72,9 @@ const TESTS = [
     "every curve of a page has a place, one drawn as a straight line too",
     async (firefox) => {
       await at(firefox, atlas, "/scotch-yoke/1");
-      await firefox.eventually(countOf, "no curves", ".overlay .spot");
+      await firefox.eventually(countOf, "no curves", ".overlay .link-area");
       const boxes = await firefox.evaluate(() =>
-        [...document.querySelectorAll(".overlay .spot")].map((spot) => spot.getBoundingClientRect().width),
+        [...document.querySelectorAll(".overlay .link-area")].map((spot) => spot.getBoundingClientRect().width),
       );
       assert.ok(
         boxes.every((width) => width > 0),
@@ -95,7 +95,7 @@ const TESTS = [
       );
       await firefox.evaluate(() => {
         [...document.querySelectorAll("button")].find((button) => button.textContent === "Pause").click();
-        document.querySelector('input[aria-label="Place on the circuit"]').focus();
+        document.querySelector('input[aria-label="Position on the circuit"]').focus();
       });
       // Home, and the arrow to the right.
       await firefox.keys("\uE011\uE014");
@@ -135,7 +135,7 @@ const TESTS = [
         return [left + width * (0.5 + 0.3 * Math.cos(angle)), top + height * (0.5 + 0.2 * Math.sin(angle))];
       });
       await firefox.mouse(stroke, true);
-      await firefox.eventually(countOf, "nothing is like it", ".likenesses:not([aria-busy]) > li svg");
+      await firefox.eventually(countOf, "nothing is like it", ".matches:not([aria-busy]) > li svg");
       assert.match(await firefox.evaluate(hash), /^#\/shape\?d=c/);
     },
   ],
@@ -145,11 +145,11 @@ const TESTS = [
       await at(firefox, atlas, "/compare?c=evans:1.1.1,watt:3.1.1");
       await firefox.eventually(countOf, "no curves side by side", "main svg path");
       await at(firefox, atlas, "/hoeken/curve/1.1.1");
-      await firefox.eventually(countOf, "no menu", ".take-button");
+      await firefox.eventually(countOf, "no menu", ".export-button");
       await firefox.evaluate(() => {
-        document.querySelector(".take-button").click();
-        for (const name of [/^SVG *still/, /^PNG/])
-          [...document.querySelectorAll(".take-menu button")]
+        document.querySelector(".export-button").click();
+        for (const name of [/^SVG *static/, /^PNG/])
+          [...document.querySelectorAll(".export-menu button")]
             .find((entry) => name.test(entry.textContent))
             .click();
       });

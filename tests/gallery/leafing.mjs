@@ -13,25 +13,25 @@ check(
   async (g, page) => {
     const hasRead = (id) => g.requests.some((url) => url.endsWith(`/${id}/gallery.js`));
     assert.equal(await page.locator(".families > li").count(), 26);
-    await page.waitForSelector(".families li:first-child .leaf path");
+    await page.waitForSelector(".families li:first-child .tile-picture path");
     assert.equal(
-      await page.locator(".families li:first-child .leaf path").count(),
+      await page.locator(".families li:first-child .tile-picture path").count(),
       10,
       "ten curves of Evans",
     );
     await eventually(
-      async () => (await page.locator(".families .leaf > *").count()) >= 4,
+      async () => (await page.locator(".families .tile-picture > *").count()) >= 4,
       "what is seen is drawn",
     );
     assert.equal(
-      await page.locator(".families li:last-child .leaf > *").count(),
+      await page.locator(".families li:last-child .tile-picture > *").count(),
       0,
       "what is not seen is not drawn",
     );
     assert.ok(hasRead("evans") && !hasRead("hoeken-chart"), "a script is read when its family is seen");
     await page.locator(".families li:last-child").scrollIntoViewIfNeeded();
     await eventually(
-      () => page.locator(".families li:last-child .leaf > *").count(),
+      () => page.locator(".families li:last-child .tile-picture > *").count(),
       "it is drawn when seen",
     );
     assert.ok(hasRead("hoeken-chart"));
@@ -51,7 +51,7 @@ check("1.2", "families are searched by name", on(atlas, "/"), async (g, page) =>
   assert.equal(await announced(page), "2 families");
   assert.equal(await g.fragment(), "/?q=watt");
   await page.getByRole("link", { name: "Watt six-bar linkage" }).click();
-  await page.waitForSelector(".sheet-room");
+  await page.waitForSelector(".family-view");
   await page.goBack();
   await eventually(async () => (await page.locator(".families li:visible").count()) === 2, "as it was left");
   assert.equal(await page.getByRole("searchbox").inputValue(), "watt");
@@ -181,7 +181,7 @@ check("1.10", "a place keeps how far it was read", on(large, "/hrones-nelson"), 
 });
 
 check("1.11", "addresses that lead nowhere say so", on(atlas, "/nowhere/at/all"), async (g, page) => {
-  assert.match(await page.locator("main").innerText(), /nothing at this address/);
+  assert.match(await page.locator("main").innerText(), /no page at this address/);
   await g.go("/evans/7");
   assert.match(await page.getByRole("alert").innerText(), /^Evans linkage has 1 pages? only\. /);
   const family = page.locator("main a", { hasText: "Evans linkage" });
@@ -200,8 +200,8 @@ check(
       const g = await opened(browser, odd.folder, "/evans-chart/1");
       const { page } = g;
       await page.waitForSelector(".page-sheet img");
-      assert.match(await page.locator(".beside").innerText(), /A chart\s+Of 35 curves/);
-      await page.locator(".beside a").click();
+      assert.match(await page.locator(".page-panel").innerText(), /A chart\s+Computed from 35 curves/);
+      await page.locator(".page-panel a").click();
       await page.waitForSelector(".window svg path");
       assert.equal(await page.locator(".window > li").first().getAttribute("aria-setsize"), "35");
       await g.go("/watt/1");
@@ -212,7 +212,7 @@ check(
         9,
         "nine of ten are drawn from the data",
       );
-      assert.ok((await page.locator(".beside").innerText()).includes(ODD_REASON), "the reason is said");
+      assert.ok((await page.locator(".page-panel").innerText()).includes(ODD_REASON), "the reason is said");
       assert.ok(await pointAt(page, "evans", "4.1.1"), "its curves can be pointed at");
       await g.go("/evans");
       assert.match(
@@ -271,21 +271,21 @@ check(
       const { page } = g;
       const heading = () => page.locator("h1").innerText();
       await page.locator('.families a[href="#/find"]').click();
-      await page.waitForSelector(".sheet-room");
+      await page.waitForSelector(".family-view");
       await page.getByRole("link", { name: "Curves", exact: true }).click();
-      await page.waitForSelector('.sheet-room [aria-current="true"]:text("Curves")');
+      await page.waitForSelector('.family-view [aria-current="true"]:text("Curves")');
       await page.getByRole("link", { name: "Pages", exact: true }).click();
-      await page.waitForSelector('.sheet-room [aria-current="true"]:text("Pages")');
+      await page.waitForSelector('.family-view [aria-current="true"]:text("Pages")');
       await g.go("/find/1");
-      await page.waitForSelector(".page-room");
+      await page.waitForSelector(".page-view");
       assert.match(await heading(), /Roberts/);
       await g.go("/find/curve/1.1.1");
       await page.waitForSelector(".plate");
-      await page.locator(".ways").getByRole("link", { name: "Find", exact: true }).click();
-      await page.waitForSelector(".find-room");
+      await page.locator(".site-nav").getByRole("link", { name: "Find", exact: true }).click();
+      await page.waitForSelector(".find-view");
       await page.waitForTimeout(400);
       await page.reload();
-      await page.waitForSelector(".find-room");
+      await page.waitForSelector(".find-view");
       await g.close();
     } finally {
       odd.remove();

@@ -92,6 +92,6 @@ async function memoryOf(page) {
 
 /** Milliseconds from the beginning until the first pages are drawn from their data. */
 async function firstView(page) {
-  await page.waitForSelector(".families .leaf path", { timeout: 20000 });
+  await page.waitForSelector(".families .tile-picture path", { timeout: 20000 });
   return page.evaluate(() => performance.now());
 }

@@ -67,8 +67,8 @@ check(
 
 check("1.7", "moved by drag, keys and buttons", on(atlas, "/watt/1"), async (g, page) => {
   const { x, y } = await middleOfDesk(page);
-  await page.getByRole("button", { name: "Nearer" }).click();
-  await page.getByRole("button", { name: "Nearer" }).click();
+  await page.getByRole("button", { name: "Zoom in" }).click();
+  await page.getByRole("button", { name: "Zoom in" }).click();
   await settled(page);
   const start = await sheetBox(page);
   await page.mouse.move(x, y);

@@ -158,7 +158,7 @@ export const EVERYONE = [
       await page.emulateMedia({ media: "print" });
       for (const name of [".drive", ".sliders", ".circuits-gauge"])
         assert.ok(await page.locator(name).isHidden(), name);
-      for (const name of [".stage", ".told", "table.measures", ".origin", ".dial"]) {
+      for (const name of [".stage", ".motion-notes", "table.measures", ".origin", ".dial"]) {
         assert.ok(await page.locator(name).isVisible(), name);
       }
       await plate.close();

@@ -66,7 +66,7 @@ export const HANDS = [
     async ({ browser, folder }) => {
       const plate = await opened(browser, folder, "/watt/curve/3.1.1", still);
       const { page } = plate;
-      const scrub = page.getByRole("slider", { name: "Place on the circuit" });
+      const scrub = page.getByRole("slider", { name: "Position on the circuit" });
       await scrub.focus();
       const before = await inputNow(page);
       await page.keyboard.press("ArrowRight");
@@ -117,7 +117,7 @@ export const HANDS = [
       const plate = await opened(browser, folder, "/watt/curve/3.1.1", still);
       const { page } = plate;
       const [pivot] = await pivotsOf(page);
-      await page.getByRole("slider", { name: "Place on the circuit" }).fill("0.2");
+      await page.getByRole("slider", { name: "Position on the circuit" }).fill("0.2");
       const rocker = await gripAt(page, 3);
       const input = await inputNow(page);
       const at = await gripAt(page, 2);

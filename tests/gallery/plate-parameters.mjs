@@ -26,7 +26,7 @@ export const PARAMETERS = [
       near(Number(most), at(3.5), 0.006, "greatest transmission angle");
       const [recorded, , change] = await measureNow(page, "least transmission angle");
       near(Number(change), at(1.5) - Number(recorded), 0.02, "the change");
-      await page.getByRole("button", { name: "As in the atlas" }).click();
+      await page.getByRole("button", { name: "Reset all" }).click();
       await eventually(
         async () => (await plate.fragment()) === "/evans/curve/1.1.1",
         "the address keeps the change",
@@ -41,7 +41,7 @@ export const PARAMETERS = [
     async ({ browser, folder }) => {
       const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=2.5&k=1.9", still);
       assert.equal(await fieldOf(plate.page, "p").inputValue(), "2.5");
-      await plate.page.locator(".kept-parameters > summary").evaluate((summary) => {
+      await plate.page.locator(".locked-parameters > summary").evaluate((summary) => {
         summary.parentElement.open = true;
       });
       assert.equal(await fieldOf(plate.page, "k").inputValue(), "1.9");
@@ -56,13 +56,13 @@ export const PARAMETERS = [
       const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
       const { page } = plate;
       // The coupler point is k a along the coupler.
-      await page.locator(".kept-parameters").evaluate((details) => {
+      await page.locator(".locked-parameters").evaluate((details) => {
         details.open = true;
       });
       assert.equal(await fieldOf(page, "M.along").inputValue(), "5.18");
       await changed(page, "k", 1.5);
       assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
-      await page.getByRole("button", { name: /Set free: M\.along/ }).click();
+      await page.getByRole("button", { name: /Unlink: M\.along/ }).click();
       await changed(page, "k", 2);
       assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
       await plate.close();
@@ -77,7 +77,7 @@ export const PARAMETERS = [
       await changed(page, "p", 9);
       const reason = page.locator(".stage .reason");
       assert.ok(await reason.isVisible());
-      assert.match(await reason.textContent(), /^It cannot be assembled: .{10,}/);
+      assert.match(await reason.textContent(), /^Cannot be assembled: .{10,}/);
       assert.ok(await page.getByRole("button", { name: "Play" }).isDisabled());
       assert.ok((await page.locator(".link").count()) > 2);
       await changed(page, "p", -1);
@@ -99,7 +99,7 @@ export const PARAMETERS = [
       assert.ok((await page.locator(".dashes").getAttribute("d")).length > 100);
       await page.keyboard.press("+");
       await page.keyboard.press("ArrowRight");
-      await page.getByRole("button", { name: /^Back: p/ }).click();
+      await page.getByRole("button", { name: /^Reset: p/ }).click();
       await eventually(() => page.locator(".stage .reason").isHidden(), "it stays impossible");
       await plate.close();
     },

@@ -13,16 +13,16 @@ import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/galler
 import { changedValues } from "../../src/gallery/script/kinematics/changes.js";
 import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
 import {
-  courseOf,
-  followedInput,
+  timelineOf,
+  followInput,
   nearestPart,
   partOfInput,
   placeAtPart,
   turningParts,
-} from "../../src/gallery/script/view/plate/course.js";
+} from "../../src/gallery/script/view/plate/timeline.js";
 import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
-import { changedName } from "../../src/gallery/script/view/plate/plate-query.js";
-import { Poser } from "../../src/gallery/script/view/plate/poser.js";
+import { plateCurveName } from "../../src/gallery/script/view/plate/plate-query.js";
+import { PoseSolver } from "../../src/gallery/script/view/plate/pose-solver.js";
 import { studyOf } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./taken.mjs";
 
@@ -114,43 +114,43 @@ const tests = [
   [
     "a crank goes on from turn to turn, and inputs with it",
     () => {
-      const course = courseOf({ passes: [pass(0, 360)], closed: true });
+      const timeline = timelineOf({ passes: [pass(0, 360)], closed: true });
       const place = { pass: 0, input: 350 };
-      assert.equal(followedInput(course, place, 370, 3), 10);
+      assert.equal(followInput(timeline, place, 370, 3), 10);
       assert.equal(place.input, 10);
-      assert.equal(followedInput(course, place, -725, 3), 355);
-      assert.deepEqual(turningParts(course), []);
+      assert.equal(followInput(timeline, place, -725, 3), 355);
+      assert.deepEqual(turningParts(timeline), []);
     },
   ],
   [
     "a crank stays at a limit, and comes back on the other branch when it was pushed",
     () => {
-      const course = courseOf({ passes: [pass(-40, 40, [1, 1]), pass(40, -40, [1, 1])], closed: true });
+      const timeline = timelineOf({ passes: [pass(-40, 40, [1, 1]), pass(40, -40, [1, 1])], closed: true });
       const place = { pass: 0, input: 30 };
-      followedInput(course, place, 42, 3);
+      followInput(timeline, place, 42, 3);
       assert.deepEqual([place.pass, place.input], [0, 40]);
-      followedInput(course, place, 35, 3);
+      followInput(timeline, place, 35, 3);
       assert.deepEqual([place.pass, place.input], [0, 35]);
-      followedInput(course, place, 50, 3);
-      followedInput(course, place, 60, 3);
+      followInput(timeline, place, 50, 3);
+      followInput(timeline, place, 60, 3);
       assert.deepEqual([place.pass, place.input], [1, 40]);
-      followedInput(course, place, 30, 3);
+      followInput(timeline, place, 30, 3);
       assert.deepEqual([place.pass, place.input], [1, 30]);
-      followedInput(course, place, -60, 3);
-      followedInput(course, place, -30, 3);
+      followInput(timeline, place, -60, 3);
+      followInput(timeline, place, -30, 3);
       assert.deepEqual([place.pass, place.input], [0, -30]);
-      assert.deepEqual(turningParts(course), [0, 0.5]);
+      assert.deepEqual(turningParts(timeline), [0, 0.5]);
     },
   ],
   [
-    "the ends of an open course hold",
+    "the ends of an open timeline hold",
     () => {
-      const course = courseOf({ passes: [pass(10, 80)], closed: false });
+      const timeline = timelineOf({ passes: [pass(10, 80)], closed: false });
       const place = { pass: 0, input: 30 };
-      followedInput(course, place, 100, 3);
+      followInput(timeline, place, 100, 3);
       assert.deepEqual([place.pass, place.input], [0, 80]);
-      assert.deepEqual(turningParts(course), [0, 1]);
-      const nearest = nearestPart(course, 0.9, (part) => Math.abs(part - 0.97), 0.15);
+      assert.deepEqual(turningParts(timeline), [0, 1]);
+      const nearest = nearestPart(timeline, 0.9, (part) => Math.abs(part - 0.97), 0.15);
       assert.ok(Math.abs(nearest - 0.97) < 1e-6);
     },
   ],
@@ -160,14 +160,14 @@ const tests = [
       for (const id of ids) {
         const study = studyOf(familyOf(folder, id), 0, new Map());
         assert.equal(study.reason, undefined, `${id}: ${study.reason}`);
-        const poser = new Poser(study.linkage);
+        const poser = new PoseSolver(study.linkage);
         const place = {};
         for (let k = 0; k <= 64; k += 1) {
-          placeAtPart(study.course, k / 64, place);
-          const part = partOfInput(study.course, place.pass, place.input);
+          placeAtPart(study.timeline, k / 64, place);
+          const part = partOfInput(study.timeline, place.pass, place.input);
           assert.ok(Math.abs(part - k / 64) < 1e-7, `${id}: part ${k / 64} became ${part}`);
-          const on = study.course.passes[place.pass];
-          assert.deepEqual([...poser.take(on, place.input)], [...poseAt(study.linkage, on, place.input)], id);
+          const on = study.timeline.passes[place.pass];
+          assert.deepEqual([...poser.solve(on, place.input)], [...poseAt(study.linkage, on, place.input)], id);
         }
       }
     },
@@ -203,7 +203,7 @@ const tests = [
       const kinds = new Map(
         changeableParameters(family, 3, 1, new Map()).map((parameter) => [parameter.name, parameter.kind]),
       );
-      for (const [slot] of slots) assert.equal(kinds.get(family.names[slot]), "follows");
+      for (const [slot] of slots) assert.equal(kinds.get(family.names[slot]), "derived");
     },
   ],
   [
@@ -216,12 +216,12 @@ const tests = [
         ["1.1.2", 1],
       ]);
       const changes = new Map([["p", 2.5]]);
-      const named = (family, shown) => changedName({ family, curve: 0, changes, study: { home: 0, shown } });
+      const named = (family, shown) => plateCurveName({ family, curve: 0, changes, study: { home: 0, shown } });
       assert.equal(named(all, 0), "evans:1.1.1?p=2.5");
       assert.equal(named(all, 1), "evans:1.1.2?p=2.5");
       assert.equal(named(all, 2), "evans:1.1.1?p=2.5&circuit=3", "a curve that is not there");
       assert.equal(named(one, 1), "evans:1.1.1?p=2.5&circuit=2", "the atlas takes one circuit alone");
-      assert.equal(changedName({ family: all, curve: 0, changes: new Map(), study: null }), "evans:1.1.1");
+      assert.equal(plateCurveName({ family: all, curve: 0, changes: new Map(), study: null }), "evans:1.1.1");
     },
   ],
   [
@@ -251,8 +251,8 @@ const tests = [
     "the straight portion of Peaucellier's inversor is the whole of its line",
     () => {
       const family = familyOf(folder, "peaucellier-lipkin");
-      const { linkage, circuit, joint, course } = studyOf(family, 0, new Map());
-      const { from, to } = course.passes[0];
+      const { linkage, circuit, joint, timeline } = studyOf(family, 0, new Map());
+      const { from, to } = timeline.passes[0];
       const { points } = stretchOfCircuit(linkage, circuit, joint, {
         start: from,
         span: to - from,

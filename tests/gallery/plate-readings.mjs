@@ -12,7 +12,7 @@ export const READINGS = [
     async ({ browser, folder }) => {
       const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
       const { page } = plate;
-      await page.getByRole("slider", { name: "Place on the circuit" }).fill("0");
+      await page.getByRole("slider", { name: "Position on the circuit" }).fill("0");
       // At input 0 the crank lies on the frame: coupler and rocker close a triangle with p - r = 1.
       const mu = (Math.acos((2 * 2.59 * 2.59 - 1) / (2 * 2.59 * 2.59)) * 180) / Math.PI;
       near(
@@ -71,7 +71,7 @@ export const READINGS = [
       const { page } = plate;
       await page.getByRole("checkbox", { name: "Cognates" }).check();
       for (const part of ["0.1", "0.5", "0.85"]) {
-        await page.getByRole("slider", { name: "Place on the circuit" }).fill(part);
+        await page.getByRole("slider", { name: "Position on the circuit" }).fill(part);
         const apart = await page.evaluate(() => {
           const [x, y] = ["cx", "cy"].map((name) =>
             Number(document.querySelector(".tracer").getAttribute(name)),

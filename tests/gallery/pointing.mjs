@@ -28,7 +28,7 @@ check(
     assert.equal(await opacity(), 1);
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
     assert.ok((await opacity()) < 0.5);
-    assert.ok((await page.locator(".overlay .forward").getAttribute("d")).length > 500);
+    assert.ok((await page.locator(".overlay .highlighted").getAttribute("d")).length > 500);
     const { box } = await middleOfDesk(page);
     await page.mouse.move(box.x + 20, box.y + 20);
     await eventually(async () => (await opacity()) === 1, "the page comes back");
@@ -41,7 +41,7 @@ check(
   on(large, "/hrones-nelson/100"),
   async (g, page) => {
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
-    const beside = await page.locator(".beside").innerText();
+    const beside = await page.locator(".page-panel").innerText();
     assert.match(beside, /A\s=\s2\.00\s+B\s=\s2\.00\s+C\s=\s1\.50/);
     assert.match(beside, /curve 43\.49\.1\s+point 49\s+crank-rocker/);
     // 14.4° to 77.4° on the page itself.
@@ -49,9 +49,9 @@ check(
     assert.match(beside, /greatest transmission angle[\s\S]*77\.36°/);
     const told = page.locator(".page-measures dt", { hasText: "time ratio" });
     assert.match(await told.getAttribute("title"), /slower stroke to that of its faster/);
-    await page.locator(".beside").getByRole("button", { name: "Pin" }).click();
+    await page.locator(".page-panel").getByRole("button", { name: "Pin" }).click();
     assert.equal(
-      await page.locator(".beside").getByRole("button", { name: "Pinned" }).getAttribute("aria-pressed"),
+      await page.locator(".page-panel").getByRole("button", { name: "Pinned" }).getAttribute("aria-pressed"),
       "true",
     );
   },
@@ -108,9 +108,9 @@ check(
       "the plate",
     );
     await page.goBack();
-    await page.waitForSelector(".viewport.receded");
+    await page.waitForSelector(".viewport.dimmed");
     assert.match(await g.fragment(), /curve=43\.49\.1/);
-    assert.match(await page.locator(".beside").innerText(), /curve 43\.49\.1/);
+    assert.match(await page.locator(".page-panel").innerText(), /curve 43\.49\.1/);
   },
 );
 
@@ -123,7 +123,7 @@ check(
     await page.keyboard.press("Tab");
     const current = () => page.evaluate(() => document.activeElement.getAttribute("href"));
     assert.equal(await current(), "#/evans/curve/1.1.1");
-    assert.match(await page.locator(".beside").innerText(), /curve 1\.1\.1/);
+    assert.match(await page.locator(".page-panel").innerText(), /curve 1\.1\.1/);
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("ArrowLeft");
@@ -140,7 +140,7 @@ check(
     await page.keyboard.press("End");
     assert.equal(await current(), "#/evans/curve/10.1.1");
     await page.keyboard.press("Escape");
-    assert.equal(await page.locator(".viewport.receded").count(), 0);
+    assert.equal(await page.locator(".viewport.dimmed").count(), 0);
     assert.equal(await page.evaluate(() => document.activeElement.className.split(" ")[0]), "viewport");
     await page.keyboard.press("Tab");
     await page.keyboard.press("Enter");
@@ -159,7 +159,7 @@ check(
       await settled(page);
     }
     assert.match(await g.fragment(), /^\/hrones-nelson\/100\?curve=/);
-    assert.equal(await page.locator(".viewport.receded").count(), 1);
+    assert.equal(await page.locator(".viewport.dimmed").count(), 1);
     const point = await page.locator(".overlay .at circle").boundingBox();
     await page.touchscreen.tap(point.x + point.width / 2, point.y + point.height / 2);
     await eventually(async () => /^\/hrones-nelson\/curve\//.test(await g.fragment()), "the plate");
@@ -203,7 +203,7 @@ check(
   async (g, page) => {
     const row = page.locator(".page-curves a").nth(3);
     await row.hover();
-    assert.equal(await page.locator(".viewport.receded").count(), 1);
+    assert.equal(await page.locator(".viewport.dimmed").count(), 1);
     assert.equal(await page.locator(".page-curves a").count(), 10, "the list stays");
     await row.click();
     await eventually(async () => (await g.fragment()).startsWith("/evans/curve/4.1.1"), "the plate");
@@ -222,7 +222,7 @@ check(
         new RegExp(`data-cell="43" data-trace="${trace}"[\\s\\S]*?<path d="m([-\\d.]+) ([-\\d.]+)`),
       );
       await page.locator(`.overlay a[href$="/43.${trace}.1"]`).focus();
-      const path = await page.locator(".overlay .forward").getAttribute("d");
+      const path = await page.locator(".overlay .highlighted").getAttribute("d");
       const [, ahead, down] = path.match(/^M([-\d.]+) ([-\d.]+)/);
       // The page is written to a thousandth of a millimetre.
       assert.ok(Math.hypot(ahead - x, down - y) < 0.002, `${[ahead, down]} and ${[x, y]}`);

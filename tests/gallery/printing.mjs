@@ -37,7 +37,7 @@ async function strayedOnPaper(page) {
     const all = [...document.querySelectorAll("main *")].filter((one) => one.checkVisibility());
     const over = all.filter((one) => one.getBoundingClientRect().right > window.innerWidth + 0.5);
     const split = all
-      .filter((one) => one.matches(".window > li, .likenesses > li, .pinned-tiles > li, tr"))
+      .filter((one) => one.matches(".window > li, .matches > li, .pinned-tiles > li, tr"))
       .filter((one) => getComputedStyle(one).breakInside !== "avoid");
     return [...over, ...split].map((one) => `${one.localName}.${one.className}`);
   });
@@ -100,9 +100,9 @@ export const PRINTING = [
     "on paper are the curves, not the controls, within its edges",
     async ({ browser }) => {
       for (const [room, there, gone] of [
-        ["/find?family=evans,watt", ".results > li", ".find-panel, .take-away, .toolbar"],
+        ["/find?family=evans,watt", ".results > li", ".find-panel, .export, .toolbar"],
         ["/find?show=table&family=evans", ".results-table", ".find-panel, .results-table .pin"],
-        ["/shape?like=evans:2.1.1", ".likenesses > li", ".shape-options, .acts, textarea"],
+        ["/shape?like=evans:2.1.1", ".matches > li", ".shape-options, .acts, textarea"],
         ["/compare?c=evans:1.1.1,watt:2.1.1", ".pinned-tiles > li", ".acts, .toolbar"],
       ]) {
         const gallery = await opened(browser, small, room, { colorScheme: "dark" });

@@ -1,6 +1,6 @@
 // Compares the page's further columns of points.csv with the program's.
 
-import { columnsAtSample } from "../../src/gallery/script/take/columns.js";
+import { columnsAtSample } from "../../src/gallery/script/export/columns.js";
 
 // Of a rate or a pole, by its own size and the linkage's: near a limit, where rates grow without bounds, so
 // does what rounding makes of them.

@@ -11,17 +11,17 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import * as zlib from "node:zlib";
 
-import { commandBesideAtlas, commandOfCurves, shortenedNames } from "../../src/gallery/script/take/command.js";
-import { columnNames } from "../../src/gallery/script/take/columns.js";
-import { csvOfCurve } from "../../src/gallery/script/take/csv.js";
-import { shortestDigits } from "../../src/gallery/script/take/digits.js";
-import { dxfOfCurve } from "../../src/gallery/script/take/dxf.js";
-import { jsonOfCurve } from "../../src/gallery/script/take/json.js";
-import { CATALOGUE, manifestOfCurves, namesInManifest } from "../../src/gallery/script/take/manifest.js";
-import { movingSvgOfCurve } from "../../src/gallery/script/take/moving.js";
-import { svgOfCurve } from "../../src/gallery/script/take/svg.js";
-import { fileStem, namedCase, takenCurve } from "../../src/gallery/script/take/taken.js";
-import { crc32OfBytes, zipOfFiles } from "../../src/gallery/script/take/zip.js";
+import { extraCircuitsCommand, exportCommand, shortenCurveNames } from "../../src/gallery/script/export/command.js";
+import { columnNames } from "../../src/gallery/script/export/columns.js";
+import { csvOfCurve } from "../../src/gallery/script/export/csv.js";
+import { shortestDigits } from "../../src/gallery/script/export/digits.js";
+import { dxfOfCurve } from "../../src/gallery/script/export/dxf.js";
+import { jsonOfCurve } from "../../src/gallery/script/export/json.js";
+import { CATALOGUE, manifestOfCurves, curveNamesInManifest } from "../../src/gallery/script/export/manifest.js";
+import { movingSvgOfCurve } from "../../src/gallery/script/export/moving-svg.js";
+import { svgOfCurve } from "../../src/gallery/script/export/svg.js";
+import { fileStem, manifestCase, solveNamedCurve } from "../../src/gallery/script/export/curve.js";
+import { crc32OfBytes, zipOfFiles } from "../../src/gallery/script/export/zip.js";
 import { curveKey } from "../../src/gallery/script/data/family.js";
 import { compareMeasures } from "./measured.mjs";
 import { entitiesOf, familyOf, filesOfZip, pointsOf } from "./taken.mjs";
@@ -139,7 +139,7 @@ function comparedFamily({ id }) {
   const family = familyOf(atlas, id);
   const table = pointsOf(atlas, id);
   for (const name of namesOf(family)) {
-    const taken = takenCurve(family, name);
+    const taken = solveNamedCurve(family, name);
     const places = comparedTable(name, taken, table);
     comparedColumns(name, taken, table);
     comparedDrawing(name, taken, places);
@@ -169,25 +169,25 @@ function testNumbersAndWords(families) {
   const byId = new Map(families.map((family) => [family.id, family]));
   const evans = byId.get("evans");
   const all = Array.from({ length: evans.curves.count }, (_, k) => `evans:${curveKey(evans, k)}`);
-  assert.deepEqual(shortenedNames(all, byId), ["evans"]);
-  assert.deepEqual(shortenedNames([all[0], all[1], `${all[0]}?p=3`], byId), [all[0], all[1], `${all[0]}?p=3`]);
-  assert.match(commandOfCurves([`${all[0]}?p=3`], 1), /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=3' /);
-  assert.throws(() => takenCurve(evans, "evans:99.1.1"), /there is no curve/);
-  assert.throws(() => takenCurve(evans, "evans:1.1.1?p=-1"), /must be more than 0/);
-  assert.throws(() => takenCurve(evans, "evans:1.1.1?circuit=9"), /this circuit is there no more/);
-  const moved = namedCase(evans, "evans:1.1.1?M.along=1&circuit=2");
-  assert.match(commandBesideAtlas([moved.name], namesInManifest([moved])), /^# The atlas.*\n# Nor can a manifest say/);
-  const changed = takenCurve(evans, "evans:1.1.1?p=3&M.along=1");
+  assert.deepEqual(shortenCurveNames(all, byId), ["evans"]);
+  assert.deepEqual(shortenCurveNames([all[0], all[1], `${all[0]}?p=3`], byId), [all[0], all[1], `${all[0]}?p=3`]);
+  assert.match(exportCommand([`${all[0]}?p=3`], 1), /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=3' /);
+  assert.throws(() => solveNamedCurve(evans, "evans:99.1.1"), /there is no curve/);
+  assert.throws(() => solveNamedCurve(evans, "evans:1.1.1?p=-1"), /must be more than 0/);
+  assert.throws(() => solveNamedCurve(evans, "evans:1.1.1?circuit=9"), /this circuit no longer exists/);
+  const moved = manifestCase(evans, "evans:1.1.1?M.along=1&circuit=2");
+  assert.match(extraCircuitsCommand([moved.name], curveNamesInManifest([moved])), /^# The atlas.*\n# A manifest cannot describe/);
+  const changed = solveNamedCurve(evans, "evans:1.1.1?p=3&M.along=1");
   assert.equal(changed.values[0], 3);
-  const fragment = manifestOfCurves([namedCase(evans, changed.name)]);
-  assert.match(fragment, /# Of evans:1\.1\.1\?p=3&M\.along=1, M\.along = 1 is for a \[\[linkage\]\]/);
+  const fragment = manifestOfCurves([manifestCase(evans, changed.name)]);
+  assert.match(fragment, /# evans:1\.1\.1\?p=3&M\.along=1: M\.along = 1 needs a \[\[linkage\]\]/);
 }
 
 // The fragment of everything is a manifest's own, says the program.
 function testAgainstProgram(families) {
   const folder = mkdtempSync(join(tmpdir(), "taken-"));
   const names = families.filter(({ linkage }) => CATALOGUE.includes(linkage)).flatMap((family) => namesOf(family).map((name) => [family, name]));
-  const fragment = manifestOfCurves(names.map(([family, name]) => namedCase(family, name)));
+  const fragment = manifestOfCurves(names.map(([family, name]) => manifestCase(family, name)));
   writeFileSync(join(folder, "atlas.toml"), `[atlas]\ntitle = "T"\n${fragment}`);
   execFileSync(program, ["validate"], { cwd: folder });
   testEveryColumn(folder, fragment);
@@ -214,7 +214,7 @@ function testEveryColumn(folder, fragment) {
     for (const id of ids) {
       const family = familyOf(out, id);
       const table = pointsOf(out, id);
-      for (const name of namesOf(family)) comparedColumns(name, takenCurve(family, name), table);
+      for (const name of namesOf(family)) comparedColumns(name, solveNamedCurve(family, name), table);
     }
     rmSync(out, { recursive: true });
   }
@@ -226,17 +226,17 @@ function testEveryColumn(folder, fragment) {
 function testBesideAtlas(folder, families) {
   const curves = families
     .filter(({ linkage, template, curves: { count } }) => CATALOGUE.includes(linkage) && template.circuits === "start" && count > 0)
-    .flatMap((family) => [1, 2, 3].map((k) => namedCase(family, `${namesOf(family).at(-1)}?circuit=${k}`)))
+    .flatMap((family) => [1, 2, 3].map((k) => manifestCase(family, `${namesOf(family).at(-1)}?circuit=${k}`)))
     .filter(({ family, name }) => isThere(family, name));
-  const names = namesInManifest(curves);
+  const names = curveNamesInManifest(curves);
   writeFileSync(join(folder, "circuits.toml"), `[atlas]\ntitle = "T"\n${manifestOfCurves(curves)}`);
-  const told = commandBesideAtlas(curves.map(({ name }) => name), names).trimEnd().split("\n").at(-1).replaceAll("'", "");
+  const told = extraCircuitsCommand(curves.map(({ name }) => name), names).trimEnd().split("\n").at(-1).replaceAll("'", "");
   assert.equal(told.match(/ export (.*) --format/)[1], ["circuits.toml", ...names].join(" "));
   execFileSync(program, ["export", "circuits.toml", ...names, "--format", "csv,json", "-o", "curves"], { cwd: folder, stdio: "ignore" });
   const beside = curves.filter(({ name }) => !name.endsWith("circuit=1"));
   assert.ok(beside.length >= 10, `${beside.length} further circuits`);
   curves.forEach(({ family, name }, k) => {
-    const taken = takenCurve(family, name);
+    const taken = solveNamedCurve(family, name);
     assert.match(fileStem(taken), /-\d+-\d+-circuit-\d$/);
     const [cell, trace, circuit] = names[k].split(":")[1].split(".");
     const theirs = (ending) => readFileSync(join(folder, "curves", `${names[k].replace(/[:.]/g, "-")}.${ending}`), "utf8");
@@ -259,7 +259,7 @@ function testBesideAtlas(folder, families) {
 
 function isThere(family, name) {
   try {
-    return takenCurve(family, name) !== null;
+    return solveNamedCurve(family, name) !== null;
   } catch {
     return false;
   }
@@ -271,7 +271,7 @@ function comparedExports(folder, manifest, families) {
   execFileSync(program, ["export", manifest, ...words, "--format", "csv,dxf,json,toml", "-o", join(folder, "taken")], { stdio: "ignore" });
   const off = [];
   for (const [family, name] of [...names, [families.find(({ id }) => id === "evans"), words[words.length - 1]]]) {
-    const taken = takenCurve(family, name);
+    const taken = solveNamedCurve(family, name);
     const stem = name.replace("?", "&").split("&").map((part, k) => (k === 0 ? part.replace(/[:.]/g, "-") : part.replace("=", "-"))).join("-");
     const made = { csv: csvOfCurve(taken), json: jsonOfCurve(taken, measures), dxf: dxfOfCurve(taken, told.program) };
     for (const [ending, mine] of Object.entries(made)) {

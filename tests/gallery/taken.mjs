@@ -14,7 +14,7 @@ export function familyOf(folder, id) {
     begin: (head) => { reader = new FamilyReader(head); },
     cells: (chunk) => reader.cells(chunk),
     page: (page) => reader.page(page),
-    end: () => { family = reader.finished(); },
+    end: () => { family = reader.finish(); },
   });
   return family;
 }

@@ -12,10 +12,10 @@ const [atlas] = process.argv.slice(2);
 
 /** Takes away by the menu of the view that is open, and returns { name, bytes, text }. */
 async function saved(page, label) {
-  await page.click(".take-button");
+  await page.click(".export-button");
   const [download] = await Promise.all([
     page.waitForEvent("download"),
-    page.locator(".take-menu").getByRole("menuitem", { name: label, exact: true }).click(),
+    page.locator(".export-menu").getByRole("menuitem", { name: label, exact: true }).click(),
   ]);
   const bytes = readFileSync(await download.path());
   return { name: download.suggestedFilename(), bytes, text: bytes.toString("utf8") };
@@ -23,7 +23,7 @@ async function saved(page, label) {
 
 async function onPlate(browser, fragment, test, options) {
   const view = await opened(browser, atlas, fragment, { acceptDownloads: true, ...options });
-  await view.page.waitForSelector(".take-button");
+  await view.page.waitForSelector(".export-button");
   await test(view.page, view);
   await view.close();
 }
@@ -49,17 +49,17 @@ function looked(page, text) {
 const tests = [
   ["6.1", "a curve is saved as every format, and each is what it says", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-      const still = await saved(page, "SVG still");
+      const still = await saved(page, "SVG static");
       assert.equal(still.name, "evans-1-1-1.svg");
       const look = await looked(page, still.text);
       assert.deepEqual([look.error, look.animates], [null, 0]);
       assert.ok(look.ink > 300, `${look.ink} dark pixels`);
-      const moving = await saved(page, "SVG, moving by itself .svg");
+      const moving = await saved(page, "Animated SVG .svg");
       assert.equal(moving.name, "evans-1-1-1-moving.svg");
       const moved = await looked(page, moving.text);
       assert.equal(moved.error, null);
       assert.ok(moved.animates >= 4 && moved.ink > 300);
-      const png = await saved(page, "PNG 300 to the inch");
+      const png = await saved(page, "PNG 300 dpi");
       assert.equal(png.bytes.subarray(1, 4).toString("latin1"), "PNG");
       assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [2362, 1772]);
       assert.ok(png.bytes.length > 20000, "it is not blank");
@@ -69,25 +69,25 @@ const tests = [
       const dxf = await saved(page, "DXF CAD, AutoCAD R12");
       assert.match(dxf.text, /\$ACADVER\n {2}1\nAC1009\n/);
       assert.equal(entitiesOf(dxf.text).filter(({ kind }) => kind === "POLYLINE").length, 1);
-      const json = JSON.parse((await saved(page, "JSON all that is known")).text);
+      const json = JSON.parse((await saved(page, "JSON all data")).text);
       assert.deepEqual([json.curve, json.points.length, json.measures.class], ["evans:1.1.1", 180, "crank-rocker"]);
       const toml = await saved(page, "Manifest fragment .toml");
       assert.equal(toml.name, "curves.toml");
       assert.match(toml.text, /linkage = "evans"\n[\s\S]*\{ p = 2, r = 1, a = 2\.59, s = 2\.59, k = 2 \}/);
-      await eventually(async () => (await page.textContent(".take-told")) === "Saved as curves.toml", "it says what it did");
+      await eventually(async () => (await page.textContent(".export-status")) === "Saved as curves.toml", "it says what it did");
     })],
   ["6.2", "changed parameters are taken away as they are", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
       const csv = await saved(page, "CSV points");
       assert.equal(csv.name, "evans-1-1-1-p-2.5.csv");
       assert.notEqual(csv.text.split("\n")[5], pointsOf(atlas, "evans").rows.get("1.1.1")[4]);
-      const json = JSON.parse((await saved(page, "JSON all that is known")).text);
+      const json = JSON.parse((await saved(page, "JSON all data")).text);
       assert.equal(json.parameters.p, 2.5);
       assert.match((await saved(page, "Manifest fragment .toml")).text, /p = 2\.5, /);
     })],
   ["6.7", "a circuit that the atlas does not have is taken away under its number among all", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-      const aside = page.getByText("The atlas does not have this circuit");
+      const aside = page.getByText("The atlas does not contain this circuit");
       assert.equal(await aside.isVisible(), false);
       await page.getByRole("radio", { name: /^2: a full turn, branch −1/ }).check();
       await aside.waitFor();
@@ -103,48 +103,48 @@ const tests = [
         const [[x, y], [u, v]] = [place(row), place(own[(own.length - k) % own.length])];
         assert.ok(Math.hypot(x - u, y + v) < 1e-12, `${row} is not the mirror image`);
       });
-      for (const label of ["SVG still", "SVG, moving by itself .svg"]) {
+      for (const label of ["SVG static", "Animated SVG .svg"]) {
         const { name, text } = await saved(page, label);
         assert.match(name, /^evans-1-1-circuit-2(-moving)?\.svg$/);
         const look = await looked(page, text);
         assert.ok(look.error === null && look.ink > 300, name);
       }
-      assert.equal((await saved(page, "PNG 300 to the inch")).name, "evans-1-1-circuit-2.png");
+      assert.equal((await saved(page, "PNG 300 dpi")).name, "evans-1-1-circuit-2.png");
       assert.equal(entitiesOf((await saved(page, "DXF CAD, AutoCAD R12")).text).filter(({ kind }) => kind === "POLYLINE").length, 1);
-      const json = JSON.parse((await saved(page, "JSON all that is known")).text);
+      const json = JSON.parse((await saved(page, "JSON all data")).text);
       assert.deepEqual([json.curve, json.circuit, json.circuits.length], ["evans:1.1.1?circuit=2", 2, 2]);
       assert.equal(json.measures.class, "crank-rocker");
       const toml = await saved(page, "Manifest fragment .toml");
       assert.match(toml.text, /# evans:1\.1\.1\?circuit=2 is circuit 2 of all[\s\S]*circuits = "all"/);
       await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
-      await page.click(".take-button");
-      await page.getByRole("menuitem", { name: "Copy the command line" }).click();
-      const command = await page.locator(".take-copy textarea").inputValue();
+      await page.click(".export-button");
+      await page.getByRole("menuitem", { name: "Copy command line" }).click();
+      const command = await page.locator(".export-copy textarea").inputValue();
       assert.match(command, /^# The atlas does not have the circuit of evans:1\.1\.1\?circuit=2\.\n[\s\S]*coupler-atlas export circuits\.toml evans-taken:1\.1\.2 --format/);
     })],
   ["6.3", "the command line and the fragment are copied, or shown to be copied", async ({ browser }) => {
     await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-      await page.click(".take-button");
-      await page.getByRole("menuitem", { name: "Copy the command line" }).click();
-      await eventually(async () => (await page.textContent(".take-told")) === "Copied the command line", "it is copied");
+      await page.click(".export-button");
+      await page.getByRole("menuitem", { name: "Copy command line" }).click();
+      await eventually(async () => (await page.textContent(".export-status")) === "Copied the command line", "it is copied");
     }, { permissions: ["clipboard-read", "clipboard-write"] });
     const denied = (page) => page.addInitScript(() => Object.defineProperty(navigator, "clipboard", { value: undefined }));
     await onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
-      await page.click(".take-button");
-      await page.getByRole("menuitem", { name: "Copy the command line" }).click();
-      const area = page.locator(".take-copy textarea");
+      await page.click(".export-button");
+      await page.getByRole("menuitem", { name: "Copy command line" }).click();
+      const area = page.locator(".export-copy textarea");
       await area.waitFor();
       const [text, selected] = await area.evaluate((element) => [element.value, element.selectionEnd - element.selectionStart]);
       assert.match(text, /^coupler-atlas export atlas\.toml 'evans:1\.1\.1\?p=2\.5' --format /);
       assert.equal(selected, text.length);
       await page.keyboard.press("Escape");
       await area.waitFor({ state: "detached" });
-      assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
+      assert.equal(await page.evaluate(() => document.activeElement.className), "export-button");
     }, { before: denied });
   }],
   ["6.4", "the menu is worked by keys, says what it is, and closes", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-      const button = page.locator(".take-button");
+      const button = page.locator(".export-button");
       await button.focus();
       await page.keyboard.press("Enter");
       assert.equal(await button.getAttribute("aria-expanded"), "true");
@@ -153,30 +153,30 @@ const tests = [
       await page.keyboard.press("ArrowDown");
       assert.equal(await at(), "SVG, moving by itself");
       await page.keyboard.press("End");
-      assert.equal(await at(), "Copy the command line");
+      assert.equal(await at(), "Copy command line");
       await page.keyboard.press("ArrowDown");
       assert.equal(await at(), "SVG");
       await page.keyboard.press("d");
       assert.equal(await at(), "DXF");
       await page.keyboard.press("Escape");
       assert.equal(await button.getAttribute("aria-expanded"), "false");
-      assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
+      assert.equal(await page.evaluate(() => document.activeElement.className), "export-button");
       await page.keyboard.press("ArrowUp");
-      assert.equal(await at(), "Copy the command line");
+      assert.equal(await at(), "Copy command line");
       await page.keyboard.press("Tab");
-      await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
+      await page.waitForFunction(() => document.querySelector(".export-menu").hidden);
       await button.click();
       await page.mouse.click(5, 5);
-      await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
+      await page.waitForFunction(() => document.querySelector(".export-menu").hidden);
     })],
   ["6.5", "the menu is in sight and legible on a narrow screen, light and dark", async ({ browser }) => {
     for (const colorScheme of ["light", "dark"]) {
       await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
-        await page.click(".take-button");
-        const box = await page.locator(".take-menu").boundingBox();
+        await page.click(".export-button");
+        const box = await page.locator(".export-menu").boundingBox();
         assert.ok(box.x >= 0 && box.x + box.width <= 360, JSON.stringify(box));
-        assert.ok((await contrastOf(page.locator(".take-menu button").first())) >= 4.5);
-        assert.ok((await contrastOf(page.locator(".take-menu .note").first())) >= 4.5);
+        assert.ok((await contrastOf(page.locator(".export-menu button").first())) >= 4.5);
+        assert.ok((await contrastOf(page.locator(".export-menu .note").first())) >= 4.5);
       }, { colorScheme, viewport: { width: 360, height: 800 } });
     }
   }],

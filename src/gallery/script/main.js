@@ -1,19 +1,19 @@
-// The gallery begins here.
+// The entry point of the gallery.
 
 import { openAtlas } from "./data/atlas.js";
-import { pinsOfTab } from "./view/pins.js";
+import { tabPins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
-import { findRoom } from "./view/find/room.js";
-import { shapeRoom } from "./view/shape/room.js";
-import { compareRoom } from "./view/compare/room.js";
-import { overviewRoom } from "./view/overview.js";
-import { pageRoom } from "./view/page.js";
-import { plateRoom } from "./view/plate/room.js";
-import { sheetRoom } from "./view/sheet.js";
+import { findRoute } from "./view/find/find-view.js";
+import { shapeRoute } from "./view/shape/shape-view.js";
+import { compareRoute } from "./view/compare/compare-view.js";
+import { overviewRoute } from "./view/overview.js";
+import { pageRoute } from "./view/page.js";
+import { plateRoute } from "./view/plate/route.js";
+import { familyRoute } from "./view/family.js";
 
-const app = { atlas: openAtlas(document, window), pins: pinsOfTab(window) };
+const app = { atlas: openAtlas(document, window), pins: tabPins(window) };
 
-/** The rooms, the particular before the general. */
-const rooms = [overviewRoom, findRoom, shapeRoom, compareRoom, plateRoom, pageRoom, sheetRoom];
+/** The routes, the more specific first. */
+const routes = [overviewRoute, findRoute, shapeRoute, compareRoute, plateRoute, pageRoute, familyRoute];
 
-openShell(app, rooms, document.getElementById("gallery"));
+openShell(app, routes, document.getElementById("gallery"));

@@ -1,16 +1,16 @@
-// Addresses: everything that can be looked at has one, in the fragment of the page's own, so that a link
-// can be sent.
+// Addresses of the gallery's views: every view has one, in the fragment of the page's URL, so that it can be
+// linked to.
 //
 //   #/                                     all families
 //   #/evans                                the pages of a family
-//   #/evans/3?curve=12.1.1                 a page, and a curve that is brought forward on it
-//   #/evans/curve/12.1.1?p=2.5             the plate of a curve (cell.trace.circuit); with other parameters
-//   #/find?family=evans&mu_min_deg=30..    what the filters leave
-//   #/shape?d=…                            what is like a shape
-//   #/compare?c=evans:12.1.1,watt:3.1.1    curves side by side
+//   #/evans/3?curve=12.1.1                 a page, with a highlighted curve
+//   #/evans/curve/12.1.1?p=2.5             the plate of a curve (cell.trace.circuit); with changed parameters
+//   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters
+//   #/shape?d=…                            the curves similar to a shape
+//   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared
 
-/** What a fragment says: { path: [words], query: Map of words }. */
-export function parsedAddress(fragment) {
+/** Parses a fragment into { path: [words], query: Map of names to values }. */
+export function parseAddress(fragment) {
   const [path, query] = fragment.replace(/^#?\/?/, "").split("?", 2);
   const word = (text) => {
     try {
@@ -30,7 +30,7 @@ export function parsedAddress(fragment) {
   return { path: words, query: new Map(pairs) };
 }
 
-/** The fragment of a path and, of a query (a Map or an object), what has a value. */
+/** The fragment for a path and a query (a Map or an object); entries without a value are left out. */
 export function address(path, query = {}) {
   const entries = query instanceof Map ? [...query] : Object.entries(query);
   const plain = (text) => encodeURIComponent(text).replaceAll("%3A", ":").replaceAll("%2C", ",");

@@ -1,19 +1,19 @@
-// The atlas: what the page says of all families, and the families themselves, each loaded when it is first
-// asked for.
+// The atlas: the summary of all families, and the data of each family, loaded on first use.
 
 import { FamilyReader } from "./family.js";
 
 /**
- * The atlas of `document`: { title, program, measures, families: [{ id, title, … }], book, family(id) }.
+ * Opens the atlas of `document`: { title, program, measures, families: [{ id, title, … }], book, family(id)
+ * }.
  *
- * A page that is opened from disk can fetch nothing, but it can load scripts: those of families call
+ * A page opened from disk cannot fetch files but can load scripts; the scripts of families call
  * `couplerAtlas`.
  */
 export function openAtlas(document, window) {
-  const told = JSON.parse(document.getElementById("atlas").textContent);
+  const summary = JSON.parse(document.getElementById("atlas").textContent);
   const loading = new Map();
   let reader = null;
-  let taken = null;
+  let loaded = null;
   window.couplerAtlas = {
     begin: (head) => {
       reader = new FamilyReader(head);
@@ -21,7 +21,7 @@ export function openAtlas(document, window) {
     cells: (chunk) => reader.cells(chunk),
     page: (page) => reader.page(page),
     end: () => {
-      taken = reader.finished();
+      loaded = reader.finish();
     },
   };
   const load = (shown) =>
@@ -29,26 +29,26 @@ export function openAtlas(document, window) {
       const script = document.createElement("script");
       script.src = shown.script;
       const failed = () => reject(new Error(`${shown.script} cannot be read: render the atlas again`));
-      // Scripts run one at a time, and each is followed by its event.
+      // Scripts run one at a time, each followed by its load event.
       script.onload = () => {
         script.remove();
-        if (taken?.id === shown.id) resolve(taken);
+        if (loaded?.id === shown.id) resolve(loaded);
         else failed();
-        reader = taken = null;
+        reader = loaded = null;
       };
       script.onerror = failed;
       document.head.append(script);
     });
   const family = (id) => {
-    const shown = told.families.find((candidate) => candidate.id === id);
+    const shown = summary.families.find((candidate) => candidate.id === id);
     if (!shown?.script) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));
     if (!loading.has(id)) loading.set(id, load(shown));
     return loading.get(id);
   };
-  return { ...told, family };
+  return { ...summary, family };
 }
 
-/** The file of a page, numbered from 1, or null where pages have none. */
+/** The file of a page, numbered from 1; null if the family's pages are not written as files. */
 export function pageFile(atlas, id, page) {
   const shown = atlas.families.find((family) => family.id === id);
   if (!shown?.page_format || page > shown.pages) return null;

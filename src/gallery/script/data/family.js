@@ -1,19 +1,19 @@
-// A family of the atlas, put together from the statements of its script.
+// The data of a family, assembled from the statements of its script.
 
-import { concatenated, unpacked } from "./packed.js";
+import { concatenateArrays, unpackArray } from "./packed.js";
 
-/** The code of a word that a curve does not have. */
+/** The code of a missing word. */
 export const NO_WORD = 255;
 
 /**
- * Collects the statements of a family's script; `finished()` is the family:
+ * Collects the statements of a family's script. `finish()` returns the family:
  *
- * what `begin` says (id, title, source, legend, linkage, layout, sampling, paper { width, height, color
- *   "#rrggbb", which older data lack }, dash_deg, straight, template, names, free, derived), and
+ * what `begin` passes (id, title, source, legend, linkage, layout, sampling, paper { width, height, color
+ *   "#rrggbb", missing in older data }, dash_deg, straight, template, names, free, derived), and
  * cells { count, number, values (count × names), status (0 ok, 1 partial, 2 none), reason, caption, note },
  * curves { count, cell, trace, circuit, page (from 1; 0: on none), closed, measures, words,
  *   box (x0 y0 x1 y1), start, points },
- * pages [{ views: [{ cell, scale, origin, curves: [curve] }] }], cells and curves by their places from 0.
+ * pages [{ views: [{ cell, scale, origin, curves: [curve] }] }]; cells and curves are indices from 0.
  */
 export class FamilyReader {
   constructor(head) {
@@ -30,12 +30,12 @@ export class FamilyReader {
     this.pages[page - 1] = views;
   }
 
-  finished() {
-    const cells = joinedCells(this.chunks);
-    const curves = joinedCurves(this.chunks, cells.count);
+  finish() {
+    const cells = joinCells(this.chunks);
+    const curves = joinCurves(this.chunks, cells.count);
     const family = { ...this.head, cells, curves, pages: [] };
-    family.places = placesOfCurves(family);
-    family.pages = Array.from(this.pages, (views) => pageOf(family, views ?? []));
+    family.places = indexCurves(family);
+    family.pages = Array.from(this.pages, (views) => resolvePage(family, views ?? []));
     family.pages.forEach(({ views }, k) =>
       views.forEach((view) =>
         view.curves.forEach((curve) => {
@@ -47,9 +47,9 @@ export class FamilyReader {
   }
 }
 
-function joinedCells(chunks) {
+function joinCells(chunks) {
   const all = (name) =>
-    chunks.length ? concatenated(chunks.map((chunk) => unpacked(chunk[name]))) : new Uint8Array();
+    chunks.length ? concatenateArrays(chunks.map((chunk) => unpackArray(chunk[name]))) : new Uint8Array();
   const words = (name) => chunks.flatMap((chunk) => chunk[name]);
   const number = all("number");
   const [values, status] = [all("values"), all("status")];
@@ -64,19 +64,19 @@ function joinedCells(chunks) {
   };
 }
 
-function joinedCurves(chunks) {
+function joinCurves(chunks) {
   const parts = chunks.map((chunk) => chunk.curves);
   const all = (name, kind) =>
-    parts.length ? concatenated(parts.map((part) => unpacked(part[name]))) : new kind();
+    parts.length ? concatenateArrays(parts.map((part) => unpackArray(part[name]))) : new kind();
   const cell = all("cell", Uint32Array);
   const counts = all("count", Uint16Array);
   let [at, before] = [0, 0];
   for (const chunk of chunks) {
-    // Within a chunk cells are counted from its first.
-    const curves = unpacked(chunk.curves.cell).length;
+    // Cell indices are relative to the chunk.
+    const curves = unpackArray(chunk.curves.cell).length;
     for (let k = 0; k < curves; k += 1) cell[at + k] += before;
     at += curves;
-    before += unpacked(chunk.number).length;
+    before += unpackArray(chunk.number).length;
   }
   const start = new Uint32Array(cell.length + 1);
   counts.forEach((count, k) => {
@@ -89,23 +89,23 @@ function joinedCurves(chunks) {
     circuit: all("circuit", Uint16Array),
     page: new Uint32Array(cell.length),
     closed: all("closed", Uint8Array),
-    measures: joinedMeasures(parts),
-    words: joinedWords(parts),
+    measures: joinMeasures(parts),
+    words: joinWords(parts),
     box: all("box", Float64Array),
     start,
     points: all("points", Uint16Array),
   };
 }
 
-function joinedMeasures(parts) {
+function joinMeasures(parts) {
   const names = Object.keys(parts[0]?.measures ?? {});
   return Object.fromEntries(
-    names.map((name) => [name, concatenated(parts.map((part) => unpacked(part.measures[name])))]),
+    names.map((name) => [name, concatenateArrays(parts.map((part) => unpackArray(part.measures[name])))]),
   );
 }
 
-/** Words of chunks under one numbering. */
-function joinedWords(parts) {
+/** Joins the words of chunks under one numbering. */
+function joinWords(parts) {
   const names = Object.keys(parts[0]?.words ?? {});
   return Object.fromEntries(
     names.map((name) => {
@@ -115,21 +115,21 @@ function joinedWords(parts) {
         const renamed = own.map((word) =>
           values.includes(word) ? values.indexOf(word) : values.push(word) - 1,
         );
-        return unpacked(packed).map((code) => renamed[code] ?? NO_WORD);
+        return unpackArray(packed).map((code) => renamed[code] ?? NO_WORD);
       });
-      return [name, { values, codes: concatenated(codes) }];
+      return [name, { values, codes: concatenateArrays(codes) }];
     }),
   );
 }
 
-/** Where each curve is, by its key. */
-function placesOfCurves(family) {
+/** The index of each curve, by its key. */
+function indexCurves(family) {
   const places = new Map();
   for (let k = 0; k < family.curves.count; k += 1) places.set(curveKey(family, k), k);
   return places;
 }
 
-function pageOf(family, views) {
+function resolvePage(family, views) {
   const cellOf = new Map(Array.from(family.cells.number, (number, k) => [number, k]));
   const seen = ({ cell, scale, origin, curves }) => ({
     cell: cellOf.get(cell),
@@ -140,18 +140,18 @@ function pageOf(family, views) {
   return { views: views.map(seen) };
 }
 
-/** What a curve is called in addresses: the numbers of its cell, its trace and its circuit. */
+/** The key of a curve in addresses: the numbers of its cell, its trace and its circuit. */
 export function curveKey(family, curve) {
   const { cell, trace, circuit } = family.curves;
   return `${family.cells.number[cell[curve]]}.${trace[curve]}.${circuit[curve]}`;
 }
 
-/** The place of the curve of a name, or undefined. */
-export function curveAt(family, key) {
+/** The index of the curve with a key, or undefined. */
+export function findCurve(family, key) {
   return family.places.get(key);
 }
 
-/** The points of a curve, [x0, y0, x1, y1, …], good to 1/65535 of its extent. */
+/** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. */
 export function curvePoints(family, curve) {
   const { box, start, points } = family.curves;
   const [x0, y0, x1, y1] = box.subarray(4 * curve, 4 * curve + 4);
@@ -170,8 +170,8 @@ export function cellValues(family, cell) {
   return family.cells.values.slice(cell * width, (cell + 1) * width);
 }
 
-/** What was measured of a curve under a name: a number, a word, or undefined where it does not apply. */
-export function measured(family, curve, name) {
+/** The value of a measure of a curve: a number, a word, or undefined if it does not apply. */
+export function measureValue(family, curve, name) {
   const numbers = family.curves.measures[name];
   if (numbers) return Number.isNaN(numbers[curve]) ? undefined : numbers[curve];
   const words = family.curves.words[name];

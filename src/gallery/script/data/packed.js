@@ -1,14 +1,16 @@
-// Numbers as the program packs them: the bytes of a typed array, least first, in base64.
+// Typed arrays as the program encodes them: their bytes, little-endian, in base64.
 
 const ARRAYS = { f64: Float64Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array };
 
-/** The typed array that `{ type, data }` stands for. */
-export function unpacked({ type, data }) {
-  return new ARRAYS[type](bytesOfBase64(data).buffer);
+/** Decodes `{ type, data }` into a typed array. */
+export function unpackArray({ type, data }) {
+  return new ARRAYS[type](decodeBase64(data).buffer);
 }
 
-/** A browser's own way, where it has one, takes a tenth of the time: an atlas has megabytes of this. */
-function bytesOfBase64(data) {
+/**
+ * Uses the browser's own decoder if there is one: it takes a tenth of the time, and an atlas has megabytes.
+ */
+function decodeBase64(data) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(data);
   const text = atob(data);
   const bytes = new Uint8Array(text.length);
@@ -16,8 +18,8 @@ function bytesOfBase64(data) {
   return bytes;
 }
 
-/** Typed arrays of one kind in one, one after another. */
-export function concatenated(arrays) {
+/** Concatenates typed arrays of one kind. */
+export function concatenateArrays(arrays) {
   const whole = new arrays[0].constructor(arrays.reduce((sum, array) => sum + array.length, 0));
   let at = 0;
   for (const array of arrays) {

@@ -1,7 +1,7 @@
-// Which columns of a table can be asked about, in the order in which people ask.
+// The columns of a table that can be filtered, the most useful first.
 
 import { NO_WORD } from "../data/family.js";
-import { DERIVED } from "./table.js";
+import { DERIVED_COLUMNS } from "./table.js";
 
 const FIRST_WORDS = ["class", "symmetric", "turn"];
 const FIRST_NUMBERS = [
@@ -15,16 +15,16 @@ const FIRST_NUMBERS = [
 const LATER_WORDS = ["type", "shortest", "symmetry"];
 
 /**
- * The columns of a table with two different values: [{ name, group: "first" | "more" | "parameters", kind:
- * "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are there whatever their values.
+ * The columns of a table with at least two different values: [{ name, group: "first" | "more" | "parameters",
+ * kind: "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are always included.
  */
-export function columnsOf(table, measures, kept = new Set()) {
-  const told = new Map(measures.map((measure) => [measure.name, measure]));
+export function filterColumns(table, measures, kept = new Set()) {
+  const byName = new Map(measures.map((measure) => [measure.name, measure]));
   const numbers = measures.filter(({ word }) => !word).map(({ name }) => name);
   const words = measures.filter(({ word }) => word).map(({ name }) => name);
   const parameters = [...new Set(table.families.flatMap(({ names }) => names))].map((name) => `p.${name}`);
   const column = (group, kind) => (name) => {
-    const { unit = "", definition = "" } = DERIVED[name] ?? told.get(name) ?? {};
+    const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
     return { name, group, kind, unit, definition };
   };
   const listed = [
@@ -37,18 +37,18 @@ export function columnsOf(table, measures, kept = new Set()) {
     ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
     ...parameters.map(column("parameters", "numbers")),
   ];
-  return listed.filter(
-    ({ name, kind }) => kept.has(name) || (kind === "words" ? hasTwoWords : hasTwoNumbers)(table, name),
-  );
+  const hasDistinctValues = ({ name, kind }) =>
+    kind === "words" ? hasDistinctWords(table, name) : hasDistinctNumbers(table, name);
+  return listed.filter((column) => kept.has(column.name) || hasDistinctValues(column));
 }
 
-function hasTwoWords(table, name) {
+function hasDistinctWords(table, name) {
   const { codes } = table.words(name);
   const first = codes[0];
   return codes.some((code) => code !== first) && codes.some((code) => code !== NO_WORD);
 }
 
-function hasTwoNumbers(table, name) {
+function hasDistinctNumbers(table, name) {
   const values = table.numbers(name);
   let first = NaN;
   for (let row = 0; row < values.length; row += 1) {

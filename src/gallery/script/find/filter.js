@@ -1,29 +1,29 @@
-// Which rows of a table pass its filters.
+// Filters the rows of a table.
 
 /**
- * Filters of a table by the names of columns: { low, high } of numbers, either of them missing, both within;
- * or a Set of words. A row that misses what a filter asks for does not pass it.
+ * Filters of a table by column name: { low, high } for numbers (both optional, inclusive), or a Set of words.
+ * A row without a value does not pass.
  */
 export class Filters {
   constructor(table) {
     this.table = table;
     this.failing = new Uint16Array(table.count);
     this.fails = new Map();
-    this.rest = null;
+    this.passing = null;
   }
 
-  /** Sets the filter of a column, or takes it away with null. */
+  /** Sets the filter of a column; null removes it. */
   set(name, filter) {
     const before = this.fails.get(name);
-    const after = filter && this.failsOf(name, filter);
+    const after = filter && this.failuresOf(name, filter);
     if (before) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] -= before[row];
     if (after) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] += after[row];
     if (after) this.fails.set(name, after);
     else this.fails.delete(name);
-    this.rest = null;
+    this.passing = null;
   }
 
-  failsOf(name, filter) {
+  failuresOf(name, filter) {
     const out = new Uint8Array(this.table.count);
     if (filter instanceof Set) {
       const { values, codes } = this.table.words(name);
@@ -36,29 +36,29 @@ export class Filters {
     }
     const [low, high] = [filter.low ?? -Infinity, filter.high ?? Infinity];
     const values = this.table.numbers(name);
-    // A comparison with a missing number is false.
+    // A comparison with NaN is false.
     for (let row = 0; row < out.length; row += 1)
       out[row] = values[row] >= low && values[row] <= high ? 0 : 1;
     return out;
   }
 
   /** The rows that pass all filters, in the table's order. */
-  left() {
-    if (this.rest) return this.rest;
+  rows() {
+    if (this.passing) return this.passing;
     const rows = new Uint32Array(this.table.count);
     let count = 0;
     for (let row = 0; row < rows.length; row += 1) if (this.failing[row] === 0) rows[count++] = row;
-    this.rest = rows.subarray(0, count);
-    return this.rest;
+    this.passing = rows.subarray(0, count);
+    return this.passing;
   }
 
-  /** How many rows would pass without the filter of a column. */
+  /** The number of rows that pass without the filter of a column. */
   countWithout(name) {
     const own = this.fails.get(name);
     return this.failing.reduce((count, fails, row) => count + (fails === (own ? own[row] : 0) ? 1 : 0), 0);
   }
 
-  /** Of each word of a column, how many rows have it that pass all other filters. */
+  /** For each word of a column, the number of rows that have it and pass all other filters. */
   wordCounts(name) {
     const { values, codes } = this.table.words(name);
     const own = this.fails.get(name);

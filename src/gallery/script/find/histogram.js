@@ -5,10 +5,9 @@ export const BINS = 48;
 const NO_BIN = 255;
 
 /**
- * A scale for a column and the bin of each of its rows: { low, high, isLog, bins u8[count], counts u32[BINS],
- * placeOf(value), valueAt(place) } with places 0 to 1 between `low` and `high`. Logarithmic where all numbers
- * are positive and their middle nine tenths span more than a factor of thirty. What is infinite stands in the
- * last bin.
+ * The histogram of a column: { low, high, isLog, bins u8[count], counts u32[BINS], placeOf(value),
+ * valueAt(place) } with places from 0 to 1 between `low` and `high`. Logarithmic if all numbers are positive
+ * and the middle 90 % span more than a factor of thirty. Infinity is in the last bin.
  */
 export function histogramOf(values) {
   const sorted = values.filter((value) => Number.isFinite(value)).sort();
@@ -36,14 +35,14 @@ export function histogramOf(values) {
   return { low, high, isLog, bins, counts, placeOf, valueAt };
 }
 
-/** How many of some rows are in each bin. */
-export function countsIn({ bins }, rows) {
+/** The number of the given rows in each bin. */
+export function binCounts({ bins }, rows) {
   const counts = new Uint32Array(NO_BIN + 1);
   for (let k = 0; k < rows.length; k += 1) counts[bins[rows[k]]] += 1;
   return counts.subarray(0, BINS);
 }
 
-/** A number as it is typed and written in addresses: four figures, and no more. */
-export function roundFigure(value) {
+/** A number as it appears in fields and addresses: at most four significant digits. */
+export function formatBound(value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(4))) : "";
 }

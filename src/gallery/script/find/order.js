@@ -1,26 +1,25 @@
-// The order of rows by a column.
+// Sorts rows by a column.
 
 import { NO_WORD } from "../data/family.js";
 
-/** Orders of a table's rows, each reckoned once. */
+/** The sort orders of a table's rows, cached. */
 export class Orders {
   constructor(table) {
     this.table = table;
-    this.known = new Map();
+    this.cache = new Map();
   }
 
   /**
-   * All rows by a column of numbers or of words (`kind`), the least first, or the greatest if `down`; rows
-   * without a value come last both ways, and rows of one value in the table's order. Without a name, the
-   * table's order.
+   * All rows sorted by a column of numbers or words (`kind`), ascending, or descending if `down`. Rows
+   * without a value come last in both cases; ties keep the table's order. Without a name, the table's order.
    */
   by(name, kind, down) {
     const key = `${down ? "-" : ""}${kind} ${name}`;
-    if (!this.known.has(key)) this.known.set(key, this.made(name, kind, down));
-    return this.known.get(key);
+    if (!this.cache.has(key)) this.cache.set(key, this.compute(name, kind, down));
+    return this.cache.get(key);
   }
 
-  made(name, kind, down) {
+  compute(name, kind, down) {
     const rows = Uint32Array.from({ length: this.table.count }, (_, row) => row);
     if (!name) return rows;
     const values = kind === "words" ? wordRanks(this.table.words(name)) : this.table.numbers(name);
@@ -28,7 +27,7 @@ export class Orders {
     return rows.sort((a, b) => {
       const [u, v] = [values[a], values[b]];
       if (Number.isNaN(u) || Number.isNaN(v)) return Number.isNaN(u) - Number.isNaN(v) || a - b;
-      // Infinities of one sign have no difference.
+      // The difference of equal infinities is NaN.
       return (u === v ? 0 : sign * (u < v ? -1 : 1)) || a - b;
     });
   }
@@ -40,8 +39,8 @@ function wordRanks({ values, codes }) {
   return Float64Array.from(codes, (code) => (code === NO_WORD ? NaN : ranks[code]));
 }
 
-/** Of rows in an order, those that pass. */
-export function passing(order, failing) {
+/** The rows of an order that pass. */
+export function passingRows(order, failing) {
   const rows = new Uint32Array(order.length);
   let count = 0;
   for (let k = 0; k < order.length; k += 1) if (failing[order[k]] === 0) rows[count++] = order[k];

@@ -1,44 +1,41 @@
-// All curves of some families as one table: a row for each, a column for each measure and parameter.
+// All curves of some families as one table: a row for each curve, a column for each measure and parameter.
 
 import { NO_WORD, curveKey } from "../data/family.js";
 
-/** Columns that are reckoned from measures: what people ask for that no one measure says. */
-export const DERIVED = {
+/** Columns computed from measures, for frequent queries that no single measure answers. */
+export const DERIVED_COLUMNS = {
   mu_worst_deg: {
     unit: "deg",
     definition:
-      "how far the transmission angle stays from 0 and 180 all round: the lesser of its least " +
-      "and 180 less its greatest",
-    of: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
+      "least distance of the transmission angle from 0 and 180 over the circuit: the lesser of its " +
+      "minimum and 180 minus its maximum",
+    compute: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
   },
   straight_tolerance: {
     unit: "",
-    definition: "departure of the straightest portion from its line, by the portion's length",
-    of: (at) => at("straight_deviation") / at("straight_length"),
+    definition: "deviation of the straightest portion from its line, divided by its length",
+    compute: (at) => at("straight_deviation") / at("straight_length"),
   },
   straight_share: {
     unit: "",
-    definition: "length of the straightest portion, by the greater side of the curve's box",
-    of: (at) =>
+    definition: "length of the straightest portion, divided by the longer side of the curve's bounding box",
+    compute: (at) =>
       at("straight_length") /
       Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
   },
 };
 
-const SYMMETRIC = ["not symmetric", "symmetric"];
-const TURNS = ["between limits", "full turn"];
+const SYMMETRY_WORDS = ["not symmetric", "symmetric"];
+const INPUT_WORDS = ["between limits", "full turn"];
 
-/**
- * The rows of families: `family[row]`, `curve[row]` say whose; columns are made when they are first asked
- * for.
- */
+/** The rows of families: `family[row]` and `curve[row]` are indices. Columns are computed on first use. */
 export class CurveTable {
   constructor(families) {
     this.families = families;
     this.count = families.reduce((sum, { curves }) => sum + curves.count, 0);
     this.family = new Uint16Array(this.count);
     this.curve = new Uint32Array(this.count);
-    this.known = new Map();
+    this.cache = new Map();
     let row = 0;
     families.forEach(({ curves }, k) => {
       for (let curve = 0; curve < curves.count; curve += 1, row += 1)
@@ -46,26 +43,26 @@ export class CurveTable {
     });
   }
 
-  /** The name of a row's curve beyond its family. */
+  /** The name of a row's curve, with its family. */
   nameOf(row) {
     const family = this.families[this.family[row]];
     return `${family.id}:${curveKey(family, this.curve[row])}`;
   }
 
-  /** A column of numbers, f64[count], NaN where they are missing; a parameter's name has "p." before it. */
+  /** A column of numbers, f64[count], NaN where missing; a parameter's name is prefixed with "p.". */
   numbers(name) {
-    if (!this.known.has(name)) this.known.set(name, this.made(name));
-    return this.known.get(name);
+    if (!this.cache.has(name)) this.cache.set(name, this.computeNumbers(name));
+    return this.cache.get(name);
   }
 
-  made(name) {
+  computeNumbers(name) {
     const out = new Float64Array(this.count).fill(NaN);
-    if (DERIVED[name]) {
+    if (DERIVED_COLUMNS[name]) {
       const at = (row) => (other) => this.numbers(other)[row];
-      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED[name].of(at(row));
+      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED_COLUMNS[name].compute(at(row));
       return out;
     }
-    const own = name.startsWith("p.") ? parameterOf(name.slice(2)) : measureOf(name);
+    const own = name.startsWith("p.") ? parameterColumn(name.slice(2)) : measureColumn(name);
     let row = 0;
     for (const family of this.families) {
       const value = own(family);
@@ -75,26 +72,26 @@ export class CurveTable {
     return out;
   }
 
-  /** A column of words: { values, codes u8[count] }, NO_WORD where there is none. */
+  /** A column of words: { values, codes u8[count] }, NO_WORD where missing. */
   words(name) {
     const key = `words ${name}`;
-    if (!this.known.has(key)) this.known.set(key, this.madeWords(name));
-    return this.known.get(key);
+    if (!this.cache.has(key)) this.cache.set(key, this.computeWords(name));
+    return this.cache.get(key);
   }
 
-  madeWords(name) {
+  computeWords(name) {
     const codes = new Uint8Array(this.count).fill(NO_WORD);
     if (name === "symmetric") {
       const { codes: own } = this.words("symmetry");
       const measures = this.families.map(({ curves }) => "symmetry" in curves.words);
       for (let row = 0; row < this.count; row += 1)
         if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
-      return { values: SYMMETRIC, codes };
+      return { values: SYMMETRY_WORDS, codes };
     }
     if (name === "turn") {
       const limits = this.numbers("input_min_deg");
       for (let row = 0; row < this.count; row += 1) codes[row] = Number.isNaN(limits[row]) ? 1 : 0;
-      return { values: TURNS, codes };
+      return { values: INPUT_WORDS, codes };
     }
     const values = [];
     let row = 0;
@@ -111,14 +108,14 @@ export class CurveTable {
   }
 }
 
-function measureOf(name) {
+function measureColumn(name) {
   return ({ curves }) => {
     const values = curves.measures[name];
     return values && ((curve) => values[curve]);
   };
 }
 
-function parameterOf(name) {
+function parameterColumn(name) {
   return ({ names, cells, curves }) => {
     const at = names.indexOf(name);
     return at >= 0 && ((curve) => cells.values[curves.cell[curve] * names.length + at]);

@@ -1,23 +1,24 @@
-// Elements, made from words and never from markup: whatever a title says is shown as text.
+// Creates DOM elements from values, never from markup: text in a title is always shown as text.
 
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
- * An HTML element: `h("button", { class: "quiet", type: "button", onclick: f, "aria-label": "Next" }, "→")`.
+ * Creates an HTML element: `h("button", { class: "quiet", type: "button", onclick: f, "aria-label": "Next" },
+ * "→")`.
  *
- * Attributes that are null, undefined or false are left out, true ones are empty; functions are listeners, by
- * the name of their event after "on". Children may be nodes, texts, numbers, arrays, or nothing.
+ * Attributes that are null, undefined or false are omitted; true gives an empty attribute; a function is a
+ * listener for the event named after "on". Children may be nodes, strings, numbers, arrays, or nothing.
  */
 export function h(name, attributes = {}, ...children) {
-  return furnished(document.createElement(name), attributes, children);
+  return buildElement(document.createElement(name), attributes, children);
 }
 
-/** An SVG element, likewise. */
+/** Creates an SVG element in the same way. */
 export function s(name, attributes = {}, ...children) {
-  return furnished(document.createElementNS(SVG, name), attributes, children);
+  return buildElement(document.createElementNS(SVG, name), attributes, children);
 }
 
-function furnished(element, attributes, children) {
+function buildElement(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name.slice(2), value);
     else if (value !== null && value !== undefined && value !== false) {
@@ -31,7 +32,7 @@ function furnished(element, attributes, children) {
   return element;
 }
 
-/** Replaces what is in an element. */
+/** Replaces the content of an element. */
 export function fill(element, ...children) {
   const some = children
     .flat(Infinity)

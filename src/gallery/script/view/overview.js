@@ -1,26 +1,26 @@
-// All families of the atlas, each by its first page.
+// All families of the atlas, each with its first page.
 
 import { address } from "../data/address.js";
 import { fill, h } from "./dom.js";
-import { counted } from "./shell-footer.js";
-import { whenSeen } from "./thumbnail-seen.js";
-import { pageThumbnail } from "./thumbnail-page.js";
+import { formatCount } from "./footer.js";
+import { onceVisible } from "./once-visible.js";
+import { pageThumbnail } from "./page-thumbnail.js";
 
-// With so many families or more they can be searched by name.
+// From this many families on, there is a search field.
 const MANY_FAMILIES = 8;
-// Fewer than these have room to be shown large.
+// Fewer families than this are shown large.
 const FEW_FAMILIES = 4;
 
-/** The room with all families: `#/?q=straight` those whose names have the words. */
-export const overviewRoom = {
+/** The route of all families; `#/?q=straight` shows those that match the words. */
+export const overviewRoute = {
   name: "families",
   label: "Families",
-  way: () => address([]),
-  opens: ({ path }) => path.length === 0,
-  view: (app, { query }) => {
+  href: () => address([]),
+  matches: ({ path }) => path.length === 0,
+  open: (app, { query }) => {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
-    const sight = whenSeen((tile) => showFirstPage(app, tiles.get(tile), tile));
+    const sight = onceVisible((tile) => showFirstPage(app, tiles.get(tile), tile));
     const list = h("ul", { class: families.length < FEW_FAMILIES ? "families few" : "families" }, [
       ...tiles.keys(),
     ]);
@@ -28,11 +28,11 @@ export const overviewRoom = {
       title: "",
       element: h(
         "div",
-        { class: "room overview" },
+        { class: "view overview" },
         h(
           "div",
           { class: "head" },
-          h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, summaryOf(families))),
+          h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, atlasSummary(families))),
           families.length >= MANY_FAMILIES ? familySearch(app, tiles, query.get("q") ?? "") : null,
         ),
         families.length ? list : h("p", { class: "empty" }, "There are no families in this atlas."),
@@ -43,17 +43,17 @@ export const overviewRoom = {
   },
 };
 
-function summaryOf(families) {
+function atlasSummary(families) {
   const sum = (of) => families.reduce((total, family) => total + of(family), 0);
-  return `${counted(
+  return `${formatCount(
     sum((f) => f.curves),
     "curve",
     "curves",
-  )} of ${counted(
+  )} of ${formatCount(
     sum((f) => f.kept),
     "linkage",
     "linkages",
-  )} on ${counted(
+  )} on ${formatCount(
     sum((f) => f.pages),
     "page",
     "pages",
@@ -67,56 +67,54 @@ function familyTile(family) {
     h(
       "a",
       { href: address([family.id]) },
-      h("span", { class: "leaf" }),
+      h("span", { class: "tile-picture" }),
       h("span", { class: "name" }, family.title),
     ),
     h("p", { class: "source note" }),
-    h("p", { class: "note" }, countsOf(family)),
-    family.not_assembled ? h("p", { class: "note" }, notAssembledInWords(family)) : null,
+    h("p", { class: "note" }, familyCounts(family)),
+    family.not_assembled ? h("p", { class: "note" }, notAssembledNote(family)) : null,
   );
 }
 
-/**
- * How much there is of a family, in words: curves, pages, and linkages where they are not as many as curves.
- */
-export function countsOf(family) {
+/** The counts of a family: curves, pages, and linkages if their number differs from that of the curves. */
+export function familyCounts(family) {
   return [
-    counted(family.curves, "curve", "curves"),
-    counted(family.pages, "page", "pages"),
-    family.kept === family.curves ? null : counted(family.kept, "linkage", "linkages"),
+    formatCount(family.curves, "curve", "curves"),
+    formatCount(family.pages, "page", "pages"),
+    family.kept === family.curves ? null : formatCount(family.kept, "linkage", "linkages"),
   ]
     .filter(Boolean)
     .join(" · ");
 }
 
-/** How many linkages of a family could not be assembled, in words. */
-function notAssembledInWords({ not_assembled: none, kept }) {
-  return `${none.toLocaleString("en")} of ${counted(kept, "linkage", "linkages")} could not be assembled`;
+/** The number of linkages of a family that could not be assembled. */
+function notAssembledNote({ not_assembled: none, kept }) {
+  return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage", "linkages")} could not be assembled`;
 }
 
-/** The source of a family, without the legend that its pages add to it. */
-export function sourceOf({ source, legend }) {
+/** The source of a family, without the legend that its pages append to it. */
+export function familySource({ source, legend }) {
   const ending = ` · ${legend}`;
   return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
 }
 
 async function showFirstPage(app, { id }, tile) {
-  const leaf = tile.querySelector(".leaf");
+  const picture = tile.querySelector(".tile-picture");
   try {
     const family = await app.atlas.family(id);
-    leaf.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
-    fill(leaf, pageThumbnail(app.atlas, family, 1) ?? "");
-    fill(tile.querySelector(".source"), sourceOf(family));
+    picture.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
+    fill(picture, pageThumbnail(app.atlas, family, 1) ?? "");
+    fill(tile.querySelector(".source"), familySource(family));
   } catch (error) {
-    fill(tile.querySelector(".source"), h("span", { class: "trouble" }, error.message));
+    fill(tile.querySelector(".source"), h("span", { class: "error" }, error.message));
   }
 }
 
 /**
- * A field that leaves the families whose title, linkage or name has all the words in it; the address keeps
- * them.
+ * A field that shows only the families whose title, linkage or id contains all its words; the address
+ * contains them.
  */
-function familySearch(app, tiles, asked) {
+function familySearch(app, tiles, query) {
   const total = tiles.size;
   const leave = (text) => {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
@@ -126,19 +124,19 @@ function familySearch(app, tiles, asked) {
       tile.hidden = !words.every((word) => text.includes(word));
       left += tile.hidden ? 0 : 1;
     }
-    return left === total ? `All ${total} families` : counted(left, "family", "families");
+    return left === total ? `All ${total} families` : formatCount(left, "family", "families");
   };
   const seek = (event) => {
-    app.say(leave(event.target.value));
+    app.announce(leave(event.target.value));
     app.replace(address([], { q: event.target.value.trim() }));
   };
-  leave(asked);
+  leave(query);
   return h(
     "div",
     { class: "field" },
     h("input", {
       type: "search",
-      value: asked,
+      value: query,
       "aria-label": "Search families by name",
       placeholder: `Search ${total} families`,
       oninput: seek,

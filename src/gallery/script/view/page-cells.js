@@ -1,8 +1,8 @@
-// Which linkages stand on a page, those that could not be assembled among them.
+// The linkages on a page, including those that could not be assembled.
 
 /**
- * The places of the cells of a page, numbered from 1, in order. What is drawn is known; where a linkage that
- * is not would stand follows from the number of linkages on a page, or of pages for a linkage.
+ * The cells on a page, numbered from 1, in order. Drawn cells are listed in the data; the position of a cell
+ * that is not drawn follows from the number of panels per page, or of pages per linkage.
  */
 export function cellsOnPage(family, page) {
   const views = family.pages[page - 1]?.views ?? [];
@@ -10,23 +10,26 @@ export function cellsOnPage(family, page) {
   if (family.layout === "chart") return [];
   const { count } = family.cells;
   const pages = family.pages.length;
-  const each = family.layout === "panels" ? panelsOnPage(family) : 0;
+  const each = family.layout === "panels" ? panelsPerPage(family) : 0;
   for (let cell = (page - 1) * each; cell < Math.min(page * each, count); cell += 1) drawn.add(cell);
   if (family.layout === "coupler-grid" && pages % count === 0)
     drawn.add(Math.floor(((page - 1) * count) / pages));
   return [...drawn].sort((a, b) => a - b);
 }
 
-// So many panels a page of each family has, once reckoned: it takes a look at all pages.
-const PANELS_ON_PAGE = new WeakMap();
+// The number of panels per page of each family, cached because it takes a scan of all pages.
+const PANELS_PER_PAGE = new WeakMap();
 
-function panelsOnPage(family) {
-  if (!PANELS_ON_PAGE.has(family)) PANELS_ON_PAGE.set(family, reckonedPanels(family));
-  return PANELS_ON_PAGE.get(family);
+function panelsPerPage(family) {
+  if (!PANELS_PER_PAGE.has(family)) PANELS_PER_PAGE.set(family, inferPanelsPerPage(family));
+  return PANELS_PER_PAGE.get(family);
 }
 
-/** The least number of panels on a page that agrees with where the drawn ones stand; 0 where none does. */
-function reckonedPanels({ cells: { count }, pages }) {
+/**
+ * The smallest number of panels per page that agrees with the positions of the drawn cells; 0 if there is
+ * none.
+ */
+function inferPanelsPerPage({ cells: { count }, pages }) {
   const agrees = (each) =>
     pages.every(({ views }, k) => views.every(({ cell }) => Math.floor(cell / each) === k));
   for (let each = Math.ceil(count / pages.length); each < count / Math.max(pages.length - 1, 1); each += 1) {
@@ -35,8 +38,8 @@ function reckonedPanels({ cells: { count }, pages }) {
   return pages.length === 1 ? count : 0;
 }
 
-/** What is on a page, in a few words: the caption of its one linkage, or the numbers of its linkages. */
-export function pageInWords(family, page) {
+/** The label of a page: the caption of its only linkage, or the numbers of its linkages. */
+export function pageLabel(family, page) {
   const cells = cellsOnPage(family, page);
   if (cells.length === 0) return family.layout === "chart" ? "chart" : "";
   const numbers = cells.map((cell) => family.cells.number[cell]);

@@ -1,14 +1,11 @@
-// A field for the number of a page.
+// A field for a page number.
 
 import { h } from "./dom.js";
 
-/**
- * A form { element, field } that asks for one of the `pages` of a family; `go(page)` is called with one there
- * is.
- */
+/** A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number. */
 export function pageField({ pages }, label, go) {
   const field = h("input", { type: "number", min: 1, max: pages, step: 1, "aria-label": "Page" });
-  const asked = (event) => {
+  const submit = (event) => {
     event.preventDefault();
     const page = Math.round(Number(field.value));
     if (page >= 1 && page <= pages) go(page);
@@ -16,6 +13,6 @@ export function pageField({ pages }, label, go) {
   };
   const words = h("span", {}, label);
   const total = h("span", {}, `of ${pages.toLocaleString("en")}`);
-  const form = { class: "field row page-field", novalidate: true, onsubmit: asked };
+  const form = { class: "field row page-field", novalidate: true, onsubmit: submit };
   return { element: h("form", form, words, field, total), field };
 }

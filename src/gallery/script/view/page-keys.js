@@ -1,45 +1,45 @@
-// The keys of a page.
+// The keyboard commands of a page.
 
 import { h } from "./dom.js";
 
-/** What a key does on a page's desk: a function, or null where it does nothing there. */
-export function actOfKey(event, desk) {
+/** The action of a key on a page: a function, or null if there is none. */
+export function keyAction(event, view) {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
-  return actOnCurve(event, desk) ?? actOnPage(event.key, desk);
+  return curveKeyAction(event, view) ?? pageKeyAction(event.key, view);
 }
 
-function actOnPage(key, desk) {
-  const { zoom, page, listed } = desk;
-  const [dx, dy] = [desk.viewport.clientWidth / 8, desk.viewport.clientHeight / 8];
+function pageKeyAction(key, view) {
+  const { zoom, page, listed } = view;
+  const [dx, dy] = [view.viewport.clientWidth / 8, view.viewport.clientHeight / 8];
   const acts = {
-    "+": () => zoom.by(1.5),
-    "=": () => zoom.by(1.5),
-    "-": () => zoom.by(1 / 1.5),
-    "−": () => zoom.by(1 / 1.5),
+    "+": () => zoom.zoomBy(1.5),
+    "=": () => zoom.zoomBy(1.5),
+    "-": () => zoom.zoomBy(1 / 1.5),
+    "−": () => zoom.zoomBy(1 / 1.5),
     0: () => zoom.fit(),
-    n: () => desk.go(page + 1),
-    PageDown: () => desk.go(page + 1),
-    p: () => desk.go(page - 1),
-    PageUp: () => desk.go(page - 1),
-    Home: () => desk.go(1),
-    End: () => desk.go(listed.pages),
+    n: () => view.go(page + 1),
+    PageDown: () => view.go(page + 1),
+    p: () => view.go(page - 1),
+    PageUp: () => view.go(page - 1),
+    Home: () => view.go(1),
+    End: () => view.go(listed.pages),
     Escape: () => {
-      desk.forward.choose(null);
-      desk.beside();
-      desk.remember();
+      view.highlight.select(null);
+      view.showPanel();
+      view.remember();
     },
   };
-  // A page that is seen whole leaves arrows to the window, which may have more below it.
+  // When the whole page is visible, the arrow keys scroll the window.
   const ways = { ArrowLeft: [dx, 0], ArrowRight: [-dx, 0], ArrowUp: [0, dy], ArrowDown: [0, -dy] };
   if (key in ways && !zoom.isFit) return () => zoom.pan(...ways[key]);
   return acts[key] ?? null;
 }
 
-/** On a curve arrows go from one to the next, and with Shift along it. */
-function actOnCurve({ key, shiftKey, target }, desk) {
+/** On a curve, arrow keys move to the next curve, and with Shift along the curve. */
+function curveKeyAction({ key, shiftKey, target }, view) {
   const link = target.closest?.("a[data-curve]");
   if (!link) return null;
-  const links = [...desk.overlay.links.values()];
+  const links = [...view.overlay.links.values()];
   const at = links.indexOf(link);
   const to = (k) => () => {
     links.forEach((other) => other.setAttribute("tabindex", "-1"));
@@ -49,34 +49,34 @@ function actOnCurve({ key, shiftKey, target }, desk) {
   };
   if (shiftKey) {
     const along = { ArrowRight: 5, ArrowLeft: -5, ArrowUp: 30, ArrowDown: -30 }[key];
-    return along ? () => desk.forward.along(along) : null;
+    return along ? () => view.highlight.stepAlong(along) : null;
   }
   const acts = { ArrowRight: to(at + 1), ArrowDown: to(at + 1), ArrowLeft: to(at - 1), ArrowUp: to(at - 1) };
   const ends = { Home: to(0), End: to(links.length - 1) };
   const away = () => {
-    desk.forward.choose(null);
-    desk.beside();
-    desk.viewport.focus({ preventScroll: true });
+    view.highlight.select(null);
+    view.showPanel();
+    view.viewport.focus({ preventScroll: true });
   };
   return acts[key] ?? ends[key] ?? (key === "Escape" ? away : null);
 }
 
-/** What can be done on a page by wheel and keys, or by touch, as the element "page-keys". */
-export function keysInWords() {
+/** The help for wheel, keyboard and touch, as the element "page-keys". */
+export function keyHelp() {
   return h(
     "p",
     { class: "note no-print page-keys", id: "page-keys" },
     h(
       "span",
       { class: "by-keys" },
-      "Wheel, pinch, + and −: nearer and further; 0: the whole page; arrows move what is near; ",
-      "n and p: the next page and the one before. ",
-      "Tab to its curves; arrows go from one to the next, with Shift along it; Enter opens its plate.",
+      "Wheel, pinch, + and −: zoom; 0: fit the page; arrow keys: pan; ",
+      "n and p: next and previous page. ",
+      "Tab: select a curve; arrow keys: next curve, with Shift along the curve; Enter: open its plate.",
     ),
     h(
       "span",
       { class: "by-touch" },
-      "Two fingers bring the page nearer. Tap a curve to see what it is, and again for its plate.",
+      "Pinch to zoom. Tap a curve to highlight it, and again to open its plate.",
     ),
   );
 }

@@ -1,16 +1,16 @@
-// What stands beside a page: its curves, or the one that is brought forward.
+// The panel next to a page: its list of curves, or the highlighted curve.
 
 import { address } from "../data/address.js";
-import { curveKey, measured } from "../data/family.js";
+import { curveKey, measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 import { cellsOnPage } from "./page-cells.js";
-import { captionInType, figure, measureInWords, measureText } from "./page-words.js";
+import { formatCaption, formatNumber, measureLabel, measureText } from "./labels.js";
 import { pinButton } from "./pin-button.js";
 import { thumbnail } from "./thumbnail.js";
 
-/** The curves of a page as links, and what could not be assembled. */
-export function curvesPanel(family, page, drawn, { onenter, onleave }) {
-  // Of one linkage with several points each row says the point alone.
+/** The curves of a page as links, and the linkages that could not be assembled. */
+export function curveListPanel(family, page, drawn, { onenter, onleave }) {
+  // If all curves are of one linkage, each row shows only its point.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
   const links = new Map(
     drawn.map(({ curve }) => [curve, curveRow(family, curve, { one, onenter, onleave })]),
@@ -19,41 +19,41 @@ export function curvesPanel(family, page, drawn, { onenter, onleave }) {
   return h(
     "div",
     { class: "panel" },
-    one ? h("h2", {}, captionOf(family, drawn[0].curve)) : null,
-    drawn.length ? sumOfCurves(drawn.length, one) : nothingToPointAt(family),
+    one ? h("h2", {}, captionOfCurve(family, drawn[0].curve)) : null,
+    drawn.length ? curveCount(drawn.length, one) : noCurvesNote(family),
     h(
       "ol",
       { class: "page-curves" },
       [...links.values()].map((link) => h("li", {}, link)),
     ),
-    short.length ? notAssembled(family, short) : null,
+    short.length ? notAssembledList(family, short) : null,
   );
 }
 
-function sumOfCurves(count, isBelowHeading) {
+function curveCount(count, isBelowHeading) {
   const sum = `${count} ${count === 1 ? "curve" : "curves"} on this page`;
   return isBelowHeading ? h("p", { class: "note" }, sum) : h("h2", {}, sum);
 }
 
-function nothingToPointAt(family) {
+function noCurvesNote(family) {
   const [heading, sentence] =
     family.layout === "chart"
-      ? ["A chart", curvesOfChart(family)]
-      : ["No curves", "Nothing is drawn on this page."];
+      ? ["A chart", chartCurvesNote(family)]
+      : ["No curves", "No curves are drawn on this page."];
   return [h("h2", {}, heading), h("p", { class: "note" }, sentence)];
 }
 
-function curvesOfChart(family) {
+function chartCurvesNote(family) {
   return [
-    "Of ",
+    "Computed from ",
     h("a", { href: address([family.id], { show: "curves" }) }, `${family.curves.count} curves`),
     ", which are not drawn on it.",
   ];
 }
 
-function captionOf(family, curve) {
+function captionOfCurve(family, curve) {
   const cell = family.curves.cell[curve];
-  return captionInType(family.cells.caption[cell] || `Linkage ${family.cells.number[cell]}`);
+  return formatCaption(family.cells.caption[cell] || `Linkage ${family.cells.number[cell]}`);
 }
 
 function curveRow(family, curve, { one, onenter, onleave }) {
@@ -63,10 +63,10 @@ function curveRow(family, curve, { one, onenter, onleave }) {
     : family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`;
   const words = [
     caption,
-    pointInWords(family, curve),
+    pointLabel(family, curve),
     circuit[curve] > 1 || one ? `circuit ${circuit[curve]}` : null,
   ];
-  if (one && pointInWords(family, curve) && circuit[curve] === 1) words.pop();
+  if (one && pointLabel(family, curve) && circuit[curve] === 1) words.pop();
   return h(
     "a",
     {
@@ -77,18 +77,18 @@ function curveRow(family, curve, { one, onenter, onleave }) {
       onblur: onleave,
     },
     thumbnail(family, [curve], { width: 44, height: 30 }),
-    h("span", {}, captionInType(words.filter(Boolean).join(" · "))),
+    h("span", {}, formatCaption(words.filter(Boolean).join(" · "))),
   );
 }
 
-/** Which of the traced points of its linkage draws a curve, where there are several. */
-export function pointInWords(family, curve) {
+/** The label of the traced point of a curve, if the linkage has several. */
+export function pointLabel(family, curve) {
   const { trace } = family.curves;
   return trace.some((number) => number > 1) ? `point ${trace[curve]}` : "";
 }
 
-/** Linkages that could not be assembled, each with the reason. */
-function notAssembled(family, cells) {
+/** The linkages that could not be assembled, each with the reason. */
+function notAssembledList(family, cells) {
   const { number, caption, reason } = family.cells;
   return h(
     "section",
@@ -101,7 +101,7 @@ function notAssembled(family, cells) {
         h(
           "li",
           {},
-          h("b", {}, captionInType(caption[cell] || `linkage ${number[cell]}`)),
+          h("b", {}, formatCaption(caption[cell] || `linkage ${number[cell]}`)),
           h("span", { class: "note" }, ` ${reason[cell]}`),
         ),
       ),
@@ -109,29 +109,29 @@ function notAssembled(family, cells) {
   );
 }
 
-/** A curve in figures: caption, class, parameters and measures, and what can be done with it. */
+/** The data of a curve: caption, class, parameters, measures and actions. */
 export function curvePanel(app, family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
   const key = curveKey(family, curve);
-  const words = ["class", "type"].map((name) => measured(family, curve, name)).filter(Boolean);
+  const words = ["class", "type"].map((name) => measureValue(family, curve, name)).filter(Boolean);
   return h(
     "div",
     { class: "panel" },
-    h("h2", {}, captionInType(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
+    h("h2", {}, formatCaption(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
     h(
       "p",
       { class: "tags" },
-      [`curve ${key}`, pointInWords(family, curve), ...new Set(words), closed[curve] ? null : "open"]
+      [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"]
         .filter(Boolean)
         .map((word) => [h("span", { class: "tag" }, word), " "]),
     ),
     family.cells.note[at] ? h("p", { class: "note" }, family.cells.note[at]) : null,
-    family.cells.status[at] === 1 ? h("p", { class: "note" }, `In part: ${family.cells.reason[at]}`) : null,
+    family.cells.status[at] === 1 ? h("p", { class: "note" }, `Partial: ${family.cells.reason[at]}`) : null,
     h(
       "div",
       { class: "toolbar no-print" },
-      h("a", { class: "button", href: address([family.id, "curve", key]) }, "Open its plate"),
+      h("a", { class: "button", href: address([family.id, "curve", key]) }, "Open plate"),
       pinButton(app, `${family.id}:${key}`),
       h("button", { type: "button", class: "quiet", onclick: onall }, "All curves"),
     ),
@@ -143,43 +143,40 @@ export function curvePanel(app, family, curve, { onall }) {
 function parameterFacts(family, cell) {
   const width = family.names.length;
   const rows = family.names.map((name, k) => [name, family.cells.values[cell * width + k]]);
-  const told = rows.filter(([, value]) => Number.isFinite(value));
-  if (told.length === 0) return null;
+  const shown = rows.filter(([, value]) => Number.isFinite(value));
+  if (shown.length === 0) return null;
   return [
     h("h3", {}, "Parameters"),
     h(
       "dl",
       { class: "facts page-parameters" },
-      told.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, figure(value, 6))]),
+      shown.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, formatNumber(value, 6))]),
     ),
   ];
 }
 
-/**
- * The measures of a curve in words, each explained by its definition: at the pointer, and all below them on
- * demand.
- */
+/** The measures of a curve with tooltips, and all definitions in a collapsed list. */
 function measureFacts(atlas, family, curve) {
   const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
-  const told = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
+  const shown = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
   return [
     h("h3", {}, "Measures"),
     h(
       "dl",
       { class: "facts page-measures" },
-      told.map(([{ name, definition }, text]) => [
-        h("dt", { title: definition }, measureInWords(name)),
+      shown.map(([{ name, definition }, text]) => [
+        h("dt", { title: definition }, measureLabel(name)),
         h("dd", {}, text),
       ]),
     ),
     h(
       "details",
       { class: "definitions note" },
-      h("summary", {}, "What they mean"),
+      h("summary", {}, "Definitions"),
       h(
         "dl",
         {},
-        told.map(([{ name, definition }]) => [h("dt", {}, measureInWords(name)), h("dd", {}, definition)]),
+        shown.map(([{ name, definition }]) => [h("dt", {}, measureLabel(name)), h("dd", {}, definition)]),
       ),
     ),
   ];

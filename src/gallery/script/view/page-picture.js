@@ -1,18 +1,18 @@
-// The picture of a page, and over it the curve that is brought forward.
+// The picture of a page and the overlay of its curves.
 
 import { pageFile } from "../data/atlas.js";
 import { curveKey } from "../data/family.js";
 import { address } from "../data/address.js";
 import { fill, h, s } from "./dom.js";
-import { paperTone } from "./paper-ink.js";
-import { drawnPage } from "./thumbnail-page.js";
+import { paperTone } from "./paper-tone.js";
+import { drawPage } from "./page-thumbnail.js";
 
-// The least breadth of the place of a link, in millimetres of paper.
-const LEAST_SPOT = 1;
+// The minimum width of the area of a link, in millimetres of paper.
+const MIN_LINK_WIDTH = 1;
 
 /**
- * A page as an element of the paper's shape: the file of the page, or its curves drawn from the data where
- * there is none that can be read. Settles when it can be painted.
+ * A page as an element with the paper's aspect ratio: the page's file, or its curves drawn from the data if
+ * there is no readable file. Resolves when it can be painted.
  */
 export async function pagePicture(app, family, page, label) {
   const { views } = family.pages[page - 1] ?? { views: [] };
@@ -24,25 +24,25 @@ export async function pagePicture(app, family, page, label) {
       await image.decode();
       return image;
     } catch {
-      app.say(`${file} cannot be read; the page is drawn from the data`);
+      app.announce(`${file} cannot be read; the page is drawn from the data`);
     }
   }
   if (views.length) {
-    const drawing = drawnPage(family, views, "picture drawn thumbnail", 0.05);
+    const drawing = drawPage(family, views, "picture drawn thumbnail", 0.05);
     return h("div", { class: "picture", role: "img", "aria-label": label }, drawing);
   }
-  return h("p", { class: "picture nothing" }, "This page is a chart, which was not written as SVG or PNG.");
+  return h("p", { class: "picture nothing" }, "This page is a chart that was not written as SVG or PNG.");
 }
 
 /**
- * What lies over the picture: a link for each curve of the page, unseen until it is brought forward. Returns
- * { element, links: Map of curve to link, show(curve, pathData), point([x, y] or null) }, places in
+ * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Returns {
+ * element, links: Map of curve to link, show(pathData), point([x, y] or null) }, with positions in
  * millimetres of paper.
  */
 export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const { width, height } = family.paper;
   const links = new Map(drawn.map(({ curve }) => [curve, curveLink(family, curve, { onfocus, onblur })]));
-  const path = s("path", { class: "forward", "vector-effect": "non-scaling-stroke" });
+  const path = s("path", { class: "highlighted", "vector-effect": "non-scaling-stroke" });
   const dot = s("g", { class: "at" }, s("circle", { r: 1 }));
   const element = s(
     "svg",
@@ -56,7 +56,7 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
     dot,
     [...links.values()],
   );
-  for (const { curve, box } of drawn) fill(links.get(curve), spotOf(box));
+  for (const { curve, box } of drawn) fill(links.get(curve), linkArea(box));
   return {
     element,
     links,
@@ -70,11 +70,12 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
   };
 }
 
-/** What screen readers and the browser's own focus take for the place of a curve's link. */
-function spotOf([x0, y0, x1, y1]) {
-  // The box of a straight path has no breadth, and a rectangle without one is drawn by no browser.
-  const [width, height] = [Math.max(x1 - x0, LEAST_SPOT), Math.max(y1 - y0, LEAST_SPOT)];
-  return s("rect", { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2, width, height, class: "spot" });
+/** The area of a curve's link for screen readers and the browser's focus. */
+function linkArea([x0, y0, x1, y1]) {
+  // The box of a straight path has no width, and browsers do not draw a rectangle without one.
+  const [width, height] = [Math.max(x1 - x0, MIN_LINK_WIDTH), Math.max(y1 - y0, MIN_LINK_WIDTH)];
+  const corner = { x: (x0 + x1 - width) / 2, y: (y0 + y1 - height) / 2 };
+  return s("rect", { ...corner, width, height, class: "link-area" });
 }
 
 function curveLink(family, curve, { onfocus, onblur }) {

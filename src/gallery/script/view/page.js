@@ -1,36 +1,36 @@
-// A page of a family, near or far, with the curve that is pointed at brought forward.
+// The view of a page, with zoom and the curve under the pointer highlighted.
 
 import { address } from "../data/address.js";
 import { pageFile } from "../data/atlas.js";
-import { curveAt, curveKey } from "../data/family.js";
+import { findCurve, curveKey } from "../data/family.js";
 import { fill, h } from "./dom.js";
-import { curvesOnPaper, nearestCurve } from "./hover.js";
-import { CurveForward } from "./hover-forward.js";
+import { curvesOnPaper, nearestCurve } from "./page-curves.js";
+import { CurveHighlight } from "./curve-highlight.js";
 import { pageBar } from "./page-bar.js";
-import { actOfKey, keysInWords } from "./page-keys.js";
-import { curvePanel, curvesPanel } from "./page-panel.js";
+import { keyAction, keyHelp } from "./page-keys.js";
+import { curvePanel, curveListPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture } from "./page-picture.js";
 import { watchPins } from "./pin-button.js";
 import { Zoom } from "./zoom.js";
 
-/** The room of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
-export const pageRoom = {
+/** The route of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
+export const pageRoute = {
   name: "page",
-  under: "families",
-  opens: ({ path }) => path.length === 2 && /^[1-9][0-9]*$/.test(path[1]),
-  view: async (app, place) => {
-    const family = await app.atlas.family(place.path[0]);
+  parent: "families",
+  matches: ({ path }) => path.length === 2 && /^[1-9][0-9]*$/.test(path[1]),
+  open: async (app, target) => {
+    const family = await app.atlas.family(target.path[0]);
     const listed = app.atlas.families.find(({ id }) => id === family.id);
-    if (Number(place.path[1]) > listed.pages)
-      throw new Error(`${family.title} has ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`} only.`);
-    const desk = new PageDesk(app, family, listed);
-    await desk.open(place);
-    return desk;
+    if (Number(target.path[1]) > listed.pages)
+      throw new Error(`${family.title} has only ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`}.`);
+    const view = new PageView(app, family, listed);
+    await view.open(target);
+    return view;
   },
 };
 
-/** A page on the desk. */
-class PageDesk {
+/** The view of a page. */
+class PageView {
   constructor(app, family, listed) {
     Object.assign(this, { app, family, listed });
     this.viewport = h("div", {
@@ -38,14 +38,14 @@ class PageDesk {
       tabindex: "0",
       role: "group",
       "aria-describedby": "page-keys",
-      onkeydown: (event) => this.typed(event),
+      onkeydown: (event) => this.handleKey(event),
       onpointermove: (event) => this.hovered(event),
-      onpointerleave: () => this.forward.leave(),
+      onpointerleave: () => this.highlight.leave(),
     });
     this.sheet = h("div", { class: "page-sheet" });
     this.reading = h("div", { class: "reading", hidden: true });
     this.viewport.append(this.sheet, this.reading);
-    this.panel = h("aside", { class: "beside", "aria-label": "Curves of this page" });
+    this.panel = h("aside", { class: "page-panel", "aria-label": "Curves of this page" });
     this.bar = pageBar(listed, { go: (page) => this.go(page), zoom: () => this.zoom });
     const { width, height } = family.paper;
     this.viewport.style.aspectRatio = `${width} / ${height}`;
@@ -55,31 +55,31 @@ class PageDesk {
       onchange: () => this.zoomed(),
       ontap: (event) => this.tapped(event),
     });
-    this.forward = new CurveForward(this);
-    this.element = this.room();
+    this.highlight = new CurveHighlight(this);
+    this.element = this.layOut();
     this.unwatch = watchPins(app, this.element);
   }
 
-  room() {
+  layOut() {
     const heading = h("h1", {}, h("a", { href: address([this.family.id]) }, this.family.title));
     this.legend = h("p", { class: "note" });
     return h(
       "div",
-      { class: "room wide page-room", onclick: (event) => this.followed(event) },
+      { class: "view wide page-view", onclick: (event) => this.followed(event) },
       h("div", { class: "head" }, h("div", { class: "page-title" }, heading, this.legend), this.bar.element),
-      h("div", { class: "split" }, h("div", { class: "desk" }, this.viewport, keysInWords()), this.panel),
+      h("div", { class: "split" }, h("div", { class: "page-main" }, this.viewport, keyHelp()), this.panel),
     );
   }
 
-  /** Shows what an address says; of another family it is another view's. */
-  update(place) {
+  /** Shows the page of an address; returns false for another family. */
+  update(target) {
     if (
-      !pageRoom.opens(place) ||
-      place.path[0] !== this.family.id ||
-      Number(place.path[1]) > this.listed.pages
+      !pageRoute.matches(target) ||
+      target.path[0] !== this.family.id ||
+      Number(target.path[1]) > this.listed.pages
     )
       return false;
-    this.open(place);
+    this.open(target);
     return true;
   }
 
@@ -92,70 +92,76 @@ class PageDesk {
       this.viewport.setAttribute("aria-label", `Page ${page} of ${this.listed.pages}`);
       const picture = await pagePicture(this.app, this.family, page, this.title);
       if (page !== this.page) return;
-      this.put(picture);
-      this.app.say(this.title);
+      this.setPicture(picture);
+      this.app.announce(this.title);
     }
     this.query = query;
-    if (this.element.isConnected) this.look(query);
+    if (this.element.isConnected) this.applyQuery(query);
   }
 
-  /** The desk is in the window, and has a size: now there is somewhere to look, and its keys work at once. */
+  /**
+   * Called when the view is in the document and has a size: sets the position and takes the focus, so that
+   * keys work.
+   */
   shown() {
-    this.look(this.query);
+    this.applyQuery(this.query);
     this.viewport.focus({ preventScroll: true });
   }
 
-  /** Lays a page's picture on the desk, with its curves over it. */
-  put(picture) {
+  /** Puts a page's picture and the overlay of its curves into the view. */
+  setPicture(picture) {
     const { views } = this.family.pages[this.page - 1] ?? { views: [] };
     const hadFocus = this.sheet.contains(document.activeElement);
     this.drawn = curvesOnPaper(this.family, views);
     this.overlay = pageOverlay(this.family, this.drawn, {
-      onfocus: (curve) => this.forward.focus(curve),
-      onblur: () => this.forward.leave(),
+      onfocus: (curve) => this.highlight.focus(curve),
+      onblur: () => this.highlight.leave(),
     });
-    this.forward.turn();
+    this.highlight.reset();
     fill(this.sheet, picture, this.overlay.element);
     this.overlay.links.values().next().value?.setAttribute("tabindex", "0");
     if (hadFocus) this.viewport.focus({ preventScroll: true });
-    this.beside();
+    this.showPanel();
     this.prefetch();
   }
 
-  /** What an address says beyond the page: a curve, and where to look. */
-  look(query) {
+  /** Applies the rest of the address: a curve, and the zoom position. */
+  applyQuery(query) {
     const [near, at] = [Number(query.get("zoom")), (query.get("at") ?? "").split(",").map(Number)];
     if (near > 1 && at.length === 2 && at.every(Number.isFinite)) this.zoom.showAt(near, at);
-    else if (this.wasLooked === undefined) this.zoom.fit();
-    this.wasLooked = true;
-    const curve = query.has("curve") ? curveAt(this.family, query.get("curve")) : undefined;
-    if (this.drawn.some((candidate) => candidate.curve === curve)) this.forward.choose(curve);
+    else if (this.hasPosition === undefined) this.zoom.fit();
+    this.hasPosition = true;
+    const curve = query.has("curve") ? findCurve(this.family, query.get("curve")) : undefined;
+    if (this.drawn.some((candidate) => candidate.curve === curve)) this.highlight.select(curve);
     else {
-      this.forward.choose(null);
-      this.beside();
+      this.highlight.select(null);
+      this.showPanel();
     }
-    // A page that is turned stays as near as the one before, and its address says so.
+    // Another page keeps the zoom of the previous one, and its address contains it.
     this.zoomed();
   }
 
-  /** The curves of the page beside it, or the one that is forward. */
-  beside(curve = null) {
+  /** Shows the list of curves, or one curve, in the panel. */
+  showPanel(curve = null) {
     const all = () => {
-      this.forward.choose(null);
-      this.beside();
+      this.highlight.select(null);
+      this.showPanel();
       this.viewport.focus({ preventScroll: true });
     };
-    const enter = { onenter: (other) => this.forward.glance(other), onleave: () => this.forward.leave() };
+    const listeners = {
+      onenter: (other) => this.highlight.preview(other),
+      onleave: () => this.highlight.leave(),
+    };
     fill(
       this.panel,
       curve === null
-        ? curvesPanel(this.family, this.page, this.drawn, enter)
+        ? curveListPanel(this.family, this.page, this.drawn, listeners)
         : curvePanel(this.app, this.family, curve, { onall: all }),
     );
     fill(this.legend, this.family.legend ?? "");
   }
 
-  /** Has the pages before and after at hand. */
+  /** Prefetches the previous and the next page. */
   prefetch() {
     for (const page of [this.page + 1, this.page - 1]) {
       const file = page >= 1 && pageFile(this.app.atlas, this.family.id, page);
@@ -166,47 +172,44 @@ class PageDesk {
   hovered(event) {
     if (event.pointerType === "touch" || this.zoom.isDragging || !this.drawn) return;
     const place = this.zoom.placeOf(event);
-    this.forward.hover(nearestCurve(this.drawn, place, this.reach(8)), place);
+    this.highlight.hover(nearestCurve(this.drawn, place, this.reach(8)), place);
   }
 
   tapped(event) {
     const place = this.zoom.placeOf(event);
     const found = nearestCurve(this.drawn, place, this.reach(event.pointerType === "touch" ? 20 : 8));
     if (!found) {
-      this.forward.choose(null);
-      this.beside();
-    } else if (event.pointerType !== "touch" || this.forward.chosen === found.curve) {
+      this.highlight.select(null);
+      this.showPanel();
+    } else if (event.pointerType !== "touch" || this.highlight.selected === found.curve) {
       this.choose(found.curve);
       this.app.go(address([this.family.id, "curve", curveKey(this.family, found.curve)]));
       return;
     } else {
-      this.forward.choose(found.curve, place);
+      this.highlight.select(found.curve, place);
     }
     this.remember();
   }
 
-  /** Whoever comes back from a plate finds its curve forward. */
+  /** Selects the curve of a link that is followed, so that it is highlighted on return. */
   followed({ target }) {
     const key = target.closest('a[href*="/curve/"]')?.getAttribute("href").split("/").at(-1);
-    const curve = key && curveAt(this.family, key);
+    const curve = key && findCurve(this.family, key);
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.choose(curve);
   }
 
   choose(curve) {
-    this.forward.choose(curve);
+    this.highlight.select(curve);
     this.remember();
   }
 
-  /**
-   * How far from a curve a pointer may be, in millimetres: some pixels, or 3 mm where these are few pixels
-   * too.
-   */
+  /** The pointer tolerance in millimetres: a number of pixels, or 3 mm if that is not much more. */
   reach(pixels) {
     return Math.max(pixels, Math.min(3 * this.zoom.scale, 2 * pixels)) / this.zoom.scale;
   }
 
-  typed(event) {
-    const act = actOfKey(event, this);
+  handleKey(event) {
+    const act = keyAction(event, this);
     if (!act) return;
     event.preventDefault();
     act();
@@ -218,32 +221,33 @@ class PageDesk {
   }
 
   zoomed() {
-    this.tell();
-    this.forward.zoomed();
+    this.updateBar();
+    this.highlight.updateZoom();
     window.clearTimeout(this.remembering);
     this.remembering = window.setTimeout(() => this.settled(), 400);
   }
 
-  /** The zoom has come to rest. */
+  /** Handles the end of a zoom. */
   settled() {
-    const percent = `${Math.round(this.zoom.nearness * 100)} %`;
-    if (this.saidPercent !== undefined && percent !== this.saidPercent) this.app.say(`Zoom ${percent}`);
-    this.saidPercent = percent;
+    const percent = `${Math.round(this.zoom.magnification * 100)} %`;
+    if (this.announcedPercent !== undefined && percent !== this.announcedPercent)
+      this.app.announce(`Zoom ${percent}`);
+    this.announcedPercent = percent;
     this.remember();
   }
 
-  tell() {
-    this.bar.tell({ page: this.page, nearness: this.zoom.nearness, isFit: this.zoom.isFit });
+  updateBar() {
+    this.bar.update({ page: this.page, magnification: this.zoom.magnification, isFit: this.zoom.isFit });
   }
 
-  /** Keeps in the address what is looked at. */
+  /** Writes the current state to the address. */
   remember() {
     if (this.hasLeft || this.page === undefined) return;
-    const { isFit, nearness, middle } = this.zoom;
+    const { isFit, magnification, middle } = this.zoom;
     this.app.replace(
       address([this.family.id, this.page], {
-        curve: this.forward.chosen === null ? null : curveKey(this.family, this.forward.chosen),
-        zoom: isFit ? null : nearness.toFixed(2),
+        curve: this.highlight.selected === null ? null : curveKey(this.family, this.highlight.selected),
+        zoom: isFit ? null : magnification.toFixed(2),
         at: isFit ? null : middle.map((mm) => mm.toFixed(1)).join(","),
       }),
     );

@@ -3,28 +3,28 @@
 import { h } from "./dom.js";
 
 /**
- * A button that pins the curve of a name, "family:cell.trace.circuit", and takes it down again. What it says
- * are the children, or else whether the curve is pinned.
+ * A button that pins or unpins the curve with a name, "family:cell.trace.circuit". Without children, its
+ * label says whether the curve is pinned.
  */
 export function pinButton(app, name, attributes = {}, ...children) {
   const act = () => {
     const { pin } = button.dataset;
     app.pins.toggle(pin);
     markPin(app, button);
-    app.say(app.pins.has(pin) ? `${pin} pinned` : `${pin} no longer pinned`);
+    app.announce(app.pins.has(pin) ? `${pin} pinned` : `${pin} unpinned`);
   };
   const button = h("button", { type: "button", "data-pin": name, onclick: act, ...attributes }, ...children);
   markPin(app, button);
   return button;
 }
 
-/** Has a button pin the curve of another name from now on. */
-export function namePin(app, button, name) {
+/** Sets the curve that a button pins. */
+export function setPinName(app, button, name) {
   button.dataset.pin = name;
   markPin(app, button);
 }
 
-/** Keeps the buttons in an element as the pins are, until the function that it returns is called. */
+/** Keeps the pin buttons in an element up to date; returns a function that stops it. */
 export function watchPins(app, element) {
   return app.pins.watch(() =>
     element.querySelectorAll("[data-pin]").forEach((button) => markPin(app, button)),

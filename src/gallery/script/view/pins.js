@@ -1,6 +1,6 @@
-// The pinned curves, which are compared and taken away together.
+// The pinned curves, which are compared and exported together.
 
-/** A board of pins: names of curves, "family:cell.trace.circuit", in the order in which they were pinned. */
+/** The names of pinned curves, "family:cell.trace.circuit", in the order in which they were pinned. */
 export class Pins {
   constructor() {
     this.names = [];
@@ -11,42 +11,39 @@ export class Pins {
     return this.names.includes(name);
   }
 
-  /** Pins a curve that is not pinned, and takes down one that is. */
+  /** Pins a curve, or unpins it if it is pinned. */
   toggle(name) {
-    this.put(this.has(name) ? this.names.filter((known) => known !== name) : [...this.names, name]);
+    this.set(this.has(name) ? this.names.filter((known) => known !== name) : [...this.names, name]);
   }
 
-  /** Replaces all of them. */
-  put(names) {
+  /** Replaces all pins. */
+  set(names) {
     this.names = [...new Set(names)];
     this.listeners.forEach((listener) => listener(this.names));
   }
 
-  /** Calls `listener` with the names whenever they change, until the function it returns is called. */
+  /** Calls `listener` with the names whenever they change; returns a function that stops it. */
   watch(listener) {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   }
 }
 
-/**
- * The pins of a window: a tab keeps them for its page when that is loaded again, where the browser lets a
- * page from disk.
- */
-export function pinsOfTab(window) {
+/** The pins of a browser tab. They survive a reload if the browser allows storage for pages on disk. */
+export function tabPins(window) {
   const pins = new Pins();
   const key = `coupler-atlas-pins ${window.location.pathname}`;
   try {
-    const kept = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
-    pins.put(kept.filter((name) => typeof name === "string"));
+    const stored = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
+    pins.set(stored.filter((name) => typeof name === "string"));
   } catch {
-    // What was not kept is pinned again by hand.
+    // Unreadable pins are dropped.
   }
   pins.watch((names) => {
     try {
       window.sessionStorage.setItem(key, JSON.stringify(names));
     } catch {
-      // Then pins last as long as the page.
+      // Without storage, pins last until the page is closed.
     }
   });
   return pins;

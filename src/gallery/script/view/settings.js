@@ -1,10 +1,9 @@
-// The theme: as the system has it, light, or dark; remembered from one visit to the next where the browser
-// lets a page.
+// The theme: system, light or dark, remembered between visits if the browser allows storage.
 
 import { h } from "./dom.js";
 
-const KEPT_THEME = "coupler-atlas-theme";
-const KEPT_PAGES = "coupler-atlas-pages";
+const THEME_KEY = "coupler-atlas-theme";
+const PAGES_KEY = "coupler-atlas-pages";
 
 const THEME_CHOICES = [
   ["system", "Theme: system"],
@@ -13,57 +12,57 @@ const THEME_CHOICES = [
 ];
 
 /**
- * The choice of the theme, which takes effect at once. `data-theme` of <html> is always the one in effect,
- * light or dark; "themechange" is dispatched on document when it changes.
+ * The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or
+ * dark; "themechange" is dispatched on document when it changes.
  */
-export function themeChoice() {
+export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  let wish = keptTheme();
-  const put = () => {
-    const theme = wish === "system" ? (dark.matches ? "dark" : "light") : wish;
+  let choice = storedTheme();
+  const apply = () => {
+    const theme = choice === "system" ? (dark.matches ? "dark" : "light") : choice;
     if (document.documentElement.dataset.theme === theme) return;
     document.documentElement.dataset.theme = theme;
     document.dispatchEvent(new CustomEvent("themechange", { detail: theme }));
   };
-  dark.addEventListener("change", put);
-  put();
+  dark.addEventListener("change", apply);
+  apply();
   const choose = (event) => {
-    wish = event.target.value;
-    keepChoice(KEPT_THEME, wish);
-    put();
+    choice = event.target.value;
+    storeChoice(THEME_KEY, choice);
+    apply();
   };
   const options = THEME_CHOICES.map(([value, label]) =>
-    h("option", { value, selected: value === wish }, label),
+    h("option", { value, selected: value === choice }, label),
   );
   return h("select", { class: "theme quiet", "aria-label": "Theme", onchange: choose }, options);
 }
 
 /**
- * A switch, of use in the dark alone: pages as they were printed, or turned to light ink on dark paper.
- * `data-pages` of <html> is "printed" or absent.
+ * A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is
+ * "printed" or absent.
  */
-export function printedSwitch() {
+export function printedColorsButton() {
   const root = document.documentElement;
-  const put = (isPrinted) => {
+  const apply = (isPrinted) => {
     if (isPrinted) root.dataset.pages = "printed";
     else delete root.dataset.pages;
     button.setAttribute("aria-pressed", String(isPrinted));
   };
   const act = () => {
-    put(root.dataset.pages !== "printed");
-    keepChoice(KEPT_PAGES, root.dataset.pages ?? "turned");
+    apply(root.dataset.pages !== "printed");
+    storeChoice(PAGES_KEY, root.dataset.pages ?? "turned");
   };
-  const button = h("button", { type: "button", class: "as-printed", onclick: act }, "As printed");
-  put(keptChoice(KEPT_PAGES) === "printed");
+  const button = h("button", { type: "button", class: "as-printed", onclick: act }, "Printed colours");
+  apply(storedChoice(PAGES_KEY) === "printed");
   return button;
 }
 
-function keptTheme() {
-  const theme = keptChoice(KEPT_THEME);
+function storedTheme() {
+  const theme = storedChoice(THEME_KEY);
   return THEME_CHOICES.some(([value]) => value === theme) ? theme : "system";
 }
 
-function keptChoice(name) {
+function storedChoice(name) {
   try {
     return window.localStorage.getItem(name);
   } catch {
@@ -71,11 +70,11 @@ function keptChoice(name) {
   }
 }
 
-/** Where the browser keeps nothing for pages from disk, a choice lasts as long as the page. */
-function keepChoice(name, value) {
+/** Without storage, a choice lasts until the page is closed. */
+function storeChoice(name, value) {
   try {
     window.localStorage.setItem(name, value);
   } catch {
-    // There is nothing to be done about it, and nothing lost but a convenience.
+    // Nothing can be done about it.
   }
 }

@@ -1,27 +1,27 @@
-// The frame of the gallery: its heading, the ways to its rooms, the room itself, and what stands below.
+// The frame of the gallery: header, navigation, the current view and footer.
 
-import { address, parsedAddress } from "../data/address.js";
+import { address, parseAddress } from "../data/address.js";
 import { fill, h } from "./dom.js";
-import { themeChoice } from "./settings.js";
-import { scrollMemory } from "./shell-scroll.js";
-import { footer } from "./shell-footer.js";
+import { themeSelect } from "./settings.js";
+import { scrollMemory } from "./scroll-memory.js";
+import { footer } from "./footer.js";
 
-// A room that takes longer than this to open, in milliseconds, says that it is being opened.
-const OPENING_PATIENCE = 250;
+// The time in milliseconds after which opening a view is announced.
+const BUSY_DELAY = 250;
 
 /**
- * Opens the gallery in an element. `rooms` are [{ name, label, way(app), under, opens(place, app),
- * view(app, place) }]: the first whose `opens` is true of an address shows it; `way` is the address of one
- * with a label, and one without stands `under` another. A view is, perhaps in a while, { element, title,
- * update(place), shown(), leave() }: `update`, where there is one, is told of further addresses of the same
- * room, and says whether it shows them; `shown` is called when the element is in the page; `leave` ends what
- * it began.
+ * Opens the gallery in an element. `routes` are [{ name, label, href(app), parent, matches(target, app),
+ * open(app, target) }]: the first whose `matches` is true for an address opens it. A route with a label is in
+ * the navigation, with the link `href`; one without belongs to its `parent`. `open` returns a view, or a
+ * promise of one: { element, title, update(target), shown(), leave() }. The optional `update` is called with
+ * further addresses of the same route and returns whether it handles them; `shown` is called when the element
+ * is in the document; `leave` releases resources.
  */
-export function openShell(app, rooms, root) {
-  const main = h("main", { id: "room", tabindex: "-1" });
-  const status = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
-  const ways = waysToRooms(app, rooms);
-  app.say = (text) => {
+export function openShell(app, routes, root) {
+  const main = h("main", { id: "content", tabindex: "-1" });
+  const status = h("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
+  const nav = navigation(app, routes);
+  app.announce = (text) => {
     status.textContent = text;
   };
   app.go = (fragment) => {
@@ -33,126 +33,125 @@ export function openShell(app, rooms, root) {
   };
   fill(
     root,
-    h("a", { class: "skip", href: "#room", onclick: skip }, "Skip to the content"),
+    h("a", { class: "skip", href: "#content", onclick: skip }, "Skip to content"),
     h(
       "header",
       { class: "masthead" },
       h("a", { class: "title", href: address([]) }, app.atlas.title),
-      ways.element,
-      themeChoice(),
+      nav.element,
+      themeSelect(),
     ),
     main,
     footer(app.atlas),
     status,
   );
-  const shower = new RoomShower(app, rooms, { main, ways, scroll: scrollMemory() });
+  const router = new Router(app, routes, { main, nav, scroll: scrollMemory() });
   app.replace = (fragment) => {
-    // A link that was just followed goes before what a view still has to remember: its event is to come.
-    if (window.location.hash !== shower.fragment) return;
+    // A link that was just followed takes precedence over a view's update: its event is pending.
+    if (window.location.hash !== router.fragment) return;
     window.history.replaceState(window.history.state, "", fragment);
-    shower.fragment = window.location.hash;
+    router.fragment = window.location.hash;
   };
-  window.addEventListener("hashchange", () => shower.show());
-  return shower.show();
+  window.addEventListener("hashchange", () => router.navigate());
+  return router.navigate();
 }
 
-/** The ways to the rooms, { element, mark(room) }; that to the pins says how many there are. */
-function waysToRooms(app, rooms) {
+/** The navigation, { element, mark(route) }, with the number of pins. */
+function navigation(app, routes) {
   const count = h("span", { class: "count" });
   const links = new Map(
-    rooms
+    routes
       .filter(({ label }) => label)
-      .map(({ name, label, way }) => [
+      .map(({ name, label, href }) => [
         name,
-        h("a", { href: way(app) }, label, name === "compare" ? count : null),
+        h("a", { href: href(app) }, label, name === "compare" ? count : null),
       ]),
   );
-  const counted = (names) =>
+  const showCount = (names) =>
     fill(count, names.length ? ` ${names.length}` : "", names.length ? pinned() : null);
-  const pinned = () => h("span", { class: "unseen" }, " pinned");
-  app.pins.watch(counted);
-  counted(app.pins.names);
-  const mark = (room) => {
+  const pinned = () => h("span", { class: "visually-hidden" }, " pinned");
+  app.pins.watch(showCount);
+  showCount(app.pins.names);
+  const mark = (route) => {
     for (const [name, link] of links) {
-      link.setAttribute("href", rooms.find((candidate) => candidate.name === name).way(app));
-      if (name === (room?.under ?? room?.name)) link.setAttribute("aria-current", "page");
+      link.setAttribute("href", routes.find((candidate) => candidate.name === name).href(app));
+      if (name === (route?.parent ?? route?.name)) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
   };
   app.pins.watch(() => {
-    const compare = rooms.find(({ name }) => name === "compare");
-    links.get("compare").setAttribute("href", compare.way(app));
+    const compare = routes.find(({ name }) => name === "compare");
+    links.get("compare").setAttribute("href", compare.href(app));
   });
-  return { element: h("nav", { class: "ways", "aria-label": "Gallery" }, [...links.values()]), mark };
+  return { element: h("nav", { class: "site-nav", "aria-label": "Gallery" }, [...links.values()]), mark };
 }
 
-/** What shows the room that the address says. */
-class RoomShower {
-  constructor(app, rooms, { main, ways, scroll }) {
-    Object.assign(this, { app, rooms, main, ways, scroll });
+/** Opens the view of the current address. */
+class Router {
+  constructor(app, routes, { main, nav, scroll }) {
+    Object.assign(this, { app, routes, main, nav, scroll });
     [this.shown, this.turn, this.fragment] = [null, 0, null];
   }
 
-  /** Shows what the address says, in the view that is there if it can, or else in a new one. */
-  async show() {
+  /** Shows the address in the current view if it handles it, otherwise in a new one. */
+  async navigate() {
     this.fragment = window.location.hash;
-    const place = parsedAddress(this.fragment);
-    const room = this.rooms.find((candidate) => candidate.opens(place, this.app));
+    const target = parseAddress(this.fragment);
+    const route = this.routes.find((candidate) => candidate.matches(target, this.app));
     this.scroll.leave();
-    if (this.shown && this.shown.room === room && this.shown.view.update?.(place)) {
-      this.entitle(this.shown.view.title);
+    if (this.shown && this.shown.route === route && this.shown.view.update?.(target)) {
+      this.setTitle(this.shown.view.title);
       return;
     }
     this.turn += 1;
-    const mine = this.turn;
-    // What was there rests, and is seen until there is something in its place.
+    const turn = this.turn;
+    // The previous view stays visible until the next one is ready.
     this.shown?.view.leave?.();
     this.shown = null;
-    this.ways.mark(room);
-    const waiting = window.setTimeout(() => this.wait(), OPENING_PATIENCE);
+    this.nav.mark(route);
+    const waiting = window.setTimeout(() => this.showBusy(), BUSY_DELAY);
     try {
-      if (!room) throw new Error("There is nothing at this address.");
-      const view = await room.view(this.app, place);
-      if (mine === this.turn) this.enter(room, view);
+      if (!route) throw new Error("There is no page at this address.");
+      const view = await route.open(this.app, target);
+      if (turn === this.turn) this.showView(route, view);
       else view.leave?.();
     } catch (error) {
-      if (mine === this.turn) this.trouble(error.message, place);
+      if (turn === this.turn) this.showError(error.message, target);
     } finally {
       window.clearTimeout(waiting);
-      if (mine === this.turn) this.main.removeAttribute("aria-busy");
+      if (turn === this.turn) this.main.removeAttribute("aria-busy");
     }
   }
 
-  wait() {
+  showBusy() {
     this.main.setAttribute("aria-busy", "true");
-    this.app.say("Opening");
+    this.app.announce("Loading");
   }
 
-  enter(room, view) {
-    this.shown = { room, view };
-    this.entitle(view.title);
+  showView(route, view) {
+    this.shown = { route, view };
+    this.setTitle(view.title);
     fill(this.main, view.element);
     view.shown?.();
     this.scroll.arrive();
-    // The first view takes the focus only if it wants to; and where there is something to look at, it has it
-    // already.
+    // The first view does not take the focus; later ones do, unless they have set it.
     if (this.turn === 1) return;
     if (!this.main.contains(document.activeElement)) this.main.focus({ preventScroll: true });
-    this.app.say(view.title || this.app.atlas.title);
+    this.app.announce(view.title || this.app.atlas.title);
   }
 
-  /** Says what is wrong with an address, and where to go on from there. */
-  trouble(message, { path: [id] }) {
+  /** Shows what is wrong with an address, with links to continue. */
+  showError(message, { path: [id] }) {
     const sentence = `${message[0].toUpperCase()}${message.slice(1)}`.replace(/[^.]$/, "$&.");
-    this.entitle("Not found");
-    this.app.say(sentence);
+    this.setTitle("Not found");
+    this.app.announce(sentence);
     const family = this.app.atlas.families.find((candidate) => candidate.id === id);
     const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
     const all = h("a", { href: address([]) }, "All families");
-    fill(this.main, h("p", { class: "trouble", role: "alert" }, sentence, " ", own, all));
+    fill(this.main, h("p", { class: "error", role: "alert" }, sentence, " ", own, all));
   }
 
-  entitle(title) {
+  setTitle(title) {
     document.title = title ? `${title} · ${this.app.atlas.title}` : this.app.atlas.title;
   }
 }

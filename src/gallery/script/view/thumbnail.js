@@ -1,22 +1,21 @@
-// Curves drawn small, from the points of the data: SVG in the inks of the theme, crisp on any screen and on
-// paper.
+// Thumbnails of curves, from the stored points: SVG in the colours of the theme, for screen and print.
 
 import { curvePoints } from "../data/family.js";
 import { s } from "./dom.js";
 
-// How far a line keeps from the edge of its thumbnail, in pixels.
+// The margin of a thumbnail, in pixels.
 const THUMBNAIL_INSET = 3;
-// Places closer than this, in pixels, are one.
+// Points closer than this, in pixels, are merged.
 const THUMBNAIL_GRAIN = 0.6;
 
 /**
- * Some curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels,
- * hidden from screen readers, since what it shows is said beside it. Several curves take the five inks of
- * curves in turn; with `plain` all take the colour of the text.
+ * Curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden
+ * from screen readers because adjacent text describes it. Several curves cycle through the five curve
+ * colours; with `plain` all have the text colour.
  */
 export function thumbnail(family, curves, { width, height, plain = curves.length === 1 }) {
   const [x0, y0, x1, y1] = boxOfCurves(family, curves);
-  const scale = fittingScale(x1 - x0, y1 - y0, width - 2 * THUMBNAIL_INSET, height - 2 * THUMBNAIL_INSET);
+  const scale = scaleToFit(x1 - x0, y1 - y0, width - 2 * THUMBNAIL_INSET, height - 2 * THUMBNAIL_INSET);
   const across = width / 2 - (scale * (x0 + x1)) / 2;
   const down = height / 2 + (scale * (y0 + y1)) / 2;
   const paths = curves.map((curve, k) =>
@@ -39,7 +38,7 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
   );
 }
 
-/** The least and greatest x and y of some curves, [x0, y0, x1, y1], in the unit of lengths. */
+/** The bounding box of curves, [x0, y0, x1, y1], in the unit of length. */
 function boxOfCurves(family, curves) {
   const whole = [Infinity, Infinity, -Infinity, -Infinity];
   for (const curve of curves) {
@@ -50,14 +49,14 @@ function boxOfCurves(family, curves) {
   return whole.every(Number.isFinite) ? whole : [0, 0, 0, 0];
 }
 
-function fittingScale(wide, high, width, height) {
+function scaleToFit(wide, high, width, height) {
   const scale = Math.min(width / wide, height / high);
   return Number.isFinite(scale) && scale > 0 ? scale : 1;
 }
 
 /**
- * The path data of a curve seen through a view, { scale, origin: [x, y] }: X = x + scale · px, Y = y − scale
- * · py. Places closer than `grain` to the one before are left out; the first and the last are kept.
+ * The path data of a curve in a view, { scale, origin: [x, y] }: X = x + scale · px, Y = y − scale · py.
+ * Points closer than `grain` to the previous one are left out, except the first and the last.
  */
 export function curvePath(family, curve, { scale, origin }, grain) {
   const points = curvePoints(family, curve);

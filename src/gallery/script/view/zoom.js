@@ -1,18 +1,17 @@
-// A sheet of paper under a window that can be moved nearer and about: by wheel, drag, pinch, keys and
-// buttons.
+// Zooms and pans a page by wheel, drag, pinch, keys and buttons.
 //
-// The sheet is sized, never scaled: what is in it is drawn anew at each size, and stays crisp.
+// The page is resized, not scaled, so that it is redrawn sharply at each size.
 
-// The nearest, as a multiple of the size that fits the window.
+// The maximum magnification.
 const NEAREST = 32;
-// So much of the window stays free around a sheet that fits, in pixels.
+// The margin around a page that fits the window, in pixels.
 const FIT_MARGIN = 12;
-// Pointers that move less than this, in pixels, tap.
+// Pointers that move less than this, in pixels, are taps.
 const TAP_SLACK = 5;
 
 /**
- * Where a sheet of `width` × `height` millimetres lies in a viewport: `scale` in pixels per millimetre, the
- * sheet's corner at `x`, `y` pixels. `onchange(this)` is called, once a frame at most, whenever it has moved.
+ * The position of a page of `width` × `height` millimetres in a viewport: `scale` in pixels per millimetre,
+ * and the page's corner at `x`, `y` pixels. Calls `onchange(this)` when it has moved, at most once per frame.
  */
 export class Zoom {
   constructor(viewport, sheet, { width, height, onchange, ontap }) {
@@ -30,13 +29,13 @@ export class Zoom {
     }
   }
 
-  /** Ends what watches the viewport. */
+  /** Stops observing the viewport. */
   end() {
     this.resizes.disconnect();
     cancelAnimationFrame(this.pending);
   }
 
-  /** The pixels per millimetre at which the whole sheet is seen. */
+  /** The pixels per millimetre at which the whole page is visible. */
   get fitScale() {
     const { clientWidth, clientHeight } = this.viewport;
     const fit = Math.min(
@@ -46,52 +45,52 @@ export class Zoom {
     return Math.max(fit, 0.05);
   }
 
-  /** How many times nearer than fitting. */
-  get nearness() {
+  /** The scale relative to the scale that fits. */
+  get magnification() {
     return this.scale / this.fitScale;
   }
 
-  /** The place on the sheet, in millimetres, in the middle of the viewport. */
+  /** The position on the page, in millimetres, at the centre of the viewport. */
   get middle() {
     return this.placeAt(this.viewport.clientWidth / 2, this.viewport.clientHeight / 2);
   }
 
-  /** The place on the sheet, in millimetres, at pixels of the viewport. */
+  /** The position on the page, in millimetres, at pixels of the viewport. */
   placeAt(x, y) {
     return [(x - this.x) / this.scale, (y - this.y) / this.scale];
   }
 
-  /** The place on the sheet, in millimetres, that a pointer's event is at. */
+  /** The position on the page, in millimetres, of a pointer event. */
   placeOf(event) {
     return this.placeAt(...this.pixelOf(event.clientX, event.clientY));
   }
 
-  /** The pixels of the viewport, within its border, at pixels of the window. */
+  /** The pixels of the viewport, inside its border, at pixels of the window. */
   pixelOf(x, y) {
     const { left, top } = this.viewport.getBoundingClientRect();
     return [x - left - this.viewport.clientLeft, y - top - this.viewport.clientTop];
   }
 
-  /** Shows the whole sheet. */
+  /** Shows the whole page. */
   fit() {
     this.isFit = true;
     this.scale = this.fitScale;
     this.x = (this.viewport.clientWidth - this.scale * this.width) / 2;
     this.y = (this.viewport.clientHeight - this.scale * this.height) / 2;
-    this.lay();
+    this.constrain();
   }
 
-  /** Shows a place on the sheet in the middle, so many times nearer than fitting. */
-  showAt(nearness, [x, y]) {
+  /** Centres a position of the page at a magnification. */
+  showAt(magnification, [x, y]) {
     this.isFit = false;
-    this.scale = this.fitScale * Math.min(Math.max(nearness, 1), NEAREST);
+    this.scale = this.fitScale * Math.min(Math.max(magnification, 1), NEAREST);
     this.x = this.viewport.clientWidth / 2 - this.scale * x;
     this.y = this.viewport.clientHeight / 2 - this.scale * y;
-    this.lay();
+    this.constrain();
   }
 
-  /** Nearer by a factor, about a place in pixels of the viewport (its middle). */
-  by(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
+  /** Zooms by a factor about a point in pixels of the viewport (default: its centre). */
+  zoomBy(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
     const fit = this.fitScale;
     const scale = Math.min(Math.max(this.scale * factor, fit), NEAREST * fit);
     if (scale <= fit * 1.001) {
@@ -101,18 +100,18 @@ export class Zoom {
     const [atX, atY] = this.placeAt(x, y);
     [this.isFit, this.scale] = [false, scale];
     [this.x, this.y] = [x - scale * atX, y - scale * atY];
-    this.lay();
+    this.constrain();
   }
 
-  /** Moves the sheet by pixels. */
+  /** Moves the page by pixels. */
   pan(dx, dy) {
     if (this.isFit) return;
     this.x += dx;
     this.y += dy;
-    this.lay();
+    this.constrain();
   }
 
-  /** Moves the sheet so that a box of it, [x0, y0, x1, y1] in millimetres, is seen. */
+  /** Moves the page so that a box, [x0, y0, x1, y1] in millimetres, is visible. */
   reveal([x0, y0, x1, y1]) {
     const [left, top] = this.placeAt(0, 0);
     const [right, bottom] = this.placeAt(this.viewport.clientWidth, this.viewport.clientHeight);
@@ -123,31 +122,31 @@ export class Zoom {
     );
   }
 
-  /** What is in the middle of the viewport stays there, no nearer than can be. */
+  /** Keeps the centre of the viewport when it is resized, within the zoom limits. */
   resized() {
     if (this.isFit) {
       this.fit();
       return;
     }
     const { clientWidth, clientHeight } = this.viewport;
-    this.x += (clientWidth - this.laid.width) / 2;
-    this.y += (clientHeight - this.laid.height) / 2;
-    this.by(1);
+    this.x += (clientWidth - this.constrainedTo.width) / 2;
+    this.y += (clientHeight - this.constrainedTo.height) / 2;
+    this.zoomBy(1);
   }
 
-  /** Keeps a part of the sheet in sight, and puts it there in the next frame. */
-  lay() {
+  /** Keeps a part of the page visible, and schedules the update for the next frame. */
+  constrain() {
     const { clientWidth, clientHeight } = this.viewport;
-    this.laid = { width: clientWidth, height: clientHeight };
-    const within = (at, size, room) => Math.min(Math.max(at, room / 2 - size), room / 2);
+    this.constrainedTo = { width: clientWidth, height: clientHeight };
+    const within = (at, size, available) => Math.min(Math.max(at, available / 2 - size), available / 2);
     if (!this.isFit) {
       this.x = within(this.x, this.scale * this.width, clientWidth);
       this.y = within(this.y, this.scale * this.height, clientHeight);
     }
-    if (!this.pending) this.pending = requestAnimationFrame(() => this.put());
+    if (!this.pending) this.pending = requestAnimationFrame(() => this.apply());
   }
 
-  put() {
+  apply() {
     this.pending = 0;
     const { style } = this.sheet;
     style.width = `${this.scale * this.width}px`;
@@ -165,9 +164,9 @@ export class Zoom {
       this.pan(-(dx || dy), event.shiftKey ? 0 : -dy);
       return;
     }
-    // A pinch on a touchpad is told as a wheel with the control key, in small steps.
+    // A pinch on a touchpad is reported as a wheel event with the control key, in small steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
-    this.by(
+    this.zoomBy(
       Math.exp(-rate * Math.min(Math.max(dy, -300), 300)),
       ...this.pixelOf(event.clientX, event.clientY),
     );
@@ -198,10 +197,10 @@ export class Zoom {
     else this.pinched(others[0], before, pointer);
   }
 
-  /** One finger stays, the other goes from `before` to `after`. */
+  /** One finger stays, the other moves from `before` to `after`. */
   pinched(still, before, after) {
     const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
-    this.by(
+    this.zoomBy(
       spread(after) / spread(before),
       ...this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2),
     );
@@ -214,7 +213,7 @@ export class Zoom {
     if (this.pointers.size === 0) this.isTap = false;
   }
 
-  /** Whether a pointer drags the sheet. */
+  /** Whether a pointer drags the page. */
   get isDragging() {
     return this.pointers.size > 0 && !this.isTap;
   }

@@ -1,10 +1,13 @@
-// The facts of curves side by side, with what differs made visible.
+// The parameters and measures of curves next to each other, with differences emphasized.
 
-import { cellValues, measured } from "../../data/family.js";
+import { cellValues, measureValue } from "../../data/family.js";
 import { h } from "../dom.js";
-import { figure, measureAloneInWords, measureText } from "../page-words.js";
+import { formatNumber, standaloneMeasureLabel, measureText } from "../labels.js";
 
-/** A table of what is known of curves, [{ family, curve, name }]: a column for each, differing rows first. */
+/**
+ * A table of parameters and measures of curves, [{ family, curve, name }]: a column for each, differing rows
+ * first.
+ */
 export function factsTable(curves, measures, labels) {
   const rows = [...parameterRows(curves), ...measureRows(curves, measures)].filter(({ texts }) =>
     texts.some((text) => text !== "–"),
@@ -22,11 +25,11 @@ export function factsTable(curves, measures, labels) {
   const same = rows.filter(({ differs }) => !differs);
   return h(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": "Facts compared" },
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": "Comparison of parameters and measures" },
     h(
       "table",
       { class: "figures compared-facts" },
-      h("caption", { class: "note" }, "What is not as in the first is in bold."),
+      h("caption", { class: "note" }, "Differences from the first curve are in bold."),
       h(
         "thead",
         {},
@@ -45,7 +48,7 @@ export function factsTable(curves, measures, labels) {
             h(
               "tr",
               {},
-              h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "The same of all"),
+              h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "Identical"),
             ),
             same.map(line),
           )
@@ -58,7 +61,7 @@ function parameterRows(curves) {
   const names = [...new Set(curves.flatMap(({ family }) => family.names))];
   const value = ({ family, curve }, name) => {
     const at = family.names.indexOf(name);
-    return at < 0 ? "–" : figure(cellValues(family, family.curves.cell[curve])[at], 6);
+    return at < 0 ? "–" : formatNumber(cellValues(family, family.curves.cell[curve])[at], 6);
   };
   const family = { label: "family", texts: curves.map((one) => one.family.title) };
   return [family, ...names.map((name) => ({ label: name, texts: curves.map((one) => value(one, name)) }))];
@@ -66,9 +69,9 @@ function parameterRows(curves) {
 
 function measureRows(curves, measures) {
   return measures.map((measure) => ({
-    label: measureAloneInWords(measure.name),
+    label: standaloneMeasureLabel(measure.name),
     texts: curves.map(({ family, curve }) =>
-      measured(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
+      measureValue(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
     ),
   }));
 }

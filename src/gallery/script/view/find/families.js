@@ -1,13 +1,13 @@
-// Which families are looked through.
+// Selects the families to search.
 
 import { h } from "../dom.js";
-import { bytesInWords } from "./loading.js";
+import { formatBytes } from "../footer.js";
 
 /**
- * Boxes for the families of an atlas; `changed(ids)` is called with those ticked, null for all. Nothing for
- * an only family.
+ * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if
+ * there is only one family.
  */
-export function familyChoice(atlas, loaded, changed) {
+export function familyChooser(atlas, loaded, changed) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (withCurves.length < 2) return null;
   const chosen = new Set(loaded.map(({ id }) => id));
@@ -41,10 +41,15 @@ export function familyChoice(atlas, loaded, changed) {
       h(
         "button",
         { type: "button", class: "quiet", onclick: () => changed(withCurves.map(({ id }) => id)) },
-        `All (${bytesInWords(bytes)})`,
+        `All (${formatBytes(bytes)})`,
       ),
       h("button", { type: "button", class: "quiet", onclick: () => changed([]) }, "None"),
     ),
-    h("fieldset", { class: "words" }, h("legend", { class: "unseen" }, "Families"), withCurves.map(box)),
+    h(
+      "fieldset",
+      { class: "words" },
+      h("legend", { class: "visually-hidden" }, "Families"),
+      withCurves.map(box),
+    ),
   );
 }

@@ -1,53 +1,46 @@
-// Families for what looks through many of them: loaded one after another, so that the page stays awake.
+// Loads families one after another without blocking the page.
 
-// An atlas up to this size, in bytes, is loaded whole without being asked.
-const LOADED_UNASKED = 48e6;
+// An atlas up to this size, in bytes, is loaded completely without a request.
+const MAX_AUTOLOAD_BYTES = 48e6;
 
-/**
- * The families that a question is about: those it names, or all if they are not too much together, or none.
- */
-export function familiesAsked(atlas, ids) {
+/** The families that a query needs: those it names, or all if they are not too large together, or none. */
+export function requestedFamilies(atlas, ids) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   if (ids) return withCurves.filter(({ id }) => ids.includes(id));
   const bytes = withCurves.reduce((sum, family) => sum + (family.bytes ?? 0), 0);
-  return bytes <= LOADED_UNASKED ? withCurves : [];
+  return bytes <= MAX_AUTOLOAD_BYTES ? withCurves : [];
 }
 
 /**
- * Loads families one after another; `come(families, done, all)` is told of those that are there, now and then
- * and at the end. Gives a function that stops it. A family that cannot be read is told to `trouble` and left
- * out.
+ * Loads families one after another. Calls `onLoad(families, done, all)` with those loaded so far,
+ * occasionally and at the end, and `onError` with the message for a family that cannot be read, which is
+ * skipped. Returns a function that stops loading.
  */
-export function loadingFamilies(atlas, listed, come, trouble) {
+export function loadFamilies(atlas, listed, onLoad, onError) {
   let stopped = false;
   const there = [];
   const load = async () => {
-    let told = performance.now();
+    let reportedAt = performance.now();
     for (const [k, { id }] of listed.entries()) {
       try {
         there.push(await atlas.family(id));
       } catch (error) {
-        trouble(error.message);
+        onError(error.message);
       }
       if (stopped) return;
       const isLast = k === listed.length - 1;
-      if (!isLast && performance.now() - told < 400) continue;
-      come([...there], k + 1, listed.length);
-      // A pause for what has been pressed meanwhile.
+      if (!isLast && performance.now() - reportedAt < 400) continue;
+      onLoad([...there], k + 1, listed.length);
+      // Lets the page handle input meanwhile.
       await new Promise((resume) => {
         setTimeout(resume, 0);
       });
-      told = performance.now();
+      reportedAt = performance.now();
     }
-    if (!listed.length) come([], 0, 0);
+    if (!listed.length) onLoad([], 0, 0);
   };
   load();
   return () => {
     stopped = true;
   };
-}
-
-/** Bytes in words: "6.4 MB". */
-export function bytesInWords(bytes) {
-  return bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }

@@ -1,10 +1,10 @@
-// The filters of a table, those that people want first before the others.
+// The panel of filters, the most useful first.
 
 import { fill, h } from "../dom.js";
-import { RangeFilter } from "./range.js";
-import { WordFilter } from "./words.js";
+import { RangeFilter } from "./range-filter.js";
+import { WordFilter } from "./word-filter.js";
 
-/** `changed(name, filter)` is called whenever a filter is changed; null takes it away. */
+/** Calls `changed(name, filter)` when a filter is changed; null removes it. */
 export class FilterPanel {
   constructor(changed) {
     this.changed = changed;
@@ -13,23 +13,23 @@ export class FilterPanel {
     this.opened = new Set();
   }
 
-  /** Makes the filters of a table's columns, as a question has them. */
-  put(columns, table, question) {
+  /** Creates the filters for the columns of a table, set as in a query. */
+  setColumns(columns, table, query) {
     this.filters.clear();
     const groups = { first: [], more: [], parameters: [] };
     for (const column of columns)
-      groups[column.group].push(this.made(column, table, question.filters.get(column.name)));
-    const isAsked = (group) =>
-      columns.some((column) => column.group === group && question.filters.has(column.name));
+      groups[column.group].push(this.createFilter(column, table, query.filters.get(column.name)));
+    const isFiltered = (group) =>
+      columns.some((column) => column.group === group && query.filters.has(column.name));
     fill(
       this.element,
       groups.first,
-      this.unfolding("parameters", "Parameters", groups.parameters, isAsked("parameters")),
-      this.unfolding("more", "More measures", groups.more, isAsked("more")),
+      this.group("parameters", "Parameters", groups.parameters, isFiltered("parameters")),
+      this.group("more", "More measures", groups.more, isFiltered("more")),
     );
   }
 
-  made(column, table, filter) {
+  createFilter(column, table, filter) {
     const changed = (next) => this.changed(column.name, next);
     const kind = column.kind === "words" ? WordFilter : RangeFilter;
     const one = new kind(column, table, filter, changed);
@@ -37,7 +37,7 @@ export class FilterPanel {
     return one.element;
   }
 
-  unfolding(group, label, elements, isOpen) {
+  group(group, label, elements, isOpen) {
     if (!elements.length) return null;
     if (isOpen) this.opened.add(group);
     const toggled = ({ target }) => {
@@ -53,10 +53,10 @@ export class FilterPanel {
     );
   }
 
-  /** Shows what filters leave, in the groups that are unfolded. */
+  /** Shows the counts of the remaining rows, in groups that are open. */
   show(filters) {
     this.shown = filters;
-    const rows = filters.left();
+    const rows = filters.rows();
     for (const [name, one] of this.filters) {
       if (one.column.group !== "first" && !this.opened.has(one.column.group)) continue;
       one.show(one instanceof WordFilter ? filters.wordCounts(name) : rows);

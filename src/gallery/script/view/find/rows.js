@@ -1,19 +1,19 @@
-// What the filters leave, as a table of which only the rows near the window are in the page.
+// The results as a table; only the rows near the window are in the document.
 
 import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
 import { fill, h } from "../dom.js";
-import { lineOnPaper, whenPrinted } from "../on-paper.js";
+import { printedCountNote, onPrint } from "../printing.js";
 import { watchPins } from "../pin-button.js";
-import { columnInWords, columnValueText } from "./column-words.js";
-import { pinnedByKey, pinOfCurve } from "./pin.js";
+import { columnLabel, columnValueText } from "./column-label.js";
+import { pinOnKey, curvePinButton } from "./curve-pin.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
-// So many rows at most, from the first, are printed.
+// The maximum number of rows printed.
 const PRINTED_ROWS = 1000;
 
-/** A table of rows; `sorted(name)` is called when a heading is pressed. */
+/** A table of rows; calls `sorted(name)` when a column heading is pressed. */
 export class ResultRows {
   constructor(app, sorted) {
     Object.assign(this, { app, sorted });
@@ -23,7 +23,7 @@ export class ResultRows {
     this.figures = h(
       "table",
       { class: "figures results-table" },
-      h("caption", { class: "unseen" }, "Curves"),
+      h("caption", { class: "visually-hidden" }, "Curves"),
       this.head,
       this.body,
     );
@@ -35,12 +35,12 @@ export class ResultRows {
         role: "region",
         "aria-label": "Table of curves",
         onscroll: () => this.fill(),
-        onkeydown: pinnedByKey,
+        onkeydown: pinOnKey,
       },
       this.figures,
     );
     this.unwatch = watchPins(app, this.element);
-    this.paper = whenPrinted(
+    this.paper = onPrint(
       this.element,
       () => this.printed(),
       () => this.fill(),
@@ -52,7 +52,7 @@ export class ResultRows {
     this.paper.end();
   }
 
-  put(table, rows, columns, sort) {
+  setRows(table, rows, columns, sort) {
     Object.assign(this, { table, rows, columns });
     this.figures.setAttribute("aria-rowcount", rows.length + 1);
     const heading = ({ name, kind }) =>
@@ -66,14 +66,14 @@ export class ResultRows {
         h(
           "button",
           { type: "button", onclick: () => this.sorted(name) },
-          columnInWords(name),
+          columnLabel(name),
           sort.name === name ? (sort.down ? " ↓" : " ↑") : "",
         ),
       );
-    // A heading that has been pressed keeps the focus, though it is made anew.
-    const held = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
+    // A heading that was pressed keeps the focus when it is replaced.
+    const focused = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
     fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
-    if (held >= 0) this.head.querySelectorAll("button")[held]?.focus();
+    if (focused >= 0) this.head.querySelectorAll("button")[focused]?.focus();
     this.fill();
   }
 
@@ -94,14 +94,14 @@ export class ResultRows {
     fill(this.body, space(first), shown, space(this.rows.length - last));
   }
 
-  /** Has the first rows in the page and no others, as they are on paper. */
+  /** Puts the first rows into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.rows.length, PRINTED_ROWS);
     fill(
       this.body,
       Array.from({ length: last }, (_, k) => this.line(k)),
     );
-    return lineOnPaper(last, this.rows.length, "curves");
+    return printedCountNote(last, this.rows.length, "curves");
   }
 
   line(k) {
@@ -122,7 +122,7 @@ export class ResultRows {
         "th",
         { scope: "row", class: "text" },
         h("a", { href, "data-name": name }, name),
-        pinOfCurve(this.app, name),
+        curvePinButton(this.app, name),
       ),
       this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
     );

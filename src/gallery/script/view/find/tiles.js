@@ -1,24 +1,25 @@
-// What the filters leave, as a contact sheet.
+// The results as a grid of thumbnails.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { h } from "../dom.js";
-import { captionInType } from "../page-words.js";
-import { pointInWords } from "../page-panel.js";
+import { formatCaption } from "../labels.js";
+import { pointLabel } from "../page-panel.js";
 import { watchPins } from "../pin-button.js";
-import { TileWindow } from "../sheet-window.js";
+import { TileWindow } from "../tile-window.js";
 import { thumbnail } from "../thumbnail.js";
-import { pinnedByKey, pinOfCurve } from "./pin.js";
+import { pinOnKey, curvePinButton } from "./curve-pin.js";
 
 /**
- * Tiles of rows of a table, in an order; `valueOf(row)` is the text of the value they are sorted by, or null.
+ * Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or
+ * null.
  */
 export class ResultTiles extends TileWindow {
   constructor(app) {
     super({ count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" });
     Object.assign(this, { app, rows: [], table: null, valueOf: () => null });
     this.element.classList.add("results");
-    this.element.addEventListener("keydown", pinnedByKey);
+    this.element.addEventListener("keydown", pinOnKey);
     this.unwatch = watchPins(app, this.element);
   }
 
@@ -27,8 +28,8 @@ export class ResultTiles extends TileWindow {
     this.unwatch();
   }
 
-  /** Shows rows in place of those that were there. */
-  put(table, rows, valueOf) {
+  /** Replaces the rows shown. */
+  setRows(table, rows, valueOf) {
     Object.assign(this, { table, rows, valueOf, count: rows.length });
     for (const element of this.there.values()) element.remove();
     this.there.clear();
@@ -45,30 +46,30 @@ export class ResultTiles extends TileWindow {
     const value = this.valueOf(row);
     const caption = family.cells.caption[family.curves.cell[curve]] || name;
     const circuit = family.curves.circuit[curve];
-    const which = [pointInWords(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
+    const which = [pointLabel(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
     return h(
       "li",
       {},
       h(
         "a",
         { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
-        h("span", { class: "leaf" }),
+        h("span", { class: "tile-picture" }),
         h(
           "span",
           { class: "label" },
           value ? [h("b", {}, value), " "] : null,
-          captionInType([...which, caption].filter(Boolean).join(" · ")),
+          formatCaption([...which, caption].filter(Boolean).join(" · ")),
         ),
       ),
-      pinOfCurve(app, name),
+      curvePinButton(app, name),
     );
   }
 
   draw(element, k) {
     const { table } = this;
     const row = this.rows[k];
-    const leaf = element.querySelector(".leaf");
+    const picture = element.querySelector(".tile-picture");
     const family = table.families[table.family[row]];
-    leaf.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfLeaf(leaf)));
+    picture.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfPicture(picture)));
   }
 }

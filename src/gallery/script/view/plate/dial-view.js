@@ -3,15 +3,15 @@
 import { dialArc, dialField, dialStroke } from "../../draw/dial.js";
 import { h, s } from "../dom.js";
 import { transmissionAt } from "../../kinematics/four-bar.js";
-import { minusSigned } from "./study.js";
+import { formatDecimals } from "./study.js";
 
 const DIAL_CENTRE = [100, 98];
 const DIAL_RADIUS = 78;
-// A linkage is said to run well while its transmission angle keeps so far from 0 and 180.
-const LEAST_GOOD = 40;
+// The transmission angle of a good linkage stays at least this far from 0 and 180.
+const GOOD_TRANSMISSION_DEG = 40;
 
 /**
- * The dial: `show(study)` its range, `pose(pose)` where it is now. Hidden where the linkage is no four-bar.
+ * The dial: `show(study)` sets its range, `pose(pose)` its needle. Hidden if the linkage is not a four-bar.
  */
 export class DialView {
   constructor() {
@@ -26,7 +26,7 @@ export class DialView {
     const ticks = Array.from({ length: 19 }, (_, k) =>
       dialStroke(DIAL_CENTRE, DIAL_RADIUS - (k % 3 === 0 ? 7 : 4), DIAL_RADIUS, 10 * k),
     ).join("");
-    const bounds = [LEAST_GOOD, 180 - LEAST_GOOD]
+    const bounds = [GOOD_TRANSMISSION_DEG, 180 - GOOD_TRANSMISSION_DEG]
       .map((deg) => dialStroke(DIAL_CENTRE, 14, DIAL_RADIUS + 9, deg))
       .join("");
     const words = [
@@ -72,8 +72,8 @@ export class DialView {
     this.element.hidden = !this.study;
     if (!this.study) return;
     const [least, most] = dialRange(study);
-    this.least.textContent = `${minusSigned(least, 1)}°`;
-    this.most.textContent = `${minusSigned(most, 1)}°`;
+    this.least.textContent = `${formatDecimals(least, 1)}°`;
+    this.most.textContent = `${formatDecimals(most, 1)}°`;
     this.range.setAttribute(
       "d",
       dialField(DIAL_CENTRE, DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3)),
@@ -91,12 +91,12 @@ export class DialView {
     if (!Number.isFinite(mu) || mu === this.shown) return;
     this.shown = mu;
     this.needle.setAttribute("transform", `rotate(${-mu} ${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]})`);
-    this.now.textContent = `${minusSigned(mu, 1)}°`;
-    this.element.classList.toggle("poor", mu < LEAST_GOOD || mu > 180 - LEAST_GOOD);
+    this.now.textContent = `${formatDecimals(mu, 1)}°`;
+    this.element.classList.toggle("poor", mu < GOOD_TRANSMISSION_DEG || mu > 180 - GOOD_TRANSMISSION_DEG);
   }
 }
 
-// Least and greatest over the samples of a circuit, which have its limits among them.
+// The least and greatest angle over the samples of a circuit, which include its limits.
 function dialRange({ linkage, fourBar, circuit }) {
   const pose = new Float64Array(2 * linkage.joints.length);
   let [least, most] = [180, 0];

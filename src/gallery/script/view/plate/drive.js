@@ -1,15 +1,14 @@
-// What moves a linkage along its circuit: time, the slider, keys, hands.
+// Moves a linkage along its circuit: by time, slider, keys or dragging.
 
-import { heldPart, partOfInput, placeAtPart, turningParts } from "./course.js";
+import { clampPart, partOfInput, placeAtPart, turningParts } from "./timeline.js";
 import { Player } from "./player.js";
 
-// A range shorter than this many degrees is not rattled through: it takes as long as this would.
+// A shorter range, in degrees, takes as long as this one, so that it is not played too fast.
 const SHORTEST_RANGE = 150;
 
 /**
- * A place on the course of a study: `part`, and `place` { pass, input }. `on` has moved(),
- * playing(isPlaying), and rate(), the degrees of input to a second. `isHalted` while there is nothing to
- * move.
+ * A position on the timeline of a study: `part`, and `place` { pass, input }. `on` has moved(),
+ * playing(isPlaying), and rate(), in degrees of input per second. `isHalted` while there is nothing to move.
  */
 export class Drive {
   constructor(on) {
@@ -17,37 +16,37 @@ export class Drive {
     this.place = { pass: 0, input: 0, isBeyond: false };
     this.part = 0;
     this.heading = 1;
-    this.course = null;
+    this.timeline = null;
     this.isHalted = true;
     this.player = new Player((seconds) => this.#advance(seconds));
   }
 
-  /** Takes the course of a study: at the same input as before, or as near it as there is. */
-  take({ course, linkage }) {
-    const isFirst = this.course === null;
-    this.course = course;
+  /** Sets the study; keeps the input, or the nearest one possible. */
+  setStudy({ timeline, linkage }) {
+    const isFirst = this.timeline === null;
+    this.timeline = timeline;
     this.isLength = linkage.input.isLength;
     this.isHalted = false;
     if (isFirst) {
       this.begin();
       return;
     }
-    const { passes } = course;
+    const { passes } = timeline;
     this.place.pass = Math.min(this.place.pass, passes.length - 1);
     const { from, to } = passes[this.place.pass];
     this.place.input = Math.min(Math.max(this.place.input, Math.min(from, to)), Math.max(from, to));
-    this.part = partOfInput(course, this.place.pass, this.place.input);
+    this.part = partOfInput(timeline, this.place.pass, this.place.input);
   }
 
-  /** To where a plate opens: some way along, where links seldom lie on one another. */
+  /** Moves to the initial position of a plate, where links seldom overlap. */
   begin() {
-    this.part = this.course.closed ? 0.13 : 0.3;
-    placeAtPart(this.course, this.part, this.place);
+    this.part = this.timeline.closed ? 0.13 : 0.3;
+    placeAtPart(this.timeline, this.part, this.place);
   }
 
-  /** The pass that the place is on. */
+  /** The current pass. */
   get pass() {
-    return this.course.passes[this.place.pass];
+    return this.timeline.passes[this.place.pass];
   }
 
   /** Plays or pauses. */
@@ -57,36 +56,36 @@ export class Drive {
     this.on.playing(this.player.isPlaying);
   }
 
-  /** A hand has taken hold of the linkage. */
-  hold() {
+  /** Pauses for input by the user. */
+  pause() {
     this.toggle(false);
   }
 
-  /** `place` has been moved. */
+  /** Reports a change of `place`. */
   move() {
-    this.part = partOfInput(this.course, this.place.pass, this.place.input);
+    this.part = partOfInput(this.timeline, this.place.pass, this.place.input);
     this.on.moved();
   }
 
-  /** Goes to a part of the course. */
+  /** Moves to a part of the timeline. */
   seek(part) {
     this.part = part;
-    placeAtPart(this.course, part, this.place);
+    placeAtPart(this.timeline, part, this.place);
     this.on.moved();
   }
 
-  /** The same, when a hand asks for it. */
-  seekByHand(part) {
+  /** Pauses and moves to a part of the timeline. */
+  seekAndPause(part) {
     if (this.isHalted) return;
-    this.hold();
+    this.pause();
     this.seek(part);
   }
 
-  /** So many degrees on along the course, or 1/200 of a stroke; over limits. */
+  /** Steps by degrees, or by 1/200 of a stroke, along the timeline, and over limits. */
   step(direction, times = 1) {
     if (this.isHalted) return;
-    this.hold();
-    const by = direction * times * (this.isLength ? this.course.whole / 200 : 1);
+    this.pause();
+    const by = direction * times * (this.isLength ? this.timeline.whole / 200 : 1);
     const { from, to } = this.pass;
     const next = this.place.input + Math.sign(to - from) * by;
     const isInside = (next - from) * (next - to) <= 0;
@@ -95,16 +94,16 @@ export class Drive {
       this.move();
       return;
     }
-    // A step over a limit ends beyond it, by so much of the course.
-    this.seek(heldPart(this.course, this.part + by / this.course.whole));
+    // A step over a limit continues beyond it.
+    this.seek(clampPart(this.timeline, this.part + by / this.timeline.whole));
   }
 
-  /** To the next place where the input turns round, or, of a full turn, to its beginning. */
+  /** Moves to the next limit position, or, for a full rotation, to its start. */
   toLimit(direction) {
     if (this.isHalted) return;
-    this.hold();
-    const { closed } = this.course;
-    const parts = turningParts(this.course);
+    this.pause();
+    const { closed } = this.timeline;
+    const parts = turningParts(this.timeline);
     const stops = parts.length ? parts : [0];
     const all = closed ? [-1, 0, 1].flatMap((turn) => stops.map((part) => part + turn)) : stops;
     const ahead = all.filter((part) => direction * (part - this.part) > 1e-9);
@@ -115,15 +114,15 @@ export class Drive {
 
   #advance(seconds) {
     if (this.isHalted) return;
-    const { closed, whole } = this.course;
+    const { closed, whole } = this.timeline;
     const rate = this.on.rate();
-    // An actuator's stroke takes as long as a turn.
+    // A stroke takes as long as a rotation.
     const range = this.isLength ? 360 : Math.max(whole, SHORTEST_RANGE);
     let part = this.part + (this.heading * seconds * rate) / range;
     if (!closed && (part > 1 || part < 0)) {
       this.heading = part > 1 ? -1 : 1;
       part = part > 1 ? 2 - part : -part;
     }
-    this.seek(heldPart(this.course, part));
+    this.seek(clampPart(this.timeline, part));
   }
 }

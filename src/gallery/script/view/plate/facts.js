@@ -1,20 +1,20 @@
-// All that is told of a curve: where it comes from, and its measures, beside those of changed parameters.
+// The data of a curve: its origin, and its measures next to those of changed parameters.
 
 import { address } from "../../data/address.js";
-import { curveKey, measured } from "../../data/family.js";
+import { curveKey, measureValue } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
 import { fill, h } from "../dom.js";
-import { sourceOf } from "../overview.js";
-import { measureInWords } from "../page-words.js";
-import { shortLength } from "./speed-view.js";
+import { familySource } from "../overview.js";
+import { measureLabel } from "../labels.js";
+import { formatLength } from "./speed-view.js";
 
-/** The heading's words of a cell: what it is called, and what is noted of it. */
-export function wordsOfCell(family, cell) {
+/** The caption and the note of a cell. */
+export function cellHeading(family, cell) {
   return { caption: family.cells.caption[cell], note: family.cells.note[cell] };
 }
 
-/** The list of where a curve is from and what it is. */
-export function originOfCurve(app, family, curve) {
+/** The list of a curve's origin. */
+export function curveOrigin(app, family, curve) {
   const cell = family.curves.cell[curve];
   const page = family.curves.page[curve];
   const rows = [
@@ -35,23 +35,24 @@ export function originOfCurve(app, family, curve) {
         : "",
     ],
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
-    ["Source", sourceOf(family)],
+    ["Source", familySource(family)],
   ];
-  const told = rows.filter(([, value]) => value);
+  const shown = rows.filter(([, value]) => value);
   return h(
     "dl",
     { class: "facts origin" },
-    told.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
+    shown.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
   );
 }
 
 /**
- * The table of measures: `show(now)` puts those of the page beside the recorded ones, null takes them off.
+ * The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes
+ * them.
  */
 export class MeasureTable {
   constructor(app, family, curve, isLength) {
     this.rows = app.atlas.measures.map((measure) =>
-      rowOfMeasure(measureInWords(measure.name), measure, measured(family, curve, measure.name), isLength),
+      measureRow(measureLabel(measure.name), measure, measureValue(family, curve, measure.name), isLength),
     );
     this.body = h(
       "tbody",
@@ -62,14 +63,14 @@ export class MeasureTable {
     this.table = h(
       "table",
       { class: "figures measures" },
-      h("caption", { class: "unseen" }, "Measures of the curve"),
+      h("caption", { class: "visually-hidden" }, "Measures of the curve"),
       h(
         "thead",
         {},
         h(
           "tr",
           {},
-          ["Measure", "Atlas", "Now", "Change"].map((word, k) =>
+          ["Measure", "Atlas", "Current", "Change"].map((word, k) =>
             h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
           ),
         ),
@@ -86,24 +87,24 @@ export class MeasureTable {
     this.show(null);
   }
 
-  /** `now` is { name: number or word } of changed parameters, or null where nothing is changed. */
+  /** `now` is { name: number or word } for changed parameters, or null if nothing is changed. */
   show(now) {
     this.table.classList.toggle("with-changes", now !== null);
     fill(
       this.note,
-      now ? "The atlas's own measures, and those of the changed parameters as this page reckons them." : [],
+      now ? "The measures of the atlas, and those of the changed parameters, computed by this page." : [],
     );
     for (const row of this.rows) {
       const value = now?.[row.measure.name];
-      // What neither has is not told.
+      // Measures that apply to neither are hidden.
       row.element.hidden = row.recorded === undefined && (value === undefined || Number.isNaN(value));
-      fill(row.now, now ? toldMeasure(row.measure, value, row.isLength) : "");
-      fill(row.change, now ? toldChange(row.measure, row.recorded, value) : "");
+      fill(row.now, now ? formatMeasure(row.measure, value, row.isLength) : "");
+      fill(row.change, now ? formatMeasureChange(row.measure, row.recorded, value) : "");
     }
   }
 }
 
-function rowOfMeasure(name, measure, recorded, isLength) {
+function measureRow(name, measure, recorded, isLength) {
   const now = h("td", { class: "now" });
   const change = h("td", { class: "now" });
   const title = h(
@@ -113,21 +114,21 @@ function rowOfMeasure(name, measure, recorded, isLength) {
     h("span", { class: "definition" }, measure.definition),
   );
   const ofLength = isLength && /^(input_m|straight_(start|input)|dwell_(start|input))/.test(measure.name);
-  const element = h("tr", {}, title, h("td", {}, toldMeasure(measure, recorded, ofLength)), now, change);
+  const element = h("tr", {}, title, h("td", {}, formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };
 }
 
-/** A measure in words: with its unit, in four or five digits; empty where it does not apply. */
-function toldMeasure({ word, unit }, value, isLength = false) {
+/** The value of a measure with its unit, in four or five digits; empty if it does not apply. */
+function formatMeasure({ word, unit }, value, isLength = false) {
   if (value === undefined || value === null || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
   if (value === Infinity) return "∞";
   if (Number.isInteger(value) && Math.abs(value) < 1e6 && unit !== "deg")
     return String(value).replace("-", "−");
-  return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : shortLength(value);
+  return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : formatLength(value);
 }
 
-function toldChange({ word, unit }, before, after) {
+function formatMeasureChange({ word, unit }, before, after) {
   const isThere = (value) => value !== undefined && value !== null && !Number.isNaN(value);
   if (before === after || (!isThere(before) && !isThere(after))) return "";
   if (!isThere(before)) return "new";
@@ -137,5 +138,5 @@ function toldChange({ word, unit }, before, after) {
   if (!Number.isFinite(by) || Math.abs(by) < 1e-9 * Math.abs(before)) return "";
   const sign = by > 0 ? "+" : "−";
   if (Number.isInteger(before) && Number.isInteger(after)) return `${sign}${Math.abs(by)}`;
-  return unit === "deg" ? `${sign}${Math.abs(by).toFixed(2)}°` : `${sign}${shortLength(Math.abs(by))}`;
+  return unit === "deg" ? `${sign}${Math.abs(by).toFixed(2)}°` : `${sign}${formatLength(Math.abs(by))}`;
 }

@@ -1,11 +1,11 @@
-// The names of joints beside them, on the side away from their links.
+// Joint names, placed away from the links.
 
 import { pixel } from "../../draw/path-data.js";
 import { s } from "../dom.js";
 
 const NAME_DISTANCE = 15;
 
-/** The names of a linkage's joints; `element` holds them. */
+/** The names of a linkage's joints, in `element`. */
 export class JointNames {
   constructor() {
     this.element = s("g", { class: "joint-names" });
@@ -25,9 +25,9 @@ export class JointNames {
       const near = [...new Set(links.filter((link) => link.includes(joint)).flat())].filter(
         (other) => other !== joint,
       );
-      // A point of a grid hangs on the joints it is placed from.
+      // A point of a grid is attached to its base joints.
       const arms = near.length ? near : (linkage.joints[joint].step.base ?? []);
-      // Names are set about their middles: a long one keeps its beginning, or its end, off the joint.
+      // Names are centred; a long one is shifted so that it does not cover the joint.
       const over = Math.max(0, 3.6 * element.textContent.length - 4);
       return {
         element,
@@ -53,15 +53,14 @@ export class JointNames {
   }
 }
 
-// Of a grid, whose points have one name, with the number of its curve.
+// The points of a grid share one name, followed by the number of the curve.
 function nameOfJoint({ joints, traced }, joint) {
   const { name } = joints[joint];
   const isGrid = joints.filter((other) => other.name === name).length > 1;
   return isGrid ? `${name} ${traced.indexOf(joint) + 1}` : name;
 }
 
-// The directions, in radians on the screen, in which links leave a joint; of a fixed one, the ground is
-// below.
+// The directions, in radians on the screen, of the links at a joint; the ground is below a fixed one.
 function anglesOfLinks({ joint, near, isFixed, angles }, at) {
   angles.length = 0;
   if (isFixed) angles.push(Math.PI / 2);
@@ -72,7 +71,7 @@ function anglesOfLinks({ joint, near, isFixed, angles }, at) {
   return angles.sort((a, b) => a - b);
 }
 
-// The middle of the widest gap between directions; that of the one a name is in, while it is nearly as wide.
+// The middle of the widest gap between directions; the current gap is kept while it is nearly as wide.
 function widestGap(angles, before) {
   if (angles.length === 0) return -Math.PI / 2;
   const TURN = 2 * Math.PI;

@@ -1,13 +1,13 @@
-// The keys of a plate, wherever the focus is but in a field of its own.
+// The keyboard commands of a plate, active unless a field has the focus.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
-import { steppedByKey } from "./transport.js";
+import { stepByKey } from "./transport.js";
 
 /** Listens for keys until `leave()`. */
 export class PlateKeys {
   constructor(plate) {
-    this.listener = (event) => pressedKey(plate, event);
+    this.listener = (event) => handlePlateKey(plate, event);
     window.addEventListener("keydown", this.listener);
   }
 
@@ -16,7 +16,7 @@ export class PlateKeys {
   }
 }
 
-function pressedKey(plate, event) {
+function handlePlateKey(plate, event) {
   const { drive, stage } = plate;
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
   const { target } = event;
@@ -27,16 +27,16 @@ function pressedKey(plate, event) {
   else if (event.key === "0") stage.fit();
   else if (event.key === "+" || event.key === "=") stage.zoom(1.3);
   else if (event.key === "-") stage.zoom(1 / 1.3);
-  else if (event.key === "[" || event.key === "]") toNeighbour(plate, event.key === "]" ? 1 : -1);
+  else if (event.key === "[" || event.key === "]") goToNeighbour(plate, event.key === "]" ? 1 : -1);
   else if (target.matches?.("input[type=range], select")) return;
   else if (/^Arrow(Left|Right)$/.test(event.key)) {
-    steppedByKey(event, drive);
+    stepByKey(event, drive);
     return;
   } else return;
   event.preventDefault();
 }
 
-/** The address of the curve before (-1) or after (1) one of a family; null at the ends. */
+/** The address of the previous (-1) or next (1) curve of a family; null at the ends. */
 export function neighbourAddress(family, curve, way) {
   const next = curve + way;
   return next >= 0 && next < family.curves.count
@@ -44,7 +44,7 @@ export function neighbourAddress(family, curve, way) {
     : null;
 }
 
-function toNeighbour({ app, family, curve }, way) {
+function goToNeighbour({ app, family, curve }, way) {
   const next = neighbourAddress(family, curve, way);
   if (next) app.go(next);
 }

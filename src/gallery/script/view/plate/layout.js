@@ -1,22 +1,22 @@
-// What stands where on a plate.
+// The layout of a plate.
 
 import { address } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { fill, h } from "../dom.js";
-import { originOfCurve, wordsOfCell } from "./facts.js";
-import { captionInType, changesInWords } from "../page-words.js";
-import { namePin, pinButton, watchPins } from "../pin-button.js";
-import { takeAwayMenu } from "../take/menu.js";
+import { curveOrigin, cellHeading } from "./facts.js";
+import { formatCaption, formatChanges } from "../labels.js";
+import { setPinName, pinButton, watchPins } from "../pin-button.js";
+import { exportMenu } from "../export/menu.js";
 import { neighbourAddress } from "./keys.js";
 
 /** The element of a plate, { element, refresh(), leave() }. */
 export function plateLayout(plate) {
   const { app, family, curve, stage, transport, dial, speed, sliders, switches, measures } = plate;
-  const { caption, note } = wordsOfCell(family, family.curves.cell[curve]);
+  const { caption, note } = cellHeading(family, family.curves.cell[curve]);
   const key = curveKey(family, curve);
   const changed = h("span", { class: "tag changed-tag", hidden: true }, "parameters changed");
   const pin = pinButton(app, `${family.id}:${key}`, { class: "pin" });
-  const take = takeAwayMenu(app, () => [plate.name]);
+  const take = exportMenu(app, () => [plate.name]);
   const heading = h(
     "div",
     { class: "head" },
@@ -59,7 +59,7 @@ export function plateLayout(plate) {
   );
   const element = h(
     "div",
-    { class: "room plate" },
+    { class: "view plate" },
     heading,
     h(
       "div",
@@ -70,14 +70,14 @@ export function plateLayout(plate) {
     h(
       "div",
       { class: "plate-facts" },
-      h("section", {}, h("h2", {}, "Where it is from"), originOfCurve(app, family, curve)),
+      h("section", {}, h("h2", {}, "Origin"), curveOrigin(app, family, curve)),
       measures.element,
     ),
   );
   const refresh = () => {
     changed.hidden = plate.isRecorded || plate.study === null;
-    fill(changed, plate.changes.size ? captionInType(changesInWords(plate.changes)) : "another circuit");
-    namePin(app, pin, plate.name);
+    fill(changed, plate.changes.size ? formatCaption(formatChanges(plate.changes)) : "another circuit");
+    setPinName(app, pin, plate.name);
     pin.disabled = plate.reason !== null;
   };
   return { element, refresh, leave: watchPins(app, element) };

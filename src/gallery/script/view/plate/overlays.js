@@ -1,5 +1,5 @@
-// What can be switched on over a linkage: its cognates, the centrodes of the link that draws the curve, its
-// inflection circle, the velocity of the point, names, the straight portion, and the curves of other points.
+// Overlays of a linkage: its cognates, the centrodes of the link that traces the curve, the inflection
+// circle, the velocity of the point, names, the straight portion, and the curves of other points.
 
 import { cognatePins, cognatesOf } from "../../kinematics/cognates.js";
 import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instant.js";
@@ -10,25 +10,23 @@ import { circleData, pixel, placedData } from "../../draw/path-data.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
 import { s } from "../dom.js";
 
-/** What can be switched, { name, label, isOn at first, there(study) }. */
+/** The overlays, { name, label, isOn (the default), there(study) }. */
 export const OVERLAYS = [
-  { name: "names", label: "Names of joints", isOn: true, there: () => true },
+  { name: "names", label: "Joint names", isOn: true, there: () => true },
   { name: "straight", label: "Straight portion", isOn: true, there: () => true },
   { name: "others", label: "Curves of other points", isOn: true, there: ({ others }) => others.length > 0 },
   { name: "velocity", label: "Velocity", isOn: false, there: () => true },
   { name: "cognates", label: "Cognates", isOn: false, there: (study) => cognatesOfStudy(study) !== null },
-  { name: "centrodes", label: "Centrodes and pole", isOn: false, there: hasPole },
+  { name: "centrodes", label: "Centrodes and instant centre", isOn: false, there: hasPole },
   { name: "inflection", label: "Inflection circle", isOn: false, there: hasPole },
 ];
 
-/**
- * The cognates of a study's curve (kinematics/cognates.js), or null; the first of them is the linkage itself.
- */
+/** The cognates of a study's curve (kinematics/cognates.js), or null; the first is the linkage itself. */
 export function cognatesOfStudy(study) {
   return study.isCouplerPoint ? cognatesOf(study.linkage, study.joint) : null;
 }
 
-/** Whether the link with the traced joint turns, somewhere on the circuit. */
+/** Whether the link with the traced joint rotates anywhere on the circuit. */
 function hasPole({ linkage, circuit, joint }) {
   return [0.2, 0.45, 0.7].some((part) => {
     const i = Math.floor(part * circuit.count);
@@ -36,7 +34,7 @@ function hasPole({ linkage, circuit, joint }) {
   });
 }
 
-/** The overlays that move, drawn on a stage. */
+/** The moving overlays, drawn on a stage. */
 export class Overlays {
   constructor(stage) {
     this.stage = stage;
@@ -51,7 +49,7 @@ export class Overlays {
     this.study = null;
   }
 
-  /** Takes what is switched on, for a study; `isRough` while lengths are changing. */
+  /** Shows the selected overlays for a study; `isRough` while lengths are changing. */
   show(study, on, isRough) {
     this.study = study;
     this.on = on;
@@ -78,7 +76,7 @@ export class Overlays {
     const moving = movingCentrode(linkage, circuit, joint);
     if (!moving.frame) return;
     const [x0, y0, x1, y1] = study.box;
-    // Centrodes run to infinity: what is drawn ends some way beyond the frame.
+    // Centrodes can be unbounded: they are clipped some distance beyond the frame.
     const reach = 6 * size;
     const box = [x0 - reach, y0 - reach, x1 + reach, y1 + reach];
     this.stage.still.centrode(
@@ -91,7 +89,7 @@ export class Overlays {
     this.arm = moving.frame;
   }
 
-  /** Moves them with the linkage: its pose, in the plane, at an input of a pass. */
+  /** Moves the overlays with the linkage: its pose, in the plane, at an input of a pass. */
   pose(pose, view, pass, input) {
     if (this.pair) this.#poseCognates(pose, view);
     if (this.arm) this.#rollCentrode(pose, view);
@@ -129,7 +127,7 @@ export class Overlays {
     this.cognatePins.setAttribute("d", placedData(pins));
   }
 
-  // The moving centrode is drawn in its link's own frame: a transform carries it along.
+  // The moving centrode is drawn in the frame of its link and moved by a transform.
   #rollCentrode(pose, { x, y, scale }) {
     const [a, b] = this.arm;
     const [dx, dy] = [pose[2 * b] - pose[2 * a], pose[2 * b + 1] - pose[2 * a + 1]];

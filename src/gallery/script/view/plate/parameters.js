@@ -1,13 +1,13 @@
-// What can be changed of a linkage on its plate (changes are as in kinematics/changes.js).
+// The parameters of a linkage that can be changed on its plate (changes as in kinematics/changes.js).
 
 import { changedValues, tracedPoint } from "../../kinematics/changes.js";
 import { roundBelow } from "../../draw/paper-view.js";
 
 /**
- * What a plate offers to change: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind` is
- * "free" for what the atlas varies, "kept" for what it keeps, "follows" for what is derived from others, and
- * "freed" for that when it has been changed; `low` to `high` is a sensible range, `grain` the step of a
- * slider.
+ * The parameters that can be changed: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind`
+ * is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an expression gives
+ * it, and "unlinked" if a derived one has been changed. `low` to `high` is the range of the slider, `grain`
+ * its step.
  */
 export function changeableParameters(family, cell, trace, changes) {
   const width = family.names.length;
@@ -18,16 +18,16 @@ export function changeableParameters(family, cell, trace, changes) {
   const derived = new Map(family.derived);
   const offered = family.names.map((name, slot) => {
     const bounds = family.template.parameters[slot] ?? {};
-    const follows = derived.has(slot) && typeof derived.get(slot) !== "number";
+    const isDerived = derived.has(slot) && typeof derived.get(slot) !== "number";
     const kind = family.free.includes(slot)
       ? "free"
-      : !follows
-        ? "kept"
+      : !isDerived
+        ? "fixed"
         : changes.has(name)
-          ? "freed"
-          : "follows";
+          ? "unlinked"
+          : "derived";
     const spread = spreadOfSlot(family, slot);
-    const range = sensibleRange(recorded[slot], spread, bounds, size, whole.has(slot));
+    const range = sliderRange(recorded[slot], spread, bounds, size, whole.has(slot));
     return {
       name,
       kind,
@@ -48,17 +48,17 @@ function changeableCoordinates({ template }, recorded, values, trace, changes, s
     .filter((way) => !point[way].isParameter)
     .map((way) => {
       const name = `${point.name}.${way}`;
-      const [kept, follows] = [point[way].at(recorded), !point[way].isKept];
-      const kind = !follows ? "kept" : changes.has(name) ? "freed" : "follows";
+      const [recordedValue, isDerived] = [point[way].at(recorded), !point[way].isKept];
+      const kind = !isDerived ? "fixed" : changes.has(name) ? "unlinked" : "derived";
       const value = changes.get(name) ?? point[way].at(values);
       return {
         name,
         kind,
         value,
-        recorded: kept,
+        recorded: recordedValue,
         min: null,
         max: null,
-        ...sensibleRange(kept, [kept, kept], {}, size, false),
+        ...sliderRange(recordedValue, [recordedValue, recordedValue], {}, size, false),
       };
     });
 }
@@ -72,18 +72,18 @@ function spreadOfSlot({ cells, names }, slot) {
   return [least, most];
 }
 
-// The slots that must be whole numbers: the teeth of gears.
+// The slots that must be integers: the numbers of teeth of gears.
 function wholeSlots({ joints }) {
   const ratios = joints.flatMap((joint) => ("gear" in joint ? joint.ratio : []));
   return new Set(ratios.filter((part) => Array.isArray(part) && part.length === 1).map(([[slot]]) => slot));
 }
 
-function sensibleRange(recorded, [least, most], { min, max }, size, isWhole) {
+function sliderRange(recorded, [least, most], { min, max }, size, isWhole) {
   if (isWhole) return { low: Math.min(least, -6), high: Math.max(most, 6), grain: 1 };
   const reach = Math.max(most - least, 0.6 * Math.abs(recorded)) || size;
   let low = Math.min(least, recorded - 0.5 * reach);
   let high = Math.max(most, recorded + 0.5 * reach);
-  // A bound of 0 is itself left out.
+  // A bound of 0 is exclusive.
   if (min === 0 && low <= 0) low = 0.1 * Math.min(least, recorded);
   else if (min !== null && min !== undefined) low = Math.max(low, min);
   if (max === 0 && high >= 0) high = 0.1 * Math.max(most, recorded);
@@ -91,14 +91,14 @@ function sensibleRange(recorded, [least, most], { min, max }, size, isWhole) {
   return { low, high, grain: roundBelow((high - low) / 400) || 0.01 };
 }
 
-/** A value rounded to a grain, with no more decimals than that has. */
+/** Rounds a value to a multiple of `grain`, with no more decimals than it has. */
 export function roundedToGrain(value, grain) {
   const decimals = Math.max(0, -Math.floor(Math.log10(grain) + 1e-9));
   return Number((Math.round(value / grain) * grain).toFixed(Math.min(decimals, 12)));
 }
 
-/** The changes that a query (a Map of words) says, of what can be changed; the rest is left out. */
-export function changesOfQuery(family, trace, query) {
+/** The changes in a query (a Map of words); names that cannot be changed are ignored. */
+export function parseChanges(family, trace, query) {
   const point = tracedPoint(family.template, trace);
   const known = new Set([...family.names, ...(point ? [`${point.name}.along`, `${point.name}.across`] : [])]);
   const changes = new Map();

@@ -1,25 +1,28 @@
 // The curves of a study as path data in the plane.
 
-import { measured } from "../../data/family.js";
+import { measureValue } from "../../data/family.js";
 import { stretchOfCircuit } from "../../draw/band.js";
 import { dashData, dashesOfPeriod } from "../../draw/dashes.js";
 import { gridOfSize, polylineData } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/paper-view.js";
-import { shortLength } from "./speed-view.js";
-import { minusSigned } from "./study.js";
+import { formatLength } from "./speed-view.js";
+import { formatDecimals } from "./study.js";
 
-// More other points than this are drawn by fewer of their samples.
+// With more other points than this, fewer of their samples are drawn.
 const MANY_POINTS = 12;
 
-/** The input a dash and its gap span: the family's, or, of a length, a round part of the longest pass. */
+/**
+ * The input covered by a dash and its gap: the family's, or, for a length, a round fraction of the longest
+ * pass.
+ */
 function dashPeriod(family, { linkage, circuit }) {
   if (!linkage.input.isLength) return family.dash_deg;
   return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
 }
 
 /**
- * Path data { dashes, lead, others, band } of a study's curve, of its path, and of the stretch of its
- * straight portion. `on` has the names of what is switched on.
+ * Path data { dashes, lead, others, band } of a study's curve, from its path and the stretch of its straight
+ * portion. `on` has the names of the selected overlays.
  */
 export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
   const { circuit, others } = study;
@@ -29,12 +32,12 @@ export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
   return {
     dashes: dashData(path, dashesOfPeriod(dashPeriod(family, study))),
     lead: polylineData(path.points),
-    others: shown.map((joint) => sampledData(circuit, joint, stride, grid)).join(""),
+    others: shown.map((joint) => sampledPathData(circuit, joint, stride, grid)).join(""),
     band: stretch ? polylineData(stretch.points) : "",
   };
 }
 
-function sampledData({ x, y, count, closed }, joint, stride, grid) {
+function sampledPathData({ x, y, count, closed }, joint, stride, grid) {
   const points = [];
   for (let i = 0; i < count; i += stride) points.push(x[joint][i], y[joint][i]);
   if (closed) points.push(x[joint][0], y[joint][0]);
@@ -42,26 +45,26 @@ function sampledData({ x, y, count, closed }, joint, stride, grid) {
 }
 
 /**
- * What is told of a curve's straight portion: its length, how far it leaves its line, and the input it spans.
+ * The description of a curve's straight portion: its length, its deviation from the line, and its range of
+ * input.
  */
-export function straightWords({ linkage }, family, curve, measures) {
+export function straightSummary({ linkage }, family, curve, measures) {
   const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
-    (name) => (measures ? measures[name] : measured(family, curve, name)),
+    (name) => (measures ? measures[name] : measureValue(family, curve, name)),
   );
   if (!Number.isFinite(length)) return "";
-  const over = linkage.input.isLength ? shortLength(span) : `${minusSigned(span, 1)}°`;
-  const within = `within ${shortLength(deviation)} of its line`;
-  return `Straight portion: ${shortLength(length)} long, ${within}, over ${over} of input`;
+  const over = linkage.input.isLength ? formatLength(span) : `${formatDecimals(span, 1)}°`;
+  const within = `within ${formatLength(deviation)} of its line`;
+  return `Straight portion: ${formatLength(length)} long, ${within}, over ${over} of input`;
 }
 
 /**
- * The straight portion of a study's curve as a stretch (draw/band.js), from the measures { name: value } of
- * the page, or, where they are null, those of the atlas. Null where there is none, or one too short to be
- * seen.
+ * The straight portion of a study's curve as a stretch (draw/band.js), from the computed measures { name:
+ * value }, or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
  */
 export function straightStretch(study, family, curve, measures) {
   const { linkage, circuit, joint, curveBox } = study;
-  const of = (name) => (measures ? measures[name] : measured(family, curve, name));
+  const of = (name) => (measures ? measures[name] : measureValue(family, curve, name));
   const [start, span, length] = ["straight_start_deg", "straight_input_deg", "straight_length"].map(of);
   const extent = Math.max(curveBox[2] - curveBox[0], curveBox[3] - curveBox[1]);
   if (![start, span, length].every(Number.isFinite) || length < 0.02 * extent) return null;

@@ -1,52 +1,52 @@
-// A plate: the state of a linkage that is being looked at, and what happens when a hand does something to it.
+// A plate: the state of the linkage of a curve, and the response to input.
 
-import { heldPart, partOfInput } from "./course.js";
+import { clampPart, partOfInput } from "./timeline.js";
 import { DialView } from "./dial-view.js";
 import { Drive } from "./drive.js";
 import { MeasureTable } from "./facts.js";
-import { gripStage } from "./grips.js";
+import { enableDragging } from "./dragging.js";
 import { PlateKeys } from "./keys.js";
 import { plateLayout } from "./layout.js";
-import { measuresOfStudy } from "./measures-now.js";
+import { measuresOfStudy } from "./study-measures.js";
 import { Overlays } from "./overlays.js";
 import { changeableParameters } from "./parameters.js";
-import { pathsOfStudy, straightStretch, straightWords } from "./paths.js";
-import { changedName, isBesideAtlas, plateAddress, readPlateQuery } from "./plate-query.js";
-import { Poser } from "./poser.js";
+import { pathsOfStudy, straightStretch, straightSummary } from "./paths.js";
+import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
+import { PoseSolver } from "./pose-solver.js";
 import { Sliders } from "./sliders.js";
 import { SpeedView } from "./speed-view.js";
 import { Stage } from "./stage.js";
-import { pathOfStudy, routeTitle, studyOf } from "./study.js";
+import { pathOfStudy, circuitTitle, studyOf } from "./study.js";
 import { summaryOfStudy } from "./summary.js";
 import { Switches } from "./switches.js";
 import { Transport } from "./transport.js";
 import { PointVelocity, velocityArrow } from "./velocity.js";
 
-// Chord errors of a path, by parts of the size: rough while a slider is being moved, fine once it rests for
-// so many milliseconds.
+// Chord errors of a path relative to its size: rough while a slider is being moved, fine when it has rested
+// for REST_MILLISECONDS.
 const ROUGH_PATH = 3e-4;
 const FINE_PATH = 2e-5;
 const REST_MILLISECONDS = 160;
 
 /**
- * The plate of a curve of a family, with what a query of its address says; `element` is shown, then `shown()`
- * called.
+ * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
+ * `shown()`.
  */
 export class Plate {
   constructor(app, family, curve, query) {
     Object.assign(this, { app, family, curve, study: null, pose: null });
     this.trace = family.curves.trace[curve];
-    this.#furnish();
+    this.#createControls();
     this.layout = plateLayout(this);
     this.element = this.layout.element;
-    this.release = gripStage(this.stage, this);
+    this.release = enableDragging(this.stage, this);
     Object.assign(this, readPlateQuery(family, this.trace, query));
     this.#restudy(false);
     if (!this.study) this.#showRecorded();
     this.#settle();
   }
 
-  #furnish() {
+  #createControls() {
     const { app, family, curve } = this;
     this.drive = new Drive({
       moved: () => this.#draw(),
@@ -58,7 +58,7 @@ export class Plate {
     this.overlays = new Overlays(this.stage);
     this.transport = new Transport(this.drive, this.stage);
     this.dial = new DialView();
-    this.speed = new SpeedView((part) => this.drive.seekByHand(part));
+    this.speed = new SpeedView((part) => this.drive.seekAndPause(part));
     this.sliders = new Sliders(family.legend, {
       change: (name, value) => this.#change(() => this.changes.set(name, value)),
       clear: (name) => this.#change(() => this.changes.delete(name)),
@@ -75,8 +75,8 @@ export class Plate {
   }
 
   /**
-   * To be called when the element is in the page: measures the frame, and begins to play where motion is
-   * welcome.
+   * Called when the element is in the document: measures the frame, and starts the motion unless reduced
+   * motion is preferred.
    */
   shown() {
     this.stage.observe();
@@ -95,37 +95,37 @@ export class Plate {
     window.cancelAnimationFrame(this.waiting);
   }
 
-  /** Takes another query of the same curve's address. */
-  takeQuery(query) {
+  /** Handles another query of the same curve's address. */
+  setQuery(query) {
     Object.assign(this, readPlateQuery(this.family, this.trace, query));
     this.#restudy(false);
     this.#settle(false);
     return true;
   }
 
-  /** The name of the curve beyond its family, with what is changed of it. */
+  /** The name of the curve, with its family and changes. */
   get name() {
-    return changedName(this);
+    return plateCurveName(this);
   }
 
-  /** Whether what is shown is what the atlas has. */
+  /** Whether the atlas contains what is shown. */
   get isRecorded() {
     return this.changes.size === 0 && this.study !== null && this.study.shown === this.study.home;
   }
 
-  // Behind what cannot be assembled from the first, the linkage of the atlas is to be seen.
+  // If the address cannot be assembled, the linkage of the atlas is shown behind the message.
   #showRecorded() {
-    const { changes, asked } = this;
-    Object.assign(this, { changes: new Map(), asked: null });
+    const { changes, requestedCircuit } = this;
+    Object.assign(this, { changes: new Map(), requestedCircuit: null });
     this.#restudy(false);
-    Object.assign(this, { changes, asked });
+    Object.assign(this, { changes, requestedCircuit });
     this.#restudy(false);
   }
 
-  // Makes the study of what is changed now; one that cannot be assembled leaves the last that could in view.
+  // Creates the study of the current changes; if it cannot be assembled, the previous one stays visible.
   #restudy(isRough) {
     const { family, curve, changes } = this;
-    const study = studyOf(family, curve, changes, this.asked, isRough);
+    const study = studyOf(family, curve, changes, this.requestedCircuit, isRough);
     this.sliders.show(changeableParameters(family, family.curves.cell[curve], this.trace, changes));
     this.reason = study.reason ?? null;
     this.candidates = study.routes ? study : null;
@@ -137,10 +137,10 @@ export class Plate {
       return;
     }
     this.study = study;
-    this.poser = new Poser(study.linkage);
+    this.poser = new PoseSolver(study.linkage);
     this.velocity = new PointVelocity(study);
     this.path = pathOfStudy(study, isRough ? ROUGH_PATH : FINE_PATH);
-    this.drive.take(study);
+    this.drive.setStudy(study);
     this.#show(isRough);
   }
 
@@ -149,21 +149,21 @@ export class Plate {
     this.#markStraight(isRough);
     this.stage.show(study, this.#paths(isRough));
     this.overlays.show(study, this.on, isRough);
-    this.transport.show(study, routeTitle(study.linkage, study.routes[study.shown]));
+    this.transport.show(study, circuitTitle(study.linkage, study.routes[study.shown]));
     this.dial.show(study);
-    const partOf = ({ pass, input }) => heldPart(drive.course, partOfInput(drive.course, pass, input));
+    const partOf = ({ pass, input }) => clampPart(drive.timeline, partOfInput(drive.timeline, pass, input));
     this.speed.show(study, path, this.stretch && [partOf(this.stretch.from), partOf(this.stretch.to)]);
     this.stage.keepInFrame();
     this.#draw();
   }
 
-  // The straight portion: the atlas's own of what it has, that of the page's measures of what is changed.
+  // The straight portion from the measures of the atlas, or from computed ones if something is changed.
   #markStraight(isRough) {
     const { study, family, curve } = this;
     this.measured = this.isRecorded || isRough ? null : measuresOfStudy(family, study);
     const isKnown = this.isRecorded || !isRough;
     this.stretch = isKnown ? straightStretch(study, family, curve, this.measured) : null;
-    this.transport.tellStraight(isKnown ? straightWords(study, family, curve, this.measured) : null);
+    this.transport.showStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
   }
 
   #paths(isRough) {
@@ -173,7 +173,7 @@ export class Plate {
   #change(make) {
     make();
     this.#settleSoon(REST_MILLISECONDS);
-    // However fast a slider reports, one study to a frame is all that can be seen.
+    // At most one study per frame.
     this.waiting ||= window.requestAnimationFrame(() => {
       this.waiting = 0;
       this.#restudy(true);
@@ -190,20 +190,20 @@ export class Plate {
     }, after);
   }
 
-  // What follows a change when hands rest: measures, the address, words.
+  // Updates the measures, the address and the texts after a change.
   #settle(isAddressed = true) {
     const { family, curve, study } = this;
     this.measures.show(this.reason ? null : this.measured);
-    this.switches.show(this.candidates, study, this.on, isBesideAtlas(this));
+    this.switches.show(this.candidates, study, this.on, isExtraCircuit(this));
     this.layout.refresh();
-    if (this.reason) this.app.say(`It cannot be assembled: ${this.reason}`);
+    if (this.reason) this.app.announce(`Cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
     if (isAddressed && this.element.isConnected) this.app.replace(plateAddress(this));
   }
 
   #reset() {
     this.changes.clear();
-    this.asked = null;
+    this.requestedCircuit = null;
     this.#restudy(false);
     this.stage.fit();
     this.#settle();
@@ -216,13 +216,13 @@ export class Plate {
     if (name === "others") this.stage.show(this.study, this.#paths(false));
     this.overlays.show(this.study, this.on, false);
     if (before !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
-    this.switches.show(this.candidates, this.study, this.on, isBesideAtlas(this));
+    this.switches.show(this.candidates, this.study, this.on, isExtraCircuit(this));
     this.#draw();
     this.app.replace(plateAddress(this));
   }
 
   #chooseCircuit(k) {
-    this.asked = k;
+    this.requestedCircuit = k;
     this.#restudy(false);
     if (!this.reason) {
       this.drive.begin();
@@ -240,13 +240,13 @@ export class Plate {
       part,
       place: { input },
     } = drive;
-    this.pose = poser.take(pass, input);
+    this.pose = poser.solve(pass, input);
     stage.pose(this.pose);
     this.overlays.pose(this.pose, stage.view, pass, input);
     this.dial.pose(this.pose);
-    this.transport.now(part, input);
+    this.transport.update(part, input);
     const velocity = this.velocity.at(pass, input);
-    this.speed.now(part, Math.hypot(...velocity));
+    this.speed.update(part, Math.hypot(...velocity));
     const frame = { top: this.speed.top, size: stage.size, heading: Math.sign(pass.to - pass.from) };
     stage.moving.speed(this.on.has("velocity") ? velocityArrow(velocity, frame) : null);
   }

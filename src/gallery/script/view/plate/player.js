@@ -1,9 +1,6 @@
-// Time: calls a function with the seconds that have passed, frame by frame, while it plays.
+// Calls a function in each frame with the elapsed seconds while playing.
 
-/**
- * A clock of frames. A frame that comes late, as after another page was looked at, counts for a twentieth of
- * a second.
- */
+/** A frame clock. A late frame, for example after a switch of tabs, counts as a twentieth of a second. */
 export class Player {
   constructor(advance) {
     this.advance = advance;

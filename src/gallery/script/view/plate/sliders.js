@@ -5,29 +5,29 @@ import { roundedToGrain } from "./parameters.js";
 
 const PARAMETER_KINDS = {
   free: "varied in the atlas",
-  kept: "kept in the atlas",
-  follows: "follows from the others",
-  freed: "set free",
+  fixed: "constant in the atlas",
+  derived: "derived from other parameters",
+  unlinked: "unlinked",
 };
 
 /**
- * The controls of parameters (parameters.js), below `legend`, what their letters mean. `on` has change(name,
- * value), clear(name), settle() when a hand lets go, and reset(). `show(parameters)` says what they are now;
- * rows stay while their names do.
+ * The controls of parameters (parameters.js), below `legend`, which explains their letters. `on` has
+ * change(name, value), clear(name), settle() at the end of a drag, and reset(). `show(parameters)` updates
+ * the values; rows are reused while the names are the same.
  */
 export class Sliders {
   constructor(legend, on) {
     this.on = on;
     this.rows = new Map();
     this.free = h("div", { class: "parameters" });
-    this.kept = h("div", { class: "parameters" });
+    this.locked = h("div", { class: "parameters" });
     this.more = h(
       "details",
-      { class: "kept-parameters" },
-      h("summary", {}, "Kept in the atlas, and what follows"),
-      this.kept,
+      { class: "locked-parameters" },
+      h("summary", {}, "Locked parameters"),
+      this.locked,
     );
-    this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "As in the atlas");
+    this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "Reset all");
     this.element = h(
       "section",
       { class: "gauge sliders" },
@@ -47,33 +47,33 @@ export class Sliders {
     this.reset.disabled = !parameters.some((parameter) => isChangedParameter(parameter));
   }
 
-  /** Marks what is wrong: the names whose values are out of bounds. */
+  /** Updates a row and marks a value that is out of bounds. */
   #refresh(parameter) {
     const row = this.rows.get(parameter.name);
     const { value, recorded, kind, low, high } = parameter;
     row.parameter = parameter;
     row.element.className = `parameter ${kind}${isChangedParameter(parameter) ? " changed" : ""}`;
-    // A value that was typed may lie beyond the range that is sensible.
+    // A typed value may exceed the slider's range.
     row.range.min = Math.min(low, value);
     row.range.max = Math.max(high, value);
     if (Number(row.range.value) !== value) row.range.value = value;
-    row.range.disabled = kind === "follows";
-    row.range.setAttribute("aria-valuetext", plainNumber(value));
-    row.field.readOnly = kind === "follows";
-    if (document.activeElement !== row.field) row.field.value = plainNumber(value);
+    row.range.disabled = kind === "derived";
+    row.range.setAttribute("aria-valuetext", formatInputNumber(value));
+    row.field.readOnly = kind === "derived";
+    if (document.activeElement !== row.field) row.field.value = formatInputNumber(value);
     const { min, max } = parameter;
     const isOut =
       (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
     row.field.setAttribute("aria-invalid", String(isOut));
-    const isTied = kind === "follows" || kind === "freed";
-    const label = kind === "follows" ? "Set free" : kind === "freed" ? "Let follow" : "Back";
+    const isDependent = kind === "derived" || kind === "unlinked";
+    const label = kind === "derived" ? "Unlink" : kind === "unlinked" ? "Relink" : "Reset";
     row.button.textContent = label;
     row.button.setAttribute(
       "aria-label",
-      `${label}: ${parameter.name}${isTied ? "" : ` to ${plainNumber(recorded)}`}`,
+      `${label}: ${parameter.name}${isDependent ? "" : ` to ${formatInputNumber(recorded)}`}`,
     );
-    row.button.classList.toggle("unneeded", !isTied && !isChangedParameter(parameter));
-    row.button.disabled = !isTied && !isChangedParameter(parameter);
+    row.button.classList.toggle("unneeded", !isDependent && !isChangedParameter(parameter));
+    row.button.disabled = !isDependent && !isChangedParameter(parameter);
   }
 
   #build(parameters) {
@@ -84,13 +84,13 @@ export class Sliders {
       this.free,
       rows.filter(isFree).map(([, { element }]) => element),
     );
-    const kept = rows.filter((row) => !isFree(row));
+    const locked = rows.filter((row) => !isFree(row));
     fill(
-      this.kept,
-      kept.map(([, { element }]) => element),
+      this.locked,
+      locked.map(([, { element }]) => element),
     );
-    this.more.hidden = kept.length === 0;
-    this.more.open = rows.length <= 6 || rows.length === kept.length;
+    this.more.hidden = locked.length === 0;
+    this.more.open = rows.length <= 6 || rows.length === locked.length;
   }
 
   #row(parameter) {
@@ -106,7 +106,7 @@ export class Sliders {
       "aria-label": `${name}, ${PARAMETER_KINDS[parameter.kind]}`,
       oninput: () => on.change(name, roundedToGrain(Number(row.range.value), row.parameter.grain)),
       onchange: () => on.settle(),
-      onkeydown: (event) => steppedSlider(event, row, on),
+      onkeydown: (event) => stepSlider(event, row, on),
     });
     row.field = h("input", {
       type: "number",
@@ -118,13 +118,13 @@ export class Sliders {
       },
       onchange: () => {
         on.settle();
-        row.field.value = plainNumber(row.parameter.value);
+        row.field.value = formatInputNumber(row.parameter.value);
       },
     });
     row.button = h("button", {
       type: "button",
       class: "quiet tie",
-      onclick: () => freedOrTied(row.parameter, on),
+      onclick: () => toggleLink(row.parameter, on),
     });
     row.element = h(
       "div",
@@ -139,8 +139,8 @@ export class Sliders {
   }
 }
 
-// The browser's own steps of a slider without steps are coarse: ours are its grain, with shift ten of them.
-function steppedSlider(event, row, on) {
+// Steps of the slider by keys: one grain, with Shift ten.
+function stepSlider(event, row, on) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
   if (!(event.key in ways) || event.ctrlKey || event.metaKey || event.altKey) return;
   event.preventDefault();
@@ -149,17 +149,17 @@ function steppedSlider(event, row, on) {
   on.change(name, roundedToGrain(value + by, grain));
 }
 
-function freedOrTied({ name, kind, value }, on) {
-  if (kind === "follows") on.change(name, value);
+function toggleLink({ name, kind, value }, on) {
+  if (kind === "derived") on.change(name, value);
   else on.clear(name);
   on.settle();
 }
 
 function isChangedParameter({ kind, value, recorded }) {
-  return kind === "freed" || (kind !== "follows" && value !== recorded);
+  return kind === "unlinked" || (kind !== "derived" && value !== recorded);
 }
 
 /** A number as it is typed: up to ten significant digits. */
-export function plainNumber(value) {
+export function formatInputNumber(value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(10))) : "";
 }

@@ -3,12 +3,15 @@
 import { pixel } from "../../draw/path-data.js";
 import { shownSpeed, speedData, speedsOfPath } from "../../draw/speed-graph.js";
 import { h, s } from "../dom.js";
-import { partOfInput, turningParts } from "./course.js";
-import { minusSigned } from "./study.js";
+import { partOfInput, turningParts } from "./timeline.js";
+import { formatDecimals } from "./study.js";
 
 const SPEED_FRAME = { width: 300, height: 84 };
 
-/** The graph: `show(study, path)`, then `now(part, speed)`; `choose(part)` is called where it is pressed. */
+/**
+ * The graph: `show(study, path, stretch)`, then `update(part, speed)`; calls `choose(part)` when it is
+ * pressed.
+ */
 export class SpeedView {
   constructor(choose) {
     this.line = s("path", { class: "speed-line" });
@@ -56,22 +59,22 @@ export class SpeedView {
     this.unit = "";
   }
 
-  /** `stretch` are the parts [from, to] of the straight portion, or null. */
-  show({ linkage, course }, path, stretch) {
+  /** `stretch` is the range of parts [from, to] of the straight portion, or null. */
+  show({ linkage, timeline }, path, stretch) {
     const { isLength } = linkage.input;
     const { inputs, speeds } = speedsOfPath(path, isLength ? 1 : 180 / Math.PI);
     const parts = [];
     let k = 0;
     inputs.forEach((at, i) => {
       while (k < path.starts.length - 1 && i >= path.starts[k + 1]) k += 1;
-      parts.push(partOfInput(course, k, at));
+      parts.push(partOfInput(timeline, k, at));
     });
     this.top = shownSpeed(speeds);
-    this.unit = isLength ? "a unit of input" : "a radian of input";
+    this.unit = isLength ? "unit of input" : "radian of input";
     this.line.setAttribute("d", speedData(parts, speeds, this.top, SPEED_FRAME));
     this.limits.setAttribute(
       "d",
-      turningParts(course)
+      turningParts(timeline)
         .map((part) => `M${pixel(part * SPEED_FRAME.width)} 0V${SPEED_FRAME.height}`)
         .join(""),
     );
@@ -79,15 +82,15 @@ export class SpeedView {
     const finite = speeds.filter(Number.isFinite);
     const [least, most] = [Math.min(...finite), Math.max(...finite)];
     const isCut = most > this.top * 1.05;
-    const until = isCut ? "without bound towards the limits" : `to ${shortLength(most)}`;
-    this.foot.textContent = `from ${shortLength(least)} ${until}, in lengths to ${this.unit}`;
+    const until = isCut ? "unbounded towards the limits" : `to ${formatLength(most)}`;
+    this.foot.textContent = `from ${formatLength(least)} ${until}, in lengths per ${this.unit}`;
     this.drawing.setAttribute(
       "aria-label",
-      `Speed of the traced point over the circuit: from ${shortLength(least)} ${until} to ${this.unit}`,
+      `Speed of the traced point over the circuit: from ${formatLength(least)} ${until} per ${this.unit}`,
     );
   }
 
-  now(part, speed) {
+  update(part, speed) {
     const x = pixel(part * SPEED_FRAME.width);
     this.mark.setAttribute("transform", `translate(${x} 0)`);
     const isFinite = Number.isFinite(speed);
@@ -96,7 +99,7 @@ export class SpeedView {
       "cy",
       isFinite ? pixel(SPEED_FRAME.height * (1 - Math.min(speed / this.top, 1.06))) : -5,
     );
-    this.value.textContent = isFinite ? shortLength(speed) : "∞";
+    this.value.textContent = isFinite ? formatLength(speed) : "∞";
   }
 }
 
@@ -106,11 +109,11 @@ function bandData([from, to]) {
   return to >= from ? field(from, to) : field(from, 1) + field(0, to);
 }
 
-/** A length or speed in four significant digits, with a true minus. */
-export function shortLength(value) {
+/** A length or speed in four significant digits, with a true minus sign. */
+export function formatLength(value) {
   if (!Number.isFinite(value)) return "∞";
   if (value === 0) return "0";
   const exponent = Math.floor(Math.log10(Math.abs(value)));
   if (exponent < -5 || exponent > 6) return value.toExponential(3).replaceAll("-", "−");
-  return minusSigned(value, Math.max(0, 3 - exponent));
+  return formatDecimals(value, Math.max(0, 3 - exponent));
 }

@@ -1,17 +1,15 @@
-// The stage of a plate: what stays, the curves and the ground, on one sheet, and the linkage that moves on
-// another above it, so that a frame of the motion paints the linkage alone. Weights of lines are in pixels of
-// the screen at any zoom.
+// The stage of a plate: a static layer with the curves and the ground, and above it a layer with the moving
+// linkage, so that each frame repaints the linkage only. Line widths are in screen pixels at any zoom.
 
 import { fittedView, viewBetween, zoomedView } from "../../draw/paper-view.js";
 import { fill, h } from "../dom.js";
-import { MovingSheet } from "./moving-sheet.js";
-import { StillSheet } from "./still-sheet.js";
+import { MovingLayer } from "./moving-layer.js";
+import { StaticLayer } from "./static-layer.js";
 
 const STAGE_MARGIN = 44;
 
 /**
- * A stage; `element` is to be put into the page, then `observe()` it. `onview` is called when its view has
- * changed.
+ * A stage. Put `element` into the document, then call `observe()`. Calls `onview` when its view has changed.
  */
 export class Stage {
   constructor() {
@@ -20,10 +18,10 @@ export class Stage {
     this.isZoomed = false;
     this.box = null;
     this.study = null;
-    this.still = new StillSheet();
-    this.moving = new MovingSheet();
-    this.summary = h("p", { class: "unseen", id: "plate-summary" });
-    this.reason = h("p", { class: "reason trouble", hidden: true });
+    this.still = new StaticLayer();
+    this.moving = new MovingLayer();
+    this.summary = h("p", { class: "visually-hidden", id: "plate-summary" });
+    this.reason = h("p", { class: "reason error", hidden: true });
     this.picture = h(
       "div",
       {
@@ -51,9 +49,7 @@ export class Stage {
     this.observer.disconnect();
   }
 
-  /**
-   * Shows a study and what its curve is drawn with: { dashes, lead, others, band } as path data in the plane.
-   */
+  /** Shows a study and the path data of its curve, { dashes, lead, others, band }, in the plane. */
   show(study, paths) {
     const isFirst = !this.study;
     this.study = study;
@@ -64,18 +60,18 @@ export class Stage {
     else this.#place();
   }
 
-  /** The box that a fit shows: what the linkage sweeps, widened by what overlays add. */
+  /** The box for fitting: the area swept by the linkage, extended by overlays. */
   frame(box) {
     this.box = box;
   }
 
-  /** A linkage that cannot be assembled leaves the last one that could, receding, and says why. */
+  /** Shows why a linkage cannot be assembled; the previous linkage stays visible, dimmed. */
   impossible(reason) {
     this.element.classList.toggle("impossible", reason !== null);
     this.reason.hidden = reason === null;
     fill(
       this.reason,
-      reason === null ? [] : `It cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
+      reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
     );
   }
 
@@ -84,7 +80,7 @@ export class Stage {
     this.moving.pose(pose, this.view);
   }
 
-  /** Fits all that is swept into the frame. */
+  /** Fits the swept area into the frame. */
   fit() {
     this.#stay();
     this.isZoomed = false;
@@ -92,7 +88,7 @@ export class Stage {
     this.#place();
   }
 
-  /** While lengths are changing: the view stays unless the linkage leaves it, or grows small in it. */
+  /** While lengths are changing, the view stays unless the linkage leaves it or becomes small in it. */
   keepInFrame() {
     if (this.isZoomed || !this.box) return;
     const fitted = fittedView(this.box, { ...this.size, margin: this.#margin() });
@@ -124,7 +120,7 @@ export class Stage {
     this.#place();
   }
 
-  // Not at a jump, so that the eye can follow, unless motion is not wanted.
+  // Animated, so that the eye can follow, unless reduced motion is preferred.
   #glideTo(view) {
     if (window.matchMedia("(prefers-reduced-motion: reduce)").matches) {
       this.view = view;

@@ -1,4 +1,4 @@
-// A linkage as a plate studies it: assembled, all its circuits, the one that is shown.
+// The study of a linkage: the assembled linkage, all its circuits, and the one shown.
 
 import { changedValues, templateWithChanges } from "../../kinematics/changes.js";
 import { routesOf } from "../../kinematics/circuit.js";
@@ -10,22 +10,22 @@ import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
 import { sideOf } from "../../kinematics/signs.js";
 import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
-import { courseOf } from "./course.js";
+import { timelineOf } from "./timeline.js";
 
-// So many samples over a circuit show what its other points and its sliders do.
+// The number of samples of a circuit for other points and for rough updates.
 const STUDY_SAMPLES = 240;
 
 /**
- * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } where it cannot
- * be assembled, `reason` a sentence; else { values, linkage, routes, home, shown, shortfall, circuit, joint,
- * others, course, mechanism, box, size, fourBar, isCouplerPoint, template }.
+ * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } if it cannot be
+ * assembled, with `reason` a sentence; otherwise { values, linkage, routes, home, shown, shortfall, circuit,
+ * joint, others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
- * `routes` are all circuits { passes, closed }; `home` is the place among them of the one the address names,
- * `shown` that of the one that is shown, which is `asked` where there is one; -1 where there is none.
- * `circuit` is `shown`, sampled; `joint` the traced one, `others` the further traced ones. `box` is what the
- * linkage sweeps. A rough study of a circuit that was not asked for knows no other circuits.
+ * `routes` are all circuits { passes, closed }; `home` is the index of the one that the address names,
+ * `shown` of the one that is shown, which is `requested` if it exists; -1 if there is none. `circuit` is the
+ * shown circuit, sampled; `joint` is the traced joint, `others` are further traced joints. `box` is the area
+ * swept by the linkage. A rough study without a requested circuit has no other circuits.
  */
-export function studyOf(family, curve, changes, asked = null, isRough = false) {
+export function studyOf(family, curve, changes, requested = null, isRough = false) {
   const { cell, trace, circuit } = family.curves;
   const values = changedValues(family, cell[curve], changes);
   const changed = templateWithChanges(family.template, trace[curve], values, changes);
@@ -38,17 +38,17 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
   }
   const recorded = routesOf(linkage);
   const all =
-    isRough && asked === null
+    isRough && requested === null
       ? recorded
       : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
-  if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
-  const home = sameRoute(routes, recorded.routes[circuit[curve] - 1]);
-  const shown = routes[asked] ? asked : home;
+  if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows assembly" };
+  const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
+  const shown = routes[requested] ? requested : home;
   if (shown < 0) {
     const reason =
       recorded.shortfall ??
-      "the circuit of this curve is there no more: it has come together with another, or apart";
+      "the circuit of this curve no longer exists: it has merged with another, or split";
     return { values, linkage, routes, home, shown, reason };
   }
   const study = {
@@ -60,10 +60,10 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
     shortfall: recorded.shortfall,
     template: changed.template,
   };
-  return { ...study, ...shownCircuit(study, changed.trace ?? linkage.traced.length) };
+  return { ...study, ...studyShownCircuit(study, changed.trace ?? linkage.traced.length) };
 }
 
-function shownCircuit({ linkage, routes, shown }, trace) {
+function studyShownCircuit({ linkage, routes, shown }, trace) {
   const circuit = sampledCircuit(
     linkage,
     samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }),
@@ -76,14 +76,14 @@ function shownCircuit({ linkage, routes, shown }, trace) {
   const curveBox = widenedBox(emptyBox(), circuit.x[joint], circuit.y[joint], circuit.count);
   const size = Math.hypot(box[2] - box[0], box[3] - box[1]);
   if (!(size > 0) || !Number.isFinite(size))
-    return { reason: "its lengths are too unlike one another to be drawn" };
+    return { reason: "its lengths differ too much to be drawn" };
   const fourBar = fourBarOf(linkage);
   const isCouplerPoint = fourBar !== null && isOnCoupler(linkage, fourBar, joint);
   return {
     circuit,
     joint,
     others,
-    course: courseOf(routes[shown]),
+    timeline: timelineOf(routes[shown]),
     mechanism,
     box,
     curveBox,
@@ -93,7 +93,7 @@ function shownCircuit({ linkage, routes, shown }, trace) {
   };
 }
 
-// Other points' curves are in the frame as long as the linkage does not become small in it.
+// The frame includes the curves of other points unless the linkage would become small in it.
 function boxWithOthers(box, circuit, others) {
   const wide = [...box];
   for (const other of others) widenedBox(wide, circuit.x[other], circuit.y[other], circuit.count);
@@ -101,12 +101,12 @@ function boxWithOthers(box, circuit, others) {
   return extent(wide) <= 1.6 * extent(box) ? wide : box;
 }
 
-/** The path of a study's traced joint, to a part of its size. */
+/** The path of a study's traced joint, accurate to a fraction of its size. */
 export function pathOfStudy({ linkage, circuit, joint, size }, part) {
   return finePath(linkage, circuit, joint, part * size);
 }
 
-function sameRoute(routes, route) {
+function indexOfRoute(routes, route) {
   if (!route) return -1;
   const [first] = route.passes;
   const isOn = ({ passes }) =>
@@ -118,35 +118,35 @@ function sameRoute(routes, route) {
   return routes.findIndex(isOn);
 }
 
-/** What a circuit is called: "branch 1, a full turn", "−75.5° to 75.5°, branches 1 and −1". */
-export function routeTitle(linkage, { passes, closed }) {
-  const told = (at) => (linkage.input.isLength ? lengthWords(at) : `${minusSigned(at, 1)}°`);
+/** The title of a circuit: "a full turn, branch 1", "−75.5° to 75.5°, branch 1 and −1". */
+export function circuitTitle(linkage, { passes, closed }) {
+  const formatInput = (at) => (linkage.input.isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
-  const branches = [...new Set(passes.map(({ signs }) => branchWords(linkage, signs)))].filter(Boolean);
+  const branches = [...new Set(passes.map(({ signs }) => branchLabel(linkage, signs)))].filter(Boolean);
   const turns =
     passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) &&
     closed;
-  const travel = turns ? turnWords(high - low) : `${told(low)} to ${told(high)}`;
+  const travel = turns ? turnsLabel(high - low) : `${formatInput(low)} to ${formatInput(high)}`;
   return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
 }
 
-function lengthWords(length) {
-  return minusSigned(Number(length.toPrecision(4)), 4).replace(/\.?0+$/, "");
+function lengthLabel(length) {
+  return formatDecimals(Number(length.toPrecision(4)), 4).replace(/\.?0+$/, "");
 }
 
-function turnWords(degrees) {
+function turnsLabel(degrees) {
   const turns = Math.round(degrees / 360);
   return turns === 1 ? "a full turn" : `${turns} turns`;
 }
 
 // The sides of all two-valued joints: 1 left, −1 right.
-function branchWords({ dyads }, signs) {
+function branchLabel({ dyads }, signs) {
   return Array.from({ length: dyads }, (_, k) => (sideOf(signs, k) > 0 ? "1" : "−1")).join("/");
 }
 
-/** A number with so many decimals and a true minus. */
-export function minusSigned(value, decimals) {
+/** A number with a fixed number of decimals and a true minus sign. */
+export function formatDecimals(value, decimals) {
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
 }

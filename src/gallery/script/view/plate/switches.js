@@ -1,9 +1,9 @@
-// What is switched on over the linkage, and which of its circuits is shown.
+// Checkboxes for the overlays, and the choice of the circuit.
 
 import { fill, h } from "../dom.js";
 import { cognatesOfStudy, OVERLAYS } from "./overlays.js";
-import { routeTitle } from "./study.js";
-import { shortLength } from "./speed-view.js";
+import { circuitTitle } from "./study.js";
+import { formatLength } from "./speed-view.js";
 
 /** Checkboxes and circuits. `on` has overlay(name, isOn) and circuit(k). */
 export class Switches {
@@ -24,8 +24,8 @@ export class Switches {
     this.aside = h(
       "p",
       { class: "note", hidden: true },
-      "The atlas does not have this circuit. It is taken away as the page solves it; no command line names it " +
-        "yet, and the manifest fragment takes all circuits.",
+      "The atlas does not contain this circuit. Files are exported from this page’s solution; no command " +
+        "line names the circuit yet, and the manifest fragment selects all circuits.",
     );
     this.circuitSection = h(
       "section",
@@ -37,7 +37,7 @@ export class Switches {
     this.element = h(
       "section",
       { class: "gauge switches" },
-      h("h3", {}, "Shown"),
+      h("h3", {}, "Overlays"),
       h(
         "div",
         { class: "checks" },
@@ -48,10 +48,10 @@ export class Switches {
   }
 
   /**
-   * `candidates` has the linkage and routes of what was asked for, `study` what is drawn, `isBeside`
-   * whether the atlas lacks its circuit.
+   * `candidates` has the linkage and routes of the current parameters, `study` is what is drawn, `isExtra`
+   * says whether the atlas lacks its circuit.
    */
-  show(candidates, study, on, isBeside) {
+  show(candidates, study, on, isExtra) {
     for (const { name, there } of OVERLAYS) {
       const { box, row } = this.boxes.get(name);
       row.hidden = !study || !there(study);
@@ -64,7 +64,7 @@ export class Switches {
       routes.map((route, k) => this.#circuit(candidates, route, k)),
     );
     this.circuitSection.hidden = routes.length < 2;
-    this.aside.hidden = !isBeside;
+    this.aside.hidden = !isExtra;
   }
 
   #circuit({ linkage, home, shown }, route, k) {
@@ -75,12 +75,12 @@ export class Switches {
       checked: k === shown,
       onchange: () => this.on.circuit(k),
     });
-    const words = `${k + 1}: ${routeTitle(linkage, route)}`;
+    const words = `${k + 1}: ${circuitTitle(linkage, route)}`;
     return h(
       "label",
       { class: "check" },
       radio,
-      h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve’s") : null),
+      h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve") : null),
     );
   }
 
@@ -88,7 +88,7 @@ export class Switches {
     const pair = study && on.has("cognates") ? cognatesOfStudy(study) : null;
     this.lengths.hidden = !pair;
     if (!pair) return;
-    const head = ["", "itself", "first", "second"];
+    const head = ["", "original", "first", "second"];
     const rows = ["frame", "crank", "coupler", "rocker", "along", "across"].map((name, k) => [
       name,
       pair.cognates.map(({ lengths, point }) => lengths[name] ?? point[k - 4]),
@@ -98,7 +98,7 @@ export class Switches {
         "tr",
         {},
         h("th", { scope: "row", class: "text" }, name),
-        values.map((x) => h("td", {}, shortLength(x))),
+        values.map((x) => h("td", {}, formatLength(x))),
       );
     fill(
       this.lengths,
@@ -108,7 +108,7 @@ export class Switches {
         h(
           "table",
           { class: "figures" },
-          h("caption", { class: "unseen" }, "The three four-bars that draw this curve"),
+          h("caption", { class: "visually-hidden" }, "The three four-bars that trace this curve"),
           h(
             "thead",
             {},

@@ -1,9 +1,9 @@
-// What drives the motion: play and pause, speed, the slider over the circuit, steps, and limits.
+// The playback controls: play and pause, speed, the slider over the circuit, steps, and limits.
 
 import { h } from "../dom.js";
-import { minusSigned } from "./study.js";
+import { formatDecimals } from "./study.js";
 
-/** Rates of play, in degrees of input to a second, and what they are called. */
+/** Playback rates, in degrees of input per second, and their labels. */
 const PLAY_RATES = [
   [15, "¼"],
   [30, "½"],
@@ -13,8 +13,8 @@ const PLAY_RATES = [
 ];
 
 /**
- * The controls under a stage, of a drive and of the stage's view. `show(study, title)`, `now(part, input)`
- * and `playing(isPlaying)` say what there is to see.
+ * The controls below a stage, for a drive and the stage's view. `show(study, title)`, `update(part, input)`
+ * and `playing(isPlaying)` update them.
  */
 export class Transport {
   constructor(drive, stage) {
@@ -31,16 +31,16 @@ export class Transport {
       max: "1",
       step: "any",
       value: "0",
-      "aria-label": "Place on the circuit",
-      oninput: () => drive.seekByHand(Number(this.scrub.value)),
-      onkeydown: (event) => steppedByKey(event, drive),
+      "aria-label": "Position on the circuit",
+      oninput: () => drive.seekAndPause(Number(this.scrub.value)),
+      onkeydown: (event) => stepByKey(event, drive),
     });
     this.input = h("span", { class: "input-now" });
     this.ends = h("p", { class: "note ends" });
-    this.straight = h("p", { class: "note straight-told" });
+    this.straight = h("p", { class: "note straight-note" });
     this.rate = h(
       "select",
-      { "aria-label": "Speed of play", class: "rate" },
+      { "aria-label": "Playback speed", class: "rate" },
       PLAY_RATES.map(([rate, label]) => h("option", { value: rate, selected: rate === 60 }, `${label} ×`)),
     );
     const button = (label, title, onclick, keys) =>
@@ -50,8 +50,8 @@ export class Transport {
         label,
       );
     this.toLimits = [
-      button("⇤", "To the limit before, or the beginning", () => drive.toLimit(-1), "Home"),
-      button("⇥", "To the next limit, or the end", () => drive.toLimit(1), "End"),
+      button("⇤", "Previous limit or start", () => drive.toLimit(-1), "Home"),
+      button("⇥", "Next limit or end", () => drive.toLimit(1), "End"),
     ];
     this.element = h(
       "div",
@@ -60,40 +60,40 @@ export class Transport {
       h(
         "div",
         { class: "toolbar" },
-        h("div", { class: "told" }, this.ends, this.straight),
+        h("div", { class: "motion-notes" }, this.ends, this.straight),
         h(
           "span",
           { class: "end zooms" },
           this.rate,
           button("−", "Zoom out", () => stage.zoom(1 / 1.3), "-"),
           button("+", "Zoom in", () => stage.zoom(1.3), "+"),
-          button("Fit", "Fit into the frame", () => stage.fit(), "0"),
+          button("Fit", "Fit to frame", () => stage.fit(), "0"),
         ),
       ),
     );
-    this.told = 0;
+    this.announced = 0;
     this.playing(false);
   }
 
-  /** Degrees of input to a second. */
+  /** Degrees of input per second. */
   get speed() {
     return Number(this.rate.value);
   }
 
-  show({ linkage, course, shortfall }, title) {
+  show({ linkage, timeline, shortfall }, title) {
     this.isLength = linkage.input.isLength;
-    this.course = course;
+    this.timeline = timeline;
     this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
     this.#enable(true);
   }
 
-  /** What is told of the straight portion; null while it is not known. */
-  tellStraight(words) {
+  /** Shows the description of the straight portion; null while it is unknown. */
+  showStraight(words) {
     this.straight.classList.toggle("stale", words === null);
     if (words !== null) this.straight.textContent = words;
   }
 
-  /** Nothing to drive. */
+  /** Disables the controls. */
   stop() {
     this.#enable(false);
   }
@@ -106,26 +106,24 @@ export class Transport {
     this.isPlaying = isPlaying;
     this.play.textContent = isPlaying ? "Pause" : "Play";
     this.play.setAttribute("aria-pressed", String(isPlaying));
-    if (!isPlaying) this.told = 0;
+    if (!isPlaying) this.announced = 0;
   }
 
-  now(part, input) {
-    const text = this.isLength ? minusSigned(input, 4) : `${minusSigned(input, 1)}°`;
+  update(part, input) {
+    const text = this.isLength ? formatDecimals(input, 4) : `${formatDecimals(input, 1)}°`;
     this.input.textContent = text;
     if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
       this.scrub.value = part;
-    // A screen reader need not hear sixty angles in a second.
+    // Limits announcements to screen readers to two per second.
     const time = performance.now();
-    if (this.isPlaying && time - this.told < 500) return;
-    this.told = time;
+    if (this.isPlaying && time - this.announced < 500) return;
+    this.announced = time;
     this.scrub.setAttribute("aria-valuetext", `input ${text}`);
   }
 }
 
-/**
- * Arrows step by a degree, or a part of an actuator's stroke; with shift by ten; Home and End go to limits.
- */
-export function steppedByKey(event, drive) {
+/** Arrow keys step by a degree, or a fraction of a stroke, with Shift by ten; Home and End move to limits. */
+export function stepByKey(event, drive) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
   const limits = { Home: -1, End: 1 };
   if (event.ctrlKey || event.metaKey || event.altKey) return false;

@@ -3,13 +3,13 @@
 import { linkageWithOnePoint } from "../../kinematics/linkage.js";
 import { ratesAt } from "../../kinematics/poses.js";
 
-/** Asks for velocities of one point, whatever other points there are. */
+/** Computes the velocity of one point, independent of other points. */
 export class PointVelocity {
   constructor({ linkage, joint }) {
     this.alone = linkageWithOnePoint(linkage, joint);
   }
 
-  /** [vx, vy] at an input of a pass, to a radian of input or a unit of length; infinite at limits. */
+  /** [vx, vy] at an input of a pass, per radian of input or unit of length; infinite at limits. */
   at(pass, input) {
     const { linkage, joint } = this.alone;
     const { velocity } = ratesAt(linkage, pass, input);
@@ -18,8 +18,8 @@ export class PointVelocity {
 }
 
 /**
- * The arrow of a velocity in pixels, y down: a fifth of the frame at the speed `top`, half as much again at
- * most, and the other way where the input falls. Null of what is infinite.
+ * The arrow of a velocity in pixels, y down: a fifth of the frame at the speed `top`, at most one and a half
+ * times that, reversed where the input decreases. Null if infinite.
  */
 export function velocityArrow([vx, vy], { top, size, heading }) {
   const speed = Math.hypot(vx, vy);

@@ -1,21 +1,21 @@
-// The indexes of families by shape, kept as long as the page is open.
+// The shape indexes of families, cached while the page is open.
 
 import { indexing, indexingWindows } from "../../shape/indexing.js";
-import { inSlices } from "./slices.js";
+import { runInSlices } from "./slices.js";
 
-const INDEXES = new WeakMap();
+const SHAPE_INDEXES = new WeakMap();
 
 /**
- * The index of a family; with windows no shorter than `least` of a curve, unless that is null. Null if
+ * The shape index of a family, with windows no shorter than `least` of a curve unless that is null. Null if
  * stopped.
  */
-export async function indexFor(family, least, stopped) {
-  if (!INDEXES.has(family)) {
-    const index = await inSlices(indexing(family), stopped);
+export async function shapeIndex(family, least, stopped) {
+  if (!SHAPE_INDEXES.has(family)) {
+    const index = await runInSlices(indexing(family), stopped);
     if (!index) return null;
-    INDEXES.set(family, index);
+    SHAPE_INDEXES.set(family, index);
   }
-  const index = INDEXES.get(family);
-  if (least !== null) await inSlices(indexingWindows(index, least), stopped);
+  const index = SHAPE_INDEXES.get(family);
+  if (least !== null) await runInSlices(indexingWindows(index, least), stopped);
   return stopped() ? null : index;
 }

@@ -1,20 +1,20 @@
-// The pad on which a shape is drawn.
+// The drawing pad.
 
 import { simplified } from "../../shape/encode.js";
 import { looksClosed } from "../../shape/outline.js";
 import { fill, h, s } from "../dom.js";
 
-const WIDE = 400;
-const HIGH = 300;
-// The keys move the pen by this much, and by five times as much with Shift.
-const STEP = 5;
+const PAD_WIDTH = 400;
+const PAD_HEIGHT = 300;
+// The arrow keys move the pen by this much, with Shift by five times as much.
+const PEN_STEP = 5;
 
-/** A pad of 400 × 300; `drawn(points, closed)` is called with a shape, y up, when it is finished. */
+/** A pad of 400 × 300; calls `ondrawn(points, closed)` with a finished shape, y up. */
 export class DrawingPad {
-  constructor(drawn, say) {
-    Object.assign(this, { drawn, say });
+  constructor(ondrawn, announce) {
+    Object.assign(this, { ondrawn, announce });
     this.points = [];
-    this.pen = [WIDE / 2, HIGH / 2];
+    this.pen = [PAD_WIDTH / 2, PAD_HEIGHT / 2];
     this.line = s("path", { class: "drawn" });
     this.dots = s("g", { class: "dots" });
     this.cross = s("path", { class: "pen", d: "M-7 0h14M0-7v14" });
@@ -22,13 +22,13 @@ export class DrawingPad {
       "svg",
       {
         class: "pad",
-        viewBox: `0 0 ${WIDE} ${HIGH}`,
+        viewBox: `0 0 ${PAD_WIDTH} ${PAD_HEIGHT}`,
         tabindex: "0",
         role: "application",
         "aria-label": "Drawing pad",
         "aria-describedby": "pad-help",
-        onpointerdown: (event) => this.pressed(event),
-        onkeydown: (event) => this.typed(event),
+        onpointerdown: (event) => this.startStroke(event),
+        onkeydown: (event) => this.handleKey(event),
       },
       s("path", { class: "grid", d: gridLines() }),
       this.line,
@@ -38,8 +38,8 @@ export class DrawingPad {
     this.help = h(
       "p",
       { class: "note", id: "pad-help" },
-      "Draw in one stroke. With keys: arrows move the pen (Shift: further), Enter sets a point, ",
-      "Backspace takes one back, C closes, Escape begins anew.",
+      "Draw in one stroke. Keys: arrows move the pen (Shift: further), Enter adds a point, ",
+      "Backspace removes the last point, C closes the curve, Escape clears it.",
     );
   }
 
@@ -47,23 +47,23 @@ export class DrawingPad {
   show(points, closed) {
     const [xs, ys] = [0, 1].map((part) => Array.from(points).filter((_, k) => k % 2 === part));
     const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    const scale = Math.min((WIDE - 40) / (x1 - x0 || 1), (HIGH - 40) / (y1 - y0 || 1));
+    const scale = Math.min((PAD_WIDTH - 40) / (x1 - x0 || 1), (PAD_HEIGHT - 40) / (y1 - y0 || 1));
     const place = (k) => [
-      WIDE / 2 + scale * (points[k] - (x0 + x1) / 2),
-      HIGH / 2 - scale * (points[k + 1] - (y0 + y1) / 2),
+      PAD_WIDTH / 2 + scale * (points[k] - (x0 + x1) / 2),
+      PAD_HEIGHT / 2 - scale * (points[k + 1] - (y0 + y1) / 2),
     ];
     this.points = xs.map((_, k) => place(2 * k));
     this.closed = closed;
     this.isByKeys = false;
-    this.laid();
+    this.render();
   }
 
   clear() {
     [this.points, this.closed] = [[], false];
-    this.laid();
+    this.render();
   }
 
-  laid() {
+  render() {
     const path = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
     this.line.setAttribute("d", this.closed ? `${path}Z` : path);
     fill(this.dots, this.isByKeys ? this.points.map(([cx, cy]) => s("circle", { cx, cy, r: 3 })) : null);
@@ -72,24 +72,24 @@ export class DrawingPad {
 
   placeOf({ clientX, clientY }) {
     const box = this.element.getBoundingClientRect();
-    const scale = Math.min(box.width / WIDE, box.height / HIGH);
+    const scale = Math.min(box.width / PAD_WIDTH, box.height / PAD_HEIGHT);
     return [
-      (clientX - box.left - (box.width - scale * WIDE) / 2) / scale,
-      (clientY - box.top - (box.height - scale * HIGH) / 2) / scale,
+      (clientX - box.left - (box.width - scale * PAD_WIDTH) / 2) / scale,
+      (clientY - box.top - (box.height - scale * PAD_HEIGHT) / 2) / scale,
     ];
   }
 
-  pressed(event) {
+  startStroke(event) {
     if (event.button) return;
     event.preventDefault();
     this.element.focus({ preventScroll: true });
     this.element.setPointerCapture(event.pointerId);
     [this.points, this.closed, this.isByKeys] = [[this.placeOf(event)], false, false];
-    this.laid();
+    this.render();
     this.element.onpointermove = (moved) => {
       const seen = moved.getCoalescedEvents?.() ?? [];
       for (const one of seen.length ? seen : [moved]) this.points.push(this.placeOf(one));
-      this.laid();
+      this.render();
     };
     this.element.onlostpointercapture = () => {
       [this.element.onpointermove, this.element.onlostpointercapture] = [null, null];
@@ -98,26 +98,26 @@ export class DrawingPad {
   }
 
   flat() {
-    return Float64Array.from(this.points.flatMap(([x, y]) => [x, HIGH - y]));
+    return Float64Array.from(this.points.flatMap(([x, y]) => [x, PAD_HEIGHT - y]));
   }
 
   finish(closed = null) {
     if (this.points.length < 2) return;
     const flat = this.flat();
     this.closed = closed ?? looksClosed(flat);
-    this.laid();
-    this.drawn(flat.length > 600 ? simplified(flat, this.closed, 300) : flat, this.closed);
+    this.render();
+    this.ondrawn(flat.length > 600 ? simplified(flat, this.closed, 300) : flat, this.closed);
   }
 
-  typed(event) {
-    const step = event.shiftKey ? 5 * STEP : STEP;
+  handleKey(event) {
+    const step = event.shiftKey ? 5 * PEN_STEP : PEN_STEP;
     const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[
       event.key
     ];
     const acts = {
-      Enter: () => this.set(),
-      " ": () => this.set(),
-      Backspace: () => this.takeBack(),
+      Enter: () => this.addPoint(),
+      " ": () => this.addPoint(),
+      Backspace: () => this.removePoint(),
       Escape: () => this.clear(),
       c: () => this.finish(true),
     };
@@ -125,32 +125,32 @@ export class DrawingPad {
     event.preventDefault();
     if (!move) return void acts[event.key]();
     this.pen = [
-      Math.min(Math.max(this.pen[0] + move[0], 0), WIDE),
-      Math.min(Math.max(this.pen[1] + move[1], 0), HIGH),
+      Math.min(Math.max(this.pen[0] + move[0], 0), PAD_WIDTH),
+      Math.min(Math.max(this.pen[1] + move[1], 0), PAD_HEIGHT),
     ];
-    this.say(`${Math.round(this.pen[0])}, ${Math.round(HIGH - this.pen[1])}`);
-    this.laid();
+    this.announce(`${Math.round(this.pen[0])}, ${Math.round(PAD_HEIGHT - this.pen[1])}`);
+    this.render();
   }
 
-  set() {
+  addPoint() {
     if (!this.isByKeys) [this.points, this.closed, this.isByKeys] = [[], false, true];
     this.points.push([...this.pen]);
-    this.say(`Point ${this.points.length}`);
-    this.laid();
+    this.announce(`Point ${this.points.length}`);
+    this.render();
     if (this.points.length > 2) this.finish(false);
   }
 
-  takeBack() {
+  removePoint() {
     this.points.pop();
     this.closed = false;
-    this.laid();
+    this.render();
     if (this.points.length > 2) this.finish(false);
   }
 }
 
 function gridLines() {
   let path = "";
-  for (let x = 50; x < WIDE; x += 50) path += `M${x} 0V${HIGH}`;
-  for (let y = 50; y < HIGH; y += 50) path += `M0 ${y}H${WIDE}`;
+  for (let x = 50; x < PAD_WIDTH; x += 50) path += `M${x} 0V${PAD_HEIGHT}`;
+  for (let y = 50; y < PAD_HEIGHT; y += 50) path += `M0 ${y}H${PAD_WIDTH}`;
   return path;
 }

@@ -1,10 +1,11 @@
-// A field for shapes that come from elsewhere.
+// A field for shapes from other programs.
 
 import { shapeIn } from "../../shape/parse.js";
 import { fill, h } from "../dom.js";
 
 /**
- * The field; `use({ points, closed, said })` is called with what was read, and what cannot be read is told.
+ * The field; calls `use({ points, closed, said })` with the parsed shape, and shows a message if it cannot be
+ * read.
  */
 export function pasteField(use) {
   const text = h("textarea", {
@@ -13,7 +14,7 @@ export function pasteField(use) {
     spellcheck: "false",
     placeholder: "x,y lines, JSON, points.csv, a drawing in SVG, or its path: M0 0 C…",
   });
-  const wrong = h("p", { class: "trouble", role: "alert" });
+  const wrong = h("p", { class: "error", role: "alert" });
   const read = () => {
     try {
       use(shapeIn(text.value));
@@ -25,9 +26,9 @@ export function pasteField(use) {
   return h(
     "div",
     { class: "field" },
-    h("label", { for: "shape-text" }, "Or paste points or a path"),
+    h("label", { for: "shape-text" }, "Paste points or a path"),
     text,
     wrong,
-    h("div", {}, h("button", { type: "button", onclick: read }, "Use what is pasted")),
+    h("div", {}, h("button", { type: "button", onclick: read }, "Use pasted shape")),
   );
 }

@@ -1,13 +1,13 @@
-// Long work in short slices, so that the page stays awake.
+// Runs long computations in slices without blocking the page.
 
-// A slice's time, in milliseconds, before the page has its turn.
-const SLICE = 12;
+// The length of a slice, in milliseconds.
+const SLICE_MS = 12;
 
 /**
- * Runs a generator to its end in slices and gives its value; null as soon as `stopped()` is true. Between
- * slices whatever has been pressed goes first.
+ * Runs a generator to its end in slices and returns its value; null as soon as `stopped()` is true. The page
+ * handles input between slices.
  */
-export async function inSlices(generator, stopped = () => false) {
+export async function runInSlices(generator, stopped = () => false) {
   const channel = new MessageChannel();
   const turn = () =>
     new Promise((resume) => {
@@ -16,7 +16,7 @@ export async function inSlices(generator, stopped = () => false) {
     });
   try {
     for (;;) {
-      const until = performance.now() + SLICE;
+      const until = performance.now() + SLICE_MS;
       do {
         const { value, done } = generator.next();
         if (done) return value;

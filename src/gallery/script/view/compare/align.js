@@ -1,0 +1,76 @@
+// Aligns curves with the first of them.
+
+import { curvePoints } from "../../data/family.js";
+import { askedShape } from "../../shape/asked.js";
+import { indexing } from "../../shape/indexing.js";
+import { deviationBetween } from "../../shape/deviation.js";
+import { searching } from "../../shape/search.js";
+import { identity, placed } from "../../shape/similarity.js";
+
+/**
+ * Aligns a curve, { family, curve }, with the first: { points, closed, similarity, rms, greatest };
+ * deviations are relative to the extent of the first. `align` is a key of ALIGNMENTS; the best fit is that of
+ * the search by shape.
+ */
+export function alignCurve(first, one, align) {
+  const closed = one.family.curves.closed[one.curve] === 1;
+  const own = curvePoints(one.family, one.curve);
+  const base = curvePoints(first.family, first.curve);
+  const baseClosed = first.family.curves.closed[first.curve] === 1;
+  if (align === "similar" || align === "mirrored") {
+    const shape = askedShape(base, baseClosed);
+    const found = shape && compareWithShape(shape, one, align === "mirrored");
+    if (found) {
+      const { similarity, rms, greatest } = found;
+      return { points: placed(similarity, own), closed, similarity, rms, greatest };
+    }
+  }
+  const similarity = boxAlignment(base, own, align);
+  const points = placed(similarity, own);
+  const deviation = deviationBetween({ points: base, closed: baseClosed }, { points, closed });
+  return { points, closed, similarity, ...deviation };
+}
+
+/** Compares one curve with a shape, as the search by shape does. */
+function compareWithShape(shape, { family, curve }, mirror) {
+  const alone = { ...family, curves: { ...family.curves, count: 1, ...onlyCurve(family.curves, curve) } };
+  const index = runToEnd(indexing(alone));
+  return runToEnd(searching([index], shape, { mirror }))[0];
+}
+
+function onlyCurve(curves, curve) {
+  const { cell, trace, circuit, closed, box, start, points } = curves;
+  return {
+    cell: cell.subarray(curve, curve + 1),
+    trace: trace.subarray(curve, curve + 1),
+    circuit: circuit.subarray(curve, curve + 1),
+    closed: closed.subarray(curve, curve + 1),
+    box: box.subarray(4 * curve, 4 * curve + 4),
+    start: Uint32Array.of(0, start[curve + 1] - start[curve]),
+    points: points.subarray(2 * start[curve], 2 * start[curve + 1]),
+  };
+}
+
+function runToEnd(generator) {
+  for (;;) {
+    const { value, done } = generator.next();
+    if (done) return value;
+  }
+}
+
+/** The similarity that matches the centres of the bounding boxes and, for "size", their diagonals. */
+function boxAlignment(base, own, align) {
+  if (align === "none") return identity();
+  const [a, b] = [middleAndSize(base), middleAndSize(own)];
+  const scale = align === "size" && b.size > 0 ? a.size / b.size : 1;
+  return { mirror: false, re: scale, im: 0, x: a.x - scale * b.x, y: a.y - scale * b.y };
+}
+
+function middleAndSize(points) {
+  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < points.length; k += 2) {
+    [x0, x1] = [Math.min(x0, points[k]), Math.max(x1, points[k])];
+    [y0, y1] = [Math.min(y0, points[k + 1]), Math.max(y1, points[k + 1])];
+  }
+  return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, size: Math.hypot(x1 - x0, y1 - y0) };
+}

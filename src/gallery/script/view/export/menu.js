@@ -1,0 +1,145 @@
+// The export menu.
+
+import { fill, h } from "../dom.js";
+import { copyText } from "./copy.js";
+import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from "./files.js";
+import { saveFile } from "./save.js";
+
+/**
+ * A button with a menu of all export formats. `names` are "family:cell.trace.circuit", with changed
+ * parameters after "?", as an array or as a function called at the time of the export.
+ */
+export function exportMenu(app, names) {
+  const currentNames = () => (typeof names === "function" ? names() : names);
+  const status = h("span", { class: "export-status", "aria-live": "polite" });
+  const report = (sentence) => fill(status, sentence);
+  const task = (work) => () => {
+    report("Exporting");
+    return work(currentNames()).then(report, (error) => report(error.message));
+  };
+  const entries = [
+    ...EXPORT_FORMATS.map((format) => [
+      format.label,
+      format.note,
+      task((list) => saveCurves(app, list, format, report)),
+    ]),
+    ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
+    [
+      "Copy manifest fragment",
+      "",
+      task(async (list) => copyToClipboard("the manifest fragment", await exportManifest(app, list))),
+    ],
+    [
+      "Copy command line",
+      "",
+      task(async (list) => copyToClipboard("the command line", await exportCommandLine(app, list))),
+    ],
+  ];
+  return h("div", { class: "export" }, menuButton("Export", entries), status);
+}
+
+async function saveCurves(app, names, format, report) {
+  const file = await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`));
+  saveFile(file);
+  return `Saved as ${file.name}`;
+}
+
+async function saveManifest(app, names) {
+  const text = await exportManifest(app, names);
+  saveFile({ name: "curves.toml", type: "application/toml", bytes: new TextEncoder().encode(text) });
+  return "Saved as curves.toml";
+}
+
+async function copyToClipboard(what, text) {
+  return (await copyText(what, text)) ? `Copied ${what}` : "";
+}
+
+/**
+ * A button that opens a menu of entries [[label, note, action], …]. Arrow keys, Home and End move between
+ * entries, a letter moves to the next entry that starts with it; Escape or a click elsewhere closes the menu.
+ */
+function menuButton(label, entries) {
+  const button = h(
+    "button",
+    { type: "button", class: "export-button", "aria-haspopup": "menu", "aria-expanded": "false" },
+    label,
+  );
+  const items = entries.map(([word, note, action]) =>
+    h(
+      "button",
+      {
+        type: "button",
+        role: "menuitem",
+        tabindex: "-1",
+        onclick: () => {
+          close(true);
+          action();
+        },
+      },
+      h("span", {}, word),
+      note ? h("span", { class: "note" }, note) : null,
+    ),
+  );
+  const menu = h("div", { class: "export-menu", role: "menu", "aria-label": label, hidden: true }, items);
+  const element = h("div", { class: "export-dropdown" }, button, menu);
+  const closeOutside = (event) => {
+    if (!element.contains(event.target)) close(false);
+  };
+  const open = (item) => {
+    menu.hidden = false;
+    button.setAttribute("aria-expanded", "true");
+    keepInWindow(menu);
+    document.addEventListener("pointerdown", closeOutside);
+    item.focus();
+  };
+  const close = (returns) => {
+    menu.hidden = true;
+    button.setAttribute("aria-expanded", "false");
+    document.removeEventListener("pointerdown", closeOutside);
+    if (returns) button.focus();
+  };
+  button.addEventListener("click", () => (menu.hidden ? open(items[0]) : close(true)));
+  button.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowDown" && event.key !== "ArrowUp") return;
+    event.preventDefault();
+    event.stopPropagation();
+    open(event.key === "ArrowDown" ? items[0] : items[items.length - 1]);
+  });
+  menu.addEventListener("keydown", (event) => handleMenuKey(event, items, close));
+  element.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!menu.hidden && relatedTarget && !element.contains(relatedTarget)) close(false);
+  });
+  return element;
+}
+
+function handleMenuKey(event, items, close) {
+  const at = items.indexOf(document.activeElement);
+  const count = items.length;
+  const letter =
+    event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey
+      ? event.key.toLowerCase()
+      : null;
+  const begins = (item) => item.textContent.toLowerCase().startsWith(letter);
+  const next = {
+    ArrowDown: (at + 1) % count,
+    ArrowUp: (at + count - 1) % count,
+    Home: 0,
+    End: count - 1,
+  }[event.key];
+  // Keys of the view do not apply while a menu is open.
+  if (event.key !== "Tab") event.stopPropagation();
+  if (event.key === "Escape") close(true);
+  else if (next !== undefined) items[next].focus();
+  else if (letter && letter !== " ") [...items.slice(at + 1), ...items].find(begins)?.focus();
+  else return;
+  event.preventDefault();
+}
+
+// Flips a menu that would overflow the window.
+function keepInWindow(menu) {
+  menu.classList.remove("over", "left");
+  const { left, bottom, height } = menu.getBoundingClientRect();
+  const above = menu.parentElement.getBoundingClientRect().top;
+  menu.classList.toggle("over", bottom > window.innerHeight && above > height);
+  menu.classList.toggle("left", left < 0);
+}

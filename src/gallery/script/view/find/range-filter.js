@@ -1,0 +1,181 @@
+// A filter for numbers: a histogram with two handles to drag, and fields for their values.
+
+import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
+import { h, s } from "../dom.js";
+import { columnLabel } from "./column-label.js";
+
+/** Calls `changed(filter)` with { low, high } or null when a bound is changed. */
+export class RangeFilter {
+  constructor(column, table, filter, changed) {
+    Object.assign(this, { column, changed });
+    this.scale = histogramOf(table.numbers(column.name));
+    this.filter = { low: filter?.low, high: filter?.high };
+    const words = columnLabel(column.name);
+    this.behind = s("path", { class: "behind", d: histogramBars(this.scale.counts, this.highest()) });
+    this.front = s("path", { class: "front" });
+    const picture = s(
+      "svg",
+      {
+        class: "bars",
+        viewBox: `0 0 ${BINS} 1`,
+        preserveAspectRatio: "none",
+        "aria-hidden": "true",
+        focusable: "false",
+      },
+      this.behind,
+      this.front,
+    );
+    this.ends = ["low", "high"].map((end) => this.createHandle(end, words));
+    this.inputs = ["low", "high"].map((end) => this.createInput(end, words));
+    this.track = h(
+      "div",
+      { class: "track", onpointerdown: (event) => this.startDrag(event) },
+      picture,
+      this.ends,
+    );
+    this.clear = h(
+      "button",
+      {
+        type: "button",
+        class: "quiet clear",
+        hidden: true,
+        "aria-label": `Clear ${words}`,
+        onclick: () => this.setFilter({}),
+      },
+      "×",
+    );
+    this.element = h(
+      "fieldset",
+      { class: "range" },
+      h(
+        "legend",
+        { title: `${column.name}: ${column.definition}` },
+        words,
+        column.unit ? " °" : "",
+        this.scale.isLog ? h("span", { class: "note" }, " log") : null,
+      ),
+      this.clear,
+      this.track,
+      h(
+        "div",
+        { class: "bounds" },
+        this.inputs[0],
+        h("span", { "aria-hidden": "true" }, "–"),
+        this.inputs[1],
+      ),
+    );
+    this.render();
+  }
+
+  highest() {
+    return Math.max(...this.scale.counts, 1);
+  }
+
+  createHandle(end, words) {
+    return h("span", {
+      class: `end ${end}`,
+      role: "slider",
+      tabindex: "0",
+      "aria-label": `${words}, ${end === "low" ? "minimum" : "maximum"}`,
+      onkeydown: (event) => this.handleKey(event, end),
+    });
+  }
+
+  createInput(end, words) {
+    return h("input", {
+      type: "text",
+      inputmode: "decimal",
+      "aria-label": `${words}, ${end === "low" ? "at least" : "at most"}`,
+      placeholder: formatBound(this.scale[end]),
+      onchange: (event) => {
+        const text = event.target.value.trim().replace(",", ".");
+        const isNumber = text === "" || Number.isFinite(Number(text));
+        event.target.setAttribute("aria-invalid", String(!isNumber));
+        if (isNumber) this.setFilter({ ...this.filter, [end]: text === "" ? undefined : Number(text) });
+      },
+    });
+  }
+
+  /** Sets the filter, positions the handles and reports the change. */
+  setFilter({ low, high }) {
+    this.filter = { low, high };
+    this.render();
+    this.changed(low === undefined && high === undefined ? null : { low, high });
+  }
+
+  render() {
+    const { scale, filter, ends, inputs } = this;
+    const places = [
+      filter.low === undefined ? 0 : scale.placeOf(filter.low),
+      filter.high === undefined ? 1 : scale.placeOf(filter.high),
+    ];
+    ["low", "high"].forEach((end, k) => {
+      const value = filter[end] ?? scale[end];
+      ends[k].style.left = `${100 * places[k]}%`;
+      ends[k].setAttribute("aria-valuemin", formatBound(scale.low));
+      ends[k].setAttribute("aria-valuemax", formatBound(scale.high));
+      ends[k].setAttribute("aria-valuenow", formatBound(value));
+      if (document.activeElement !== inputs[k])
+        inputs[k].value = filter[end] === undefined ? "" : String(filter[end]);
+    });
+    this.track.style.setProperty("--from", places[0]);
+    this.track.style.setProperty("--to", places[1]);
+    this.clear.hidden = filter.low === undefined && filter.high === undefined;
+    this.element.classList.toggle("set", !this.clear.hidden);
+  }
+
+  /** Draws the number of remaining rows in each bin. */
+  show(rows) {
+    this.front.setAttribute("d", histogramBars(binCounts(this.scale, rows), this.highest()));
+  }
+
+  moveEnd(place, end) {
+    const other = end === "low" ? this.filter.high : this.filter.low;
+    let value =
+      place <= 0 && end === "low"
+        ? undefined
+        : place >= 1 && end === "high"
+          ? undefined
+          : Number(formatBound(this.scale.valueAt(place)));
+    if (value !== undefined && other !== undefined)
+      value = end === "low" ? Math.min(value, other) : Math.max(value, other);
+    this.setFilter({ ...this.filter, [end]: value });
+  }
+
+  startDrag(event) {
+    const { left, width } = this.track.getBoundingClientRect();
+    const placeOf = ({ clientX }) => Math.min(Math.max((clientX - left) / width, 0), 1);
+    const at = placeOf(event);
+    const place = (end, k) => Math.abs(at - parseFloat(this.ends[k].style.left) / 100);
+    const [low, high] = [place("low", 0), place("high", 1)];
+    const end = low < high || (low === high && at < 0.5) ? "low" : "high";
+    event.preventDefault();
+    this.ends[end === "low" ? 0 : 1].focus();
+    this.track.setPointerCapture(event.pointerId);
+    const move = (moved) => this.moveEnd(placeOf(moved), end);
+    move(event);
+    this.track.onpointermove = move;
+    this.track.onlostpointercapture = () => {
+      this.track.onpointermove = null;
+    };
+  }
+
+  handleKey(event, end) {
+    const now =
+      this.filter[end] === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(this.filter[end]);
+    const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -8, PageUp: 8 };
+    const to = event.key === "Home" ? 0 : event.key === "End" ? 1 : now + steps[event.key] / 100;
+    if (Number.isNaN(to)) return;
+    event.preventDefault();
+    this.moveEnd(Math.min(Math.max(to, 0), 1), end);
+  }
+}
+
+/** Bars of counts in a box of BINS × 1; small bars have a minimum height. */
+function histogramBars(counts, highest) {
+  let path = "";
+  counts.forEach((count, k) => {
+    if (count) path += `M${k + 0.08} 1v${-(0.03 + 0.97 * (count / highest)).toFixed(4)}h.84V1z`;
+  });
+  return path;
+}

@@ -1,0 +1,50 @@
+// The linkages of a family that could not be assembled, and why.
+
+import { h } from "./dom.js";
+import { formatCount } from "./footer.js";
+
+// The number of linkages named for each reason.
+const MAX_NAMES_PER_REASON = 12;
+
+/**
+ * A collapsed list of the linkages of a family that could not be assembled, or only partially, by reason;
+ * null if there are none.
+ */
+export function notAssembledSummary(family) {
+  const { status, reason, caption, number, count } = family.cells;
+  const reasons = new Map();
+  for (let cell = 0; cell < count; cell += 1) {
+    if (status[cell] === 0) continue;
+    const sentence = `${status[cell] === 1 ? "partial: " : ""}${reason[cell]}`;
+    reasons.set(sentence, [...(reasons.get(sentence) ?? []), cell]);
+  }
+  if (reasons.size === 0) return null;
+  const none = status.filter((code) => code === 2).length;
+  const part = status.filter((code) => code === 1).length;
+  const sums = [
+    none ? `${formatCount(none, "linkage", "linkages")} could not be assembled` : null,
+    part ? `${formatCount(part, "linkage", "linkages")} assembled only in part` : null,
+  ];
+  const named = (cells) =>
+    cells
+      .slice(0, MAX_NAMES_PER_REASON)
+      .map((cell) => caption[cell] || `linkage ${number[cell]}`)
+      .join("; ");
+  return h(
+    "details",
+    { class: "not-assembled note" },
+    h("summary", {}, sums.filter(Boolean).join(", ")),
+    h(
+      "ul",
+      {},
+      [...reasons].map(([sentence, cells]) =>
+        h(
+          "li",
+          {},
+          h("b", {}, `${sentence} (${cells.length.toLocaleString("en")})`),
+          ` ${named(cells)}${cells.length > MAX_NAMES_PER_REASON ? " …" : ""}`,
+        ),
+      ),
+    ),
+  );
+}

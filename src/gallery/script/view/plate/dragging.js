@@ -1,0 +1,137 @@
+// Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the
+// picture.
+
+import { linkageWithOnePoint } from "../../kinematics/linkage.js";
+import { planePoint } from "../../draw/paper-view.js";
+import { followInput, nearestPart, placeAtPart } from "./timeline.js";
+import { PoseSolver } from "./pose-solver.js";
+
+// How far the pointer drags the crank beyond a limit before it returns on the other branch, in degrees.
+const LIMIT_SLACK = 3;
+
+/**
+ * Handles pointers on a stage. `plate` has study, pose, reason (why nothing can be dragged, or null) and
+ * drive. Returns a function that removes the listeners.
+ */
+export function enableDragging(stage, plate) {
+  const { picture } = stage;
+  const pointers = new Map();
+  let drag = null;
+  let dragPointer = null;
+  const pointOf = (event) => {
+    const box = picture.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  const down = (event) => {
+    if (event.button !== 0 || !plate.study || plate.reason) return;
+    const at = pointOf(event);
+    pointers.set(event.pointerId, at);
+    const joint = event.target.closest?.("[data-joint]")?.dataset.joint;
+    if (joint !== undefined && pointers.size === 1) {
+      plate.drive.pause();
+      dragPointer = event.pointerId;
+      drag = startDrag(plate, stage, Number(joint), planePoint(stage.view, at));
+      stage.element.classList.add("dragging");
+    }
+    if (joint !== undefined || event.pointerType === "mouse") {
+      picture.setPointerCapture(event.pointerId);
+      event.preventDefault();
+    }
+  };
+  const moved = (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before) return;
+    const at = pointOf(event);
+    if (drag) {
+      // Only the pointer that started the drag moves the joint.
+      if (event.pointerId === dragPointer) drag(planePoint(stage.view, at));
+    } else if (pointers.size === 2) pinch(stage, pointers, event.pointerId, at);
+    else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
+    pointers.set(event.pointerId, at);
+  };
+  const up = (event) => {
+    if (!pointers.delete(event.pointerId)) return;
+    if (pointers.size > 0) return;
+    drag = null;
+    stage.element.classList.remove("dragging");
+    plate.drive.place.isBeyond = false;
+  };
+  let scrolled = -Infinity;
+  const scroll = () => {
+    scrolled = performance.now();
+  };
+  const wheel = (event) => {
+    // A page that is scrolling continues to scroll over the picture.
+    if (!event.ctrlKey && performance.now() - scrolled < 400) return;
+    event.preventDefault();
+    stage.zoom(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0015)), pointOf(event));
+  };
+  const listeners = [
+    ["pointerdown", down],
+    ["pointermove", moved],
+    ["pointerup", up],
+    ["pointercancel", up],
+    ["wheel", wheel],
+  ];
+  for (const [name, listener] of listeners) picture.addEventListener(name, listener, { passive: false });
+  window.addEventListener("scroll", scroll, { passive: true });
+  return () => window.removeEventListener("scroll", scroll);
+}
+
+function pinch(stage, pointers, id, at) {
+  const [other] = [...pointers].find(([key]) => key !== id)?.slice(1) ?? [];
+  if (!other) return;
+  const before = pointers.get(id);
+  const apart = ([x, y]) => Math.hypot(x - other[0], y - other[1]);
+  if (apart(before) > 0)
+    stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
+  stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
+}
+
+// Starts a drag; returns a function that takes the pointer's positions in the plane.
+function startDrag(plate, stage, joint, pointer) {
+  const { step } = plate.study.linkage.joints[joint];
+  const isCrank = step.kind === "crank" && !plate.study.linkage.seenFrom;
+  return isCrank ? dragCrank(plate, step.pivot, joint, pointer) : dragJoint(plate, joint, pointer);
+}
+
+// The crank follows the direction of the pointer about its pivot, over several turns and over limits.
+function dragCrank(plate, pivot, pin, pointer) {
+  const { study, pose, drive } = plate;
+  const { place } = drive;
+  const sense = study.linkage.placement.mirror ? -1 : 1;
+  const directionOf = ([x, y]) => (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
+  const turned = (from, to) => sense * (((((to - from + 180) % 360) + 360) % 360) - 180);
+  let direction = directionOf(pointer);
+  let wanted = place.input + turned(directionOf([pose[2 * pin], pose[2 * pin + 1]]), direction);
+  const follow = () => {
+    wanted = followInput(plate.study.timeline, place, wanted, LIMIT_SLACK);
+    drive.move();
+  };
+  follow();
+  return (at) => {
+    const now = directionOf(at);
+    wanted += turned(direction, now);
+    direction = now;
+    follow();
+  };
+}
+
+// Any other joint moves along its path to the point nearest to the pointer.
+function dragJoint(plate, joint, pointer) {
+  const alone = linkageWithOnePoint(plate.study.linkage, joint);
+  const poser = new PoseSolver(alone.linkage);
+  const { pose } = plate;
+  const [offX, offY] = [pose[2 * joint] - pointer[0], pose[2 * joint + 1] - pointer[1]];
+  const spot = {};
+  return ([x, y]) => {
+    const { timeline } = plate.study;
+    const distance = (part) => {
+      placeAtPart(timeline, part, spot);
+      const at = poser.solve(timeline.passes[spot.pass], spot.input);
+      const far = Math.hypot(at[2 * alone.joint] - x - offX, at[2 * alone.joint + 1] - y - offY);
+      return Number.isFinite(far) ? far : Infinity;
+    };
+    plate.drive.seek(nearestPart(timeline, plate.drive.part, distance));
+  };
+}

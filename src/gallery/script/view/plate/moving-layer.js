@@ -1,0 +1,212 @@
+// The moving parts of a plate: links, pins, sliders and the traced point, in screen pixels.
+
+import { arrowData, blockData, cylinderData, linkData, slotData, slotEnds } from "../../draw/link-shapes.js";
+import { pixel, placedData } from "../../draw/path-data.js";
+import { s } from "../dom.js";
+import { JointNames } from "./joint-names.js";
+
+const PIN_RADIUS = 4.5;
+
+/** The upper layer of a stage. */
+export class MovingLayer {
+  constructor() {
+    this.links = s("g", {});
+    this.overlays = s("g", {});
+    this.pins = s("g", {});
+    this.names = new JointNames();
+    this.others = s("path", { class: "other-points" });
+    this.velocity = s("path", { class: "velocity" });
+    this.tracer = s("circle", { class: "tracer", r: PIN_RADIUS });
+    this.handles = s("g", { class: "handles" });
+    this.element = s(
+      "svg",
+      { class: "sheet moving", "aria-hidden": "true" },
+      this.links,
+      this.overlays,
+      this.others,
+      this.pins,
+      this.velocity,
+      this.tracer,
+      this.names.element,
+      this.handles,
+    );
+    this.study = null;
+    this.at = new Float64Array(0);
+    this.ends = new Float64Array(4);
+    this.parts = [];
+    this.circles = [];
+    this.poseNow = null;
+    this.view = { scale: 1, x: 0, y: 0 };
+    this.arrow = null;
+  }
+
+  /** Creates the elements of a study's linkage; reuses them for a linkage of the same structure. */
+  show(study) {
+    this.study = study;
+    const { mechanism, linkage, joint } = study;
+    const likeness = JSON.stringify([
+      mechanism.bars,
+      mechanism.plates,
+      mechanism.fixed,
+      mechanism.pins,
+      mechanism.slots.map(({ foot }) => foot),
+      joint,
+    ]);
+    this.at =
+      this.at.length === 2 * linkage.joints.length ? this.at : new Float64Array(2 * linkage.joints.length);
+    if (likeness === this.likeness) {
+      // The ends of slots depend on the study.
+      this.parts.forEach((part) => {
+        if (part.slot !== undefined) part.shape = mechanism.slots[part.slot];
+      });
+      return;
+    }
+    this.likeness = likeness;
+    this.parts = partsOfMechanism(mechanism);
+    this.links.replaceChildren(...this.parts.map(({ element }) => element));
+    this.circles = circlesOfMechanism(study);
+    this.pins.replaceChildren(...this.circles.map(({ element }) => element));
+    this.handles.replaceChildren(...handlesOfStudy(study, this));
+    this.names.show(study);
+  }
+
+  /** Sets the view of the plane and redraws the pose. */
+  place(view) {
+    this.view = view;
+    if (this.poseNow) this.pose(this.poseNow, view);
+  }
+
+  pose(pose, view) {
+    this.poseNow = pose;
+    this.view = view;
+    const { at } = this;
+    const { scale, x, y } = view;
+    for (let k = 0; k < at.length; k += 2) {
+      at[k] = x + scale * pose[k];
+      at[k + 1] = y - scale * pose[k + 1];
+    }
+    for (const part of this.parts)
+      part.element.setAttribute("d", placedData(part.data(at, scale, this.ends, part)));
+    for (const { element, joint } of this.circles) putCircle(element, at, joint);
+    for (const { element, joint } of this.grips) putCircle(element, at, joint);
+    for (const { element, joints } of this.crankGrips)
+      element.setAttribute("d", placedData(linkData(joints, at, false)));
+    putCircle(this.tracer, at, this.study.joint);
+    this.#otherPoints();
+    this.names.pose(at);
+    this.#arrow();
+  }
+
+  /** Sets the velocity of the traced point in pixels, [dx, dy], or null. */
+  speed(arrow) {
+    this.arrow = arrow;
+    this.#arrow();
+  }
+
+  #arrow() {
+    const { at, arrow, velocity, study } = this;
+    const k = 2 * study.joint;
+    velocity.setAttribute(
+      "d",
+      arrow && Number.isFinite(arrow[0] + arrow[1]) ? arrowData(at[k], at[k + 1], arrow[0], arrow[1]) : "",
+    );
+  }
+
+  #otherPoints() {
+    const { others } = this.study;
+    let data = "";
+    for (const joint of others) {
+      const [x, y] = [this.at[2 * joint], this.at[2 * joint + 1]];
+      if (Number.isFinite(x + y)) data += `M${pixel(x)} ${pixel(y)}h0`;
+    }
+    this.others.setAttribute("d", data);
+  }
+}
+
+function putCircle(element, at, joint) {
+  const [x, y] = [at[2 * joint], at[2 * joint + 1]];
+  if (!Number.isFinite(x + y)) return;
+  element.setAttribute("cx", pixel(x));
+  element.setAttribute("cy", pixel(y));
+}
+
+// Paths, each with its data as a function of the joint positions.
+function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
+  const path = (name) => s("path", { class: name });
+  const link = (joints, isPlate) => ({
+    element: path(isPlate ? "link plate" : "link"),
+    data: (at) => linkData(joints, at, isPlate),
+  });
+  const rod = ([p, q]) => ({ element: path("link"), data: (at) => linkData([p, q], at, false) });
+  const cylinder = ([p, q]) => ({
+    element: path("hollow"),
+    data: (at) => cylinderData(at[2 * p], at[2 * p + 1], at[2 * q], at[2 * q + 1]),
+  });
+  const stem = (shape, slot) => ({
+    element: path("link"),
+    shape,
+    slot,
+    data: (at, scale, ends, part) => {
+      slotEnds(part.shape, at, scale, ends);
+      const { foot } = part.shape;
+      const [x0, y0, x1, y1] = ends;
+      return linkData([0, 1, 2], [at[2 * foot], at[2 * foot + 1], x0, y0, x1, y1], false);
+    },
+  });
+  const hole = (shape, slot) => ({
+    element: path("hollow"),
+    shape,
+    slot,
+    data: (at, scale, ends, part) => {
+      slotEnds(part.shape, at, scale, ends);
+      return slotData(ends[0], ends[1], ends[2], ends[3]);
+    },
+  });
+  // A block in a slot is aligned with the slot, a block on a guide with the guide.
+  const block = ({ at: joint, line: [p, q] }) => ({
+    element: path("hollow"),
+    data: (at) =>
+      blockData(at[2 * joint], at[2 * joint + 1], at[2 * q] - at[2 * p], at[2 * q + 1] - at[2 * p + 1]),
+  });
+  return [
+    ...plates.map((joints) => link(joints, true)),
+    ...bars.map((joints) => link(joints, false)),
+    ...slots.map(stem),
+    ...slots.map(hole),
+    ...actuators.flatMap((ends) => [rod(ends), cylinder(ends)]),
+    ...blocks.map(block),
+  ];
+}
+
+// Double circles for fixed pivots, single ones for pins.
+function circlesOfMechanism({ mechanism, joint: traced }) {
+  const circle = (name, r, joint) => ({ element: s("circle", { class: name, r }), joint });
+  const pins = mechanism.pins.filter((joint) => joint !== traced);
+  return [
+    ...mechanism.fixed.flatMap((joint) => [
+      circle("pivot", 1.5 * PIN_RADIUS, joint),
+      circle("pivot inner", 0.7 * PIN_RADIUS, joint),
+    ]),
+    ...pins.map((joint) => circle("pin", PIN_RADIUS, joint)),
+  ];
+}
+
+// The drag handles: the crank along its length, and every moving joint.
+function handlesOfStudy({ linkage, mechanism, joint: traced }, sheet) {
+  const joints = [...new Set([...mechanism.pins, traced, ...mechanism.slots.map(({ through }) => through)])];
+  const cranks = linkage.joints.map(({ step }, id) =>
+    step.kind === "crank" && mechanism.fixed.includes(step.pivot) ? [step.pivot, id] : null,
+  );
+  sheet.crankGrips = cranks
+    .filter(Boolean)
+    .slice(0, 1)
+    .map((pair) => ({
+      element: s("path", { class: "grip crank-grip", "data-joint": pair[1] }),
+      joints: pair,
+    }));
+  sheet.grips = joints.map((joint) => ({
+    element: s("circle", { class: "grip", r: 15, "data-joint": joint }),
+    joint,
+  }));
+  return [...sheet.crankGrips, ...sheet.grips].map(({ element }) => element);
+}

@@ -1,0 +1,142 @@
+// A timeline over a circuit: positions are given by part, 0 at the start and 1 at the end, or by pass and
+// input.
+//
+// Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
+// there.
+
+import { smoothInput } from "../../kinematics/spacing.js";
+
+/**
+ * The timeline of a circuit { passes, closed }: { passes, closed, starts, whole }, where `starts` has the
+ * part at which each pass starts and `whole` is the total input travel.
+ */
+export function timelineOf({ passes, closed }) {
+  const lengths = passes.map(({ from, to }) => Math.abs(to - from));
+  const whole = lengths.reduce((sum, length) => sum + length, 0);
+  const starts = new Float64Array(passes.length + 1);
+  lengths.forEach((length, k) => {
+    starts[k + 1] = whole > 0 ? starts[k] + length / whole : (k + 1) / passes.length;
+  });
+  starts[passes.length] = 1;
+  return { passes, closed, starts, whole };
+}
+
+/** Sets `place` to the pass index and the input at a part of a timeline. */
+export function placeAtPart({ passes, starts }, part, place) {
+  let k = 0;
+  while (k < passes.length - 1 && part >= starts[k + 1]) k += 1;
+  const share = (part - starts[k]) / (starts[k + 1] - starts[k]);
+  place.pass = k;
+  if (share <= 0) place.input = passes[k].from;
+  else if (share >= 1) place.input = passes[k].to;
+  else place.input = smoothInput(passes[k], share);
+  return place;
+}
+
+/** The part of a timeline at which a pass has an input. */
+export function partOfInput({ passes, starts }, k, input) {
+  const { from, to, begin, end } = passes[k];
+  const eased = to === from ? 0 : Math.min(Math.max((input - from) / (to - from), 0), 1);
+  const [fromFlat, toFlat] = [begin.flat !== 0, end.flat !== 0];
+  let share = eased;
+  if (fromFlat && toFlat) share = Math.acos(1 - 2 * eased) / Math.PI;
+  else if (fromFlat) share = Math.acos(1 - eased) / (Math.PI / 2);
+  else if (toFlat) share = Math.asin(eased) / (Math.PI / 2);
+  return starts[k] + (starts[k + 1] - starts[k]) * share;
+}
+
+/**
+ * The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation.
+ */
+export function turningParts({ passes, closed, starts }) {
+  const parts = [];
+  passes.forEach((pass, k) => {
+    const before = passes[k - 1] ?? (closed ? passes[passes.length - 1] : null);
+    const heading = (one) => Math.sign(one.to - one.from);
+    if (!before || heading(before) !== heading(pass)) parts.push(starts[k]);
+  });
+  if (!closed) parts.push(1);
+  return parts;
+}
+
+/** Wraps a part onto a closed timeline, or clamps it to the ends of an open one. */
+export function clampPart({ closed }, part) {
+  return closed ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1);
+}
+
+/**
+ * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns
+ * `wanted` less the full turns that were completed. Continues over the end of a pass onto the next one. Where
+ * the input reverses, it stays at the limit; a drag more than `slack` beyond returns on the other branch,
+ * which `place.isBeyond` records.
+ */
+export function followInput(timeline, place, wanted, slack) {
+  const { passes, closed } = timeline;
+  let target = wanted;
+  for (let guard = 0; guard <= passes.length + 1; guard++) {
+    const pass = passes[place.pass];
+    const [low, high] = pass.from < pass.to ? [pass.from, pass.to] : [pass.to, pass.from];
+    if (target >= low && target <= high) {
+      place.input = target;
+      place.isBeyond = false;
+      return target;
+    }
+    const edge = target > high ? high : low;
+    const forward = edge === pass.to;
+    place.input = edge;
+    const next = adjacentPass(passes, place.pass, forward, closed);
+    if (next === null) return target;
+    const meets = forward ? passes[next].from : passes[next].to;
+    const away = forward ? passes[next].to : passes[next].from;
+    if (Math.sign(away - meets) === Math.sign(target - edge)) {
+      // The motion continues in the same direction: the seam of a rotation, or a change point.
+      target -= edge - meets;
+      place.pass = next;
+      place.input = meets;
+      continue;
+    }
+    if (!place.isBeyond && Math.abs(target - edge) > slack) {
+      place.pass = next;
+      place.input = meets;
+      place.isBeyond = true;
+      target -= edge - meets;
+    }
+    return target;
+  }
+  return target;
+}
+
+function adjacentPass(passes, k, forward, closed) {
+  const next = k + (forward ? 1 : -1);
+  if (next >= 0 && next < passes.length) return next;
+  return closed ? (next + passes.length) % passes.length : null;
+}
+
+/**
+ * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged
+ * joint follows its path with it.
+ */
+export function nearestPart(timeline, from, distance, reach = 0.15) {
+  const STEPS = 24;
+  const at = (part) => distance(clampPart(timeline, part));
+  const [low, high] = timeline.closed
+    ? [from - reach, from + reach]
+    : [Math.max(from - reach, 0), Math.min(from + reach, 1)];
+  const step = (high - low) / (2 * STEPS);
+  let best = from;
+  let least = at(from);
+  for (let k = 0; k <= 2 * STEPS; k++) {
+    const part = low + k * step;
+    const far = at(part);
+    if (far < least) [best, least] = [part, far];
+  }
+  let [a, b] = [best - step, best + step];
+  const GOLDEN = (Math.sqrt(5) - 1) / 2;
+  for (let k = 0; k < 24; k++) {
+    const [c, d] = [b - GOLDEN * (b - a), a + GOLDEN * (b - a)];
+    if (at(c) < at(d)) b = d;
+    else a = c;
+  }
+  const middle = (a + b) / 2;
+  return clampPart(timeline, at(middle) < least ? middle : best);
+}

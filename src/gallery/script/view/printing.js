@@ -1,0 +1,41 @@
+// Prints lists of which only the visible part is in the document: completely, or up to a maximum.
+
+import { h } from "./dom.js";
+
+/**
+ * Calls `layOut()` before printing, which puts the printed items into the document and returns a line to
+ * precede them, or null, and `restore()` afterwards. Returns { isPrinting, end() }.
+ */
+export function onPrint(element, layOut, restore) {
+  let line = null;
+  const state = {
+    isPrinting: false,
+    end: () => {
+      window.removeEventListener("beforeprint", before);
+      window.removeEventListener("afterprint", after);
+    },
+  };
+  const before = () => {
+    if (!element.isConnected || state.isPrinting) return;
+    state.isPrinting = true;
+    line = layOut();
+    if (line) element.before(line);
+  };
+  const after = () => {
+    if (!state.isPrinting) return;
+    state.isPrinting = false;
+    line?.remove();
+    restore();
+  };
+  window.addEventListener("beforeprint", before);
+  window.addEventListener("afterprint", after);
+  return state;
+}
+
+/** A line that says how many of how many things are printed; null for one or none. */
+export function printedCountNote(printed, count, things) {
+  if (count < 2) return null;
+  const [some, all] = [printed, count].map((number) => number.toLocaleString("en"));
+  const which = printed < count ? `the first ${some} of ${all}` : `all ${all}`;
+  return h("p", { class: "note on-paper" }, `Printed: ${which} ${things}`);
+}

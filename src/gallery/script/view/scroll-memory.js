@@ -1,0 +1,68 @@
+// Restores the scroll position and the focus when a view is visited again through the history.
+
+/**
+ * The scroll memory of a window: `leave()` records the position of the current history entry, `arrive()`
+ * restores that of the new one, or scrolls to the top, unless the view has its own target (`data-goal`).
+ */
+export function scrollMemory() {
+  const left = new Map();
+  let [present, newest] = [null, 0];
+  let settle = () => {};
+  window.history.scrollRestoration = "manual";
+  const entry = () => {
+    const known = window.history.state?.entry;
+    if (known !== undefined) return known;
+    newest = Math.max(newest + 1, Date.now());
+    window.history.replaceState({ entry: newest }, "");
+    return newest;
+  };
+  return {
+    leave: () => {
+      settle();
+      const link = document.activeElement?.closest("main a")?.getAttribute("href");
+      if (present !== null) left.set(present, { depth: window.scrollY, link });
+      present = entry();
+    },
+    arrive: () => {
+      const known = left.get(present);
+      if (known) settle = restoreScroll(known);
+      else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
+    },
+  };
+}
+
+/**
+ * Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a
+ * function that ends it.
+ */
+function restoreScroll({ depth, link }) {
+  const moves = ["wheel", "pointerdown", "keydown"];
+  const growth = new ResizeObserver(() => goThere());
+  const end = () => {
+    growth.disconnect();
+    moves.forEach((name) => window.removeEventListener(name, end));
+  };
+  const goThere = () => {
+    window.scrollTo(0, depth);
+    if (window.scrollY < depth - 1) return;
+    end();
+    restoreFocus(link);
+  };
+  moves.forEach((name) => window.addEventListener(name, end));
+  growth.observe(document.querySelector("main"));
+  goThere();
+  return end;
+}
+
+/** Restores the focus to a link when scrolling has created it. */
+function restoreFocus(href) {
+  if (!href) return;
+  requestAnimationFrame(() =>
+    requestAnimationFrame(() => {
+      const links = [...document.querySelectorAll("main a")];
+      links
+        .find((link) => link.getAttribute("href") === href && link.tabIndex >= 0)
+        ?.focus({ preventScroll: true });
+    }),
+  );
+}
