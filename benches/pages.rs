@@ -22,16 +22,13 @@ fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
         let facts = page::cell_facts(solved);
         let (title, symbols) = (family.title.as_str(), family.names.as_slice());
         let source = plan.families[0].source.clone();
-        let heading = Heading {
-            atlas_title: &plan.title,
-            family_id: &family.id,
-            family_title: title,
-            source,
-            symbols,
-            page,
-            page_count: of,
-        };
-        let panel = Panel { caption, note, facts, solved_cell: solved, pose: view.clone(), link_inks: Vec::new() };
+        let heading = Heading::new(title)
+            .with_family_id(&family.id)
+            .with_atlas_title(&plan.title)
+            .with_source(source)
+            .with_symbols(symbols)
+            .with_page(page, of);
+        let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(view.clone());
         page::compose_coupler_grid(&CouplerGridPage { heading, panel, curve_indices: shown, labels: &[] }, &plan.page)
     };
     (1..).zip(pages).map(sheet).collect()

@@ -1,16 +1,15 @@
 //! Atlases of coupler curves: families of planar linkages, solved and drawn as pages, with their point sets.
 //!
-//! Data goes one way:
+//! Data flows in one direction:
 //!
 //! ```text
 //! manifest -> families x grid -> linkage -> motion -> measures -> pages -> scene -> svg / png / pdf
 //!                                              \-> points.csv, cells.csv, run.json -> check, index.html
 //! ```
 //!
-//! The modules stand here in reading order; none imports one that comes after it. Each stage is one public function:
-//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`], [`coupler_drawing::page::compose_panels`], [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`], [`output::write_atlas`],
-//! [`check::check_atlas`].
-//!
+//! The modules are declared in reading order; none imports a later one. Each stage is one public function:
+//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`], [`coupler_drawing::page::compose_panels`],
+//! [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`], [`output::write_atlas`], [`check::check_atlas`].
 
 pub mod sweep;
 

@@ -1,4 +1,4 @@
-//! The program: arguments in, results to standard output, everything else to standard error, and an exit code.
+//! The program: results go to standard output, messages and progress to standard error.
 
 mod cli;
 

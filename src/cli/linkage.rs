@@ -1,4 +1,4 @@
-//! A linkage named on the command line, with the values of its parameters.
+//! Linkages and parameter values given on the command line.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,7 +11,13 @@ use coupler_curves::template::Template;
 
 use super::{InputError, source};
 
-/// The linkage of a name: of a manifest's own, if one is given, or of the catalogue.
+/// The number of samples of a circuit where the command line sets none.
+pub(super) const DEFAULT_SAMPLES: u32 = 360;
+
+/// Finds a linkage by name, in a manifest if one is given, then in the catalogue.
+///
+/// # Errors
+/// The manifest cannot be read, or no linkage has this name.
 pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Result<Arc<Template>> {
     let mut known: Vec<Arc<Template>> = Vec::new();
     if let Some(path) = manifest {
@@ -28,20 +34,20 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Resu
     })
 }
 
-/// `name=value`, the value a number or an expression without names.
+/// Reads `name=value`, where the value is a number or an expression without names.
 pub(super) fn parse_parameter(text: &str) -> Result<(String, f64), InputError> {
     const EXAMPLE: &str = "p=2 or \"a=sqrt(2)\"";
-    let none = || InputError(format!("`{text}`: there is no `=`; write it like {EXAMPLE}"));
-    let (name, value) = text.split_once('=').ok_or_else(none)?;
+    let error = || InputError(format!("`{text}`: there is no `=`; write it like {EXAMPLE}"));
+    let (name, value) = text.split_once('=').ok_or_else(error)?;
     Ok((name.trim().to_owned(), parse_number(value, EXAMPLE)?))
 }
 
-/// A number, or an expression without names.
+/// Reads a number or an expression without names; `example` is shown in the error.
 pub(super) fn parse_number(text: &str, example: &str) -> Result<f64, InputError> {
-    let wrong = |why: String| InputError(format!("`{text}`: {why}; write it like {example}"));
-    let expression = Expression::parse(text).map_err(|error| wrong(error.message))?;
+    let error = |message: String| InputError(format!("`{text}`: {message}; write it like {example}"));
+    let expression = Expression::parse(text).map_err(|syntax_error| error(syntax_error.message))?;
     match expression.names().first() {
-        Some(name) => Err(wrong(format!("`{name}` has no value here"))),
+        Some(name) => Err(error(format!("`{name}` has no value here"))),
         None => Ok(expression.evaluate(|_| f64::NAN)),
     }
 }

@@ -1,3 +1,5 @@
+//! `list`: the words that a manifest may use.
+
 use clap::{Args, ValueEnum};
 use coupler_curves::template::Template;
 use coupler_curves::{catalogue, measure};
@@ -5,24 +7,25 @@ use coupler_drawing::page::{Layout, Theme};
 
 use super::{Outcome, print, schema};
 
-/// List the built-in linkages, the measures, the further columns, the layouts and the themes; print the schema.
+/// List the built-in linkages, measures, further columns, layouts and themes, or print the JSON Schema of a manifest.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to list [default: everything but the schema].
+    #[arg(value_name = "TOPIC")]
     what: Option<Topic>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Topic {
-    /// The catalogue, with parameters and sources.
+    /// The linkages of the catalogue, with their parameters and sources.
     Linkages,
-    /// The columns of `cells.csv` and names of `where`.
+    /// The measures: columns of `cells.csv`, and names for `where`, `sort` and charts.
     Measures,
-    /// The further columns a family may ask of `points.csv`.
+    /// The further columns of `points.csv` that a family may request.
     Columns,
-    /// The ways a page can be laid out.
+    /// The layouts of a page.
     Layouts,
-    /// What pages can look like.
+    /// The themes of a page.
     Themes,
     /// The JSON Schema (2020-12) of a manifest, for editors.
     Schema,
@@ -33,10 +36,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         print(&schema::schema_json())?;
         return Ok(Outcome::Done);
     }
-    let wanted = |what| arguments.what.is_none_or(|given| given == what);
+    let is_listed = |topic| arguments.what.is_none_or(|given| given == topic);
     let mut out = String::new();
-    let mut section = |what, title: &str, rows: String| {
-        if wanted(what) {
+    let mut section = |topic, title: &str, rows: String| {
+        if is_listed(topic) {
             if arguments.what.is_none() {
                 out.push_str(&format!("{}{title}\n", if out.is_empty() { "" } else { "\n" }));
             }
@@ -48,11 +51,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         let unit = if m.unit.is_empty() { "-" } else { m.unit };
         format!("{:<16} {unit:<4} {}\n", m.name, m.definition)
     });
-    let truths = measure::BOOLEANS.iter().map(|(name, word)| format!("{name:<16} -    the class is {word}\n"));
-    section(Topic::Measures, "measures", measures.chain(truths).collect());
+    let booleans = measure::BOOLEANS.iter().map(|(name, class)| format!("{name:<16} -    the class is {class}\n"));
+    section(Topic::Measures, "measures", measures.chain(booleans).collect());
     let columns = measure::COLUMNS.iter().map(|column| format!("{:<16} {}\n", column.name, column.definition));
     section(Topic::Columns, "columns", columns.collect());
-    let layouts = Layout::ALL.iter().map(|(name, shows)| format!("{name:<16} {shows}\n"));
+    let layouts = Layout::ALL.iter().map(|(name, description)| format!("{name:<16} {description}\n"));
     section(Topic::Layouts, "layouts", layouts.collect());
     let themes = Theme::NAMED.iter().map(|theme| format!("{:<16} {}\n", theme.name, theme.description));
     section(Topic::Themes, "themes", themes.collect());

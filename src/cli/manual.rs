@@ -1,3 +1,5 @@
+//! `man` and `completions`: the manual page and shell completions, generated from the arguments.
+
 use std::io;
 
 use clap::{Args, CommandFactory};
@@ -6,37 +8,37 @@ use clap_mangen::Man;
 
 use super::{Outcome, print};
 
-/// Print the manual page, in roff: coupler-atlas man | man -l -
+/// Print the manual page in roff: coupler-atlas man | man -l -
 #[derive(Debug, Args)]
 pub struct Manual {}
 
-/// Print a shell's completions: coupler-atlas completions bash > ~/.local/share/bash-completion/completions/coupler-atlas
+/// Print completions for a shell: coupler-atlas completions bash > ~/.local/share/bash-completion/completions/coupler-atlas
 #[derive(Debug, Args)]
 pub struct Completions {
     /// The shell.
     shell: Shell,
 }
 
-/// The page of the program, and after it what each command takes.
+/// Prints one manual page: the program, then a section for each command.
 pub fn print_manual(_: &Manual) -> anyhow::Result<Outcome> {
     let mut command = super::Arguments::command();
     command.build();
     let mut page = Vec::new();
-    let whole = Man::new(command.clone());
-    whole.render_title(&mut page)?;
-    whole.render_name_section(&mut page)?;
-    whole.render_synopsis_section(&mut page)?;
-    whole.render_description_section(&mut page)?;
+    let program = Man::new(command.clone());
+    program.render_title(&mut page)?;
+    program.render_name_section(&mut page)?;
+    program.render_synopsis_section(&mut page)?;
+    program.render_description_section(&mut page)?;
     for command in command.get_subcommands().filter(|command| !command.is_hide_set()) {
         write_command_section(command, &mut page)?;
     }
-    whole.render_extra_section(&mut page)?;
-    whole.render_version_section(&mut page)?;
+    program.render_extra_section(&mut page)?;
+    program.render_version_section(&mut page)?;
     print(&String::from_utf8_lossy(&page))?;
     Ok(Outcome::Done)
 }
 
-/// What one command does and takes, under a heading of its own.
+/// Writes the section of a command: its synopsis, description and options.
 fn write_command_section(command: &clap::Command, page: &mut Vec<u8>) -> io::Result<()> {
     use io::Write;
     let mut body = Vec::new();
@@ -44,7 +46,7 @@ fn write_command_section(command: &clap::Command, page: &mut Vec<u8>) -> io::Res
     man.render_synopsis_section(&mut body)?;
     man.render_description_section(&mut body)?;
     man.render_options_section(&mut body)?;
-    // Each is a section of the whole page: what are sections of its own become parts of that.
+    // Sections of the command's own page become subsections of this one.
     let body = String::from_utf8_lossy(&body).replace(".SH ", ".SS ");
     writeln!(page, ".SH {}", command.get_name().to_uppercase())?;
     page.write_all(body.as_bytes())

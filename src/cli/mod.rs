@@ -1,8 +1,9 @@
-//! Arguments, one file a subcommand, progress and exit codes. Every print is here.
+//! The command line: arguments, one file for each subcommand, progress and exit codes. No other module prints.
 
 mod check;
 mod design;
 mod export;
+mod format;
 mod init;
 mod inspect;
 mod linkage;
@@ -18,11 +19,13 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use coupler_atlas::output;
+use format::pluralize;
 
-const EXIT_CODES: &str = "Exit codes: 0 done; 1 the check found a difference, or with --strict a cell is not assembled; 2 the input was wrong; \
-                          3 the machine failed, or another run is writing there; 130 interrupted.";
+const EXIT_CODES: &str = "Exit codes: 0 success; 1 check found a difference, or render --strict a cell that is not assembled \
+                          over the whole range; 2 invalid input; 3 system error, or another run is writing to the folder; \
+                          130 interrupted.";
 
-/// Atlases of coupler curves: solves families of planar linkages and draws them as pages.
+/// Solve families of planar linkages, and draw their coupler curves as the pages of an atlas.
 #[derive(Debug, Parser)]
 #[command(name = "coupler-atlas", version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
 struct Arguments {
@@ -47,13 +50,13 @@ enum Command {
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
-    /// Done.
+    /// Success.
     Done,
-    /// Done, and a difference or an unassembled cell was found where none was allowed.
+    /// Success, but `check` found a difference, or `render --strict` an unassembled cell.
     Difference,
 }
 
-/// The input was wrong; what is wrong has been said, or is this message.
+/// An error in the user's input, for which the exit code is 2.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 struct InputError(String);
@@ -83,16 +86,16 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Says what went wrong and finds the exit code for it.
+/// Prints an error, and returns the exit code for it.
 fn report_failure(error: &anyhow::Error) -> ExitCode {
-    // Whoever reads our output has seen enough: no failure of ours, and nobody to tell.
+    // A reader that closes the pipe early, as `head` does, is not an error.
     let is_pipe = |e: &io::Error| e.kind() == io::ErrorKind::BrokenPipe;
     if error.downcast_ref::<io::Error>().is_some_and(is_pipe) {
         return ExitCode::SUCCESS;
     }
-    // Each message names its cause itself, but for what cannot be printed.
+    // The messages of all other errors name what failed.
     let message = match error.downcast_ref::<io::Error>() {
-        Some(error) => format!("cannot write to standard output: {error}; the files that were written are whole"),
+        Some(error) => format!("cannot write to standard output: {error}; the files that were written are complete"),
         None => error.to_string(),
     };
     if !message.is_empty() {
@@ -117,7 +120,7 @@ fn print(text: &str) -> anyhow::Result<()> {
     print_bytes(text.as_bytes())
 }
 
-/// Writes a result that need not be text to standard output.
+/// Writes a result that may not be text to standard output.
 fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(bytes)?;
@@ -125,12 +128,7 @@ fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Says something on standard error; nobody may be listening.
+/// Writes a message to standard error; a failure to do so is ignored.
 fn print_stderr(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
-}
-
-/// "1 page", "2 pages".
-fn pluralize(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }

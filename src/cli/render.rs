@@ -1,3 +1,5 @@
+//! `render`: solves and draws the families of a manifest.
+
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,46 +11,51 @@ use coupler_curves::problem::suggestion;
 use coupler_drawing::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{EXIT_INTERRUPTED, Outcome, pluralize, print, print_stderr, source};
+use super::source::{self, DEFAULT_MANIFEST};
+use super::{EXIT_INTERRUPTED, Outcome, pluralize, print, print_stderr};
 
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The manifest.
-    #[arg(default_value = "atlas.toml")]
+    #[arg(default_value = DEFAULT_MANIFEST)]
     manifest: PathBuf,
-    /// The folder to write to, relative to the current folder [default: the manifest's `output`, beside it].
+    /// The folder to write to [default: `output` of the manifest, relative to the manifest].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The formats of pages, in place of the manifest's: svg, png, pdf (one book). What an earlier run drew in others stays.
+    /// The formats of pages, instead of the manifest's: svg, png, pdf (one book); pages that an earlier run wrote in other
+    /// formats are kept.
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = parse_format)]
     format: Option<Vec<Format>>,
-    /// Render this family only, and leave the others' files as they are; may be given more than once.
+    /// Render only this family, and leave the files of others unchanged; may be given more than once.
     #[arg(long, value_name = "FAMILY")]
     only: Vec<String>,
-    /// Draw every page, also those that are there already as this version of the program draws them.
+    /// Draw every page, including those that are up to date.
     #[arg(long)]
     force: bool,
-    /// How many threads to use [default: one for each processor].
+    /// The number of threads [default: one for each processor].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Exit with 1 if a cell cannot be assembled, or not over the whole range asked for.
+    /// Exit with 1 if a cell cannot be assembled over the whole requested range.
     #[arg(long)]
     strict: bool,
-    /// Say nothing but what goes wrong.
+    /// Print only warnings and errors.
     #[arg(short, long)]
     quiet: bool,
 }
 
 fn parse_format(name: &str) -> Result<Format, String> {
     let known = Format::ALL.map(Format::name);
-    Format::ALL
-        .into_iter()
-        .find(|format| format.name() == name)
-        .ok_or_else(|| format!("there is no format `{name}`: {}", suggestion(name, &known)))
+    match Format::ALL.into_iter().find(|format| format.name() == name) {
+        Some(format) if !format.is_built_in() => {
+            Err(format!("this build cannot write `{name}`: build the program with the feature `pdf`"))
+        }
+        Some(format) => Ok(format),
+        None => Err(format!("unknown format `{name}`: {}", suggestion(name, &known))),
+    }
 }
 
-/// How many cells that were not assembled are named one by one.
+/// The number of cells of a family that are reported one by one as not assembled.
 const MAX_WARNINGS: usize = 10;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
@@ -60,36 +67,38 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let output = source.output_folder(arguments.output.as_deref());
     let (formats, only, force) = (arguments.format.clone(), arguments.only.clone(), arguments.force);
     let options = output::Options { formats, only, force, interrupt: interrupt_flag()? };
-    let mut teller =
+    let mut reporter =
         ProgressReporter { is_quiet: arguments.quiet, bar: ProgressBar::hidden(), warnings: 0, not_assembled: 0 };
     let mut lines = String::new();
     let run =
-        output::write_atlas(&source.plan, &output, &options, &mut |event| teller.handle_event(event, &mut lines))?;
+        output::write_atlas(&source.plan, &output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
     source.report_problems(&output::empty_family_warnings(&source.plan, Some(&run)));
     if !arguments.quiet {
         lines.push_str(&format!("written to {}\n", output.display()));
         print(&lines)?;
     }
-    Ok(if arguments.strict && teller.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
+    Ok(if arguments.strict && reporter.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
 }
 
-/// What becomes true when the program is asked to end; asked once more, it ends at once.
+/// A flag that the first Ctrl-C sets; the second ends the program at once.
 fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
     let interrupt = Arc::new(AtomicBool::new(false));
-    let asked = Arc::clone(&interrupt);
+    let flag = Arc::clone(&interrupt);
     ctrlc::set_handler(move || {
-        if asked.swap(true, Ordering::Relaxed) {
+        if flag.swap(true, Ordering::Relaxed) {
             std::process::exit(EXIT_INTERRUPTED.into());
         }
     })?;
     Ok(interrupt)
 }
 
-/// Tells what happens: a bar on a terminal, a line for each family at the end.
+/// Reports the progress of a run: a bar on a terminal, and a line for each family at the end.
 struct ProgressReporter {
     is_quiet: bool,
     bar: ProgressBar,
+    /// The cells of the current family that are not assembled.
     warnings: usize,
+    /// The cells of all families that are not assembled.
     not_assembled: usize,
 }
 
@@ -115,7 +124,7 @@ impl ProgressReporter {
                 self.bar.finish_and_clear();
                 if self.warnings > MAX_WARNINGS {
                     print_stderr(&format!(
-                        "warning: {}, and {} more, see cells.csv\n",
+                        "warning: {}: {} more cells are not assembled; see cells.csv\n",
                         record.id,
                         self.warnings - MAX_WARNINGS
                     ));
@@ -126,23 +135,24 @@ impl ProgressReporter {
             Event::Book { record, is_drawn } => {
                 self.bar.finish_and_clear();
                 let names: Vec<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
-                let named = match &names[..] {
+                let files = match &names[..] {
                     [first, .., last] => format!("{first} to {last}"),
                     _ => names.concat(),
                 };
                 let unchanged = if is_drawn { "" } else { " (unchanged)" };
-                lines.push_str(&format!("{named}: {}{unchanged}\n", pluralize(record.pages, "page")));
+                lines.push_str(&format!("{files}: {}{unchanged}\n", pluralize(record.pages, "page")));
             }
             Event::UnusableRecord { record, error } => {
                 let record = record.display();
                 print_stderr(&format!(
-                    "warning: {record} is no help: {error}; everything is drawn, and nothing removed\n"
+                    "warning: cannot use {record}: {error}; every page is drawn, and no file is removed\n"
                 ));
             }
         }
     }
 }
 
+/// "evans: 3 cells (1 not assembled), 2 curves, 1 page"; `drawn` is `None` if the family is unchanged.
 fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
     let mut line = format!("{}: {}", record.id, pluralize(record.cells, "cell"));
     if record.kept < record.cells {
@@ -158,7 +168,7 @@ fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
     line.push_str(&format!(", {}", pluralize(record.pages, "page")));
     match drawn {
         None => line.push_str(" (unchanged)"),
-        // Pages that are bound only are not drawn one by one.
+        // Pages that are only in the book have no files.
         Some(drawn) if drawn < record.pages && record.files.len() > record.pages => {
             line.push_str(&format!(" ({drawn} of {} drawn)", pluralize(record.pages, "page")));
         }

@@ -1,10 +1,10 @@
-//! The JSON Schema of a manifest, from the tables its reader goes by.
+//! The JSON Schema of a manifest, generated from the tables that its parser uses.
 
 use coupler_atlas::manifest::{KeySchema, MANIFEST, TableSchema, ValueSchema};
 use coupler_curves::expression::Dimension;
 use serde_json::{Map, Value, json};
 
-/// The schema, with which an editor completes a manifest and finds its slips as it is written.
+/// The schema (2020-12), with which an editor completes a manifest and marks its errors.
 pub(super) fn schema_json() -> String {
     let mut schema = table(&MANIFEST);
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
@@ -29,68 +29,70 @@ fn table(table: &TableSchema) -> Value {
 }
 
 fn property(key: &KeySchema) -> Value {
-    let mut schema = form(&key.value);
+    let mut schema = value_schema(&key.value);
     schema["description"] = json!(key.description);
-    // A test reads every default.
-    if let Ok(default) = serde_json::from_str::<Value>(key.default) {
+    // A default that is not JSON would be left out; a test checks that each one is.
+    if let Some(Ok(default)) = key.default.map(|default| serde_json::from_str::<Value>(&default())) {
         schema["default"] = default;
     }
     schema
 }
 
-/// A name that can be used in an expression.
+/// A name that an expression can use.
 const NAME_PATTERN: &str = "^(?!(and|or|not|pi)$)[A-Za-z_][A-Za-z0-9_]*$";
-/// Lower-case letters and digits in words joined by hyphens, and no device of Windows.
+/// Lower-case letters and digits in words joined by hyphens, except device names of Windows.
 const SLUG_PATTERN: &str = "^(?!(con|prn|aux|nul|(com|lpt)[0-9])$)[a-z0-9]+(-[a-z0-9]+)*$";
 const COLOR_PATTERN: &str = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$";
 
-fn form(form: &ValueSchema) -> Value {
-    match form {
+fn value_schema(value: &ValueSchema) -> Value {
+    match value {
         ValueSchema::Text => json!({ "type": "string" }),
         ValueSchema::Slug => json!({ "type": "string", "pattern": SLUG_PATTERN, "maxLength": 64 }),
         ValueSchema::Color => json!({ "type": "string", "pattern": COLOR_PATTERN }),
         ValueSchema::Word(words) => json!({ "enum": words() }),
-        ValueSchema::WithExamples(like, examples) => {
-            let mut schema = self::form(like);
+        ValueSchema::WithExamples(base, examples) => {
+            let mut schema = value_schema(base);
             schema["examples"] = json!(examples());
             schema
         }
         ValueSchema::Boolean => json!({ "type": "boolean" }),
         ValueSchema::Integer(range) => bounded("integer", "minimum", "maximum", *range),
-        // Any text may be an expression.
+        // A string is an expression.
         ValueSchema::Number | ValueSchema::Input => json!({ "type": ["number", "string"] }),
         ValueSchema::Positive => json!({ "type": ["number", "string"], "exclusiveMinimum": 0 }),
         ValueSchema::InRange([least, most]) => {
             json!({ "type": ["number", "string"], "minimum": least, "maximum": most })
         }
         ValueSchema::Quantity(dimension) => json!({ "type": "string", "pattern": ends_with_unit(*dimension) }),
-        ValueSchema::List(of, range) => list(of, *range),
-        ValueSchema::Set(of, range) => {
-            let mut schema = list(of, *range);
+        ValueSchema::List(item, range) => list(item, *range),
+        ValueSchema::Set(item, range) => {
+            let mut schema = list(item, *range);
             schema["uniqueItems"] = json!(true);
             schema
         }
-        ValueSchema::OneOrMore(of, least) => json!({ "anyOf": [self::form(of), list(of, [*least, usize::MAX])] }),
+        ValueSchema::OneOrMore(item, least) => {
+            json!({ "anyOf": [value_schema(item), list(item, [*least, usize::MAX])] })
+        }
         ValueSchema::Table(keys) => table(keys),
-        ValueSchema::IdentifierMap(of) => {
+        ValueSchema::IdentifierMap(item) => {
             let names = json!({ "pattern": NAME_PATTERN });
-            json!({ "type": "object", "propertyNames": names, "additionalProperties": self::form(of) })
+            json!({ "type": "object", "propertyNames": names, "additionalProperties": value_schema(item) })
         }
-        ValueSchema::Map(of) => json!({ "type": "object", "additionalProperties": self::form(of) }),
-        ValueSchema::Variants(kinds) => {
-            json!({ "oneOf": kinds.iter().map(|(_, kind)| table(kind)).collect::<Vec<_>>() })
+        ValueSchema::Map(item) => json!({ "type": "object", "additionalProperties": value_schema(item) }),
+        ValueSchema::Variants(variants) => {
+            json!({ "oneOf": variants.iter().map(|(_, variant)| table(variant)).collect::<Vec<_>>() })
         }
-        ValueSchema::AnyOf(forms) => json!({ "anyOf": forms.iter().map(self::form).collect::<Vec<_>>() }),
+        ValueSchema::AnyOf(values) => json!({ "anyOf": values.iter().map(value_schema).collect::<Vec<_>>() }),
     }
 }
 
-fn list(of: &ValueSchema, range: [usize; 2]) -> Value {
+fn list(item: &ValueSchema, range: [usize; 2]) -> Value {
     let mut schema = bounded("array", "minItems", "maxItems", range);
-    schema["items"] = form(of);
+    schema["items"] = value_schema(item);
     schema
 }
 
-/// A type with its bounds, so far as there are any.
+/// A type with its bounds; 0 and `usize::MAX` are no bounds.
 fn bounded(kind: &str, minimum: &str, maximum: &str, [least, most]: [usize; 2]) -> Value {
     let mut schema = json!({ "type": kind });
     if least > 0 {

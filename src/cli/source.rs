@@ -1,4 +1,4 @@
-//! Reading a manifest, and saying what is wrong with it.
+//! Reads a manifest, and prints the problems in it.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -9,20 +9,26 @@ use coupler_curves::problem::{self, Problem, suggestion};
 
 use super::{InputError, pluralize, print_stderr};
 
-/// A manifest that was read, with what is needed to speak of it.
+/// The manifest that a command reads when none is given.
+pub const DEFAULT_MANIFEST: &str = "atlas.toml";
+
+/// A manifest with its path and text, for messages.
 pub struct ManifestSource {
     pub path: PathBuf,
     pub text: String,
     pub plan: Plan,
 }
 
-/// Reads a manifest; every problem in it goes to standard error.
+/// Reads a manifest, and prints every problem in it to standard error.
+///
+/// # Errors
+/// The file cannot be read, or the manifest has errors.
 pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
     let text = output::read_manifest(path).map_err(|error| match error {
         output::Error::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
             let path = path.display();
             anyhow::Error::from(InputError(format!(
-                "there is no {path}: `coupler-atlas init {path}` writes one to start from"
+                "cannot find {path}: `coupler-atlas init {path}` writes a manifest to start from"
             )))
         }
         error => error.into(),
@@ -39,12 +45,15 @@ pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
 }
 
 impl ManifestSource {
-    /// Says more of what is wrong with the manifest.
+    /// Prints further problems in the manifest to standard error.
     pub fn report_problems(&self, problems: &[Problem]) {
         report_problems(&self.path, &self.text, problems);
     }
 
-    /// Complains of ids that are no family's.
+    /// Checks that each id is that of a family.
+    ///
+    /// # Errors
+    /// The first id of which the manifest has no family.
     pub fn require_families(&self, only: &[String]) -> Result<(), InputError> {
         let ids: Vec<&str> = self.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
         match only.iter().find(|id| !ids.contains(&id.as_str())) {
@@ -53,7 +62,7 @@ impl ManifestSource {
         }
     }
 
-    /// The folder results go to: as given on the command line, or beside the manifest.
+    /// The output folder: the one given on the command line, or that of the manifest, relative to the manifest.
     pub fn output_folder(&self, given: Option<&Path>) -> PathBuf {
         match given {
             Some(folder) => folder.to_owned(),
@@ -62,7 +71,7 @@ impl ManifestSource {
     }
 }
 
-/// Says what is wrong with a text.
+/// Prints problems in a text to standard error, in color on a terminal unless `NO_COLOR` is set.
 pub fn report_problems(path: &Path, text: &str, problems: &[Problem]) {
     let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     print_stderr(&problem::report(problems, &path.display().to_string(), text, styled));

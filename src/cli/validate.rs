@@ -1,15 +1,18 @@
+//! `validate`: reports every problem of a manifest.
+
 use std::path::PathBuf;
 
 use clap::Args;
 use coupler_atlas::output;
 
-use super::{Outcome, pluralize, print, source};
+use super::source::{self, DEFAULT_MANIFEST};
+use super::{Outcome, pluralize, print};
 
-/// Find every problem of a manifest, and write nothing.
+/// Report every problem of a manifest, and write nothing.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The manifest.
-    #[arg(default_value = "atlas.toml")]
+    #[arg(default_value = DEFAULT_MANIFEST)]
     manifest: PathBuf,
 }
 

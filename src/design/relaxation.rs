@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::kind::{DrivenLinkage, LinkageKind};
-use super::requirements::{P_RANGE, Requirement, Requirements};
+use super::kind::{DrivenLinkage, LinkageKind, P_RANGE};
+use super::requirements::{Requirement, Requirements};
 use super::scaled_design::{Design, ProportionOrigin};
 use super::search::{self, Samplers};
 use super::trial::{Goal, Objective, Trial};

@@ -1,13 +1,15 @@
-use super::kind::{DrivenLinkage, Driver, LinkageKind};
+//! The requirements of a design, and their checks.
 
-/// What a designer wants.
+use super::kind::{DrivenLinkage, Driver, LinkageKind, P_RANGE};
+
+/// The requirements of a designer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirements {
-    /// What is to move it; anything if `None`.
+    /// The driver; any if `None`.
     pub input: Option<Driver>,
-    /// Whether the curve is to cross itself; as it comes if `None`.
+    /// Whether the curve must cross itself, or must not; either if `None`.
     pub double_point: Option<bool>,
-    /// Whether the way back is to take less of a turn than the straight stroke.
+    /// Whether the return must take less of a turn than the straight stroke.
     pub quick_return: bool,
     /// The frame over the unit link: the crank of Evans's and Hoeken's linkages, the coupler of the others.
     pub p: Option<f64>,
@@ -15,19 +17,19 @@ pub struct Requirements {
     pub length: Option<f64>,
     /// The width of its strip over its length.
     pub tolerance: f64,
-    /// The greatest distance two places of its joints may have: over a whole turn where a motor drives, over the straight
-    /// stroke where a rocker does.
+    /// The greatest distance between any two positions of its joints: over a whole turn if a motor drives, over the straight
+    /// stroke if a rocker does.
     pub size: Option<f64>,
-    /// The least transmission angle in degrees, over the same motion; an angle over 90 counts as its supplement.
+    /// The least transmission angle in degrees, over the same motion; of an angle over 90 the supplement counts.
     pub mu_min: f64,
     /// The linkages to choose from.
     pub kinds: Vec<LinkageKind>,
-    /// How many are wanted.
+    /// The greatest number of designs.
     pub max_designs: usize,
 }
 
 impl Default for Requirements {
-    /// Nothing but a line straight to a thousandth.
+    /// A line straight to a thousandth of its length, a transmission angle of 20° at least, and up to five designs.
     fn default() -> Requirements {
         Requirements {
             input: None,
@@ -44,7 +46,7 @@ impl Default for Requirements {
     }
 }
 
-/// A wish that can be changed.
+/// A requirement that can be relaxed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Requirement {
     /// [`Requirements::input`].
@@ -67,54 +69,51 @@ pub enum Requirement {
     Kinds,
 }
 
-/// The least and the greatest of a tolerance. The first is a thousandth of a millimetre to either side of a line of 100 mm:
-/// what is finer the samples of a curve do not tell; above the second nothing is straight.
+/// The least and the greatest tolerance. The least is a thousandth of a millimetre to either side of a line of 100 mm; the
+/// samples of a curve do not resolve less. Above the greatest a curve cannot be called straight.
 pub const TOLERANCE_RANGE: [f64; 2] = [2e-5, 0.1];
 
-/// The least and the greatest of `p`.
-pub const P_RANGE: [f64; 2] = [1.02, 12.0];
-
 impl Requirements {
-    /// What is wrong with them: the wish, and why.
+    /// The invalid requirements, each with a message.
     pub fn errors(&self) -> Vec<(Requirement, String)> {
-        let mut found = Vec::new();
-        let mut between = |wish, value: f64, [least, most]: [f64; 2], why: &str| {
+        let mut errors = Vec::new();
+        let mut check_range = |requirement, value: f64, [least, most]: [f64; 2], explanation: &str| {
             if !(least..=most).contains(&value) {
-                found.push((wish, format!("{value} is not from {least} to {most}{why}")));
+                errors.push((requirement, format!("{value} is not from {least} to {most}{explanation}")));
             }
         };
-        between(Requirement::Tolerance, self.tolerance, TOLERANCE_RANGE, ", the strip's width over the length");
+        check_range(Requirement::Tolerance, self.tolerance, TOLERANCE_RANGE, ", the strip's width over the length");
         let lengths = [(Requirement::Length, self.length), (Requirement::Size, self.size)];
-        for (wish, length) in lengths {
-            between(wish, length.unwrap_or(1.0), [1e-9, 1e9], "");
+        for (requirement, length) in lengths {
+            check_range(requirement, length.unwrap_or(1.0), [1e-9, 1e9], "");
         }
-        between(
+        check_range(
             Requirement::P,
             self.p.unwrap_or(2.0),
             P_RANGE,
-            ": the frame is longer than the link it is measured by",
+            ": the frame is longer than the unit link",
         );
-        between(Requirement::MuMin, self.mu_min, [0.0, 89.0], " deg: at 90 nothing moves");
+        check_range(Requirement::MuMin, self.mu_min, [0.0, 89.0], " deg");
         if let (Some(length), Some(size)) = (self.length, self.size)
             && length >= size
         {
-            found.push((Requirement::Size, format!("{size} is not more than the straight length, {length}")));
+            errors.push((Requirement::Size, format!("{size} is not greater than the straight length, {length}")));
         }
         if self.kinds.is_empty() {
-            found.push((Requirement::Kinds, "no linkage is left to choose from".to_owned()));
+            errors.push((Requirement::Kinds, "no linkage is selected".to_owned()));
         }
-        found
+        errors
     }
 
-    /// The part of the size that the straight length is to be, where both are given.
+    /// The ratio of straight length to size, if both are given.
     pub(super) fn length_to_size(&self) -> Option<f64> {
         Some(self.length? / self.size?)
     }
 
-    /// The arrangements to choose from.
+    /// The linkages and drivers to choose from.
     pub(super) fn driven_linkages(&self) -> impl Iterator<Item = DrivenLinkage> + '_ {
-        let is_wanted =
+        let is_allowed =
             |a: &DrivenLinkage| self.kinds.contains(&a.kind) && self.input.is_none_or(|input| a.input == input);
-        DrivenLinkage::ALL.into_iter().filter(is_wanted)
+        DrivenLinkage::ALL.into_iter().filter(is_allowed)
     }
 }

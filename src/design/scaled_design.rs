@@ -82,7 +82,7 @@ impl Design {
         let figures = performance(trial.driven_linkage, &measured, &straight)?;
         let stroke = Stroke::from_portion(&measured, &straight)?;
         let third = stroke.sample_indices.get(stroke.sample_indices.len() / 3);
-        let joints = 0..solved.linkage.joints.len();
+        let joints = solved.linkage.joint_ids();
         let pose = third.map(|&k| joints.map(|joint| measured.circuit.positions.point(joint, k)).collect());
         let double_points = number_value(&measured, "crunodes").unwrap_or(0.0) as usize;
         let class = FourBar::from_linkage(&solved.linkage)?.class().name();

@@ -169,7 +169,7 @@ pub(super) fn performance(
 ) -> Option<Performance> {
     if arrangement.input == Driver::Motor {
         let circuit = subject.circuit;
-        let joints = 0..subject.linkage.joints.len();
+        let joints = subject.linkage.joint_ids();
         let places: Vec<Point> = joints.flat_map(|joint| circuit.points(joint)).collect();
         let driven = if arrangement.kind == LinkageKind::Chebyshev { InputLink::Coupler } else { InputLink::Crank };
         let (mu_min, turn) = (min_transmission_angle(subject)?, Some(portion.input_span / 360.0));

@@ -79,7 +79,7 @@ impl<'a> FamilyScript<'a> {
         let family = &self.planned.family;
         let lines: Vec<[String; 2]> =
             kept.iter().map(|s| family.format_captions(&s.cell, s.first_curve_values())).collect();
-        let reason = |s: &&SolvedCell| s.motion.incomplete_reason.clone().unwrap_or_default();
+        let reason = |s: &&SolvedCell| s.reason();
         let status = |s: &&SolvedCell| match s.status() {
             Status::Ok => 0,
             Status::Partial => 1,

@@ -1,15 +1,14 @@
-//! The `chart` of a family.
+//! Reads the `chart` of a family.
 
 use super::names::FamilyNames;
-use super::schema::numeric_measures;
 use coupler_curves::expression::{CompiledExpression, Expression};
-use coupler_curves::family::{MAX_CELLS, ParameterSpace};
+use coupler_curves::family::{Family, MAX_CELLS, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::{Problem, suggestion};
 use coupler_curves::template::Template;
 use coupler_drawing::chart::{self, Chart, PointSource, Quantity};
 
-/// The `chart` of a family.
+/// The `chart` table of a family.
 pub(super) static CHART: TableSchema = TableSchema::new(
     "`chart`",
     &[
@@ -38,31 +37,23 @@ pub(super) static CHART: TableSchema = TableSchema::new(
 );
 
 const QUANTITY_FORM: ValueSchema = ValueSchema::WithExamples(&ValueSchema::Text, numeric_measures);
-const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
-
-/// The names that a chart's expressions use, whatever else is wrong with it; `None` where one cannot be read.
-pub(super) fn used_names(fields: &Fields) -> Option<Vec<String>> {
-    let Some(chart) = fields.get("chart").and_then(|value| value.get_ref().as_table()) else { return Some(Vec::new()) };
-    let mut found = Vec::new();
-    for value in ["x", "y", "by"].into_iter().filter_map(|key| chart.get(key)) {
-        let items = value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..]);
-        for text in items.iter().filter_map(|item| item.get_ref().as_str()) {
-            found.extend(Expression::parse(text).ok()?.names().iter().cloned());
-        }
-    }
-    Some(found)
+/// The names of the measures that are numbers.
+pub(super) fn numeric_measures() -> Vec<&'static str> {
+    Family::numeric_measure_names().collect()
 }
 
-/// What can be said of a chart when the names it may use are not known: whether its expressions can be read.
-pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, reader: &mut TomlParser<'t>) {
-    let Some(fields) = fields.get("chart").and_then(|value| Fields::from_value(value, &CHART, reader)) else {
+const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
+
+/// Checks the syntax of a chart's expressions, when the names they may use are not known.
+pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
+    let Some(fields) = fields.get("chart").and_then(|value| Fields::from_value(value, &CHART, parser)) else {
         return;
     };
     for value in ["x", "y"].into_iter().filter_map(|key| fields.get(key)) {
         for item in one_or_more(value) {
-            if let Some(text) = reader.text(item) {
+            if let Some(text) = parser.text(item) {
                 let parsed = Expression::parse(&text);
-                reader.ok_or_report(item, parsed);
+                parser.ok_or_report(item, parsed);
             }
         }
     }
@@ -73,33 +64,33 @@ pub(super) fn read<'t>(
     value: &TomlValue<'t>,
     template: &Template,
     names: &FamilyNames,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<Chart> {
-    let fields = Fields::from_value(value, &CHART, reader)?;
-    let x = fields.required("x", EXAMPLE, reader);
-    let y = fields.required("y", EXAMPLE, reader);
-    let x = x.and_then(|value| quantity(value, template, names, reader));
-    let y = y.and_then(|value| quantities(value, template, names, reader));
+    let fields = Fields::from_value(value, &CHART, parser)?;
+    let x = fields.required("x", EXAMPLE, parser);
+    let y = fields.required("y", EXAMPLE, parser);
+    let x = x.and_then(|value| quantity(value, template, names, parser));
+    let y = y.and_then(|value| quantities(value, template, names, parser));
     let by = match fields.get("by") {
         None => None,
-        Some(value) => Some(series_slots(value, names, reader)?),
+        Some(value) => Some(series_slots(value, names, parser)?),
     };
     let (mut x, mut y) = (x?, y?);
-    let over = sample_or_curve_points(&x, &y, &fields, names, reader)?;
-    read_log(&fields, &mut x, &mut y, reader)?;
-    read_ranges(&fields, &mut x, &mut y, reader)?;
+    let point_source = sample_or_curve_points(&x, &y, &fields, names, parser)?;
+    read_log(&fields, &mut x, &mut y, parser)?;
+    read_ranges(&fields, &mut x, &mut y, parser)?;
     if names.space.count() > MAX_CELLS {
-        let problem = Problem::error(value.span(), format!("a chart is drawn of {MAX_CELLS} cells at most"));
-        reader.report(problem.with_help("take fewer values, or leave the chart to a family of its own"));
+        let problem = Problem::error(value.span(), format!("a chart can have at most {MAX_CELLS} cells"));
+        parser.report(problem.with_help("use fewer values, or put the chart in a separate family"));
         return None;
     }
-    let is_own = |slot: &usize| *slot < names.all.len();
-    let in_order_of_x = over == PointSource::Curves && x.expression.slots().iter().all(is_own);
-    let by = by.unwrap_or_else(|| default_series_slots(&x.expression, over, names));
-    Some(Chart { point_source: over, x, y, group_by: by, is_ordered_by_x: in_order_of_x })
+    let is_name = |slot: &usize| *slot < names.all.len();
+    let is_ordered_by_x = point_source == PointSource::Curves && x.expression.slots().iter().all(is_name);
+    let by = by.unwrap_or_else(|| default_series_slots(&x.expression, point_source, names));
+    Some(Chart { point_source, x, y, group_by: by, is_ordered_by_x })
 }
 
-/// A list, or the one thing that is in its place.
+/// The items of a list, or the value itself if it is not a list.
 fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
     value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
 }
@@ -108,24 +99,24 @@ fn quantities<'t>(
     value: &TomlValue<'t>,
     template: &Template,
     names: &FamilyNames,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<Vec<Quantity>> {
     let items = one_or_more(value);
     if items.is_empty() {
-        let problem = Problem::error(value.span(), "there is nothing to draw");
-        reader.report(problem.with_help("name a measure, as in y = \"straight_length\""));
+        let problem = Problem::error(value.span(), "`y` is empty");
+        parser.report(problem.with_help("name a measure, as in y = \"straight_length\""));
         return None;
     }
     let mut found: Vec<Quantity> = Vec::new();
     let mut all_read = true;
     for item in items {
-        let Some(quantity) = quantity(item, template, names, reader) else {
+        let Some(quantity) = quantity(item, template, names, parser) else {
             all_read = false;
             continue;
         };
         if found.iter().any(|other| other.text == quantity.text) {
             let problem = Problem::error(item.span(), format!("`{}` is named twice", quantity.text.escape_debug()));
-            reader.report(problem.with_help("name it once"));
+            parser.report(problem.with_help("name it once"));
             all_read = false;
         }
         found.push(quantity);
@@ -137,53 +128,53 @@ fn quantity<'t>(
     value: &TomlValue<'t>,
     template: &Template,
     names: &FamilyNames,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<Quantity> {
-    let text = reader.text(value)?.trim().to_owned();
+    let text = parser.text(value)?.trim().to_owned();
     let is_driven_by_length = template.is_driven_by_length();
-    let value = reader.numeric_expression(value, &chart::scope(&names.all, is_driven_by_length))?;
+    let value = parser.numeric_expression(value, &chart::scope(&names.all, is_driven_by_length))?;
     let unit = chart::unit(&text, is_driven_by_length);
     let definition = chart::definition(&text, &names.all);
     Some(Quantity { text, unit, definition, expression: value, is_log: false, range: None })
 }
 
-/// What there is a point for.
+/// Whether the chart has a point for each sample or for each curve; reports a `y` that does not match `x`.
 fn sample_or_curve_points<'t>(
     x: &Quantity,
     y: &[Quantity],
     fields: &Fields<'_, 't>,
     names: &FamilyNames,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<PointSource> {
-    let is_of_samples = |quantity: &Quantity| chart::is_per_sample(&quantity.expression, &names.all);
-    if is_of_samples(x) {
+    let is_per_sample = |quantity: &Quantity| chart::is_per_sample(&quantity.expression, &names.all);
+    if is_per_sample(x) {
         return Some(PointSource::Samples);
     }
-    let mut is_good = true;
+    let mut is_consistent = true;
     for (quantity, item) in y.iter().zip(fields.get("y").map_or(&[][..], one_or_more)) {
-        if is_of_samples(quantity) {
+        if is_per_sample(quantity) {
             let (x, y) = (x.text.escape_debug(), quantity.text.escape_debug());
             let message = format!("`{y}` has a value for each sample, and `{x}` one for each curve");
             let help = "draw it over x = \"input_deg\" or x = \"arc\", or draw a measure of the curve";
-            reader.report(Problem::error(item.span(), message).with_help(help));
-            is_good = false;
+            parser.report(Problem::error(item.span(), message).with_help(help));
+            is_consistent = false;
         }
     }
-    is_good.then_some(PointSource::Curves)
+    is_consistent.then_some(PointSource::Curves)
 }
 
-/// The names that tell lines apart.
-fn series_slots<'t>(value: &TomlValue<'t>, names: &FamilyNames, reader: &mut TomlParser<'t>) -> Option<Vec<usize>> {
+/// Reads `by`: the names whose values separate the lines.
+fn series_slots<'t>(value: &TomlValue<'t>, names: &FamilyNames, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
     let known: Vec<&str> = names.all.iter().map(String::as_str).collect();
     let mut found = Vec::new();
     let mut all_read = true;
     for item in one_or_more(value) {
-        let slot = reader.text(item).map(|name| (names.all.iter().position(|known| *known == name), name));
+        let slot = parser.text(item).map(|name| (names.all.iter().position(|known| *known == name), name));
         match slot {
             Some((Some(slot), _)) => found.push(slot),
             Some((None, name)) => {
                 let problem = Problem::error(item.span(), format!("there is no `{}`", name.escape_debug()));
-                reader.report(problem.with_help(suggestion(&name, &known)));
+                parser.report(problem.with_help(suggestion(&name, &known)));
                 all_read = false;
             }
             None => all_read = false,
@@ -192,20 +183,20 @@ fn series_slots<'t>(value: &TomlValue<'t>, names: &FamilyNames, reader: &mut Tom
     all_read.then_some(found)
 }
 
-/// Of a grid, the axes that x does not rest on; where it rests on none, all but the last. Of cases, what they give, for
-/// the lines of samples; their points make one line.
-fn default_series_slots(x: &CompiledExpression, over: PointSource, names: &FamilyNames) -> Vec<usize> {
+/// The default of `by`. For a grid: the axes that x does not depend on, or all but the last if it depends on none. For
+/// cases: the names they give, if each point is a sample; otherwise none, and all points are on one line.
+fn default_series_slots(x: &CompiledExpression, point_source: PointSource, names: &FamilyNames) -> Vec<usize> {
     match &names.space {
         ParameterSpace::Grid(axes) => {
             let slots: Vec<usize> = axes.iter().map(|axis| axis.slot).collect();
-            if over == PointSource::Samples {
+            if point_source == PointSource::Samples {
                 return slots;
             }
-            let resting = dependencies(x, names);
-            let others: Vec<usize> = slots.iter().copied().filter(|slot| !resting.contains(slot)).collect();
+            let x_slots = dependencies(x, names);
+            let others: Vec<usize> = slots.iter().copied().filter(|slot| !x_slots.contains(slot)).collect();
             if others.len() < slots.len() { others } else { slots[..slots.len() - 1].to_vec() }
         }
-        ParameterSpace::Cases(cases) if over == PointSource::Samples => {
+        ParameterSpace::Cases(cases) if point_source == PointSource::Samples => {
             let mut slots: Vec<usize> = cases.iter().flatten().map(|(slot, _)| *slot).collect();
             slots.sort_unstable();
             slots.dedup();
@@ -215,12 +206,13 @@ fn default_series_slots(x: &CompiledExpression, over: PointSource, names: &Famil
     }
 }
 
-/// The names that an expression uses, and those they are derived from.
+/// The slots that an expression uses, and those they are derived from.
 fn dependencies(value: &CompiledExpression, names: &FamilyNames) -> Vec<usize> {
     let mut found: Vec<usize> = value.slots().to_vec();
     let mut next = 0;
     while let Some(&slot) = found.get(next) {
-        let sources = names.derived.iter().filter(|(derived, _)| *derived == slot).flat_map(|(_, bound)| bound.slots());
+        let sources =
+            names.derived.iter().filter(|(derived, _)| *derived == slot).flat_map(|(_, expression)| expression.slots());
         for source in sources {
             if !found.contains(source) {
                 found.push(*source);
@@ -231,79 +223,79 @@ fn dependencies(value: &CompiledExpression, names: &FamilyNames) -> Vec<usize> {
     found
 }
 
-/// The quantity of a chart that is written so.
+/// The quantity of a chart with this text; reports a text that no quantity has.
 fn find_quantity<'q, 't>(
     text: &str,
     place: std::ops::Range<usize>,
     (x, y): (&'q mut Quantity, &'q mut [Quantity]),
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<&'q mut Quantity> {
     let known: Vec<String> = std::iter::once(&*x).chain(&*y).map(|quantity| quantity.text.clone()).collect();
     let found = std::iter::once(x).chain(y).find(|quantity| quantity.text == text.trim());
     if found.is_none() {
         let known: Vec<&str> = known.iter().map(String::as_str).collect();
-        let problem = Problem::error(place, format!("the chart draws no `{}`", text.escape_debug()));
-        reader.report(problem.with_help(suggestion(text, &known)));
+        let problem = Problem::error(place, format!("the chart has no quantity `{}`", text.escape_debug()));
+        parser.report(problem.with_help(suggestion(text, &known)));
     }
     found
 }
 
-/// Which of its quantities are drawn by their logarithms.
+/// Reads `log`: which quantities have logarithmic axes.
 fn read_log<'t>(
     fields: &Fields<'_, 't>,
     x: &mut Quantity,
     y: &mut [Quantity],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<()> {
-    let before = reader.problem_count();
+    let before = parser.problem_count();
     for item in fields.get("log").map_or(&[][..], one_or_more) {
-        let Some(text) = reader.text(item) else { continue };
-        if let Some(quantity) = find_quantity(&text, item.span(), (x, y), reader) {
+        let Some(text) = parser.text(item) else { continue };
+        if let Some(quantity) = find_quantity(&text, item.span(), (x, y), parser) {
             quantity.is_log = true;
         }
     }
-    (reader.problem_count() == before).then_some(())
+    (parser.problem_count() == before).then_some(())
 }
 
-/// How far its quantities are drawn.
+/// Reads `range`: the ends of the axes.
 fn read_ranges<'t>(
     fields: &Fields<'_, 't>,
     x: &mut Quantity,
     y: &mut [Quantity],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<()> {
     let Some(value) = fields.get("range") else { return Some(()) };
-    let before = reader.problem_count();
-    for (text, span, value) in Fields::with_any_keys(value, "`range`", reader)?.entries() {
-        let range = reader.pair(value).map(|pair| pair.map(|end| reader.constant(end)));
-        let (Some(quantity), Some([Some(low), Some(high)])) = (find_quantity(text, span, (x, y), reader), range) else {
+    let before = parser.problem_count();
+    for (text, span, value) in Fields::with_any_keys(value, "`range`", parser)?.entries() {
+        let range = parser.pair(value).map(|pair| pair.map(|end| parser.constant(end)));
+        let (Some(quantity), Some([Some(low), Some(high)])) = (find_quantity(text, span, (x, y), parser), range) else {
             continue;
         };
-        let wrong = if !(low < high && high - low < f64::INFINITY) {
-            Some((format!("from {low} to {high} is no range"), "give the lesser end first, as in [0, 3]"))
+        let error = if !(low < high && high - low < f64::INFINITY) {
+            Some((format!("[{low}, {high}] is not a range"), "give the lower end first, as in [0, 3]"))
         } else if quantity.is_log && low <= 0.0 {
             Some((format!("a logarithmic axis cannot begin at {low}"), "begin it above 0"))
         } else {
             None
         };
-        match wrong {
-            Some((message, help)) => reader.report(Problem::error(value.span(), message).with_help(help)),
+        match error {
+            Some((message, help)) => parser.report(Problem::error(value.span(), message).with_help(help)),
             None => quantity.range = Some([low, high]),
         }
     }
-    (reader.problem_count() == before).then_some(())
+    (parser.problem_count() == before).then_some(())
 }
 
-/// Checks that a family with a chart is laid out as one, and the other way round.
-pub(super) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, reader: &mut TomlParser<'t>) {
+/// Checks that a family has a `chart` if and only if its layout is `chart`.
+pub(super) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, parser: &mut TomlParser<'t>) {
     match (is_chart, fields.get("chart"), fields.get("layout")) {
         (true, None, Some(layout)) => {
-            let problem = Problem::error(layout.span(), "the layout is chart, and there is no `chart`");
-            reader.report(problem.with_help(format!("say what is drawn: {EXAMPLE}")));
+            let problem = Problem::error(layout.span(), "the layout is `chart`, but there is no `chart`");
+            parser.report(problem.with_help(format!("name its quantities: {EXAMPLE}")));
         }
         (false, Some(chart), _) => {
-            let problem = Problem::error(chart.span(), "there is a `chart`, and the layout is panels");
-            reader.report(problem.with_help("add layout = \"chart\", or leave `chart` out"));
+            let problem = Problem::error(chart.span(), "there is a `chart`, but the layout is not `chart`");
+            parser.report(problem.with_help("set layout = \"chart\", or leave `chart` out"));
         }
         _ => {}
     }
@@ -315,11 +307,11 @@ mod tests {
     use coupler_curves::expression::Kind;
 
     #[test]
-    fn a_measure_is_no_name_of_the_familys_own() {
+    fn measures_of_samples_and_of_curves_are_distinguished() {
         let scope = chart::scope(&[], false);
-        let bound = Expression::parse("mu_deg + mu_min_deg").unwrap().compile(&scope, Kind::Number).unwrap();
-        assert!(chart::is_per_sample(&bound, &[]));
-        let bound = Expression::parse("mu_min_deg").unwrap().compile(&scope, Kind::Number).unwrap();
-        assert!(!chart::is_per_sample(&bound, &[]));
+        let compiled = Expression::parse("mu_deg + mu_min_deg").unwrap().compile(&scope, Kind::Number).unwrap();
+        assert!(chart::is_per_sample(&compiled, &[]));
+        let compiled = Expression::parse("mu_min_deg").unwrap().compile(&scope, Kind::Number).unwrap();
+        assert!(!chart::is_per_sample(&compiled, &[]));
     }
 }

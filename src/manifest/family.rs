@@ -1,9 +1,11 @@
-//! A `[[family]]` table.
+//! Reads a `[[family]]` table.
 
 use std::sync::Arc;
 
 use super::names::{check_expression_syntax, read_names, read_space};
-use super::schema::{FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing};
+use super::schema::{
+    DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
+};
 use super::{ManifestInputs, PlannedFamily, Templates, chart, settings, tolerance};
 use coupler_curves::expression::Dimension;
 use coupler_curves::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
@@ -13,7 +15,7 @@ use coupler_curves::template::{Orientation, Template};
 use coupler_drawing::page::{Layout, Options};
 use coupler_drawing::render::Format;
 
-/// The id of a table and its place, if it has one.
+/// The id of a table and its place; `None` if it has none.
 pub(super) fn id_and_span(value: &TomlValue) -> Option<(String, Span)> {
     let id = value.get_ref().as_table()?.get("id")?;
     Some((id.get_ref().as_str()?.to_owned(), id.span()))
@@ -23,48 +25,48 @@ pub(super) fn read<'t>(
     value: &TomlValue<'t>,
     templates: &Templates,
     (formats, page): (&[Format], Option<&Options>),
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
-    let fields = Fields::from_value(value, &FAMILY, reader)?;
+    let fields = Fields::from_value(value, &FAMILY, parser)?;
     let id =
-        fields.required("id", "id = \"evans\"", reader).and_then(|value| linkage_format::parse_slug(value, reader));
+        fields.required("id", "id = \"evans\"", parser).and_then(|value| linkage_format::parse_slug(value, parser));
     let template =
-        fields.required("linkage", "linkage = \"evans\"", reader).and_then(|value| templates.find(value, reader));
-    let template = template.map(|template| apply_overrides(template, &fields, reader));
-    let text = |key: &str, reader: &mut TomlParser<'t>| fields.get(key).and_then(|value| reader.text(value));
-    let (title, source) = (text("title", reader), text("source", reader));
+        fields.required("linkage", "linkage = \"evans\"", parser).and_then(|value| templates.find(value, parser));
+    let template = template.map(|template| apply_overrides(template, &fields, parser));
+    let text = |key: &str, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.text(value));
+    let (title, source) = (text("title", parser), text("source", parser));
     let formats = match fields.get("formats") {
         None => Some(formats.to_vec()),
-        Some(value) => settings::formats(value, reader),
+        Some(value) => settings::formats(value, parser),
     };
     let sampling = fields
-        .required("sampling", "sampling = { step = \"2 deg\" }", reader)
-        .and_then(|value| sampling(value, template.as_deref(), reader));
-    let columns = fields.get("columns").map_or(Some(Vec::new()), |value| columns(value, reader));
+        .required("sampling", "sampling = { step = \"2 deg\" }", parser)
+        .and_then(|value| sampling(value, template.as_deref(), parser));
+    let columns = fields.get("columns").map_or(Some(Vec::new()), |value| columns(value, parser));
     let straight = match fields.get("straight") {
         None => Some(StraightCriterion::default()),
-        Some(value) => straight(value, template.as_deref(), reader),
+        Some(value) => straight(value, template.as_deref(), parser),
     };
-    let measures = fields.get("measures").map_or(Some(vec![true; MEASURES.len()]), |value| measures(value, reader));
-    let tolerances = tolerance::read(fields.get("check"), &tolerance::FAMILY_CHECK, reader);
+    let measures = fields.get("measures").map_or(Some(vec![true; MEASURES.len()]), |value| measures(value, parser));
+    let tolerances = tolerance::read(fields.get("check"), &tolerance::FAMILY_CHECK, parser);
     let names = match &template {
-        Some(template) => read_names(template, &fields, reader),
+        Some(template) => read_names(template, &fields, parser),
         None => {
-            read_space(&fields, reader);
-            check_expression_syntax(&fields, reader);
+            read_space(&fields, parser);
+            check_expression_syntax(&fields, parser);
             None
         }
     };
     let chart = match (fields.get("chart"), &template, &names) {
         (None, ..) => Some(None),
-        (Some(value), Some(template), Some(names)) => chart::read(value, template, names, reader).map(Some),
+        (Some(value), Some(template), Some(names)) => chart::read(value, template, names, parser).map(Some),
         (Some(_), ..) => {
-            chart::check_expression_syntax(&fields, reader);
+            chart::check_expression_syntax(&fields, parser);
             None
         }
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
-    let layout = layout(&fields, page, charts, reader);
+    let layout = layout(&fields, page, charts, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let mut family = Family {
         title: title.unwrap_or_else(|| id.clone()),
@@ -81,16 +83,14 @@ pub(super) fn read<'t>(
         sort: names.sort,
         captions: names.captions,
     };
-    // What something asks for is taken, named or not.
+    // A measure that an expression uses is computed, even if `measures` does not name it.
     for k in 0..MEASURES.len() {
-        let of_charts = chart.iter().flatten().flat_map(|chart| std::iter::once(&chart.x).chain(&chart.y));
-        let is_charted = of_charts.into_iter().any(|quantity| family.expression_uses(&quantity.expression, k));
+        let quantities = chart.iter().flatten().flat_map(|chart| std::iter::once(&chart.x).chain(&chart.y));
+        let is_charted = quantities.into_iter().any(|quantity| family.expression_uses(&quantity.expression, k));
         family.is_computed[k] |= family.filter_or_sort_uses(k) || family.captions_use(k) || is_charted;
     }
-    check_cells(&family, &fields, &names.spans, reader);
-    let legend = [&family.template.source, &family.template.legend].map(String::as_str);
-    let source =
-        source.unwrap_or_else(|| legend.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · "));
+    check_cells(&family, &fields, &names.spans, parser);
+    let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);
     let (layout, chart, formats) = (layout?, chart?, formats?);
     let inputs = ManifestInputs::default();
@@ -107,12 +107,12 @@ pub(super) fn read<'t>(
     })
 }
 
-/// The template with what the family says otherwise.
-fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader: &mut TomlParser<'t>) -> Arc<Template> {
-    let circuits = fields.get("circuits").and_then(|value| reader.word(value, &linkage_format::CIRCUIT_SELECTIONS));
-    let continuation = fields.get("continuation").and_then(|value| reader.word(value, &linkage_format::CONTINUATIONS));
-    let coincident = fields.get("coincident").and_then(|value| reader.word(value, &linkage_format::COINCIDENT_DYADS));
-    let placement = fields.get("place").and_then(|value| placement(value, reader));
+/// The template with the family's settings in place of its own.
+fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Arc<Template> {
+    let circuits = fields.get("circuits").and_then(|value| parser.word(value, &linkage_format::CIRCUIT_SELECTIONS));
+    let continuation = fields.get("continuation").and_then(|value| parser.word(value, &linkage_format::CONTINUATIONS));
+    let coincident = fields.get("coincident").and_then(|value| parser.word(value, &linkage_format::COINCIDENT_DYADS));
+    let placement = fields.get("place").and_then(|value| placement(value, parser));
     if circuits.is_none() && continuation.is_none() && coincident.is_none() && placement.is_none() {
         return template;
     }
@@ -124,51 +124,52 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, reader:
     Arc::new(own)
 }
 
-/// Where the linkages of a family are laid.
-fn placement<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Orientation> {
-    let fields = Fields::from_value(value, &PLACE, reader)?;
-    let mirror = fields.get("mirror").map_or(Some(false), |value| reader.boolean(value));
-    let rotate = fields.get("rotate").map_or(Some(0.0), |value| reader.constant_quantity(value, Dimension::Angle));
+/// Reads how the linkages of a family are placed in the plane.
+fn placement<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Orientation> {
+    let fields = Fields::from_value(value, &PLACE, parser)?;
+    let mirror = fields.get("mirror").map_or(Some(DEFAULT_PLACE.0), |value| parser.boolean(value));
+    let rotate =
+        fields.get("rotate").map_or(Some(DEFAULT_PLACE.1), |value| parser.constant_quantity(value, Dimension::Angle));
     Some(Orientation::new(mirror?, rotate?))
 }
 
-fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, reader: &mut TomlParser<'t>) -> Option<Sampling> {
-    let fields = Fields::from_value(value, &SAMPLING, reader)?;
+fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut TomlParser<'t>) -> Option<Sampling> {
+    let fields = Fields::from_value(value, &SAMPLING, parser)?;
     let spacing = match fields.get("spacing") {
-        None => Spacing::Even,
-        Some(value) => reader.word(value, &SPACINGS)?,
+        None => Spacing::default(),
+        Some(value) => parser.word(value, &SPACINGS)?,
     };
     if let (Some(_), Some(value)) = (fields.get("step"), fields.get("spacing")) {
-        let problem = Problem::error(value.span(), "samples by step are even in the input");
-        reader.report(problem.with_help("write { samples = 180, spacing = \"smooth\" }"));
+        let problem = Problem::error(value.span(), "`spacing` cannot be combined with `step`");
+        parser.report(problem.with_help("write { samples = 180, spacing = \"smooth\" }"));
     }
     match (fields.get("step"), fields.get("samples")) {
-        // Of a linkage that cannot be read it is not known what drives it.
+        // If the linkage could not be parsed, its input may be an angle or a length.
         (Some(value), None) if template.is_none() && value.get_ref().as_str().is_none() => None,
         (Some(value), None) if template.is_some_and(Template::is_driven_by_length) => {
-            let step = reader.input_length(value, &[])?.evaluate(|_| f64::NAN);
-            let step = reader.require_finite(value, step)?;
+            let step = parser.input_length(value, &[])?.evaluate(|_| f64::NAN);
+            let step = parser.require_finite(value, step)?;
             if step > 0.0 {
                 return Some(Sampling::Step(step));
             }
-            let problem = Problem::error(value.span(), format!("a step of {step} never ends"));
-            reader.report(problem.with_help("give a length of more than 0, as in step = 0.05"));
+            let problem = Problem::error(value.span(), format!("`step` must be greater than 0, found {step}"));
+            parser.report(problem.with_help("give a length greater than 0, as in step = 0.05"));
             None
         }
         (Some(value), None) => {
-            let step = reader.constant_quantity(value, Dimension::Angle)?;
+            let step = parser.constant_quantity(value, Dimension::Angle)?;
             let least = 360.0 / MAX_SAMPLES as f64;
             let problem = match step {
-                0.0 => Problem::error(value.span(), "a step of 0 never ends"),
+                0.0 => Problem::error(value.span(), "`step` must not be 0"),
                 step if step < least || step > 360.0 => {
                     Problem::error(value.span(), format!("a step of {step} deg is out of range"))
                 }
                 _ => return Some(Sampling::Step(step)),
             };
-            reader.report(problem.with_help(format!("give {least} to 360 deg, as in step = \"2 deg\"")));
+            parser.report(problem.with_help(format!("give {least} to 360 deg, as in step = \"2 deg\"")));
             None
         }
-        (None, Some(value)) => reader.integer(value, 2, MAX_SAMPLES).map(|n| match spacing {
+        (None, Some(value)) => parser.integer(value, 2, MAX_SAMPLES).map(|n| match spacing {
             Spacing::Even => Sampling::Samples(n),
             Spacing::Smooth => Sampling::DenseAtLimits(n),
             Spacing::Arc => Sampling::ArcLength(n),
@@ -179,7 +180,7 @@ fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, reader: &mut
             } else {
                 "sampling needs a step or a number of samples"
             };
-            reader.report(
+            parser.report(
                 Problem::error(value.span(), message).with_help("write { step = \"2 deg\" } or { samples = 180 }"),
             );
             None
@@ -187,31 +188,30 @@ fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, reader: &mut
     }
 }
 
-/// What is asked of the straight portion.
+/// Reads the criterion for the straight portion.
 fn straight<'t>(
     value: &TomlValue<'t>,
     template: Option<&Template>,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<StraightCriterion> {
-    let fields = Fields::from_value(value, &STRAIGHT, reader)?;
+    let fields = Fields::from_value(value, &STRAIGHT, parser)?;
     let given: Vec<&str> = STRAIGHT.key_names().into_iter().filter(|key| fields.get(key).is_some()).collect();
     let [key] = given[..] else {
-        let problem =
-            Problem::error(value.span(), "a straight portion is asked for by one of tolerance, input and length");
-        reader.report(problem.with_help("write { tolerance = 0.001 }, { input = \"120 deg\" } or { length = 2 }"));
+        let problem = Problem::error(value.span(), "`straight` takes exactly one of `tolerance`, `input` and `length`");
+        parser.report(problem.with_help("write { tolerance = 0.001 }, { input = \"120 deg\" } or { length = 2 }"));
         return None;
     };
     let value = fields.get(key)?;
     let is_driven_by_length = template.is_some_and(Template::is_driven_by_length);
     let number = match key {
-        // Of a linkage that cannot be read it is not known what drives it.
+        // If the linkage could not be parsed, its input may be an angle or a length.
         "input" if template.is_none() => return None,
         "input" if is_driven_by_length => {
-            let length = reader.input_length(value, &[])?.evaluate(|_| f64::NAN);
-            reader.require_finite(value, length)?
+            let length = parser.input_length(value, &[])?.evaluate(|_| f64::NAN);
+            parser.require_finite(value, length)?
         }
-        "input" => reader.constant_quantity(value, Dimension::Angle)?,
-        _ => reader.constant(value)?,
+        "input" => parser.constant_quantity(value, Dimension::Angle)?,
+        _ => parser.constant(value)?,
     };
     let least = if key == "tolerance" { MIN_TOLERANCE } else { 0.0 };
     let (most, straight) = match key {
@@ -226,42 +226,42 @@ fn straight<'t>(
     let problem = Problem::error(value.span(), format!("`{key}` is {number}, which is out of range"));
     let range = match most {
         _ if least > 0.0 => format!("give {least} to {most}"),
-        most if most.is_finite() => format!("give more than 0, and {most} at most"),
-        _ => "give more than 0".to_owned(),
+        most if most.is_finite() => format!("give a number greater than 0, at most {most}"),
+        _ => "give a number greater than 0".to_owned(),
     };
-    reader.report(problem.with_help(range));
+    parser.report(problem.with_help(range));
     None
 }
 
-/// The further columns of `points.csv`.
-fn columns<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Vec<Column>> {
-    let places = name_indices(value, "column", &COLUMNS.map(|column| column.name), reader)?;
+/// Reads the additional columns of `points.csv`.
+fn columns<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Column>> {
+    let places = name_indices(value, "column", &COLUMNS.map(|column| column.name), parser)?;
     Some(places.into_iter().map(|place| COLUMNS[place]).collect())
 }
 
-/// Which measures are named.
-fn measures<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Vec<bool>> {
-    let places = name_indices(value, "measure", &MEASURES.map(|measure| measure.name), reader)?;
+/// Reads which measures are named, in the order of [`MEASURES`].
+fn measures<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<bool>> {
+    let places = name_indices(value, "measure", &MEASURES.map(|measure| measure.name), parser)?;
     Some((0..MEASURES.len()).map(|k| places.contains(&k)).collect())
 }
 
-/// The places of names, each given once, among those there are.
+/// Reads a list of names, each given once, as their indices in `known`; `what` is what messages call them.
 fn name_indices<'t>(
     value: &TomlValue<'t>,
     what: &str,
     known: &[&str],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<Vec<usize>> {
-    let mut out: Vec<usize> = Vec::new();
+    let mut indices: Vec<usize> = Vec::new();
     let mut all_read = true;
-    for item in reader.list(value)? {
-        let Some(name) = reader.text(item) else {
+    for item in parser.list(value)? {
+        let Some(name) = parser.text(item) else {
             all_read = false;
             continue;
         };
         let problem = match known.iter().position(|known| *known == name) {
-            Some(place) if !out.contains(&place) => {
-                out.push(place);
+            Some(place) if !indices.contains(&place) => {
+                indices.push(place);
                 continue;
             }
             Some(_) => {
@@ -270,50 +270,52 @@ fn name_indices<'t>(
             None => Problem::error(item.span(), format!("there is no {what} `{}`", name.escape_debug()))
                 .with_help(suggestion(&name, known)),
         };
-        reader.report(problem);
+        parser.report(problem);
         all_read = false;
     }
-    all_read.then_some(out)
+    all_read.then_some(indices)
 }
 
-/// The layout; of charts, of which there are that many, one in which they show well where no panels are given.
+/// Reads the layout. Where `panels` is absent, the grid of charts is chosen for that number of charts.
 fn layout<'t>(
     fields: &Fields<'_, 't>,
     page: Option<&Options>,
     charts: usize,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<Layout> {
     let words = Layout::ALL.map(|(name, _)| (name, name));
     let name = match fields.get("layout") {
-        Some(value) => reader.word(value, &words)?,
-        None => "panels",
+        Some(value) => parser.word(value, &words)?,
+        None => DEFAULT_LAYOUT,
     };
     let is_chart = name == "chart";
-    chart::check_layout(fields, is_chart, reader);
-    // Of a page that could not be read nothing is asked.
+    chart::check_layout(fields, is_chart, parser);
+    // A page that could not be parsed sets no limit.
     let most = if is_chart { Layout::max_charts } else { Layout::max_panels };
     let [most_columns, most_rows] = page.map_or([100, 100], most);
     if name == "coupler-grid" {
         if let Some(value) = fields.get("panels") {
-            let problem = Problem::error(value.span(), "a page of a coupler grid has one cell, and no panels");
-            reader.report(problem.with_help("leave `panels` out, or write layout = \"panels\""));
+            let problem = Problem::error(value.span(), "a page of a coupler grid has one cell and no panels");
+            parser.report(problem.with_help("leave `panels` out, or write layout = \"panels\""));
         }
         return Some(Layout::CouplerGrid);
     }
     let Some(value) = fields.get("panels") else {
         return Some(match page.filter(|_| is_chart) {
             Some(page) => Layout::for_charts(page, charts),
-            None => Layout::Panels { columns: most_columns.min(5), rows: most_rows.min(3) },
+            None => {
+                Layout::Panels { columns: most_columns.min(DEFAULT_PANELS[0]), rows: most_rows.min(DEFAULT_PANELS[1]) }
+            }
         });
     };
-    let [columns, rows] = reader.pair(value)?;
-    let (columns, rows) = (reader.integer(columns, 1, most_columns), reader.integer(rows, 1, most_rows));
+    let [columns, rows] = parser.pair(value)?;
+    let (columns, rows) = (parser.integer(columns, 1, most_columns), parser.integer(rows, 1, most_rows));
     let (columns, rows) = (columns?, rows?);
     Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })
 }
 
-/// Every cell's values and linkage; the first cell of each kind of problem is named, and the others counted.
-fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], reader: &mut TomlParser) {
+/// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are counted.
+fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], parser: &mut TomlParser) {
     struct CellProblem {
         key: String,
         span: Span,
@@ -352,9 +354,9 @@ fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], reader:
     for finding in findings {
         let help = match finding.cell_count {
             1 => finding.help,
-            n => format!("{}; the same is wrong in {} more cells", finding.help, n - 1),
+            n => format!("{}; {} more cells have the same error", finding.help, n - 1),
         };
-        reader.report(Problem::error(finding.span, finding.message).with_help(help));
+        parser.report(Problem::error(finding.span, finding.message).with_help(help));
     }
 }
 

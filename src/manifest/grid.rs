@@ -3,7 +3,7 @@
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 
-/// What a name of a grid may be given.
+/// What a grid may give for a name.
 pub(super) const VALUES_FORM: ValueSchema = ValueSchema::AnyOf(&[
     ValueSchema::List(&ValueSchema::Number, [1, usize::MAX]),
     ValueSchema::Table(&RANGE),
@@ -21,22 +21,22 @@ static RANGE: TableSchema = TableSchema::new(
 )
 .with_one_of(&["step", "count"]);
 
-/// More values than that are beyond counting.
+/// The most values of one range.
 const MAX_COUNT: usize = usize::MAX >> 12;
 
-/// The values of one name before they are written out: their number is known first.
+/// The values of one name, not expanded yet, so that their number can be checked first.
 pub(super) enum GridValues {
     List(Vec<f64>),
     Range { from: f64, to: f64, count: f64, step: Option<RangeStep> },
 }
 
-/// A step, with its decimals where it has some.
+/// A step, with its exact decimals if it is written as a plain decimal.
 pub(super) struct RangeStep {
     value: f64,
     decimals: Option<DecimalRange>,
 }
 
-/// `from` and `step` as whole numbers of units of `1 / scale`.
+/// `from` and `step` as whole multiples of `1 / scale`.
 struct DecimalRange {
     from: f64,
     step: f64,
@@ -44,7 +44,7 @@ struct DecimalRange {
 }
 
 impl GridValues {
-    /// How many there are; as a float, for it may be beyond counting.
+    /// The number of values; a float, since it may exceed any integer.
     pub fn count(&self) -> f64 {
         match self {
             GridValues::List(list) => list.len() as f64,
@@ -52,69 +52,69 @@ impl GridValues {
         }
     }
 
-    /// Every value.
+    /// Expands the values.
     pub fn into_vec(self) -> Vec<f64> {
         let (from, to, count, step) = match self {
             GridValues::List(list) => return list,
             GridValues::Range { from, to, count, step } => (from, to, count as usize, step),
         };
-        let at = |k: usize| match &step {
-            // One division of whole numbers: the value its decimals say, correctly rounded.
+        let value = |k: usize| match &step {
+            // One division of whole numbers gives the decimal value, correctly rounded.
             Some(RangeStep { decimals: Some(d), .. }) => (d.from + d.step * k as f64) / d.scale,
             Some(step) => from + step.value * k as f64,
             None if k + 1 == count => to,
             None => from + (to - from) * (k as f64 / (count - 1) as f64),
         };
-        (0..count).map(at).collect()
+        (0..count).map(value).collect()
     }
 }
 
-/// Reads what one name of a grid ranges over.
-pub(super) fn read_values<'t>(name: &str, value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<GridValues> {
+/// Reads the values that a grid gives for a name.
+pub(super) fn read_values<'t>(name: &str, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
     if let Some(list) = value.get_ref().as_array() {
         if list.is_empty() {
-            let problem = Problem::error(value.span(), format!("`{name}` ranges over nothing"));
-            reader.report(problem.with_help("give at least one value, as in [2, 3, 4]"));
+            let problem = Problem::error(value.span(), format!("`{name}` has no values"));
+            parser.report(problem.with_help("give at least one value, as in [2, 3, 4]"));
             return None;
         }
-        let read: Vec<Option<f64>> = list.iter().map(|item| reader.constant(item)).collect();
+        let read: Vec<Option<f64>> = list.iter().map(|item| parser.constant(item)).collect();
         return read.into_iter().collect::<Option<_>>().map(GridValues::List);
     }
     if value.get_ref().is_table() {
-        return read_range(value, reader);
+        return read_range(value, parser);
     }
-    reader.constant(value).map(|value| GridValues::List(vec![value]))
+    parser.constant(value).map(|value| GridValues::List(vec![value]))
 }
 
-fn read_range<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<GridValues> {
-    let fields = Fields::from_value(value, &RANGE, reader)?;
+fn read_range<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
+    let fields = Fields::from_value(value, &RANGE, parser)?;
     let mut end = |key: &str| {
-        let value = fields.required(key, &format!("{key} = 2"), reader)?;
-        Some((reader.constant(value)?, value))
+        let value = fields.required(key, &format!("{key} = 2"), parser)?;
+        Some((parser.constant(value)?, value))
     };
     let (from, to) = (end("from"), end("to"));
     match (fields.get("step"), fields.get("count")) {
         (Some(step_value), None) => {
-            let step = reader.constant(step_value)?;
+            let step = parser.constant(step_value)?;
             let ((from, from_value), (to, _)) = (from?, to?);
             if step == 0.0 {
-                reader.report(
-                    Problem::error(step_value.span(), "a step of 0 never ends").with_help("give a step other than 0"),
+                parser.report(
+                    Problem::error(step_value.span(), "`step` must not be 0").with_help("give a step other than 0"),
                 );
                 return None;
             }
             let steps = (to - from) / step;
             if steps < 0.0 {
-                let problem = Problem::error(value.span(), format!("from {from} by {step} never comes to {to}"));
-                reader.report(problem.with_help("change the sign of the step, or exchange `from` and `to`"));
+                let problem = Problem::error(value.span(), format!("steps of {step} from {from} do not reach {to}"));
+                parser.report(problem.with_help("change the sign of the step, or swap `from` and `to`"));
                 return None;
             }
-            let decimals = decimal_range(reader.decimal_digits(from_value), reader.decimal_digits(step_value));
+            let decimals = decimal_range(parser.decimal_digits(from_value), parser.decimal_digits(step_value));
             let count = (steps + 1e-9).floor() + 1.0;
             Some(GridValues::Range { from, to, count, step: Some(RangeStep { value: step, decimals }) })
         }
         (None, Some(count)) => {
-            let count = reader.integer(count, 1, MAX_COUNT)?;
+            let count = parser.integer(count, 1, MAX_COUNT)?;
             let ((from, _), (to, _)) = (from?, to?);
             Some(GridValues::Range { from, to, count: count as f64, step: None })
         }
@@ -124,7 +124,7 @@ fn read_range<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<
             } else {
                 "a range needs a step or a count"
             };
-            reader.report(
+            parser.report(
                 Problem::error(value.span(), message)
                     .with_help("write { from = 2, to = 6, step = 0.5 } or { from = 2, to = 6, count = 9 }"),
             );
@@ -136,13 +136,13 @@ fn read_range<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<
 fn decimal_range(from: Option<&str>, step: Option<&str>) -> Option<DecimalRange> {
     let (from, step) = (parse_decimal(from?)?, parse_decimal(step?)?);
     let places = from.1.max(step.1);
-    // 10^15 and its multiples by whole numbers below 2^53 are exact.
+    // Powers of ten up to 10^15, and whole numbers below 2^53, are exact.
     let scale = |places: u32| 10u64.checked_pow(places).filter(|_| places <= 15).map(|n| n as f64);
-    let units = |(digits, own): (f64, u32)| Some(digits * scale(places - own)?).filter(|n| n.abs() < 9e15);
+    let units = |(digits, decimals): (f64, u32)| Some(digits * scale(places - decimals)?).filter(|n| n.abs() < 9e15);
     Some(DecimalRange { from: units(from)?, step: units(step)?, scale: scale(places)? })
 }
 
-/// A plain decimal as a whole number and the number of its decimal places.
+/// Parses a plain decimal into its digits as a whole number, and the number of its decimal places.
 fn parse_decimal(text: &str) -> Option<(f64, u32)> {
     let text = text.replace('_', "");
     let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
@@ -154,36 +154,35 @@ fn parse_decimal(text: &str) -> Option<(f64, u32)> {
 mod tests {
     use super::*;
 
-    fn of(text: &str) -> Result<Vec<f64>, String> {
+    fn values(text: &str) -> Result<Vec<f64>, String> {
         let text = format!("p = {text}");
-        let mut reader = TomlParser::new(&text);
-        let document = reader.parse_document();
-        let root = Fields::with_any_keys(&document, "the file", &mut reader).unwrap();
-        let values = root.get("p").and_then(|value| read_values("p", value, &mut reader));
-        match values {
+        let mut parser = TomlParser::new(&text);
+        let document = parser.parse_document();
+        let root = Fields::with_any_keys(&document, "the file", &mut parser).unwrap();
+        match root.get("p").and_then(|value| read_values("p", value, &mut parser)) {
             Some(values) => Ok(values.into_vec()),
-            None => Err(reader.into_problems().remove(0).message),
+            None => Err(parser.into_problems().remove(0).message),
         }
     }
 
     #[test]
-    fn values_are_what_the_decimals_say() {
-        assert_eq!(of("{ from = 0.1, to = 0.7, step = 0.1 }").unwrap(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
-        assert_eq!(of("{ from = 1, to = -1, step = -0.5 }").unwrap(), [1.0, 0.5, 0.0, -0.5, -1.0]);
-        assert_eq!(of("{ from = 0, to = 1, step = 0.3 }").unwrap(), [0.0, 0.3, 0.6, 0.9]);
-        assert_eq!(of("{ from = 0, to = 1, step = \"1/3\" }").unwrap().len(), 4);
-        assert_eq!(of("{ from = 1.5, to = 4.0, step = 0.5 }").unwrap(), [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]);
-        assert_eq!(of("{ from = 2, to = 3, count = 3 }").unwrap(), [2.0, 2.5, 3.0]);
-        assert_eq!(of("{ from = 2, to = 3, count = 1 }").unwrap(), [3.0]);
-        assert_eq!(of("[\"sqrt(4)\", 3]").unwrap(), [2.0, 3.0]);
-        assert_eq!(of("1_000").unwrap(), [1000.0]);
+    fn values_are_exact_decimals() {
+        assert_eq!(values("{ from = 0.1, to = 0.7, step = 0.1 }").unwrap(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+        assert_eq!(values("{ from = 1, to = -1, step = -0.5 }").unwrap(), [1.0, 0.5, 0.0, -0.5, -1.0]);
+        assert_eq!(values("{ from = 0, to = 1, step = 0.3 }").unwrap(), [0.0, 0.3, 0.6, 0.9]);
+        assert_eq!(values("{ from = 0, to = 1, step = \"1/3\" }").unwrap().len(), 4);
+        assert_eq!(values("{ from = 1.5, to = 4.0, step = 0.5 }").unwrap(), [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]);
+        assert_eq!(values("{ from = 2, to = 3, count = 3 }").unwrap(), [2.0, 2.5, 3.0]);
+        assert_eq!(values("{ from = 2, to = 3, count = 1 }").unwrap(), [3.0]);
+        assert_eq!(values("[\"sqrt(4)\", 3]").unwrap(), [2.0, 3.0]);
+        assert_eq!(values("1_000").unwrap(), [1000.0]);
     }
 
     #[test]
-    fn ranges_that_never_end_are_refused() {
-        assert_eq!(of("{ from = 0, to = 1, step = 0 }").unwrap_err(), "a step of 0 never ends");
-        assert_eq!(of("{ from = 0, to = 1, step = -1 }").unwrap_err(), "from 0 by -1 never comes to 1");
-        assert_eq!(of("{ from = 0, to = 1 }").unwrap_err(), "a range needs a step or a count");
-        assert_eq!(of("[]").unwrap_err(), "`p` ranges over nothing");
+    fn endless_and_empty_ranges_are_errors() {
+        assert_eq!(values("{ from = 0, to = 1, step = 0 }").unwrap_err(), "`step` must not be 0");
+        assert_eq!(values("{ from = 0, to = 1, step = -1 }").unwrap_err(), "steps of -1 from 0 do not reach 1");
+        assert_eq!(values("{ from = 0, to = 1 }").unwrap_err(), "a range needs a step or a count");
+        assert_eq!(values("[]").unwrap_err(), "`p` has no values");
     }
 }

@@ -1,6 +1,8 @@
-//! TOML text -> a validated [`Plan`], or every problem in it.
+//! Parses a manifest in TOML into a validated [`Plan`], or reports every problem in it.
 
+mod bounded_number;
 mod chart;
+mod default_value;
 mod family;
 mod format_version;
 mod grid;
@@ -29,20 +31,20 @@ use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
 use coupler_drawing::render::{Format, TextMode};
 
-/// All that is to be done.
+/// A validated manifest: what to solve, and how to draw it.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The atlas's title.
     pub title: String,
-    /// The folder results go to, as the manifest gives it.
+    /// The output folder, as the manifest gives it.
     pub output: String,
-    /// How many pages go into a volume of the book.
+    /// The most pages of a volume of the book.
     pub volume_pages: usize,
-    /// What all pages have in common.
+    /// The options that all pages share.
     pub page: page::Options,
-    /// The resolution of PNG images, in pixels to the inch.
+    /// The resolution of PNG images, in pixels per inch.
     pub dpi: f64,
-    /// How text stands in SVG.
+    /// How text is written in SVG.
     pub text_mode: TextMode,
     /// The families, in order.
     pub families: Vec<PlannedFamily>,
@@ -55,94 +57,94 @@ pub struct PlannedFamily {
     pub family: Family,
     /// How pages are laid out.
     pub layout: page::Layout,
-    /// What its charts show, where it is laid out as charts.
+    /// What its charts show; `None` unless its layout is charts.
     pub chart: Option<Chart>,
     /// The formats of its pages.
     pub formats: Vec<Format>,
-    /// What stands under the title of its pages.
+    /// The line under the title of its pages.
     pub source: String,
-    /// What its files are made from.
+    /// What the manifest contributes to its files.
     pub manifest_inputs: ManifestInputs,
-    /// By how much it may differ from a recorded atlas.
+    /// How much it may differ from a recorded atlas.
     pub tolerances: PartialTolerances,
-    /// Where its table stands in the manifest.
+    /// The place of its table in the manifest.
     pub span: Span,
-    /// Where its `where` stands in the manifest.
+    /// The place of its `where` in the manifest.
     pub filter_span: Option<Span>,
 }
 
-/// What a manifest comes to.
+/// The result of parsing a manifest.
 #[derive(Clone, Debug)]
 pub struct ParseOutcome {
-    /// The plan, where no problem is an error.
+    /// The plan; `None` if any problem is an error.
     pub plan: Option<Plan>,
-    /// What is wrong with the manifest.
+    /// The problems found, warnings among them.
     pub problems: Vec<Problem>,
 }
 
-/// Reads a manifest.
+/// Parses a manifest.
 pub fn parse(text: &str) -> ParseOutcome {
-    let mut reader = TomlParser::new(text);
-    let plan = read_plan(text, &mut reader);
-    let problems = reader.into_problems();
+    let mut parser = TomlParser::new(text);
+    let plan = read_plan(text, &mut parser);
+    let problems = parser.into_problems();
     let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
     ParseOutcome { plan, problems }
 }
 
-/// The linkages of a manifest's own, whatever else it has.
+/// Parses the `[[linkage]]` tables of a manifest, and ignores its other tables.
 pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
-    let mut reader = TomlParser::new(text);
-    let document = reader.parse_document();
-    let root = Fields::with_any_keys(&document, "a manifest", &mut reader)
-        .filter(|_| format_version::is_supported(&document, &mut reader));
+    let mut parser = TomlParser::new(text);
+    let document = parser.parse_document();
+    let root = Fields::with_any_keys(&document, "a manifest", &mut parser)
+        .filter(|_| format_version::is_supported(&document, &mut parser));
     let templates = match root {
-        Some(root) => Templates::read(&root, &mut reader).manifest_templates,
+        Some(root) => Templates::read(&root, &mut parser).manifest_templates,
         None => Vec::new(),
     };
-    (templates, reader.into_problems())
+    (templates, parser.into_problems())
 }
 
-fn read_plan(text: &str, reader: &mut TomlParser) -> Option<Plan> {
-    let document = reader.parse_document();
+fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
+    let document = parser.parse_document();
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         let help = "`coupler-atlas init` writes one to start from";
-        reader.report(Problem::error(0..0, "the manifest is empty").with_help(help));
+        parser.report(Problem::error(0..0, "the manifest is empty").with_help(help));
         return None;
     }
-    if !format_version::is_supported(&document, reader) {
+    if !format_version::is_supported(&document, parser) {
         return None;
     }
-    let root = Fields::from_value(&document, &MANIFEST, reader)?;
+    let root = Fields::from_value(&document, &MANIFEST, parser)?;
     let atlas = match root.get("atlas") {
-        Some(value) => settings::atlas(value, reader),
+        Some(value) => settings::atlas(value, parser),
         None => {
             let problem = Problem::error(0..first_line_len(text), "the manifest has no [atlas]");
-            reader.report(problem.with_help("add a table [atlas] with title = \"…\""));
+            parser.report(problem.with_help("add a table [atlas] with title = \"…\""));
             None
         }
     };
-    let page = settings::page(root.get("page"), reader);
-    let tolerances = tolerance::read(root.get("check"), &tolerance::CHECK, reader);
-    let templates = Templates::read(&root, reader);
+    let page = settings::page(root.get("page"), parser);
+    let tolerances = tolerance::read(root.get("check"), &tolerance::CHECK, parser);
+    let templates = Templates::read(&root, parser);
     let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
-    let tables = root.tables("family", reader);
+    let tables = root.tables("family", parser);
     if tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array()) {
         let problem = Problem::error(0..first_line_len(text), "the manifest has no family");
-        reader.report(problem.with_help("add a table [[family]] with id, linkage, sampling, and grid or cases"));
+        parser.report(problem.with_help("add a table [[family]] with id, linkage, sampling, and grid or cases"));
     }
     let mut families: Vec<PlannedFamily> = Vec::new();
     let mut ids: Vec<String> = Vec::new();
     for value in tables {
         let options = page.as_ref().map(|page| &page.options);
-        let read = family::read(value, &templates, (&formats, options), reader);
+        let read = family::read(value, &templates, (&formats, options), parser);
         if let Some((id, span)) = family::id_and_span(value) {
             if ids.contains(&id) {
                 let problem = Problem::error(span, format!("there are two families `{id}`"));
-                reader.report(problem.with_help("an id names the family's folder: give each family its own"));
+                parser.report(problem.with_help("an id names the family's folder: give each family its own"));
             }
             ids.push(id);
         }
-        let tolerances = |own: PartialTolerances| own.or(tolerances);
+        let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
             manifest_inputs: ManifestInputs::from_manifest(&root, value),
             tolerances: tolerances(read.tolerances),
@@ -165,20 +167,20 @@ fn first_line_len(text: &str) -> usize {
     text.find('\n').unwrap_or(text.len())
 }
 
-/// The linkages a family may name: those of the catalogue and those of the manifest.
+/// The linkages a family may name: those of the manifest and those of the catalogue.
 struct Templates {
     manifest_templates: Vec<Arc<Template>>,
-    /// The ids of the manifest's linkages, also of those that could not be read.
+    /// The ids of the manifest's linkages, including those that could not be parsed.
     ids: Vec<String>,
 }
 
 impl Templates {
-    fn read<'t>(root: &Fields<'_, 't>, reader: &mut TomlParser<'t>) -> Templates {
+    fn read<'t>(root: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Templates {
         let mut templates = Templates { manifest_templates: Vec::new(), ids: Vec::new() };
-        for value in root.tables("linkage", reader) {
-            let read = linkage_format::parse_template(value, reader);
+        for value in root.tables("linkage", parser) {
+            let read = linkage_format::parse_template(value, parser);
             if let Some((id, span)) = family::id_and_span(value) {
-                let taken = if catalogue::find(&id).is_some() {
+                let conflict = if catalogue::find(&id).is_some() {
                     Some(format!("the catalogue has a linkage `{id}` already"))
                 } else if templates.ids.contains(&id) {
                     Some(format!("there are two linkages `{id}`"))
@@ -186,8 +188,8 @@ impl Templates {
                     None
                 };
                 templates.ids.push(id);
-                if let Some(message) = taken {
-                    reader.report(Problem::error(span, message).with_help("give it an id of its own"));
+                if let Some(message) = conflict {
+                    parser.report(Problem::error(span, message).with_help("choose another id"));
                     continue;
                 }
             }
@@ -196,17 +198,17 @@ impl Templates {
         templates
     }
 
-    /// The linkage a value names. A linkage that could not be read has been complained of already.
-    fn find<'t>(&self, value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Arc<Template>> {
-        let id = reader.text(value)?;
-        let own = self.manifest_templates.iter().find(|template| template.id == id).cloned();
-        // A linkage of the manifest's that could not be read is not replaced by one of the catalogue of its name.
-        let found = own.or_else(|| catalogue::find(&id).filter(|_| !self.ids.contains(&id)));
+    /// The linkage that a value names. One that could not be parsed has been reported already.
+    fn find<'t>(&self, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Arc<Template>> {
+        let id = parser.text(value)?;
+        let in_manifest = self.manifest_templates.iter().find(|template| template.id == id).cloned();
+        // A linkage of the manifest that could not be parsed is not replaced by the catalogue's of the same name.
+        let found = in_manifest.or_else(|| catalogue::find(&id).filter(|_| !self.ids.contains(&id)));
         if found.is_none() && !self.ids.contains(&id) {
             let built_in = catalogue::all().iter().map(|template| template.id.as_str());
             let known: Vec<&str> = self.ids.iter().map(String::as_str).chain(built_in).collect();
             let problem = Problem::error(value.span(), format!("there is no linkage `{}`", id.escape_debug()));
-            reader.report(problem.with_help(coupler_curves::problem::suggestion(&id, &known)));
+            parser.report(problem.with_help(coupler_curves::problem::suggestion(&id, &known)));
         }
         found
     }

@@ -1,6 +1,6 @@
-//! The names of a family: what `grid`, `cases`, `let` and the linkage's defaults give them.
+//! The names of a family, and the values that `grid`, `cases`, `let` and the linkage's defaults give them.
 
-use super::{chart, grid};
+use super::grid;
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind};
 use coupler_curves::family::{Axis, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
@@ -15,20 +15,21 @@ pub(super) struct FamilyNames {
     pub filter: Option<CompiledExpression>,
     pub sort: Option<CompiledExpression>,
     pub captions: [Option<Caption>; 2],
-    /// Where each name is given a value.
+    /// The place where each name is given a value.
     pub spans: Vec<Option<Span>>,
 }
 
+/// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`.
 pub(super) fn read_names<'t>(
     template: &Template,
     fields: &Fields<'_, 't>,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<FamilyNames> {
     let lets = match fields.get("let") {
         None => Vec::new(),
-        Some(value) => Fields::with_any_keys(value, "`let`", reader)?.entries().collect(),
+        Some(value) => Fields::with_any_keys(value, "`let`", parser)?.entries().collect(),
     };
-    let given = read_space(fields, reader);
+    let named_space = read_space(fields, parser);
     let mut all: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
     let mut spans: Vec<Option<Span>> = vec![None; all.len()];
     let mut slot_of = |name: &str, span: &Span| match all.iter().position(|n| n == name) {
@@ -42,36 +43,37 @@ pub(super) fn read_names<'t>(
             all.len() - 1
         }
     };
-    let Some(given) = given else {
-        check_expression_syntax(fields, reader);
+    let Some(named_space) = named_space else {
+        check_expression_syntax(fields, parser);
         return None;
     };
-    let space = given.into_space(&mut slot_of);
+    let space = named_space.into_space(&mut slot_of);
     let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| slot_of(name, span)).collect();
     for (slot, name) in all.iter().enumerate() {
         if Family::is_column_name(name) {
             let problem = Problem::error(
                 spans[slot].clone().unwrap_or(fields.span.clone()),
-                format!("`{name}` is a column of its own"),
+                format!("`{name}` is the name of a column"),
             );
-            reader.report(
-                problem.with_help("`coupler-atlas list measures` names those that are taken: use another name"),
-            );
+            parser.report(problem.with_help("`coupler-atlas list measures` lists the reserved names: use another one"));
         }
     }
     let scope: Vec<(&str, Kind)> = all.iter().map(|name| (name.as_str(), Kind::Number)).collect();
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
     let mut read_all = true;
     for ((name, span, value), &slot) in lets.iter().zip(&let_slots) {
-        linkage_format::check_identifier(name, span.clone(), reader);
+        linkage_format::check_identifier(name, span.clone(), parser);
         if (0..space.count().min(MAX_CELLS)).any(|k| space.assigns(k, slot)) {
-            let problem = Problem::error(span.clone(), format!("`{name}` is given in the grid or a case, and derived"));
-            reader.report(problem.with_help("keep one of the two"));
+            let problem = Problem::error(
+                span.clone(),
+                format!("`{name}` has a value in the grid or a case, and another in `let`"),
+            );
+            parser.report(problem.with_help("keep one of the two"));
             read_all = false;
         }
-        let expression = reader.expression(value).filter(|expression| {
-            let bound = expression.compile(&scope, Kind::Number);
-            reader.ok_or_report(value, bound).is_some()
+        let expression = parser.expression(value).filter(|expression| {
+            let compiled = expression.compile(&scope, Kind::Number);
+            parser.ok_or_report(value, compiled).is_some()
         });
         read_all &= expression.is_some();
         sources.extend(expression.map(|expression| (slot, expression, span.clone())));
@@ -83,87 +85,102 @@ pub(super) fn read_names<'t>(
             sources.push((slot, default.clone(), span));
         }
     }
-    let filter = fields.get("where").and_then(|value| read_filter(value, &all, reader));
+    let filter = fields.get("where").and_then(|value| read_filter(value, &all, parser));
     read_all &= filter.is_some() == fields.get("where").is_some();
-    let sort = fields.get("sort").filter(|value| !uses_text_measure(value, reader));
-    let sort = sort.and_then(|value| reader.numeric_expression(value, &Family::scope(&all)));
+    let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser));
+    let sort = sort.and_then(|value| parser.numeric_expression(value, &Family::scope(&all)));
     read_all &= sort.is_some() == fields.get("sort").is_some();
-    let line = |key: &str, own: &Option<Caption>, reader: &mut TomlParser<'t>| match fields.get(key) {
-        None => own.clone(),
-        Some(value) => reader.caption(value, &Family::scope(&all), &Family::word_measure_names().collect::<Vec<_>>()),
+    let caption = |key: &str, default: &Option<Caption>, parser: &mut TomlParser<'t>| match fields.get(key) {
+        None => default.clone(),
+        Some(value) => parser.caption(value, &Family::scope(&all), &Family::word_measure_names().collect::<Vec<_>>()),
     };
-    let captions = [line("caption", &template.caption, reader), line("note", &template.note, reader)];
-    let in_chart = chart::used_names(fields);
-    let derived = in_dependency_order(sources, &all, &scope, reader)?;
+    let captions = [caption("caption", &template.caption, parser), caption("note", &template.note, parser)];
+    let in_chart = names_in_chart(fields);
+    let derived = in_dependency_order(sources, &all, &scope, parser)?;
     for (slot, name) in all.iter().enumerate().skip(template.parameters.len()) {
-        let in_filter = filter.iter().chain(&sort).any(|bound| bound.slots().contains(&slot));
+        let in_filter = filter.iter().chain(&sort).any(|expression| expression.slots().contains(&slot));
         let in_filter = in_filter || captions.iter().flatten().any(|caption| caption.uses(name));
-        // Where an expression could not be read, it may have been the one that uses the name.
+        // An expression that could not be parsed may have been the one that uses the name.
         let in_chart = in_chart.as_ref().is_none_or(|used| used.contains(name));
-        if read_all && !in_filter && !in_chart && !derived.iter().any(|(_, bound)| bound.slots().contains(&slot)) {
-            report_unused_name(name, spans[slot].clone().unwrap_or_default(), template, reader);
+        if read_all
+            && !in_filter
+            && !in_chart
+            && !derived.iter().any(|(_, expression)| expression.slots().contains(&slot))
+        {
+            report_unused_name(name, spans[slot].clone().unwrap_or_default(), template, parser);
         }
     }
     read_all.then_some(())?;
     Some(FamilyNames { all, space, derived, filter, sort, captions, spans })
 }
 
-/// What can be said of `let` and `where` when the names they may use are not known: whether they can be read.
-pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, reader: &mut TomlParser<'t>) {
-    if let Some(lets) = fields.get("let").and_then(|value| Fields::with_any_keys(value, "`let`", reader)) {
+/// Checks the syntax of `let`, `where` and `sort`, when the names they may use are not known.
+pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
+    if let Some(lets) = fields.get("let").and_then(|value| Fields::with_any_keys(value, "`let`", parser)) {
         for (name, span, value) in lets.entries() {
-            linkage_format::check_identifier(name, span, reader);
-            reader.expression(value);
+            linkage_format::check_identifier(name, span, parser);
+            parser.expression(value);
         }
     }
     for value in ["where", "sort"].into_iter().filter_map(|key| fields.get(key)) {
-        reader.expression(value);
+        parser.expression(value);
     }
 }
 
-fn report_unused_name(name: &str, span: Span, template: &Template, reader: &mut TomlParser) {
+/// The names that the expressions of `chart` use, whatever else is wrong with it; `None` if one cannot be parsed.
+fn names_in_chart(fields: &Fields) -> Option<Vec<String>> {
+    let Some(chart) = fields.get("chart").and_then(|value| value.get_ref().as_table()) else { return Some(Vec::new()) };
+    let mut found = Vec::new();
+    for value in ["x", "y", "by"].into_iter().filter_map(|key| chart.get(key)) {
+        let items = value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..]);
+        for text in items.iter().filter_map(|item| item.get_ref().as_str()) {
+            found.extend(Expression::parse(text).ok()?.names().iter().cloned());
+        }
+    }
+    Some(found)
+}
+
+fn report_unused_name(name: &str, span: Span, template: &Template, parser: &mut TomlParser) {
     let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-    let message = format!("`{name}` is no parameter of `{}`, and nothing uses it", template.id);
+    let message = format!("`{name}` is not a parameter of `{}`, and no expression uses it", template.id);
     let help = match nearest_word(name, parameters.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("its parameters are {}", parameters.join(", ")),
     };
-    reader.report(Problem::error(span, message).with_help(help));
+    parser.report(Problem::error(span, message).with_help(help));
 }
 
-/// Whether a condition or an order rests on a measure that is a word, which is said.
-fn uses_text_measure<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> bool {
+/// Whether a condition or a sort key uses a measure whose value is a word; reports it.
+fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
     let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return false };
     let word = Family::word_measure_names().find(|word| expression.names().iter().any(|name| name == word));
     if let Some(word) = word {
-        let problem = Problem::error(value.span(), format!("`{word}` is a word, and cannot be reckoned with"));
-        reader.report(
-            problem.with_help(
-                "ask `is_crank_rocker` and its like of the class; numbers of the rest, as `symmetry_residual`",
-            ),
-        );
+        let problem = Problem::error(value.span(), format!("`{word}` is a word, not a number"));
+        parser.report(problem.with_help(
+            "compare classes by `is_crank_rocker` and the like, and others by a number such as `symmetry_residual`",
+        ));
     }
     word.is_some()
 }
 
-fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], reader: &mut TomlParser<'t>) -> Option<CompiledExpression> {
+fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
     if !value.get_ref().is_str() {
-        let problem = Problem::error(value.span(), "`where` is a condition in quotes");
-        reader.report(problem.with_help("write where = \"a < 5 and is_crank_rocker\""));
+        let problem = Problem::error(value.span(), "`where` must be a condition in quotes");
+        parser.report(problem.with_help("write where = \"a < 5 and is_crank_rocker\""));
         return None;
     }
-    if uses_text_measure(value, reader) {
+    if uses_text_measure(value, parser) {
         return None;
     }
-    let expression = reader.expression(value)?;
-    let bound = expression.compile(&Family::scope(names), Kind::Boolean);
-    reader.ok_or_report(value, bound)
+    let expression = parser.expression(value)?;
+    let compiled = expression.compile(&Family::scope(names), Kind::Boolean);
+    parser.ok_or_report(value, compiled)
 }
 
 /// The most cells that `limit` may allow.
 pub(super) const MAX_LIMIT: usize = 1_000_000_000;
 
-/// What `grid` or `cases` gives, by name.
+/// The values of `grid` or `cases`, by name.
 pub(super) enum NamedSpace {
     Grid(Vec<(String, Span, Vec<f64>)>),
     Cases(Vec<Vec<(String, Span, f64)>>),
@@ -186,14 +203,15 @@ impl NamedSpace {
     }
 }
 
-pub(super) fn read_space<'t>(fields: &Fields<'_, 't>, reader: &mut TomlParser<'t>) -> Option<NamedSpace> {
+/// Reads `grid` or `cases`.
+pub(super) fn read_space<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
     let limit = match fields.get("limit") {
         None => MAX_CELLS,
-        Some(value) => reader.integer(value, 1, MAX_LIMIT)?,
+        Some(value) => parser.integer(value, 1, MAX_LIMIT)?,
     };
     match (fields.get("grid"), fields.get("cases")) {
-        (Some(value), None) => read_grid(value, limit, reader),
-        (None, Some(value)) => read_cases(value, limit, reader),
+        (Some(value), None) => read_grid(value, limit, parser),
+        (None, Some(value)) => read_cases(value, limit, parser),
         (grid, _) => {
             let message = if grid.is_some() {
                 "a family has a grid or cases, not both"
@@ -201,16 +219,16 @@ pub(super) fn read_space<'t>(fields: &Fields<'_, 't>, reader: &mut TomlParser<'t
                 "a [[family]] has no `grid` and no `cases`"
             };
             let problem = Problem::error(fields.span.clone(), message);
-            reader.report(problem.with_help("write grid = { p = [2, 3, 4] } or cases = [{ p = 2 }, { p = 3 }]"));
+            parser.report(problem.with_help("write grid = { p = [2, 3, 4] } or cases = [{ p = 2 }, { p = 3 }]"));
             None
         }
     }
 }
 
-fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, reader: &mut TomlParser<'t>) -> Option<NamedSpace> {
-    let table = Fields::with_any_keys(value, "`grid`", reader)?;
+fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
+    let table = Fields::with_any_keys(value, "`grid`", parser)?;
     if table.keys().is_empty() {
-        reader.report(
+        parser.report(
             Problem::error(value.span(), "the grid is empty").with_help("name a parameter, as in { p = [2, 3, 4] }"),
         );
         return None;
@@ -218,17 +236,18 @@ fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, reader: &mut TomlParser<'t
     let mut axes = Vec::new();
     let mut all_read = true;
     for (name, span, value) in table.entries() {
-        linkage_format::check_identifier(name, span.clone(), reader);
-        match grid::read_values(name, value, reader) {
+        linkage_format::check_identifier(name, span.clone(), parser);
+        match grid::read_values(name, value, parser) {
             Some(values) => axes.push((name.to_owned(), span, values)),
             None => all_read = false,
         }
     }
-    // Counted before anything is written out.
+    // The cells are counted before the values are expanded.
     let cells: f64 = axes.iter().map(|(.., values)| values.count()).product();
     if cells > limit as f64 {
-        let problem = Problem::error(value.span(), format!("the grid has {cells:.0} cells, and {limit} is the limit"));
-        reader.report(problem.with_help("take fewer values, or allow more with `limit = N` in the family"));
+        let problem =
+            Problem::error(value.span(), format!("the grid has {cells:.0} cells, more than the limit of {limit}"));
+        parser.report(problem.with_help("use fewer values, or allow more with `limit = N` in the family"));
         return None;
     }
     all_read.then(|| {
@@ -236,30 +255,31 @@ fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, reader: &mut TomlParser<'t
     })
 }
 
-fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, reader: &mut TomlParser<'t>) -> Option<NamedSpace> {
-    let list = reader.list(value)?;
+fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
+    let list = parser.list(value)?;
     if list.is_empty() {
-        reader.report(
+        parser.report(
             Problem::error(value.span(), "there are no cases").with_help("give at least one, as in [{ p = 2 }]"),
         );
         return None;
     }
     if list.len() > limit {
-        let problem = Problem::error(value.span(), format!("there are {} cases, and {limit} is the limit", list.len()));
-        reader.report(problem.with_help("take fewer, or allow more with `limit = N` in the family"));
+        let problem =
+            Problem::error(value.span(), format!("there are {} cases, more than the limit of {limit}", list.len()));
+        parser.report(problem.with_help("use fewer, or allow more with `limit = N` in the family"));
         return None;
     }
     let mut cases = Vec::new();
     let mut all_read = true;
     for item in list {
-        let Some(table) = Fields::with_any_keys(item, "a case", reader) else {
+        let Some(table) = Fields::with_any_keys(item, "a case", parser) else {
             all_read = false;
             continue;
         };
         let mut case = Vec::new();
         for (name, span, value) in table.entries() {
-            linkage_format::check_identifier(name, span.clone(), reader);
-            let value = reader.constant(value);
+            linkage_format::check_identifier(name, span.clone(), parser);
+            let value = parser.constant(value);
             all_read &= value.is_some();
             case.extend(value.map(|value| (name.to_owned(), span, value)));
         }
@@ -268,25 +288,25 @@ fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, reader: &mut TomlParser<'
     all_read.then_some(NamedSpace::Cases(cases))
 }
 
-/// The expressions in an order in which each comes after those it uses.
+/// Sorts expressions so that each comes after those it uses; reports a cycle.
 fn in_dependency_order(
     sources: Vec<(usize, Expression, Span)>,
     names: &[String],
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser,
+    parser: &mut TomlParser,
 ) -> Option<Vec<(usize, CompiledExpression)>> {
-    // Each was bound to these very names when it was read.
-    let bind = |(slot, expression, _): &(usize, Expression, Span)| {
+    // Each was compiled against the same names when it was read.
+    let compile = |(slot, expression, _): &(usize, Expression, Span)| {
         Some((*slot, expression.compile(scope, Kind::Number).ok()?))
     };
-    let bound = sources.iter().map(bind).collect::<Option<Vec<_>>>()?;
-    match sort_by_dependency(bound) {
+    let compiled = sources.iter().map(compile).collect::<Option<Vec<_>>>()?;
+    match sort_by_dependency(compiled) {
         Ok(derived) => Some(derived),
         Err(cycle) => {
             let words: Vec<String> = cycle.iter().map(|&slot| format!("`{}`", names[slot])).collect();
             let span = sources.iter().find(|(slot, ..)| *slot == cycle[0]).map(|source| source.2.clone());
             let problem = Problem::error(span.unwrap_or_default(), format!("{} is derived from itself", words[0]));
-            reader.report(problem.with_help(format!("the cycle is {}: give one of them a value", words.join(" -> "))));
+            parser.report(problem.with_help(format!("the cycle is {}: give one of them a value", words.join(" -> "))));
             None
         }
     }

@@ -1,26 +1,28 @@
-//! The keys of a manifest and of a `[[family]]`.
+//! The keys of a manifest and of its `[[family]]` tables.
 
-use super::chart::CHART;
+use super::chart::{CHART, numeric_measures};
+use super::default_value;
 use super::grid::VALUES_FORM;
 use super::names::MAX_LIMIT;
 use super::settings::{ATLAS, FORMATS, PAGE};
 use super::tolerance::{CHECK, FAMILY_CHECK};
 use coupler_curves::catalogue;
 use coupler_curves::expression::Dimension;
-use coupler_curves::family::{COLUMNS, Family, MAX_SAMPLES, MEASURES};
+use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, MEASURES, StraightCriterion};
 use coupler_curves::linkage_format::{
     CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, KeySchema, LINKAGES_KEY, TableSchema, ValueSchema, words,
 };
 use coupler_drawing::page::Layout;
 
-/// A manifest.
+/// The root of a manifest.
 pub static MANIFEST: TableSchema = TableSchema::new(
     "a manifest",
     &[
         KeySchema::required("atlas", ValueSchema::Table(&ATLAS), "The atlas as a whole."),
-        KeySchema::new("page", ValueSchema::Table(&PAGE), "What all its pages have in common.").with_default("{}"),
+        KeySchema::new("page", ValueSchema::Table(&PAGE), "What all its pages have in common.")
+            .with_default(default_value::empty_table),
         KeySchema::new("check", ValueSchema::Table(&CHECK), "By how much families may differ from a recorded atlas.")
-            .with_default("{}"),
+            .with_default(default_value::empty_table),
         KeySchema::required(
             "family",
             ValueSchema::List(&ValueSchema::Table(&FAMILY), [1, usize::MAX]),
@@ -30,7 +32,7 @@ pub static MANIFEST: TableSchema = TableSchema::new(
     ],
 );
 
-/// A `[[family]]`.
+/// The `[[family]]` table.
 pub(super) static FAMILY: TableSchema = TableSchema::new(
     "a [[family]]",
     &[
@@ -43,7 +45,7 @@ pub(super) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new("title", ValueSchema::Text, "The title of its pages; its id where left out."),
         KeySchema::new("source", ValueSchema::Text, "The line under the title; that of the linkage where left out."),
         KeySchema::new("layout", ValueSchema::Word(|| words(&Layout::ALL)), "How its pages are laid out.")
-            .with_default("\"panels\""),
+            .with_default(|| default_value::string(DEFAULT_LAYOUT)),
         KeySchema::new("chart", ValueSchema::Table(&CHART), "What its charts show, where its layout is chart."),
         KeySchema::new(
             "panels",
@@ -62,7 +64,7 @@ pub(super) static FAMILY: TableSchema = TableSchema::new(
             "The values of parameters, case by case.",
         ),
         KeySchema::new("let", ValueSchema::IdentifierMap(&ValueSchema::Number), "Values that are derived from others.")
-            .with_default("{}"),
+            .with_default(default_value::empty_table),
         KeySchema::new(
             "where",
             ValueSchema::Text,
@@ -81,31 +83,31 @@ pub(super) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new("note", ValueSchema::Text, "A second, smaller line, likewise."),
         FORMATS,
         KeySchema::new("limit", ValueSchema::Integer([1, MAX_LIMIT]), "The most cells it may have.")
-            .with_default("100000"),
+            .with_default(|| MAX_CELLS.to_string()),
         CIRCUITS_KEY,
         CONTINUATION_KEY,
         COINCIDENT_KEY,
         KeySchema::new("place", ValueSchema::Table(&PLACE), "How its linkages are laid in the plane.")
-            .with_default("{}"),
+            .with_default(default_value::empty_table),
         KeySchema::new(
             "columns",
             ValueSchema::Set(&ValueSchema::Word(|| COLUMNS.map(|column| column.name).to_vec()), [0, usize::MAX]),
             "Further columns of its points.",
         )
-        .with_default("[]"),
+        .with_default(default_value::empty_list),
         KeySchema::new(
             "straight",
             ValueSchema::Table(&STRAIGHT),
             "Which portion is the straight one, by one of the three.",
         )
-        .with_default("{ \"tolerance\": 0.001 }"),
+        .with_default(default_straight),
         KeySchema::new(
             "measures",
             ValueSchema::Set(&ValueSchema::Word(|| MEASURES.map(|measure| measure.name).to_vec()), [0, usize::MAX]),
             "The measures that are taken of its curves; all where left out.",
         ),
         KeySchema::new("check", ValueSchema::Table(&FAMILY_CHECK), "By how much it may differ from a recorded atlas.")
-            .with_default("{}"),
+            .with_default(default_value::empty_table),
     ],
 )
 .with_one_of(&["grid", "cases"]);
@@ -114,23 +116,37 @@ fn linkage_ids() -> Vec<&'static str> {
     catalogue::all().iter().map(|template| template.id.as_str()).collect()
 }
 
-/// The measures that are numbers.
-pub(super) fn numeric_measures() -> Vec<&'static str> {
-    Family::numeric_measure_names().collect()
+/// The default straight criterion, as JSON.
+fn default_straight() -> String {
+    let (key, value) = match StraightCriterion::default() {
+        StraightCriterion::Tolerance(value) => ("tolerance", value),
+        StraightCriterion::Input(value) => ("input", value),
+        StraightCriterion::Length(value) => ("length", value),
+    };
+    format!("{{ \"{key}\": {value} }}")
 }
 
-/// How the linkages of a family are laid.
+/// The default columns and rows of a page of panels, if the page has room for them.
+pub(super) const DEFAULT_PANELS: [usize; 2] = [5, 3];
+
+/// The default layout.
+pub(super) const DEFAULT_LAYOUT: &str = "panels";
+
+/// The default placement: whether linkages are mirrored, and how far they are turned, in degrees.
+pub(super) const DEFAULT_PLACE: (bool, f64) = (false, 0.0);
+
+/// The `place` table: how linkages are placed in the plane.
 pub(super) static PLACE: TableSchema = TableSchema::new(
     "`place`",
     &[
         KeySchema::new("mirror", ValueSchema::Boolean, "Whether they are mirrored about the x-axis.")
-            .with_default("false"),
+            .with_default(|| DEFAULT_PLACE.0.to_string()),
         KeySchema::new("rotate", ValueSchema::Quantity(Dimension::Angle), "How far they are then turned.")
-            .with_default("\"0 deg\""),
+            .with_default(|| default_value::degrees(DEFAULT_PLACE.1)),
     ],
 );
 
-/// How circuits are sampled.
+/// The `sampling` table.
 pub(super) static SAMPLING: TableSchema = TableSchema::new(
     "`sampling`",
     &[
@@ -145,26 +161,31 @@ pub(super) static SAMPLING: TableSchema = TableSchema::new(
             ValueSchema::Word(|| words(&SPACINGS)),
             "How a number of samples is spread: evenly, close at limits, or evenly along the path.",
         )
-        .with_default("\"even\""),
+        .with_default(|| default_value::word(&SPACINGS, &Spacing::default())),
     ],
 )
 .with_one_of(&["step", "samples"]);
 
-/// How a number of samples is spread.
-#[derive(Clone, Copy)]
+/// How a given number of samples is distributed over a circuit.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub(super) enum Spacing {
+    /// Evenly in the input.
+    #[default]
     Even,
+    /// Densely at limits.
     Smooth,
+    /// Evenly along the path.
     Arc,
 }
 
+/// The words for spacings.
 pub(super) const SPACINGS: [(&str, Spacing); 3] =
     [("even", Spacing::Even), ("smooth", Spacing::Smooth), ("arc", Spacing::Arc)];
 
-/// A portion as straight as that is not told from one that is straighter still.
+/// The least tolerance of a straight portion; portions straighter than this cannot be told apart.
 pub(super) const MIN_TOLERANCE: f64 = 1e-8;
 
-/// What is asked of the straight portion.
+/// The `straight` table: the criterion for the straight portion.
 pub(super) static STRAIGHT: TableSchema = TableSchema::new(
     "`straight`",
     &[

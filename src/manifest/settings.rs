@@ -1,12 +1,14 @@
-//! The tables `[atlas]` and `[page]`.
+//! Reads the tables `[atlas]` and `[page]`.
 
-use super::{FORMAT_VERSION, theme};
+use super::bounded_number::read_within;
+use super::{FORMAT_VERSION, default_value, theme};
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::Problem;
-use coupler_drawing::page::{Options, Paper, Theme};
+use coupler_drawing::page::{Options, Paper};
 use coupler_drawing::render::{Format, TextMode};
 
+/// The settings of `[atlas]`.
 pub(super) struct AtlasSettings {
     pub title: String,
     pub output: String,
@@ -14,16 +16,35 @@ pub(super) struct AtlasSettings {
     pub volume_pages: usize,
 }
 
-/// The most pages a volume may have: readers and the memory of a run bear no more.
+/// The default output folder.
+const DEFAULT_OUTPUT: &str = "output";
+
+/// The default formats of pages.
+const DEFAULT_FORMATS: [Format; 2] = [Format::Svg, Format::Png];
+
+/// The default of `volume_pages`.
+const DEFAULT_VOLUME_PAGES: usize = 1000;
+
+/// The most pages a volume may have: PDF readers, and the memory of a run, cannot cope with more.
 const MAX_VOLUME_PAGES: usize = 10_000;
 
+/// The default paper, with its name.
+const DEFAULT_PAPER: (&str, Paper) = Paper::NAMED[1];
+
+/// The settings of `[page]`.
 pub(super) struct PageSettings {
     pub options: Options,
     pub dpi: f64,
     pub text_mode: TextMode,
 }
 
-/// The most pixels an image may have: 1.6 GB while it is drawn.
+impl Default for PageSettings {
+    fn default() -> PageSettings {
+        PageSettings { options: Options::for_paper(DEFAULT_PAPER.1), dpi: 100.0, text_mode: TextMode::default() }
+    }
+}
+
+/// The most pixels of an image; it takes 1.6 GB while it is drawn.
 const MAX_PIXELS: f64 = 4e8;
 
 /// The `[atlas]` table.
@@ -35,21 +56,21 @@ pub(super) static ATLAS: TableSchema = TableSchema::new(
             ValueSchema::Integer([FORMAT_VERSION, FORMAT_VERSION]),
             "The version of the language of manifests.",
         )
-        .with_default("1"),
+        .with_default(|| FORMAT_VERSION.to_string()),
         KeySchema::required("title", ValueSchema::Text, "The title of the atlas."),
         KeySchema::new(
             "output",
             ValueSchema::Text,
             "The folder results go to, relative to the manifest; / and \\ both part folders, on every system.",
         )
-        .with_default("\"output\""),
-        FORMATS.with_default("[\"svg\", \"png\"]"),
+        .with_default(|| default_value::string(DEFAULT_OUTPUT)),
+        FORMATS.with_default(|| default_value::strings(DEFAULT_FORMATS.map(Format::name))),
         KeySchema::new(
             "volume_pages",
             ValueSchema::Integer([1, MAX_VOLUME_PAGES]),
             "The most pages of a volume of the book.",
         )
-        .with_default("1000"),
+        .with_default(|| DEFAULT_VOLUME_PAGES.to_string()),
     ],
 );
 
@@ -69,23 +90,23 @@ pub(super) static PAGE: TableSchema = TableSchema::new(
             ValueSchema::AnyOf(&[ValueSchema::Word(|| words(&Paper::NAMED)), ValueSchema::Table(&PAPER)]),
             "The paper, by its name or its sides.",
         )
-        .with_default("\"tabloid\""),
+        .with_default(|| default_value::string(DEFAULT_PAPER.0)),
         KeySchema::new("dpi", ValueSchema::InRange(DPI_RANGE), "The resolution of PNG images, in pixels to the inch.")
-            .with_default("100"),
+            .with_default(|| PageSettings::default().dpi.to_string()),
         KeySchema::new("dash", ValueSchema::Quantity(Dimension::Angle), "How much input a dash and its gap span.")
-            .with_default("\"5 deg\""),
+            .with_default(|| default_value::degrees(PageSettings::default().options.dash_deg)),
         KeySchema::new(
             "text",
             ValueSchema::Word(|| words(&TEXT_MODES)),
             "How text stands in SVG: as text, or as outlines.",
         )
-        .with_default("\"text\""),
+        .with_default(|| default_value::word(&TEXT_MODES, &PageSettings::default().text_mode)),
         KeySchema::new(
             "theme",
             ValueSchema::AnyOf(&[theme::NAME_FORM, ValueSchema::Table(&theme::THEME)]),
             "What pages look like: a theme by its name, or one changed.",
         )
-        .with_default("\"paper\""),
+        .with_default(theme::default_name),
     ],
 );
 
@@ -107,87 +128,94 @@ static PAPER: TableSchema = TableSchema::new(
 
 const DPI_RANGE: [f64; 2] = [10.0, 2400.0];
 
-/// How text can stand in SVG.
+/// The words for text modes.
 const TEXT_MODES: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
 
-pub(super) fn atlas<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<AtlasSettings> {
-    let fields = Fields::from_value(value, &ATLAS, reader)?;
-    let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", reader);
+pub(super) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<AtlasSettings> {
+    let fields = Fields::from_value(value, &ATLAS, parser)?;
+    let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", parser);
     let output = match fields.get("output") {
-        None => Some("output".to_owned()),
-        Some(value) => reader.text(value).and_then(|text| {
+        None => Some(DEFAULT_OUTPUT.to_owned()),
+        Some(value) => parser.text(value).and_then(|text| {
             let folder = normalize_folder(&text, cfg!(windows));
-            folder.map_err(|message| reader.report(Problem::error(value.span(), message).with_help(FOLDER_HELP))).ok()
+            folder.map_err(|message| parser.report(Problem::error(value.span(), message).with_help(FOLDER_HELP))).ok()
         }),
     };
     let formats = match fields.get("formats") {
-        None => Some(vec![Format::Svg, Format::Png]),
-        Some(value) => formats(value, reader),
+        None => Some(DEFAULT_FORMATS.to_vec()),
+        Some(value) => formats(value, parser),
     };
-    let volume_pages =
-        fields.get("volume_pages").map_or(Some(1000), |value| reader.integer(value, 1, MAX_VOLUME_PAGES));
+    let volume_pages = match fields.get("volume_pages") {
+        None => Some(DEFAULT_VOLUME_PAGES),
+        Some(value) => parser.integer(value, 1, MAX_VOLUME_PAGES),
+    };
     Some(AtlasSettings { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
 }
 
 const FOLDER_HELP: &str = "write a folder relative to the manifest, as in output = \"output\"";
 
-/// The folder a manifest names, as this system writes it. Manifests go from system to system: `/` and `\` both part
-/// folders on all of them. What only Windows has, a drive or a share, cannot be had elsewhere.
+/// The path of a folder on this system. Manifests are shared between systems, so `/` and `\` both separate folders
+/// everywhere. Drives and network shares are errors on other systems than Windows.
 fn normalize_folder(text: &str, is_windows: bool) -> Result<String, &'static str> {
     let has_drive = text.as_bytes().get(1) == Some(&b':') && text.as_bytes()[0].is_ascii_alphabetic();
     if text.is_empty() || text.contains('\0') {
-        Err("this names no folder")
+        Err("this is not the name of a folder")
     } else if is_windows {
         Ok(text.to_owned())
     } else if has_drive || text.starts_with("\\\\") {
-        Err("only Windows has such a folder")
+        Err("drives and network shares exist only on Windows")
     } else {
         Ok(text.replace('\\', "/"))
     }
 }
 
-/// A list of formats, each once.
-pub(super) fn formats<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Vec<Format>> {
-    let list = reader.list(value)?;
+/// Reads a list of formats; repeated formats are dropped.
+pub(super) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Format>> {
+    let list = parser.list(value)?;
     if list.is_empty() {
-        reader
-            .report(Problem::error(value.span(), "no format is named").with_help("write formats = [\"svg\", \"png\"]"));
+        parser
+            .report(Problem::error(value.span(), "`formats` is empty").with_help("write formats = [\"svg\", \"png\"]"));
         return None;
     }
     let words = Format::ALL.map(|format| (format.name(), format));
-    let mut out = Vec::new();
+    let mut formats = Vec::new();
     let mut all_read = true;
     for item in list {
-        match reader.word(item, &words) {
-            Some(format) if !out.contains(&format) => out.push(format),
+        match parser.word(item, &words) {
+            Some(format) if !format.is_built_in() => {
+                let problem = Problem::error(item.span(), format!("this build cannot write `{}`", format.name()));
+                parser.report(problem.with_help("leave the format out, or build the program with the feature `pdf`"));
+                all_read = false;
+            }
+            Some(format) if !formats.contains(&format) => formats.push(format),
             Some(_) => {}
             None => all_read = false,
         }
     }
-    all_read.then_some(out)
+    all_read.then_some(formats)
 }
 
-pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, reader: &mut TomlParser<'t>) -> Option<PageSettings> {
-    let tabloid = Paper::NAMED[1].1;
-    let default = PageSettings { options: Options::for_paper(tabloid), dpi: 100.0, text_mode: TextMode::default() };
+pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t>) -> Option<PageSettings> {
+    let default = PageSettings::default();
     let Some(value) = value else { return Some(default) };
-    let fields = Fields::from_value(value, &PAGE, reader)?;
+    let fields = Fields::from_value(value, &PAGE, parser)?;
     let paper = match fields.get("paper") {
-        None => Some(tabloid),
-        Some(value) => paper(value, reader),
+        None => Some(default.options.paper),
+        Some(value) => paper(value, parser),
     };
     let dpi = match fields.get("dpi") {
         None => Some(default.dpi),
         Some(value) => {
-            read_within(value, reader, |value, reader| reader.constant(value), DPI_RANGE, "pixels to the inch")
+            read_within(value, parser, |value, parser| parser.constant(value), DPI_RANGE, "pixels to the inch")
         }
     };
     if let (Some(paper), Some(dpi), Some(value)) = (paper, dpi, fields.get("dpi")) {
         let pixels = paper.width * paper.height * dpi * dpi / (25.4 * 25.4);
         if pixels > MAX_PIXELS {
             let problem = Problem::error(value.span(), "an image of this paper would have too many pixels");
-            reader.report(
-                problem.with_help(format!("{:.0} dpi is the most for it", dpi * (MAX_PIXELS / pixels).sqrt() - 0.5)),
+            parser.report(
+                problem
+                    .with_help(format!("give at most {:.0} for this paper", dpi * (MAX_PIXELS / pixels).sqrt() - 0.5)),
             );
         }
     }
@@ -195,49 +223,33 @@ pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, reader: &mut TomlParser<'t
         None => Some(default.options.dash_deg),
         Some(value) => {
             let read =
-                |value: &TomlValue<'t>, reader: &mut TomlParser<'t>| reader.constant_quantity(value, Dimension::Angle);
-            read_within(value, reader, read, [0.1, 360.0], "degrees of input")
+                |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| parser.constant_quantity(value, Dimension::Angle);
+            read_within(value, parser, read, [0.1, 360.0], "degrees of input")
         }
     };
     let text = match fields.get("text") {
-        None => Some(TextMode::default()),
-        Some(value) => reader.word(value, &TEXT_MODES),
+        None => Some(default.text_mode),
+        Some(value) => parser.word(value, &TEXT_MODES),
     };
-    let theme = fields.get("theme").map_or_else(Theme::default, |value| theme::read(value, reader));
-    Some(PageSettings { options: Options { paper: paper?, dash_deg: dash_deg?, theme }, dpi: dpi?, text_mode: text? })
+    let theme = fields.get("theme").map_or(default.options.theme, |value| theme::read(value, parser));
+    let options = Options::for_paper(paper?).with_dash_deg(dash_deg?).with_theme(theme);
+    Some(PageSettings { options, dpi: dpi?, text_mode: text? })
 }
 
-fn paper<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Paper> {
+fn paper<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Paper> {
     if value.get_ref().is_str() {
-        return reader.word(value, &Paper::NAMED);
+        return parser.word(value, &Paper::NAMED);
     }
-    let fields = Fields::from_value(value, &PAPER, reader)?;
+    let fields = Fields::from_value(value, &PAPER, parser)?;
     let mut side = |key: &str| {
-        let value = fields.required(key, &format!("{key} = \"279 mm\""), reader)?;
-        let read = |value: &TomlValue<'t>, reader: &mut TomlParser<'t>| {
-            reader.constant_quantity(value, Dimension::PaperLength)
+        let value = fields.required(key, &format!("{key} = \"279 mm\""), parser)?;
+        let read = |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| {
+            parser.constant_quantity(value, Dimension::PaperLength)
         };
-        read_within(value, reader, read, Paper::SIDE_RANGE, "mm")
+        read_within(value, parser, read, Paper::SIDE_RANGE, "mm")
     };
     let (width, height) = (side("width"), side("height"));
     Some(Paper { width: width?, height: height? })
-}
-
-/// A value that must lie between two others.
-pub(super) fn read_within<'t>(
-    value: &TomlValue<'t>,
-    reader: &mut TomlParser<'t>,
-    read: impl Fn(&TomlValue<'t>, &mut TomlParser<'t>) -> Option<f64>,
-    [least, most]: [f64; 2],
-    what: &str,
-) -> Option<f64> {
-    let number = read(value, reader)?;
-    if (least..=most).contains(&number) {
-        return Some(number);
-    }
-    let problem = Problem::error(value.span(), format!("{number} {what} is out of range"));
-    reader.report(problem.with_help(format!("give {least} to {most} {what}")));
-    None
 }
 
 #[cfg(test)]
@@ -245,20 +257,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folders_of_windows_are_folders_everywhere() {
+    fn backslashes_separate_folders_everywhere() {
         for (text, elsewhere) in [
             ("out", Ok("out")),
             ("..\\out", Ok("../out")),
             ("..\\a/b\\", Ok("../a/b/")),
             ("/srv/out", Ok("/srv/out")),
-            ("C:\\out", Err("only Windows has such a folder")),
-            ("c:out", Err("only Windows has such a folder")),
-            ("\\\\server\\share", Err("only Windows has such a folder")),
-            ("", Err("this names no folder")),
-            ("a\0b", Err("this names no folder")),
+            ("C:\\out", Err("drives and network shares exist only on Windows")),
+            ("c:out", Err("drives and network shares exist only on Windows")),
+            ("\\\\server\\share", Err("drives and network shares exist only on Windows")),
+            ("", Err("this is not the name of a folder")),
+            ("a\0b", Err("this is not the name of a folder")),
         ] {
             assert_eq!(normalize_folder(text, false).as_deref(), elsewhere.as_deref(), "{text}");
-            assert_eq!(normalize_folder(text, true).is_ok(), elsewhere != Err("this names no folder"), "{text}");
+            assert_eq!(
+                normalize_folder(text, true).is_ok(),
+                elsewhere != Err("this is not the name of a folder"),
+                "{text}"
+            );
         }
     }
 }

@@ -1,20 +1,27 @@
-//! The `theme` of `[page]`: the name of one, or a table that starts from one and changes it.
+//! Reads the `theme` of `[page]`: the name of a theme, or a table that modifies one.
 
-use super::settings::read_within;
+use super::bounded_number::read_within;
+use super::default_value;
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::{Problem, Span};
 use coupler_drawing::page::Theme;
 use coupler_drawing::scene::{Color, Typeface};
 
-/// The name of a theme.
+/// The schema of the name of a theme.
 pub(super) const NAME_FORM: ValueSchema = ValueSchema::Word(|| Theme::NAMED.map(|named| named.name).to_vec());
 
-/// A theme that starts from another.
+/// The name of the default theme, as JSON.
+pub(super) fn default_name() -> String {
+    let [default, ..] = Theme::NAMED;
+    default_value::string(default.name)
+}
+
+/// The table of a theme that modifies another.
 pub(super) static THEME: TableSchema = TableSchema::new(
     "a theme",
     &[
-        KeySchema::new("base", NAME_FORM, "The theme it starts from.").with_default("\"paper\""),
+        KeySchema::new("base", NAME_FORM, "The theme it starts from.").with_default(default_name),
         KeySchema::new("paper", ValueSchema::Color, "The colour of the paper, and of all that is hollow."),
         KeySchema::new("ink", ValueSchema::Color, "The colour of links, joints, titles and captions."),
         KeySchema::new(
@@ -34,9 +41,9 @@ pub(super) static THEME: TableSchema = TableSchema::new(
             "Whether every colour becomes the grey of its lightness; as the base has it where left out.",
         ),
         KeySchema::new("face", ValueSchema::Word(|| words(&Typeface::NAMED)), "The typeface.")
-            .with_default("\"serif-condensed\""),
+            .with_default(|| default_value::word(&Typeface::NAMED, &Theme::default().typeface)),
         KeySchema::new("drawn", ValueSchema::InRange(DRAWN_RANGE), "How much of a dash and its gap is dash.")
-            .with_default("0.6"),
+            .with_default(|| Theme::default().dash_fraction.to_string()),
         KeySchema::new("weights", WEIGHTS_FORM, "Line weights on tabloid paper, or how many times what they are."),
         KeySchema::new(
             "lettering",
@@ -47,7 +54,7 @@ pub(super) static THEME: TableSchema = TableSchema::new(
 );
 
 const DRAWN_RANGE: [f64; 2] = [0.05, 1.0];
-/// How many times what they are sizes may be.
+/// The range of the factor that scales sizes.
 const SCALE_RANGE: [f64; 2] = [0.5, 2.0];
 const WEIGHTS_FORM: ValueSchema =
     ValueSchema::AnyOf(&[ValueSchema::InRange(SCALE_RANGE), ValueSchema::Table(&WEIGHTS)]);
@@ -76,7 +83,7 @@ static LETTERING: TableSchema = TableSchema::new(
     ],
 );
 
-/// The sizes of a theme in the order of their table's keys.
+/// Borrows the sizes of a theme in the order of their table's keys.
 type SizeAccessor = fn(&mut Theme) -> Vec<&mut f64>;
 
 const WEIGHT_SIZES: SizeAccessor = |theme| {
@@ -91,35 +98,35 @@ const WEIGHT_SIZES: SizeAccessor = |theme| {
 const LETTERING_SIZES: SizeAccessor =
     |theme| vec![&mut theme.title_size, &mut theme.source_size, &mut theme.caption_size, &mut theme.note_size];
 
-/// Reads a theme; what of it cannot be read is as in the theme it starts from.
-pub(super) fn read<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Theme {
+/// Reads a theme; values that cannot be parsed keep those of the base theme.
+pub(super) fn read<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Theme {
     if value.get_ref().is_str() {
-        return named_theme(value, reader).unwrap_or_default();
+        return named_theme(value, parser).unwrap_or_default();
     }
-    let Some(fields) = Fields::from_value(value, &THEME, reader) else { return Theme::default() };
-    let base = fields.get("base").map_or_else(|| Some(Theme::default()), |value| named_theme(value, reader));
+    let Some(fields) = Fields::from_value(value, &THEME, parser) else { return Theme::default() };
+    let base = fields.get("base").map_or_else(|| Some(Theme::default()), |value| named_theme(value, parser));
     let base_read = base.is_some();
     let mut theme = base.unwrap_or_default();
-    let colors_read = apply_colors(&fields, &mut theme, reader) && base_read;
+    let colors_read = apply_colors(&fields, &mut theme, parser) && base_read;
     if let Some(face) = fields.get("face") {
-        theme.typeface = reader.word(face, &Typeface::NAMED).unwrap_or_default();
+        theme.typeface = parser.word(face, &Typeface::NAMED).unwrap_or_default();
     }
     if let Some(value) = fields.get("drawn") {
-        let drawn = read_within(value, reader, |value, reader| reader.constant(value), DRAWN_RANGE, "of a dash's span");
+        let drawn = read_within(value, parser, |value, parser| parser.constant(value), DRAWN_RANGE, "of a dash's span");
         theme.dash_fraction = drawn.unwrap_or(theme.dash_fraction);
     }
-    apply_sizes(fields.get("weights"), (&WEIGHTS, WEIGHT_SIZES, [0.02, 5.0]), &mut theme, reader);
-    apply_sizes(fields.get("lettering"), (&LETTERING, LETTERING_SIZES, [0.5, 20.0]), &mut theme, reader);
-    // Of colours that could not be read nothing is asked.
+    apply_sizes(fields.get("weights"), (&WEIGHTS, WEIGHT_SIZES, [0.02, 5.0]), &mut theme, parser);
+    apply_sizes(fields.get("lettering"), (&LETTERING, LETTERING_SIZES, [0.5, 20.0]), &mut theme, parser);
+    // Colours that could not be parsed are not checked.
     if colors_read {
-        check_contrast(&fields, &theme, reader);
-        check_curves(&fields, &theme, reader);
+        check_contrast(&fields, &theme, parser);
+        check_curves(&fields, &theme, parser);
     }
     theme
 }
 
-/// Changes a theme's colours; whether all that are given could be read.
-fn apply_colors<'t>(fields: &Fields<'_, 't>, theme: &mut Theme, reader: &mut TomlParser<'t>) -> bool {
+/// Changes a theme's colours, and returns whether all of those given could be parsed.
+fn apply_colors<'t>(fields: &Fields<'_, 't>, theme: &mut Theme, parser: &mut TomlParser<'t>) -> bool {
     let mut all_read = true;
     for (key, color) in [
         ("paper", &mut theme.paper),
@@ -128,16 +135,16 @@ fn apply_colors<'t>(fields: &Fields<'_, 't>, theme: &mut Theme, reader: &mut Tom
         ("hairline", &mut theme.hairline),
     ] {
         if let Some(value) = fields.get(key) {
-            let read = self::color(value, reader);
+            let read = self::color(value, parser);
             all_read &= read.is_some();
             *color = read.unwrap_or(*color);
         }
     }
-    let given = fields.get("curves").map(|value| curve_colors(value, reader));
+    let given = fields.get("curves").map(|value| curve_colors(value, parser));
     all_read &= !matches!(given, Some(None));
     let given = given.flatten();
-    // What starts from a monochrome theme is one as well.
-    let is_monochrome = fields.get("monochrome").and_then(|value| reader.boolean(value));
+    // A theme based on a monochrome theme is monochrome by default.
+    let is_monochrome = fields.get("monochrome").and_then(|value| parser.boolean(value));
     if is_monochrome.unwrap_or(theme.curve_styles.len() > 1) {
         *theme = theme.clone().into_greyscale(given);
     } else if let Some(given) = given {
@@ -146,71 +153,71 @@ fn apply_colors<'t>(fields: &Fields<'_, 't>, theme: &mut Theme, reader: &mut Tom
     all_read
 }
 
-fn named_theme<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Theme> {
+fn named_theme<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Theme> {
     let themes = Theme::NAMED.map(|named| (named.name, named.theme));
-    reader.word(value, &themes).map(|theme| theme())
+    parser.word(value, &themes).map(|theme| theme())
 }
 
-fn color<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Color> {
-    let text = reader.text(value)?;
+fn color<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Color> {
+    let text = parser.text(value)?;
     let color = Color::parse(&text);
     if color.is_none() {
-        let problem = Problem::error(value.span(), format!("`{}` is no colour", text.escape_debug()));
-        reader.report(problem.with_help("write red, green and blue in hexadecimal digits, as in \"#8c2d19\""));
+        let problem = Problem::error(value.span(), format!("`{}` is not a colour", text.escape_debug()));
+        parser.report(problem.with_help("write red, green and blue in hexadecimal digits, as in \"#8c2d19\""));
     }
     color
 }
 
-/// The inks of curves; none where one of them is no colour.
-fn curve_colors<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Vec<Color>> {
-    let list = reader.list(value)?;
+/// Reads the inks of curves; `None` if any of them is not a colour.
+fn curve_colors<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Color>> {
+    let list = parser.list(value)?;
     if list.is_empty() {
-        let problem = Problem::error(value.span(), "curves are drawn in no ink at all");
-        reader.report(problem.with_help("give five colours, or leave `curves` out"));
+        let problem = Problem::error(value.span(), "`curves` is empty");
+        parser.report(problem.with_help("give five colours, or leave `curves` out"));
         return None;
     }
-    let read: Vec<Option<Color>> = list.iter().map(|item| color(item, reader)).collect();
+    let read: Vec<Option<Color>> = list.iter().map(|item| color(item, parser)).collect();
     read.into_iter().collect()
 }
 
-/// Sizes on tabloid paper, each by its key; or a number, so many times what they are.
+/// Sets sizes on tabloid paper, each by its key, or scales all of them by a number.
 fn apply_sizes<'t>(
     value: Option<&TomlValue<'t>>,
-    (form, known, range): (&'static TableSchema, SizeAccessor, [f64; 2]),
+    (schema, sizes, range): (&'static TableSchema, SizeAccessor, [f64; 2]),
     theme: &mut Theme,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) {
     let Some(value) = value else { return };
     let is_table = value.get_ref().is_table();
     if !is_table {
-        let times = read_within(value, reader, |value, reader| reader.constant(value), SCALE_RANGE, "times the size");
-        known(theme).into_iter().for_each(|size| *size *= times.unwrap_or(1.0));
+        let factor = read_within(value, parser, |value, parser| parser.constant(value), SCALE_RANGE, "times the size");
+        sizes(theme).into_iter().for_each(|size| *size *= factor.unwrap_or(1.0));
         return;
     }
-    let Some(fields) = Fields::from_value(value, form, reader) else { return };
-    for (key, size) in form.key_names().into_iter().zip(known(theme)) {
+    let Some(fields) = Fields::from_value(value, schema, parser) else { return };
+    for (key, size) in schema.key_names().into_iter().zip(sizes(theme)) {
         let Some(value) = fields.get(key) else { continue };
-        let read = |value: &TomlValue<'t>, reader: &mut TomlParser<'t>| {
-            reader.constant_quantity(value, Dimension::PaperLength)
+        let read = |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| {
+            parser.constant_quantity(value, Dimension::PaperLength)
         };
-        let mm = read_within(value, reader, read, range, "mm");
+        let mm = read_within(value, parser, read, range, "mm");
         *size = mm.unwrap_or(*size);
     }
 }
 
-/// What a colour is for, and the contrast with the paper that it wants: those of text and of lines in WCAG 2.2, 1.4.3
-/// and 1.4.11; of hairlines, which nothing depends on, that they can be seen.
+/// A colour with the contrast to the paper that its use requires: those of text and of lines are from WCAG 2.2, 1.4.3
+/// and 1.4.11; hairlines, which carry no information, only have to be visible.
 struct ColorRole {
     key: &'static str,
     color: Color,
-    /// Where the colour is given; it may be that of the theme it starts from.
+    /// The place where the colour is given; `None` if it is inherited from the base theme.
     span: Option<Span>,
     min_contrast: f64,
 }
 
 fn color_roles(fields: &Fields, theme: &Theme) -> Vec<ColorRole> {
-    let place = |key: &str| fields.get(key).map(TomlValue::span);
-    let role = |key: &'static str, color, wanted| ColorRole { key, color, span: place(key), min_contrast: wanted };
+    let span = |key: &str| fields.get(key).map(TomlValue::span);
+    let role = |key: &'static str, color, min_contrast| ColorRole { key, color, span: span(key), min_contrast };
     let mut roles =
         vec![role("ink", theme.ink, 4.5), role("grey", theme.grey, 4.5), role("hairline", theme.hairline, 1.2)];
     let list = fields.get("curves").and_then(|value| value.get_ref().as_array());
@@ -221,64 +228,63 @@ fn color_roles(fields: &Fields, theme: &Theme) -> Vec<ColorRole> {
     roles
 }
 
-/// Whether inks can be told from the paper. Those of the theme it starts from are complained of together, at the paper.
-fn check_contrast<'t>(fields: &Fields<'_, 't>, theme: &Theme, reader: &mut TomlParser<'t>) {
+/// Checks that inks contrast with the paper. Inherited inks are reported together, at `paper`.
+fn check_contrast<'t>(fields: &Fields<'_, 't>, theme: &Theme, parser: &mut TomlParser<'t>) {
     let mut inherited: Vec<(&str, f64)> = Vec::new();
-    for ColorRole { key, color, span, min_contrast: wanted } in color_roles(fields, theme) {
+    for ColorRole { key, color, span, min_contrast: required } in color_roles(fields, theme) {
         let contrast = color.contrast(theme.paper);
-        if contrast >= wanted {
+        if contrast >= required {
             continue;
         }
         let Some(span) = span else {
-            inherited.push((key, contrast / wanted));
+            inherited.push((key, contrast / required));
             continue;
         };
-        // One that cannot be seen is a mistake, one that can hardly be seen may be meant.
-        let (message, is_error) = if contrast < 1.0 + 0.2 * (wanted - 1.0) {
-            (format!("{color} cannot be told from the paper, {}", theme.paper), true)
+        // An invisible colour is a mistake; one that is hard to see may be intended.
+        let (message, is_error) = if contrast < 1.0 + 0.2 * (required - 1.0) {
+            (format!("{color} cannot be distinguished from the paper, {}", theme.paper), true)
         } else {
             (format!("{color} is hard to see on the paper, {}", theme.paper), false)
         };
         let problem = if is_error { Problem::error(span, message) } else { Problem::warning(span, message) };
-        let way = if theme.paper.luminance() > 0.18 { "darker" } else { "lighter" };
-        reader.report(problem.with_help(format!(
-            "their contrast is {contrast:.1} to 1, and `{key}` wants {wanted} to 1: give a {way} colour"
+        let direction = if theme.paper.luminance() > 0.18 { "darker" } else { "lighter" };
+        parser.report(problem.with_help(format!(
+            "their contrast is {contrast:.1} to 1, but `{key}` requires {required} to 1: give a {direction} colour"
         )));
     }
     if let Some(worst) = inherited.iter().map(|(_, part)| *part).reduce(f64::min) {
         let mut keys: Vec<String> = inherited.iter().map(|(key, _)| format!("`{key}`")).collect();
         keys.dedup();
         let span = fields.get("paper").map_or_else(|| fields.span.clone(), TomlValue::span);
-        let message = format!("on this paper, {}, the theme's {} cannot well be seen", theme.paper, keys.join(", "));
+        let message = format!("on this paper, {}, the theme's {} are hard to see", theme.paper, keys.join(", "));
         let problem = if worst < 0.5 { Problem::error(span, message) } else { Problem::warning(span, message) };
         let base = if theme.paper.luminance() > 0.18 { "print" } else { "dark" };
-        reader.report(problem.with_help(format!("start from base = \"{base}\", or give these colours too")));
+        parser.report(problem.with_help(format!("start from base = \"{base}\", or set these colours too")));
     }
 }
 
-/// Whether there are inks enough for curves, and whether they can be told apart.
-fn check_curves<'t>(fields: &Fields<'_, 't>, theme: &Theme, reader: &mut TomlParser<'t>) {
+/// Checks that there are enough inks for curves, and that they can be told apart.
+fn check_curves<'t>(fields: &Fields<'_, 't>, theme: &Theme, parser: &mut TomlParser<'t>) {
     /// A difference in CIELAB at which thin lines still look alike.
     const MIN_DIFFERENCE: f64 = 10.0;
     const MIN_INKS: usize = 5;
     let Some(value) = fields.get("curves") else { return };
-    // In monochrome weights and dashes tell curves apart as well.
+    // In a monochrome theme weights and dashes tell curves apart as well.
     if theme.curve_styles.len() > 1 {
         return;
     }
     let inks = &theme.curve_inks;
     if inks.len() < MIN_INKS {
-        let message = format!("curves are told apart by {MIN_INKS} inks, and here are {}", inks.len());
-        let help =
-            "give five colours or more, or write monochrome = true: weights and dashes then tell curves apart too";
-        reader.report(Problem::warning(value.span(), message).with_help(help));
+        let message = format!("expected at least {MIN_INKS} inks to tell curves apart, found {}", inks.len());
+        let help = "give five colours or more, or set monochrome = true to tell curves apart by weights and dashes too";
+        parser.report(Problem::warning(value.span(), message).with_help(help));
     }
     let places = value.get_ref().as_array();
     for (k, ink) in inks.iter().enumerate() {
         let like = inks[..k].iter().find(|other| other.difference(*ink) < MIN_DIFFERENCE);
         if let (Some(other), Some(place)) = (like, places.and_then(|list| list.get(k))) {
             let problem = Problem::warning(place.span(), format!("{ink} looks like {other}, which is given before it"));
-            reader.report(problem.with_help("give a colour that is lighter or darker, or another hue"));
+            parser.report(problem.with_help("give a colour that is lighter or darker, or another hue"));
         }
     }
 }

@@ -1,19 +1,22 @@
+//! The tolerances of `check`.
+
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 
-/// By how much a recorded value may differ from the one that comes out now.
+/// How much a recorded value may differ from the value computed now.
 ///
-/// The same manifest gives the same bytes on any machine, so that nothing has to be allowed for; what is allowed by
-/// default is what rounding may do if the order of operations is changed one day. Positions are within 2e-15 of a curve's
-/// size of the true ones, so that a thousandth of the default is more than that; measures are found by iterations that
-/// magnify it.
+/// The same manifest gives the same bytes on any machine, so no difference is expected. The defaults allow for the
+/// rounding of a future version that changes the order of operations. Positions are accurate to 2e-15 of a curve's size,
+/// less than a thousandth of the default; measures are found by iterations that magnify rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
-    /// How far a point may move, in the manifest's unit.
+    /// How far a point may move, in the manifest's unit of length.
     pub atol: f64,
-    /// How far a point may move, by the size of its curve: the diagonal of the box round it. The greater of both counts.
+    /// How far a point may move, relative to the size of its curve: the diagonal of its bounding box. The greater of this
+    /// and [`atol`](Tolerances::atol) applies.
     pub rtol: f64,
-    /// How much a measure may differ, by its own size; of an angle, also by one degree, and of a place by the curve's size.
+    /// How much a measure may differ, relative to its value; an angle also relative to one degree, and a coordinate relative
+    /// to the curve's size.
     pub measure_rtol: f64,
 }
 
@@ -23,7 +26,7 @@ impl Default for Tolerances {
     }
 }
 
-/// Tolerances of which some are given, and the others are those of somebody else.
+/// Tolerances of which only some are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PartialTolerances {
     /// [`Tolerances::atol`].
@@ -35,16 +38,16 @@ pub struct PartialTolerances {
 }
 
 impl PartialTolerances {
-    /// These, and for the others some more.
-    pub fn or(self, others: PartialTolerances) -> PartialTolerances {
+    /// Fills in the missing tolerances from others.
+    pub fn or(self, other: PartialTolerances) -> PartialTolerances {
         PartialTolerances {
-            atol: self.atol.or(others.atol),
-            rtol: self.rtol.or(others.rtol),
-            measure_rtol: self.measure_rtol.or(others.measure_rtol),
+            atol: self.atol.or(other.atol),
+            rtol: self.rtol.or(other.rtol),
+            measure_rtol: self.measure_rtol.or(other.measure_rtol),
         }
     }
 
-    /// These, and the defaults.
+    /// Fills in the missing tolerances with the defaults.
     pub fn or_defaults(self) -> Tolerances {
         let Tolerances { atol, rtol, measure_rtol } = Tolerances::default();
         Tolerances {
@@ -55,45 +58,45 @@ impl PartialTolerances {
     }
 }
 
-/// Tolerances for all families.
+/// The `[check]` table, for all families.
 pub(super) static CHECK: TableSchema = TableSchema::new("[check]", &KEYS);
 
-/// Tolerances of a family.
+/// The `check` table of a family.
 pub(super) static FAMILY_CHECK: TableSchema = TableSchema::new("`check`", &KEYS);
 
 static KEYS: [KeySchema; 3] = [
     KeySchema::new("atol", ValueSchema::InRange([0.0, f64::MAX]), "How far a point may move, in units of length.")
-        .with_default("0"),
+        .with_default(|| Tolerances::default().atol.to_string()),
     KeySchema::new(
         "rtol",
         ValueSchema::InRange([0.0, f64::MAX]),
         "How far a point may move, by the size of its curve.",
     )
-    .with_default("1e-12"),
+    .with_default(|| Tolerances::default().rtol.to_string()),
     KeySchema::new(
         "measure_rtol",
         ValueSchema::InRange([0.0, f64::MAX]),
         "How much a measure may differ, by its own size.",
     )
-    .with_default("1e-9"),
+    .with_default(|| Tolerances::default().measure_rtol.to_string()),
 ];
 
-/// The tolerances of a table.
+/// Reads the tolerances of a table.
 pub(super) fn read<'t>(
     value: Option<&TomlValue<'t>>,
     table: &'static TableSchema,
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> PartialTolerances {
-    let fields = value.and_then(|value| Fields::from_value(value, table, reader));
+    let fields = value.and_then(|value| Fields::from_value(value, table, parser));
     let Some(fields) = fields else { return PartialTolerances::default() };
     let mut tolerance = |key: &str| {
         let value = fields.get(key)?;
-        let number = reader.constant(value)?;
+        let number = parser.constant(value)?;
         if (0.0..).contains(&number) {
             return Some(number);
         }
-        let problem = Problem::error(value.span(), format!("`{key}` is {number}, and less than nothing"));
-        reader.report(problem.with_help("give 0 or more"));
+        let problem = Problem::error(value.span(), format!("`{key}` must not be negative, found {number}"));
+        parser.report(problem.with_help("give 0 or more"));
         None
     };
     PartialTolerances { atol: tolerance("atol"), rtol: tolerance("rtol"), measure_rtol: tolerance("measure_rtol") }

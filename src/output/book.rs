@@ -1,6 +1,6 @@
-//! Binds the pages of families into a book, or several volumes of one.
+//! Writes the pages of families as a book, in one or several volumes.
 //!
-//! The cells are solved for it anew: a book is made where any page of it has changed, and then has all of them.
+//! The book is written whole if any page of it has changed; its cells are then solved again.
 
 use coupler_curves::solve;
 use std::path::Path;
@@ -20,109 +20,114 @@ use coupler_drawing::page::{Layout, PanelPage};
 use coupler_drawing::render::{Format, pdf};
 use coupler_drawing::scene::Scene;
 
-/// The program, as a book names it.
+/// The name and version of the program in the metadata of a book.
 const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
 
-/// Binds the families that are to be in the book, unless it is there as it would be.
+/// Writes the book of all families with the format `pdf`, unless it is up to date.
 ///
-/// Where only some families are asked for, a book is made of those if it is asked for in so many words, and left alone
-/// otherwise.
+/// If the run is restricted to some families, their book is written only if the run also names the formats.
 pub(super) fn write(
     plan: &Plan,
     output: &Path,
     options: &Options,
     journal: &mut Journal,
-    tell: &mut dyn FnMut(Event),
+    report: &mut dyn FnMut(Event),
 ) -> Result<(), Error> {
-    let is_bound = |planned: &&PlannedFamily| {
+    let is_in_book = |planned: &&PlannedFamily| {
         let formats = options.formats.as_ref().unwrap_or(&planned.formats);
-        let is_asked = options.only.is_empty() || options.only.contains(&planned.family.id);
-        is_asked && formats.contains(&Format::Pdf)
+        let is_selected = options.only.is_empty() || options.only.contains(&planned.family.id);
+        is_selected && formats.contains(&Format::Pdf)
     };
-    let bound: Vec<&PlannedFamily> = plan.families.iter().filter(is_bound).collect();
-    if options.formats.is_none() && !options.only.is_empty() || options.formats.is_some() && bound.is_empty() {
+    let selected: Vec<&PlannedFamily> = plan.families.iter().filter(is_in_book).collect();
+    if options.formats.is_none() && !options.only.is_empty() || options.formats.is_some() && selected.is_empty() {
         return Ok(());
     }
     let earlier = journal.book().cloned();
-    if bound.is_empty() {
+    if selected.is_empty() {
         remove_stale_volumes(earlier.as_ref(), &[], output)?;
         return journal.set_book(None);
     }
-    let inputs_sha256 = Inputs::book_digest(&bound, plan.volume_pages);
+    let inputs_sha256 = Inputs::book_digest(&selected, plan.volume_pages);
     let is_unchanged = |record: &&BookRecord| {
-        let is_whole = |file: &FileRecord| file.inputs_sha256.is_some() && files::is_intact(output, file);
-        record.inputs_sha256.as_ref() == Some(&inputs_sha256) && record.files.iter().all(is_whole)
+        let is_intact = |file: &FileRecord| file.inputs_sha256.is_some() && files::is_intact(output, file);
+        record.inputs_sha256.as_ref() == Some(&inputs_sha256) && record.files.iter().all(is_intact)
     };
     if let Some(record) = earlier.as_ref().filter(|_| !options.force).filter(is_unchanged) {
-        tell(Event::Book { record, is_drawn: false });
+        report(Event::Book { record, is_drawn: false });
         return Ok(());
     }
     if let Some(earlier) = &earlier {
-        // From here on, what was there may be replaced at any time.
+        // From here on, the files of the earlier run may be replaced at any time.
         let files = earlier.files.iter().map(|file| FileRecord::from_name(&file.name)).collect();
         journal.set_book(Some(BookRecord { inputs_sha256: None, files, ..earlier.clone() }))?;
     }
-    let files = write_volumes(plan, &bound, (output, &inputs_sha256), options, tell)?;
+    let files = write_volumes(plan, &selected, (output, &inputs_sha256), options, report)?;
     let pages = files.iter().map(|(_, pages)| pages).sum();
     let files: Vec<FileRecord> = files.into_iter().map(|(file, _)| file).collect();
     remove_stale_volumes(earlier.as_ref(), &files, output)?;
     let record = BookRecord { inputs_sha256: Some(inputs_sha256), pages, files };
-    tell(Event::Book { record: &record, is_drawn: true });
+    report(Event::Book { record: &record, is_drawn: true });
     journal.set_book(Some(record))
 }
 
-fn remove_stale_volumes(earlier: Option<&BookRecord>, stay: &[FileRecord], output: &Path) -> Result<(), Error> {
+fn remove_stale_volumes(earlier: Option<&BookRecord>, current: &[FileRecord], output: &Path) -> Result<(), Error> {
     let known = earlier.iter().flat_map(|record| &record.files).map(|file| file.name.as_str());
-    files::remove_files(output, known.filter(|name| stay.iter().all(|file| file.name != **name)))
+    files::remove_files(output, known.filter(|name| current.iter().all(|file| file.name != **name)))
 }
 
-/// A family, and where its cells go.
+/// A family of the book, and where its pages begin.
 struct FamilyPart<'a> {
     pipeline: FamilyPipeline<'a>,
-    /// How many pages of the atlas stand before its own.
+    /// The number of pages of the families before it.
     pages_before: usize,
 }
 
-/// The chapter a family makes.
-fn chapter<'a>(planned: &'a PlannedFamily, arrangement: &CellSelection, setting: &Pagination) -> Chapter<'a> {
+/// The chapter of a family.
+fn chapter<'a>(planned: &'a PlannedFamily, selection: &CellSelection, pagination: &Pagination) -> Chapter<'a> {
     let family = &planned.family;
     let cell = |(k, &cell): (usize, &usize)| {
-        // What is measured is not known yet.
+        // The values of measures are not known yet.
         let [caption, _] = family.format_captions(&family.cell(cell), &[]);
-        CellEntry { caption, page: setting.first_page(k) }
+        CellEntry { caption, page: pagination.first_page(k) }
     };
     let cells =
-        if planned.chart.is_none() { arrangement.page_order.iter().enumerate().map(cell).collect() } else { vec![] };
-    // Points are counted for coupler grids; on the one circuit of the start each draws one curve.
+        if planned.chart.is_none() { selection.page_order.iter().enumerate().map(cell).collect() } else { vec![] };
+    // Points are counted for coupler grids; if only the starting circuit is traced, each point has one curve.
     let is_counted = planned.layout == Layout::CouplerGrid && family.template.circuits == CircuitSelection::Start;
-    let curves = is_counted.then(|| arrangement.point_counts.iter().sum());
-    Chapter { title: &family.title, symbols: &family.names, curve_count: curves, page_count: setting.page_count, cells }
+    let curves = is_counted.then(|| selection.point_counts.iter().sum());
+    Chapter {
+        title: &family.title,
+        symbols: &family.names,
+        curve_count: curves,
+        page_count: pagination.page_count,
+        cells,
+    }
 }
 
-/// Composes all pages, adds them to the volumes in order, and writes these: their files, and how many pages they have.
+/// Composes all pages and writes the volumes in order; returns their records and page counts.
 fn write_volumes(
     plan: &Plan,
-    bound: &[&PlannedFamily],
+    selected: &[&PlannedFamily],
     (output, inputs_sha256): (&Path, &str),
     options: &Options,
-    tell: &mut dyn FnMut(Event),
+    report: &mut dyn FnMut(Event),
 ) -> Result<Vec<(FileRecord, usize)>, Error> {
     let mut parts: Vec<FamilyPart> = Vec::new();
     let mut chapters = Vec::new();
-    let mut before = 0;
-    for &planned in bound {
-        let press = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
-        chapters.push(chapter(planned, &press.arrangement, &press.pagination));
-        let pages = press.pagination.page_count;
-        parts.push(FamilyPart { pipeline: press, pages_before: before });
-        before += pages;
+    let mut page_count = 0;
+    for &planned in selected {
+        let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
+        chapters.push(chapter(planned, &pipeline.arrangement, &pipeline.pagination));
+        let pages = pipeline.pagination.page_count;
+        parts.push(FamilyPart { pipeline, pages_before: page_count });
+        page_count += pages;
     }
     let atlas = Atlas { title: &plan.title, program: PROGRAM, chapters };
     let first = parts.iter().find(|part| part.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
     let volumes = atlas.volumes(plan.volume_pages);
-    tell(Event::Begin { family: "book", pages: before });
-    let mut bindery = BookWriter {
+    report(Event::Begin { family: "book", pages: page_count });
+    let mut writer = BookWriter {
         plan,
         atlas: &atlas,
         frontispiece: frontispiece.as_ref(),
@@ -133,22 +138,23 @@ fn write_volumes(
         geometries: Vec::new(),
         files: Vec::new(),
     };
-    bindery.open_next_volume()?;
+    writer.open_next_volume()?;
     for (number, part) in parts.iter().enumerate() {
-        part.compose_pages(number, options, &mut |leaf: PageGroup| {
-            bindery.geometries.extend(leaf.geometries);
-            for scene in leaf.scenes {
-                bindery.add_page(scene)?;
-                tell(Event::Page);
+        part.compose_pages(number, options, &mut |group_pages: PageGroup| {
+            writer.geometries.extend(group_pages.geometries);
+            for scene in group_pages.scenes {
+                writer.add_page(scene)?;
+                report(Event::Page);
             }
             Ok(())
         })?;
     }
-    bindery.close_volume()?;
-    Ok(bindery.files)
+    writer.close_volume()?;
+    Ok(writer.files)
 }
 
-/// The first cell of a family that has a curve, of a coupler grid with those of the page in the middle.
+/// The first cell of a family that has a curve, among its first hundred; of a coupler grid, with the curves of the middle
+/// page only.
 fn first_cell<'a>(part: &'a FamilyPart) -> Option<(&'a Composer<'a>, SolvedCell)> {
     let family = &part.pipeline.composer.planned.family;
     let sampler = coupler_curves::motion::Sampler::new(family.sampling);
@@ -156,116 +162,119 @@ fn first_cell<'a>(part: &'a FamilyPart) -> Option<(&'a Composer<'a>, SolvedCell)
         part.pipeline.arrangement.page_order.iter().filter_map(|&cell| solve::solve_cell(family, &sampler, cell));
     let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
     if part.pipeline.composer.planned.layout == Layout::CouplerGrid {
-        let leaves = curves_by_page(&solved);
-        let shown = &leaves[leaves.len() / 2];
+        let pages = curves_by_page(&solved);
+        let shown = &pages[pages.len() / 2];
         solved.curves = shown.iter().map(|&k| solved.curves[k].clone()).collect();
     }
     Some((&part.pipeline.composer, solved))
 }
 
-/// Pages that follow each other, and what the index will say of their cells.
+/// Consecutive pages, and the index entries of their cells.
 struct PageGroup {
     scenes: Vec<Scene>,
     geometries: Vec<IndexEntry>,
 }
 
-/// About how many bytes a composed page takes: ten thousand points, and what it takes to find them.
+/// The approximate memory of a composed page, in bytes: ten thousand points, and the work to compute them.
 const BYTES_PER_PAGE: usize = 1 << 20;
 
 impl FamilyPart<'_> {
-    /// Composes the pages of a family on all threads, and gives them to `take` in order.
+    /// Composes the pages of a family on all threads, and passes them to `add_pages` in order.
     fn compose_pages(
         &self,
         number: usize,
         options: &Options,
-        take: &mut dyn FnMut(PageGroup) -> Result<(), Error>,
+        add_pages: &mut dyn FnMut(PageGroup) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let FamilyPipeline { composer, arrangement, pagination: setting } = &self.pipeline;
+        let FamilyPipeline { composer, arrangement, pagination } = &self.pipeline;
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
-        let wanted = measures_used_on_pages(family);
-        let wanted = Some(wanted.as_slice());
+        let measures = measures_used_on_pages(family);
+        let measures = Some(measures.as_slice());
         let groups = CellGroups {
             cells: &arrangement.page_order,
-            size: setting.group_size,
+            size: pagination.group_size,
             work_bytes: BYTES_PER_PAGE,
-            requested_measures: wanted,
+            requested_measures: measures,
         };
         if let Some(chart) = chart {
-            let mut gathering = ChartBuilder::new(chart, family);
+            let mut builder = ChartBuilder::new(chart, family);
             let groups = CellGroups { cells: &arrangement.kept, requested_measures: None, ..groups };
-            let gather =
+            let sample =
                 |_, solved: Vec<SolvedCell>| solved.iter().flat_map(|s| chart.sample_cell(s)).collect::<Vec<_>>();
-            sweep::process_groups(family, groups, gather, |taken| {
+            sweep::process_groups(family, groups, sample, |samples| {
                 super::check_interrupt(interrupt)?;
-                taken.into_iter().for_each(|taken| gathering.add(taken));
+                samples.into_iter().for_each(|sample| builder.add(sample));
                 Ok(())
             })?;
-            let gathered = gathering.build();
-            return (1..=setting.page_count).try_for_each(|page| {
-                take(PageGroup { scenes: vec![composer.chart_page(page, chart, &gathered)], geometries: Vec::new() })
+            let chart_data = builder.build();
+            return (1..=pagination.page_count).try_for_each(|page| {
+                add_pages(PageGroup {
+                    scenes: vec![composer.chart_page(page, chart, &chart_data)],
+                    geometries: Vec::new(),
+                })
             });
         }
         let compose = |group: usize, solved: Vec<SolvedCell>| -> Result<PageGroup, Error> {
             super::check_interrupt(interrupt)?;
             Ok(self.compose_group(number, group, &solved))
         };
-        sweep::process_groups(family, groups, compose, |leaf| take(leaf?))
+        sweep::process_groups(family, groups, compose, |group_pages| add_pages(group_pages?))
     }
 
-    /// The pages of a group of cells.
+    /// Composes the pages of a group of cells.
     fn compose_group(&self, number: usize, group: usize, solved: &[SolvedCell]) -> PageGroup {
-        let FamilyPart { pipeline: FamilyPipeline { composer, pagination: setting, .. }, pages_before: before } = self;
+        let FamilyPart { pipeline: FamilyPipeline { composer, pagination, .. }, pages_before: before } = self;
         let family = &composer.planned.family;
-        let geometry = |solved: &SolvedCell, page: &dyn Fn(usize) -> usize| {
+        let index_entry = |solved: &SolvedCell, page: &dyn Fn(usize) -> usize| {
             let [caption, _] = family.format_captions(&solved.cell, solved.first_curve_values());
             IndexEntry::from_solved_cell(solved, number, &caption, page)
         };
-        let page = setting.first_page(group * setting.group_size);
+        let page = pagination.first_page(group * pagination.group_size);
         match (composer.planned.layout, solved) {
             (Layout::CouplerGrid, [solved]) => {
-                let leaves = curves_by_page(solved);
-                let on = |k: usize| leaves.iter().position(|shown| shown.contains(&k)).unwrap_or(0);
-                let found = vec![geometry(solved, &|k| before + page + on(k))];
+                let pages = curves_by_page(solved);
+                let page_offset = |k: usize| pages.iter().position(|shown| shown.contains(&k)).unwrap_or(0);
+                let geometries = vec![index_entry(solved, &|k| before + page + page_offset(k))];
                 PageGroup {
                     scenes: composer.coupler_grid_pages(page, solved).map(|(_, _, compose)| compose()).collect(),
-                    geometries: found,
+                    geometries: geometries,
                 }
             }
             _ => {
-                let found = solved.iter().map(|solved| geometry(solved, &|_| before + page)).collect();
-                PageGroup { scenes: vec![composer.panel_page(page, solved)], geometries: found }
+                let geometries = solved.iter().map(|solved| index_entry(solved, &|_| before + page)).collect();
+                PageGroup { scenes: vec![composer.panel_page(page, solved)], geometries: geometries }
             }
         }
     }
 }
 
-/// Where volumes are made, one after the other.
+/// Writes the volumes of a book, one after another.
 struct BookWriter<'a> {
     plan: &'a Plan,
     atlas: &'a Atlas<'a>,
     frontispiece: Option<&'a PanelPage<'a>>,
     output: &'a Path,
     inputs_sha256: &'a str,
-    /// The volumes that are not begun.
+    /// The volumes not begun yet.
     remaining_volumes: std::slice::Iter<'a, Volume>,
     open_volume: Option<OpenVolume<'a>>,
-    /// What the index of the open volume will have, and perhaps a little of the next.
+    /// The index entries of the open volume, and possibly some of the next.
     geometries: Vec<IndexEntry>,
-    /// The finished volumes, each with how many pages it has.
+    /// The finished volumes, each with its page count.
     files: Vec<(FileRecord, usize)>,
 }
 
-/// A volume that is being made.
+/// A volume that is being written.
 struct OpenVolume<'a> {
     volume: &'a Volume,
     book: pdf::Book,
-    /// How many pages stand before those of the families.
+    /// The number of pages of front matter.
     front_pages: usize,
 }
 
 impl<'a> BookWriter<'a> {
-    /// Adds a page of a family.
+    /// Adds a page of a family; opens the next volume if this one is full.
     fn add_page(&mut self, mut scene: Scene) -> Result<(), Error> {
         if self
             .open_volume
@@ -293,7 +302,7 @@ impl<'a> BookWriter<'a> {
         Ok(())
     }
 
-    /// Finishes the open volume, and writes it.
+    /// Adds the index to the open volume, and writes it.
     fn close_volume(&mut self) -> Result<(), Error> {
         let Some(OpenVolume { volume, mut book, front_pages: front }) = self.open_volume.take() else { return Ok(()) };
         let index = book::compose_index(self.atlas, volume, front, &self.geometries, &self.plan.page);
@@ -301,7 +310,7 @@ impl<'a> BookWriter<'a> {
             let label = book::page_number(volume, front, book.page_count());
             book.add_page(scene, label).map_err(Error::Book)?;
         }
-        // The cell at the seam may be in both volumes.
+        // A cell whose pages cross the volumes is in the indices of both.
         self.geometries = self.geometries.pop().into_iter().collect();
         let pages = book.page_count();
         let bytes = book.finish(&book::outline(self.atlas, volume, [front, index.len()])).map_err(Error::Book)?;

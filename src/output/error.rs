@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use crate::record::ReadError;
 use coupler_drawing::render;
 
-/// Why a plan was not built, or a file not read or written.
+/// An error of reading a manifest or writing an atlas.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A text cannot be read.
+    /// A file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
         /// The file.
@@ -24,16 +24,16 @@ pub enum Error {
         source: io::Error,
     },
     /// The record of an earlier run cannot be used.
-    #[error("cannot use {}, which tells what the other families have: {source}; render all of them", path.display())]
+    #[error("cannot use {}, which records the other families: {source}; render all of them", path.display())]
     Record {
         /// The record.
         path: PathBuf,
         /// Why.
         source: ReadError,
     },
-    /// The folder has a record that this program does not understand, and would write over.
+    /// The folder has a record of an unknown format, which would be overwritten.
     #[error(
-        "cannot render over {}: {source}; render with the version that wrote it, or into another folder with -o",
+        "cannot overwrite {}: {source}; render with the version that wrote it, or into another folder with -o",
         path.display()
     )]
     Format {
@@ -42,40 +42,41 @@ pub enum Error {
         /// What format it has.
         source: ReadError,
     },
-    /// A page makes no image.
+    /// A page cannot be drawn as an image.
     #[error("cannot draw {name}: {error}")]
     Image {
-        /// The image.
+        /// The name of the image.
         name: String,
         /// Why.
         error: render::PngError,
     },
-    /// The book cannot be made.
-    #[error("cannot bind the book: {0}")]
+    /// The book cannot be written.
+    #[error("cannot write the book: {0}")]
+    #[cfg(feature = "pdf")]
     Book(render::pdf::Error),
-    /// Another run has not ended.
-    #[error("another run is writing to {}: wait for its end, or name another folder with -o", folder.display())]
+    /// Another run is in progress.
+    #[error("another run is writing to {}: wait until it ends, or name another folder with -o", folder.display())]
     Busy {
-        /// Where both write to.
+        /// The folder that both write to.
         folder: PathBuf,
     },
-    /// The run was asked to stop.
-    #[error("interrupted: what is finished is kept, and the next run goes on from there")]
+    /// The run was interrupted.
+    #[error("interrupted: finished files are kept, and the next run continues from there")]
     Interrupted,
 }
 
 /// What to do about a file or folder that cannot be written.
 fn remedy(kind: ErrorKind) -> &'static str {
     match kind {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "make room, and run it again: what is finished is kept",
-        ErrorKind::FileTooLarge => "raise the limit on the size of files, or write to a disk that takes larger ones",
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            "allow it to be written, or name another place for it"
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "free some space and run it again: finished files are kept"
         }
+        ErrorKind::FileTooLarge => "raise the limit on file size, or write to a disk that allows larger files",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "change its permissions, or name another path",
         ErrorKind::NotADirectory | ErrorKind::IsADirectory | ErrorKind::AlreadyExists => {
-            "something else is in its place: move that away, or name another place"
+            "something else has this path: move it away, or name another path"
         }
-        ErrorKind::NotFound => "its folder is gone: run it again",
-        _ => "mend that, and run it again: what is finished is kept",
+        ErrorKind::NotFound => "its folder no longer exists: run it again",
+        _ => "correct that and run it again: finished files are kept",
     }
 }

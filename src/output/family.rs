@@ -1,4 +1,4 @@
-//! Builds a family: its tables, and its pages where they are not there yet as they would be.
+//! Writes the tables of a family, and those of its pages that are not up to date.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -16,13 +16,13 @@ use crate::record::{CellTable, FamilyRecord, FileRecord, read_unassembled_cells}
 use coupler_curves::exchange::PointTable;
 use coupler_drawing::render::{Format, PageFormat};
 
-/// Builds a family into its folder, unless all of it is there as it would be.
+/// Writes a family into its folder, unless all of its files are up to date.
 pub(super) fn write(
     (plan, planned): (&Plan, &PlannedFamily),
     output: &Path,
     options: &Options,
     journal: &mut Journal,
-    tell: &mut dyn FnMut(Event),
+    report: &mut dyn FnMut(Event),
 ) -> Result<(), Error> {
     let family = &planned.family;
     let folder = output.join(&family.id);
@@ -33,59 +33,61 @@ pub(super) fn write(
     let earlier = journal.family(&family.id).cloned();
     let unchanged = |record: &FamilyRecord| {
         let record = previous_run::unchanged_record(record, &inputs_sha256, &formats, &folder)?;
-        let told = recorded_shortfalls(&record, &folder)?;
-        Some((record, told))
+        let shortfalls = recorded_shortfalls(&record, &folder)?;
+        Some((record, shortfalls))
     };
-    if let Some((mut record, told)) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
+    if let Some((mut record, shortfalls)) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
         record.files.extend(pages_in_other_formats(earlier.as_ref(), &record, &formats, options));
-        // In the order they had.
+        // The files keep the order of the earlier record.
         let known = earlier.iter().flat_map(|earlier| &earlier.files);
-        let places: HashMap<&str, usize> = known.zip(0..).map(|(file, place)| (file.name.as_str(), place)).collect();
-        record.files.sort_by_key(|file| places.get(file.name.as_str()).copied());
-        for (cell, reason) in &told {
-            tell(Event::Shortfall { family: &family.id, cell: *cell, reason });
+        let order: HashMap<&str, usize> = known.zip(0..).map(|(file, index)| (file.name.as_str(), index)).collect();
+        record.files.sort_by_key(|file| order.get(file.name.as_str()).copied());
+        for (cell, reason) in &shortfalls {
+            report(Event::Shortfall { family: &family.id, cell: *cell, reason });
         }
         remove_stale_files(earlier, &record, &folder)?;
-        tell(Event::End { record: &record, drawn: None });
+        report(Event::End { record: &record, drawn: None });
         return journal.set_family(record);
     }
-    let press = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
-    tell(Event::Begin { family: &family.id, pages: press.pagination.page_count });
+    let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
+    report(Event::Begin { family: &family.id, pages: pipeline.pagination.page_count });
     files::create_folder(&folder)?;
     let mut known = earlier.as_ref().map(|record| record.files.clone()).unwrap_or_default();
     if options.force {
         known.iter_mut().for_each(|file| *file = FileRecord::from_name(&file.name));
     }
-    let claims = FileRegistry::new(&folder, known);
-    let record = initial_record(&press);
+    let registry = FileRegistry::new(&folder, known);
+    let record = initial_record(&pipeline);
     if let Some(earlier) = &earlier {
-        // From here on, what was there may be replaced at any time.
-        journal.set_family(FamilyRecord { inputs_sha256: None, files: claims.certain_records(), ..earlier.clone() })?;
+        // From here on, the files of the earlier run may be replaced at any time.
+        journal.set_family(FamilyRecord {
+            inputs_sha256: None,
+            files: registry.certain_records(),
+            ..earlier.clone()
+        })?;
     }
-    let (composer, interrupt) = (press.composer, &*options.interrupt);
+    let (composer, interrupt) = (pipeline.composer, &*options.interrupt);
     let tables = (PointTable::new(family), CellTable::new(family));
-    let statements = FamilyScript::new(plan, planned);
-    let printer =
-        OutputSink { composer, formats: &formats, inputs, tables, script: statements, registry: &claims, interrupt };
-    let mut work =
-        FamilyWriter { pipeline: &press, sink: printer, folder, record, drawn_pages: 0, unrecorded_pages: 0 };
-    match work.write_all(journal, tell) {
+    let script = FamilyScript::new(plan, planned);
+    let sink = OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt };
+    let mut writer = FamilyWriter { pipeline: &pipeline, sink, folder, record, drawn_pages: 0, unrecorded_pages: 0 };
+    match writer.write_all(journal, report) {
         Ok(()) => {
-            let mut record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..work.record };
+            let mut record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..writer.record };
             record.files.extend(pages_in_other_formats(earlier.as_ref(), &record, &formats, options));
-            remove_stale_files(earlier, &record, &work.folder)?;
-            tell(Event::End { record: &record, drawn: Some(work.drawn_pages) });
+            remove_stale_files(earlier, &record, &writer.folder)?;
+            report(Event::End { record: &record, drawn: Some(writer.drawn_pages) });
             journal.set_family(record)
         }
         Err(error) => {
-            // The next run goes on from here. If that cannot be written, there stands what is so in any case.
-            let _ = journal.set_family(FamilyRecord { files: claims.final_records(), ..work.record });
+            // The next run continues from here. If this cannot be written, the record on disk is still true.
+            let _ = journal.set_family(FamilyRecord { files: registry.final_records(), ..writer.record });
             Err(error)
         }
     }
 }
 
-/// The cells of a family that was left alone which are not assembled; nothing where its table has gone since.
+/// The unassembled cells of a family that is up to date, from its table; `None` if the table can no longer be read.
 fn recorded_shortfalls(record: &FamilyRecord, folder: &Path) -> Option<Vec<(usize, String)>> {
     if record.not_assembled == 0 {
         return Some(Vec::new());
@@ -95,13 +97,13 @@ fn recorded_shortfalls(record: &FamilyRecord, folder: &Path) -> Option<Vec<(usiz
 
 /// Removes the files of an earlier run that are not among those of a record.
 fn remove_stale_files(earlier: Option<FamilyRecord>, record: &FamilyRecord, folder: &Path) -> Result<(), Error> {
-    let stay: std::collections::HashSet<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
+    let current: std::collections::HashSet<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
     let known = earlier.map(|earlier| earlier.files).unwrap_or_default();
-    files::remove_files(folder, known.iter().map(|file| file.name.as_str()).filter(|name| !stay.contains(name)))
+    files::remove_files(folder, known.iter().map(|file| file.name.as_str()).filter(|name| !current.contains(name)))
 }
 
-/// The pages that an earlier run drew in formats which the command line leaves out this time: they stay, and what they were
-/// made from is known no more where it is not what the family's pages are made from now.
+/// The pages of an earlier run in formats that this command line leaves out. They stay; a page that is not up to date
+/// loses the digest of its inputs.
 fn pages_in_other_formats(
     earlier: Option<&FamilyRecord>,
     record: &FamilyRecord,
@@ -109,13 +111,13 @@ fn pages_in_other_formats(
     options: &Options,
 ) -> Vec<FileRecord> {
     let Some(earlier) = earlier.filter(|_| options.formats.is_some()) else { return Vec::new() };
-    let page_in = |file: &FileRecord, of: &[PageFormat]| {
-        of.iter().find_map(|&format| previous_run::parse_page_number(&record.id, &file.name, format))
+    let page_in = |file: &FileRecord, formats: &[PageFormat]| {
+        formats.iter().find_map(|&format| previous_run::parse_page_number(&record.id, &file.name, format))
     };
     let drawn: HashMap<usize, &FileRecord> =
         record.files.iter().filter_map(|file| Some((page_in(file, formats)?, file))).collect();
     let others: Vec<PageFormat> = PageFormat::ALL.into_iter().filter(|format| !formats.contains(format)).collect();
-    let left = |file: &FileRecord| {
+    let kept_page = |file: &FileRecord| {
         let page = page_in(file, &others).filter(|page| (1..=record.pages).contains(page))?;
         let is_current = match drawn.get(&page) {
             Some(drawn) => drawn.inputs_sha256 == file.inputs_sha256,
@@ -124,83 +126,83 @@ fn pages_in_other_formats(
         let inputs_sha256 = file.inputs_sha256.clone().filter(|_| is_current);
         Some(FileRecord { inputs_sha256, ..file.clone() })
     };
-    earlier.files.iter().filter_map(left).collect()
+    earlier.files.iter().filter_map(kept_page).collect()
 }
 
-/// What is known of a family before any of it is made.
-fn initial_record(press: &FamilyPipeline) -> FamilyRecord {
-    let family = &press.composer.planned.family;
+/// The record of a family before any of its files is written.
+fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
+    let family = &pipeline.composer.planned.family;
     FamilyRecord {
         id: family.id.clone(),
         title: family.title.clone(),
         linkage: family.template.id.clone(),
         inputs_sha256: None,
         cells: family.cell_count(),
-        kept: press.arrangement.kept.len(),
+        kept: pipeline.arrangement.kept.len(),
         not_assembled: 0,
         curves_left_out: 0,
         curves: 0,
-        pages: press.pagination.page_count,
+        pages: pipeline.pagination.page_count,
         files: Vec::new(),
     }
 }
 
-/// A family that is being built.
+/// Writes the files of a family.
 struct FamilyWriter<'a> {
     pipeline: &'a FamilyPipeline<'a>,
     sink: OutputSink<'a>,
     folder: PathBuf,
     record: FamilyRecord,
-    /// How many pages were drawn.
+    /// The number of pages drawn.
     drawn_pages: usize,
-    /// How many of them since they were last recorded.
+    /// The number of pages drawn since they were last recorded.
     unrecorded_pages: usize,
 }
 
-/// So many pages are drawn before they are recorded: a run that is killed loses no more.
+/// The number of pages drawn between records; a run that is killed loses at most as many.
 const PAGES_PER_RECORD: usize = 400;
 
 impl FamilyWriter<'_> {
-    fn write_all(&mut self, journal: &mut Journal, tell: &mut dyn FnMut(Event)) -> Result<(), Error> {
-        let OutputSink { tables: (points_table, cells_table), script: statements, registry: claims, .. } = self.sink;
+    fn write_all(&mut self, journal: &mut Journal, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
+        let OutputSink { tables: (points_table, cells_table), script, registry, .. } = self.sink;
         let mut points = AtomicFile::with_header(self.folder.join("points.csv"), &points_table.header())?;
         let mut cells = AtomicFile::with_header(self.folder.join("cells.csv"), &cells_table.header())?;
-        let mut shown = AtomicFile::with_header(self.folder.join(gallery::SCRIPT_FILE), &statements.begin())?;
-        let (press, printer) = (self.pipeline, self.sink);
-        press.run(&printer, |off| match off {
+        let mut shown = AtomicFile::with_header(self.folder.join(gallery::SCRIPT_FILE), &script.begin())?;
+        let (pipeline, sink) = (self.pipeline, self.sink);
+        pipeline.run(&sink, |off| match off {
             Output::Cells(rows) => {
                 points.append(&rows.points)?;
                 cells.append(&rows.cells)?;
                 shown.append(rows.gallery_data.as_bytes())?;
-                self.add_counts(&rows, tell);
+                self.add_counts(&rows, report);
                 Ok(())
             }
             Output::Page(page) => {
                 shown.append(page.gallery_data.as_bytes())?;
-                self.record_page(page, journal, tell)
+                self.record_page(page, journal, report)
             }
         })?;
-        shown.append(statements.end().as_bytes())?;
-        let tables = [claims.commit_file(cells)?, claims.commit_file(points)?, claims.commit_file(shown)?];
+        shown.append(script.end().as_bytes())?;
+        let tables = [registry.commit_file(cells)?, registry.commit_file(points)?, registry.commit_file(shown)?];
         self.record.files.splice(0..0, tables);
         Ok(())
     }
 
-    fn add_counts(&mut self, rows: &TableRows, tell: &mut dyn FnMut(Event)) {
+    fn add_counts(&mut self, rows: &TableRows, report: &mut dyn FnMut(Event)) {
         self.record.curves += rows.curve_count;
         self.record.curves_left_out += rows.curves_left_out;
         self.record.not_assembled += rows.shortfalls.len();
         for (cell, reason) in &rows.shortfalls {
-            tell(Event::Shortfall { family: &self.record.id, cell: *cell, reason });
+            report(Event::Shortfall { family: &self.record.id, cell: *cell, reason });
         }
     }
 
-    /// Records a page.
+    /// Adds a page to the record, and saves the record now and then.
     fn record_page(
         &mut self,
         page: PageFiles,
         journal: &mut Journal,
-        tell: &mut dyn FnMut(Event),
+        report: &mut dyn FnMut(Event),
     ) -> Result<(), Error> {
         self.record.files.extend(page.files);
         if page.is_drawn {
@@ -211,7 +213,7 @@ impl FamilyWriter<'_> {
             self.unrecorded_pages = 0;
             journal.set_family(FamilyRecord { files: self.sink.registry.certain_records(), ..self.record.clone() })?;
         }
-        tell(Event::Page);
+        report(Event::Page);
         Ok(())
     }
 }

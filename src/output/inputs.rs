@@ -1,4 +1,4 @@
-//! What files are made from, as digests. Where one is the same as in an earlier run, so is the file.
+//! Digests of what files are made from: a file is up to date if its digest is that of the earlier run.
 
 use crate::manifest::PlannedFamily;
 use crate::record::RunningDigest;
@@ -8,35 +8,37 @@ use coupler_curves::solve::SolvedCell;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inputs<'a> {
     planned: &'a PlannedFamily,
-    /// The program's version. Its source may differ without it: whoever changes it draws everything afresh.
+    /// The program's version. A developer who changes the source under the same version has to render with `--force`.
     version: &'a str,
 }
 
 impl<'a> Inputs<'a> {
+    /// The inputs of a family for this version of the program.
     pub fn new(planned: &'a PlannedFamily) -> Inputs<'a> {
         Inputs { planned, version: env!("CARGO_PKG_VERSION") }
     }
 
-    /// The digest of all of them.
+    /// The digest of what all files of the family are made from.
     pub fn family_digest(self) -> String {
         self.begin_digest("family", &self.planned.manifest_inputs.family).finish()
     }
 
-    /// The digest of those of a page of charts, on which every cell may count.
+    /// The digest of what a page of charts is made from; every cell of the family may be on it.
     pub fn chart_page_digest(self, page: usize) -> String {
         let mut digest = self.begin_digest("charts", &self.planned.manifest_inputs.family);
         digest.update(format!("page {page}\n").as_bytes());
         digest.finish()
     }
 
-    /// The digest of those of a page of so many, with its cells and, where not all their curves are on it, the places of
-    /// those that are. All of them count in any case: what a page has in common with others of its cell is due to them.
-    pub fn page_digest(self, (page, of): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> String {
+    /// The digest of what a page is made from: its number, the number of pages, and its cells. `shown` has the indices of
+    /// the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case, since
+    /// all pages of the cell share what is derived from them.
+    pub fn page_digest(self, (page, page_count): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> String {
         let mut digest = self.begin_digest("page", &self.planned.manifest_inputs.page);
-        let mut text = format!("page {page} of {of}\n{:?}\n", self.planned.family.names);
+        let mut text = format!("page {page} of {page_count}\n{:?}\n", self.planned.family.names);
         for solved in cells {
             text.push_str(&format!("cell {}:", solved.cell.number));
-            // Every bit of a value counts.
+            // Every bit of a value matters.
             solved.cell.values.iter().for_each(|value| text.push_str(&format!(" {:x}", value.to_bits())));
             for curve in &solved.curves {
                 text.push_str(&format!(", {} on {}", curve.trace, curve.circuit));
@@ -47,7 +49,7 @@ impl<'a> Inputs<'a> {
         digest.finish()
     }
 
-    /// The digest of those of a book of families, in volumes of so many pages.
+    /// The digest of what a book is made from: its families, and the most pages of a volume.
     pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize) -> String {
         let mut digest = RunningDigest::default();
         digest.update(format!("book in volumes of {volume_pages}\n").as_bytes());
@@ -70,14 +72,14 @@ mod tests {
     use crate::manifest;
 
     #[test]
-    fn another_version_makes_other_files() {
+    fn digests_depend_on_the_version() {
         let text = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\nsampling = { samples = 9 }\n\
                     cases = [{ p = 2, a = 2 }]";
         let plan = manifest::parse(text).plan.unwrap();
-        let this = Inputs::new(&plan.families[0]);
-        let next = Inputs { version: "99.0.0", ..this };
-        assert_ne!(this.family_digest(), next.family_digest());
-        assert_ne!(this.chart_page_digest(1), next.chart_page_digest(1));
-        assert_ne!(this.page_digest((1, 1), &[], &[]), next.page_digest((1, 1), &[], &[]));
+        let current = Inputs::new(&plan.families[0]);
+        let next = Inputs { version: "99.0.0", ..current };
+        assert_ne!(current.family_digest(), next.family_digest());
+        assert_ne!(current.chart_page_digest(1), next.chart_page_digest(1));
+        assert_ne!(current.page_digest((1, 1), &[], &[]), next.page_digest((1, 1), &[], &[]));
     }
 }

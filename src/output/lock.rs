@@ -1,3 +1,5 @@
+//! Locks a folder against other runs.
+
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,12 +9,11 @@ use same_file::Handle;
 use super::Error;
 use crate::record::LOCK_FILE_NAME;
 
-/// A folder that no other run writes to as long as this lives.
+/// A lock on a folder: no other run writes to it until this is dropped.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
-    /// The lock is on the open file, so that it ends with the process however that ends; one that is left behind is
-    /// no lock.
+    /// The lock is on the open file, so it ends with the process, however that ends; a file left behind locks nothing.
     _file: File,
 }
 
@@ -20,7 +21,7 @@ impl Lock {
     /// Locks a folder.
     ///
     /// # Errors
-    /// Another run that has locked it; a lock that cannot be written.
+    /// Another run has locked the folder; the lock file cannot be written.
     pub fn acquire(folder: &Path) -> Result<Lock, Error> {
         let path = folder.join(LOCK_FILE_NAME);
         let failed = |source: io::Error| Error::Write { path: path.clone(), source };
@@ -29,15 +30,15 @@ impl Lock {
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => return Err(Error::Busy { folder: folder.to_owned() }),
-                // There are file systems without locks, and no other way to lock them.
+                // Some file systems have no locks; runs there are not protected from one another.
                 Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(failed(error)),
             }
-            // Between our opening it and locking it, another run may have ended and removed it: then what is locked is
-            // no longer the file that the next run will find.
+            // Another run may have ended and removed the file between our opening and locking it. The locked file is
+            // then not the one that the next run will open.
             let locked = file.try_clone().and_then(Handle::from_file).map_err(failed)?;
             match Handle::from_path(&path) {
-                Ok(there) if there == locked => return Ok(Lock { path, _file: file }),
+                Ok(current) if current == locked => return Ok(Lock { path, _file: file }),
                 Ok(_) => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(failed(error)),
@@ -48,8 +49,8 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Removed while it is still locked: whoever opened it before finds that it is gone. Where it cannot be removed
-        // it does no harm.
+        // The file is removed while it is still locked, so a run that opened it before notices that it is gone. A file
+        // that cannot be removed does no harm.
         let _ = fs::remove_file(&self.path);
     }
 }

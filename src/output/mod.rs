@@ -1,5 +1,6 @@
-//! Runs a [`Plan`]: names the files, and writes each whole or not at all; what is there already it leaves alone.
+//! Writes the atlas of a [`Plan`]: names the files, writes each atomically, and keeps those that are up to date.
 
+#[cfg(feature = "pdf")]
 mod book;
 mod error;
 mod family;
@@ -26,46 +27,46 @@ use coupler_drawing::render::Format;
 use journal::Journal;
 use lock::Lock;
 
-/// What is to be built of a plan.
+/// How an atlas is written.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The formats of all families, in place of their own.
     pub formats: Option<Vec<Format>>,
-    /// The families to build; all where empty. Those left out keep their files and their record.
+    /// The ids of the families to write; all if empty. The others keep their files and their records.
     pub only: Vec<String>,
-    /// Whether to draw also what is there already as it would be drawn.
+    /// Whether to draw pages again that are up to date.
     pub force: bool,
-    /// Whoever makes this true ends the run as soon as the pages are whole that are being drawn.
+    /// Set to true to end the run as soon as the pages being drawn are finished.
     pub interrupt: Arc<AtomicBool>,
 }
 
-/// Something that happened while building.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
-    /// A family of so many cells on so many pages is begun.
+    /// A family, or the book, is begun.
     Begin {
-        /// Its id.
+        /// Its id, or `book`.
         family: &'a str,
-        /// Its pages.
+        /// The number of its pages.
         pages: usize,
     },
-    /// A page is done.
+    /// A page is finished.
     Page,
-    /// A family is done.
+    /// A family is finished.
     End {
-        /// What there is of it.
+        /// Its record.
         record: &'a FamilyRecord,
-        /// How many of its pages were drawn; none where nothing of it was even solved, for nothing has changed.
+        /// The number of pages drawn; `None` if nothing has changed and none of its cells was solved.
         drawn: Option<usize>,
     },
-    /// The book is done.
+    /// The book is finished.
     Book {
-        /// What there is of it.
+        /// Its record.
         record: &'a BookRecord,
-        /// Whether it was made, for something in it has changed.
+        /// Whether it was written, because something in it has changed.
         is_drawn: bool,
     },
-    /// A cell was not assembled, or not over the whole range asked for.
+    /// A cell could not be assembled, or not over the whole requested range.
     Shortfall {
         /// The family's id.
         family: &'a str,
@@ -74,47 +75,49 @@ pub enum Event<'a> {
         /// Why.
         reason: &'a str,
     },
-    /// The record of an earlier run cannot be used: everything is drawn, and nothing removed.
+    /// The record of an earlier run cannot be used: everything is drawn, and nothing is removed.
     UnusableRecord {
-        /// The record.
+        /// The file of the record.
         record: &'a Path,
         /// Why.
         error: &'a ReadError,
     },
 }
 
-/// Builds a plan into a folder, and tells what happens on the way.
+/// Writes the atlas of a plan into a folder, and reports progress.
 ///
-/// What an earlier run left there stays as it is where it would come out the same: its record says what it was made
-/// from. What that run wrote and no longer belongs is removed; what it did not write never is.
+/// Files of an earlier run are kept if they are up to date according to its record. Files which that run wrote and which
+/// no longer belong to the atlas are removed; other files never are.
 ///
-/// Every file is written under another name and renamed, `run.json` last: whatever goes wrong, each file in the
-/// folder is whole, old or new, and the record says no more than what is so.
+/// Every file is written under a temporary name and renamed, `run.json` last. Whatever goes wrong, each file in the folder
+/// is complete, old or new, and the record claims nothing that is not true.
 ///
 /// # Errors
-/// A file that cannot be written; a record of an earlier run that is needed and cannot be read, or of another format;
-/// another run into the same folder; an interruption. What is finished is then recorded, and the next run goes on from there.
+/// A file cannot be written; the record of an earlier run is needed and cannot be read, or has another format; another run
+/// writes to the same folder; the run is interrupted. Finished files are recorded, and the next run continues from there.
 pub fn write_atlas(
     plan: &Plan,
     output: &Path,
     options: &Options,
-    tell: &mut dyn FnMut(Event),
+    report: &mut dyn FnMut(Event),
 ) -> Result<RunRecord, Error> {
     files::create_folder(output)?;
     let _lock = Lock::acquire(output)?;
-    let is_asked = |planned: &&PlannedFamily| options.only.is_empty() || options.only.contains(&planned.family.id);
-    // Nothing is touched in a folder of another format.
-    let earlier = previous_run::read(output, !options.only.is_empty(), tell)?;
+    let is_selected = |planned: &&PlannedFamily| options.only.is_empty() || options.only.contains(&planned.family.id);
+    // A folder of another format is left untouched.
+    let earlier = previous_run::read(output, !options.only.is_empty(), report)?;
     files::remove_temporary_files(output);
     let mut journal = Journal::open(plan, output, earlier);
-    for planned in plan.families.iter().filter(is_asked) {
+    for planned in plan.families.iter().filter(is_selected) {
         check_interrupt(&options.interrupt)?;
-        family::write((plan, planned), output, options, &mut journal, tell)?;
+        family::write((plan, planned), output, options, &mut journal, report)?;
     }
     if options.only.is_empty() {
         journal.remove_unplanned_families(output)?;
     }
-    book::write(plan, output, options, &mut journal, tell)?;
+    // A build without PDF leaves the book of another as it is.
+    #[cfg(feature = "pdf")]
+    book::write(plan, output, options, &mut journal, report)?;
     journal.write_gallery(output)?;
     journal.close()
 }
@@ -123,16 +126,16 @@ fn check_interrupt(interrupt: &AtomicBool) -> Result<(), Error> {
     if interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
 }
 
-/// A warning for each family whose `where` keeps nothing: found by a sweep, or, of what was built, in its record.
-pub fn empty_family_warnings(plan: &Plan, built: Option<&RunRecord>) -> Vec<Problem> {
-    let kept = |planned: &PlannedFamily| match built {
+/// Warns of each family whose `where` keeps no cell: from the record of a run, or by a sweep if there is none.
+pub fn empty_family_warnings(plan: &Plan, record: Option<&RunRecord>) -> Vec<Problem> {
+    let kept = |planned: &PlannedFamily| match record {
         None => Some(sweep::kept_cells(&planned.family).len()),
         Some(run) => run.families.iter().find(|record| record.id == planned.family.id).map(|record| record.kept),
     };
     let warning = |planned: &PlannedFamily| {
         let span = planned.filter_span.clone()?;
         let message = format!("`where` keeps none of the {} cells", planned.family.cell_count());
-        let problem = Problem::warning(span, message).with_help("loosen the condition, or leave it out");
+        let problem = Problem::warning(span, message).with_help("relax the condition, or leave it out");
         (kept(planned) == Some(0)).then_some(problem)
     };
     plan.families.iter().filter_map(warning).collect()

@@ -1,4 +1,4 @@
-//! The tables and pages of a family, rendered and written: those pages that are not there yet as they would be.
+//! Renders the tables and pages of a family, and writes the pages that are not up to date.
 
 use std::sync::atomic::AtomicBool;
 
@@ -12,28 +12,28 @@ use coupler_curves::exchange::PointTable;
 use coupler_curves::solve::{SolvedCell, Status};
 use coupler_drawing::render::{self, PageFormat};
 
-/// A page in each format.
+/// The files of a page, one for each format.
 pub(super) struct PageFiles {
-    /// What is recorded of its files.
+    /// The records of its files.
     pub files: Vec<FileRecord>,
     /// Whether any of them was drawn.
     pub is_drawn: bool,
-    /// What is where on it, for the gallery.
+    /// The places of its cells, for the gallery.
     pub gallery_data: String,
 }
 
-/// Rows of the tables, and what is counted of their cells.
+/// The rows of some cells in the tables, and their counts.
 pub(super) struct TableRows {
     pub points: Vec<u8>,
     pub cells: Vec<u8>,
-    /// The same for the gallery.
+    /// The rows in the gallery's script.
     pub gallery_data: String,
     pub curve_count: usize,
     pub curves_left_out: usize,
     pub shortfalls: Vec<(usize, String)>,
 }
 
-/// How the tables and pages of a family are made, on any number of threads.
+/// Renders and writes the output of a family; used by all worker threads.
 #[derive(Clone, Copy)]
 pub(super) struct OutputSink<'a> {
     pub composer: Composer<'a>,
@@ -41,9 +41,9 @@ pub(super) struct OutputSink<'a> {
     pub inputs: Inputs<'a>,
     pub tables: (PointTable<'a>, CellTable<'a>),
     pub script: FamilyScript<'a>,
-    /// What is said of the files.
+    /// The records of the files.
     pub registry: &'a FileRegistry,
-    /// Becomes true when no more pages are to be begun.
+    /// Set to true when no more pages are to be begun.
     pub interrupt: &'a AtomicBool,
 }
 
@@ -60,7 +60,7 @@ impl Sink for OutputSink<'_> {
             self.tables.1.append_rows(solved, &mut cells);
         }
         let shortfall = |s: &SolvedCell| {
-            Some((s.cell.number, s.motion.incomplete_reason.clone()?)).filter(|_| s.status() != Status::Ok)
+            Some((s.cell.number, s.motion.assembly_error.as_ref()?.to_string())).filter(|_| s.status() != Status::Ok)
         };
         Ok(TableRows {
             points,
@@ -72,28 +72,30 @@ impl Sink for OutputSink<'_> {
         })
     }
 
-    /// A page in each format, drawn where it is not there as it would be.
-    fn receive_page(&self, leaf: PageJob) -> Result<PageFiles, Error> {
+    /// Draws a page in each format, except those that are up to date.
+    fn receive_page(&self, job: PageJob) -> Result<PageFiles, Error> {
         check_interrupt(self.interrupt)?;
-        let Composer { plan, planned, page_count: of } = self.composer;
-        let inputs = &match leaf.content {
-            PageContent::Cells { cells, curves: shown } => self.inputs.page_digest((leaf.number, of), cells, shown),
-            PageContent::Charts => self.inputs.chart_page_digest(leaf.number),
+        let Composer { plan, planned, page_count } = self.composer;
+        let inputs = &match job.content {
+            PageContent::Cells { cells, curves: shown } => {
+                self.inputs.page_digest((job.number, page_count), cells, shown)
+            }
+            PageContent::Charts => self.inputs.chart_page_digest(job.number),
         };
-        let named = |&format: &PageFormat| (format, page_file_name(&planned.family.id, leaf.number, format));
-        let names: Vec<(PageFormat, String)> = self.formats.iter().map(named).collect();
+        let with_name = |&format: &PageFormat| (format, page_file_name(&planned.family.id, job.number, format));
+        let names: Vec<(PageFormat, String)> = self.formats.iter().map(with_name).collect();
         let kept: Vec<Option<FileRecord>> =
             names.iter().map(|(_, name)| self.registry.reuse_unchanged(name, inputs)).collect();
         if names.is_empty() {
             return Ok(PageFiles { files: Vec::new(), is_drawn: false, gallery_data: String::new() });
         }
-        let page = leaf.number;
-        let scene = leaf.compose();
+        let page = job.number;
+        let scene = job.compose();
         let shown = self.script.page(page, &scene);
         if kept.iter().all(Option::is_some) {
             return Ok(PageFiles { files: kept.into_iter().flatten().collect(), is_drawn: false, gallery_data: shown });
         }
-        // An image is recorded by its SVG, too.
+        // The record of an image has the digest of the SVG, so that is always rendered.
         let svg = render::svg(&scene, plan.text_mode);
         let draw = |((format, name), kept): ((PageFormat, String), Option<FileRecord>)| match (kept, format) {
             (Some(kept), _) => Ok(kept),
@@ -110,7 +112,7 @@ impl Sink for OutputSink<'_> {
         Ok(PageFiles { files, is_drawn: true, gallery_data: shown })
     }
 
-    /// The pixels of an image, and what they are encoded to.
+    /// The bytes of the pixels of an image.
     fn bytes_per_page(&self) -> usize {
         let plan = self.composer.plan;
         let pixels = plan.page.paper.width * plan.page.paper.height * (plan.dpi / 25.4) * (plan.dpi / 25.4);

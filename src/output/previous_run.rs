@@ -1,5 +1,4 @@
-//! What an earlier run left in a folder, as its record tells. A record is a file that anyone may have written: nothing
-//! is made of it but what this program could have put there.
+//! Reads the record of an earlier run. The file is not trusted: entries that this program cannot have written are dropped.
 
 use std::io;
 use std::path::Path;
@@ -13,30 +12,30 @@ use crate::record::{FamilyRecord, FileRecord, ReadError, RunRecord};
 use coupler_drawing::page::book::Volume;
 use coupler_drawing::render::PageFormat;
 
-/// The tables of a family, which every one has, and its data for the gallery.
+/// The files that every family has: its tables, and its data for the gallery.
 const DATA_FILES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT_FILE];
 
-/// The number of a page, from its name.
+/// The page number in the name of a page's file; `None` if it is not such a name.
 pub(super) fn parse_page_number(family: &str, name: &str, format: PageFormat) -> Option<usize> {
     let number = name.strip_prefix(family)?.strip_prefix('-')?.strip_suffix(format.name())?.strip_suffix('.')?;
     let is_number = number.len() >= 3 && number.bytes().all(|b| b.is_ascii_digit());
     if is_number { number.parse().ok() } else { None }
 }
 
-/// The name of the book, or of a volume of it.
+/// The file name of a volume, or of the book if it has only one.
 pub(super) fn volume_name(volume: &Volume) -> String {
-    let Volume { number, volume_count: of, .. } = *volume;
-    match of.to_string().len() {
-        _ if of == 1 => "atlas.pdf".to_owned(),
+    let Volume { number, volume_count, .. } = *volume;
+    match volume_count.to_string().len() {
+        _ if volume_count == 1 => "atlas.pdf".to_owned(),
         digits => format!("atlas-{number:0digits$}.pdf"),
     }
 }
 
-/// The record of an earlier run, if there was one. Where other families are to stay as they are it must be a good one.
+/// Reads the record of an earlier run, if there is one. It is needed if the run leaves some families as they are.
 ///
 /// # Errors
-/// A record that is needed and cannot be used; one of another format, which is not to be written over.
-pub(super) fn read(output: &Path, is_needed: bool, tell: &mut dyn FnMut(Event)) -> Result<Option<RunRecord>, Error> {
+/// The record is needed and cannot be used, or has another format and must not be overwritten.
+pub(super) fn read(output: &Path, is_needed: bool, report: &mut dyn FnMut(Event)) -> Result<Option<RunRecord>, Error> {
     let path = output.join("run.json");
     match RunRecord::read(&path) {
         Ok(run) => Ok(Some(sanitize(run))),
@@ -44,13 +43,13 @@ pub(super) fn read(output: &Path, is_needed: bool, tell: &mut dyn FnMut(Event)) 
         Err(source @ ReadError::UnsupportedFormat { .. }) => Err(Error::Format { path, source }),
         Err(source) if is_needed => Err(Error::Record { path, source }),
         Err(error) => {
-            tell(Event::UnusableRecord { record: &path, error: &error });
+            report(Event::UnusableRecord { record: &path, error: &error });
             Ok(None)
         }
     }
 }
 
-/// A record without what is no name of a file in a family's folder.
+/// Drops repeated or invalid families from a record, and files whose names this program does not use.
 fn sanitize(mut run: RunRecord) -> RunRecord {
     let is_slug = |id: &str| {
         let is_plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
@@ -73,21 +72,20 @@ fn sanitize(mut run: RunRecord) -> RunRecord {
     run
 }
 
-/// Whether this program gives such a name to a file of a family.
+/// Whether a file of a family can have this name.
 fn is_family_file_name(family: &str, name: &str) -> bool {
     DATA_FILES.contains(&name)
         || PageFormat::ALL.into_iter().any(|format| parse_page_number(family, name, format).is_some())
 }
 
-/// Whether this program gives such a name to a volume.
+/// Whether a volume can have this file name.
 fn is_volume_file_name(name: &str) -> bool {
     let number = name.strip_prefix("atlas-").and_then(|rest| rest.strip_suffix(".pdf"));
     let is_number = |number: &str| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
     name == "atlas.pdf" || number.is_some_and(is_number)
 }
 
-/// The record of a family all of whose files are as they would be if they were made from these inputs now: those it
-/// has in these formats.
+/// The record of a family, restricted to these formats; `None` unless all its files are intact and made from these inputs.
 pub(super) fn unchanged_record(
     earlier: &FamilyRecord,
     inputs: &str,
@@ -104,7 +102,7 @@ pub(super) fn unchanged_record(
     let pages = (1..=earlier.pages).flat_map(page).map(|(page, format)| {
         known.get(page_file_name(&earlier.id, page, format).as_str()).filter(|file| file.inputs_sha256.is_some())
     });
-    // A record that has not all of them ends this at the first that it has not.
+    // `collect` stops at the first file that is not in the record.
     let expected: Option<Vec<&FileRecord>> = tables.chain(pages).map(|file| file.copied()).collect();
     let expected = expected?;
     let all_intact = expected.par_iter().all(|file| files::is_intact(folder, file));

@@ -1,4 +1,4 @@
-//! What the pages of a family show.
+//! Composes the pages of a family.
 
 use std::cell::LazyCell;
 use std::rc::Rc;
@@ -12,22 +12,15 @@ use coupler_drawing::page::{
 };
 use coupler_drawing::scene::Scene;
 
-/// A cell with its lines.
+/// The panel of a cell, with its caption and note.
 fn panel<'s>(family: &Family, solved: &'s SolvedCell) -> Panel<'s> {
     let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
-    Panel {
-        link_inks: Vec::new(),
-        caption,
-        note,
-        facts: page::cell_facts(solved),
-        solved_cell: solved,
-        pose: PoseChoice::Clearest,
-    }
+    Panel::new(solved).with_caption(caption).with_note(note).with_facts(page::cell_facts(solved))
 }
 
-/// What the links of a cell are called.
+/// The labels of the links of a cell: the names of their lengths.
 fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
-    let joint = |name: &str| solved.linkage.joints.iter().position(|joint| joint.name == name);
+    let joint = |name: &str| solved.linkage.find_joint(name);
     let label = |(ends, text): ([&str; 2], String)| {
         let [from, to] = ends.map(joint);
         Some(LinkLabel { joints: [from?, to?], text })
@@ -35,19 +28,19 @@ fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
     family.template.link_length_names().into_iter().filter_map(label).collect()
 }
 
-/// What the pages of a family show, before they are rendered.
+/// Composes the pages of a family as scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct Composer<'a> {
-    /// The plan the family is of.
+    /// The plan of the atlas.
     pub plan: &'a Plan,
     /// The family.
     pub planned: &'a PlannedFamily,
-    /// How many pages there are.
+    /// The number of pages of the family.
     pub page_count: usize,
 }
 
 impl Composer<'_> {
-    /// A page of panels; pages are counted from 1.
+    /// Composes a page of panels; pages are counted from 1.
     pub fn panel_page(&self, page: usize, solved: &[SolvedCell]) -> Scene {
         let Composer { plan, planned, .. } = *self;
         let sheet = PanelPage {
@@ -58,8 +51,8 @@ impl Composer<'_> {
         page::compose_panels(&sheet, &plan.page)
     }
 
-    /// The pages of a coupler grid, of which the first has this number: for each, its number, the places of the curves on
-    /// it, and how it is composed.
+    /// The coupler-grid pages of a cell, the first of which has the number `page`. Each comes with its number, the indices
+    /// of its curves, and a function that composes it.
     pub fn coupler_grid_pages<'s>(
         &'s self,
         page: usize,
@@ -67,30 +60,30 @@ impl Composer<'_> {
     ) -> impl Iterator<Item = (usize, Vec<usize>, impl FnOnce() -> Scene)> {
         let Composer { plan, planned, .. } = *self;
         let labels = Rc::new(link_labels(&planned.family, solved));
-        // One pose for all pages of a cell, sought for the first that is drawn.
-        let view =
+        // All pages of a cell have the same pose; it is computed when the first of them is drawn.
+        let pose =
             Rc::new(LazyCell::new(|| page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed)));
         (page..).zip(curves_by_page(solved)).map(move |(page, shown)| {
-            let (labels, view, places) = (Rc::clone(&labels), Rc::clone(&view), shown.clone());
+            let (labels, pose, curves) = (Rc::clone(&labels), Rc::clone(&pose), shown.clone());
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
-                let panel = Panel { pose: PoseChoice::clone(&view), ..panel(&planned.family, solved) };
+                let panel = panel(&planned.family, solved).with_pose(PoseChoice::clone(&pose));
                 page::compose_coupler_grid(
                     &CouplerGridPage { heading, panel, curve_indices: shown, labels: &labels },
                     &plan.page,
                 )
             };
-            (page, places, compose)
+            (page, curves, compose)
         })
     }
 
-    /// A page of charts.
-    pub fn chart_page(&self, page: usize, chart: &Chart, gathered: &ChartData) -> Scene {
+    /// Composes a page of charts.
+    pub fn chart_page(&self, page: usize, chart: &Chart, data: &ChartData) -> Scene {
         let Composer { plan, planned, .. } = *self;
         let first = (page - 1) * planned.layout.cells_per_page();
         let mut source = vec![planned.source.clone()];
-        if gathered.left_out_count > 0 {
-            let ChartData { curve_count: curves, left_out_count: left_out, .. } = gathered;
+        if data.left_out_count > 0 {
+            let ChartData { curve_count: curves, left_out_count: left_out, .. } = data;
             source.push(format!("only the first {} of {curves} curves are drawn", curves - left_out));
         }
         source.retain(|part| !part.is_empty());
@@ -99,12 +92,12 @@ impl Composer<'_> {
             layout: planned.layout,
             chart,
             quantity_range: first..(first + planned.layout.cells_per_page()).min(chart.y.len()),
-            series: &gathered.series,
+            series: &data.series,
         };
         page::compose_charts(&sheet, &plan.page)
     }
 
-    /// A plate of one cell for a title page: of a coupler grid, with the curves of one page.
+    /// The frontispiece of a book: a single panel of a cell.
     pub fn frontispiece<'s>(&'s self, solved: &'s SolvedCell) -> PanelPage<'s> {
         let heading = self.heading(1, String::new());
         PanelPage {
@@ -115,27 +108,24 @@ impl Composer<'_> {
     }
 
     fn heading(&self, page: usize, source: String) -> Heading<'_> {
-        let Composer { plan, planned, page_count: of } = *self;
+        let Composer { plan, planned, page_count } = *self;
         let Family { id, title, names, .. } = &planned.family;
-        Heading {
-            atlas_title: &plan.title,
-            family_id: id,
-            family_title: title,
-            source,
-            symbols: names,
-            page,
-            page_count: of,
-        }
+        Heading::new(title)
+            .with_family_id(id)
+            .with_atlas_title(&plan.title)
+            .with_source(source)
+            .with_symbols(names)
+            .with_page(page, page_count)
     }
 }
 
-/// The curves of a cell, by the pages of a coupler grid they are on; a cell that is not assembled has a page that says so.
+/// The indices of the curves on each coupler-grid page of a cell; a cell without curves has one page without curves.
 pub fn curves_by_page(solved: &SolvedCell) -> Vec<Vec<usize>> {
     let shown = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
     if shown.is_empty() { vec![Vec::new()] } else { shown }
 }
 
-/// Where the linkage comes from, and how a page is to be read.
+/// The source line of a page: where the linkage comes from, and how to read the dashes and scale bars.
 fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
     let dashes = match planned.family.template.is_driven_by_length() {
         true => "a dash and its gap span equal lengths of the actuator".to_owned(),

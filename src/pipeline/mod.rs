@@ -1,5 +1,5 @@
-//! The tables and pages of a family as they come off the press, in order: [`crate::output`] writes them, and
-//! [`crate::check`] holds them against those that were written.
+//! Produces the tables and pages of a family in order: [`crate::output`] writes them, and [`crate::check`] compares them
+//! with recorded ones.
 
 mod composer;
 mod pagination;
@@ -17,23 +17,23 @@ use coupler_drawing::page::Layout;
 use coupler_drawing::render::PageFormat;
 use coupler_drawing::scene::Scene;
 
-/// The name of the file of a page.
+/// The file name of a page.
 pub fn page_file_name(family: &str, page: usize, format: PageFormat) -> String {
     format!("{family}-{page:03}.{}", format.name())
 }
 
-/// A family that is to be printed.
+/// Solves the cells of a family and composes its pages.
 #[derive(Debug)]
 pub struct FamilyPipeline<'a> {
-    /// What its pages show.
+    /// Composes its pages.
     pub composer: Composer<'a>,
     /// Which cells are shown, and in what order.
     pub arrangement: CellSelection,
-    /// How they are put on pages.
+    /// How the cells are distributed over pages.
     pub pagination: Pagination,
 }
 
-/// A page that is to be composed.
+/// A page to be composed.
 pub struct PageJob<'a> {
     /// Its number, from 1.
     pub number: usize,
@@ -45,14 +45,14 @@ pub struct PageJob<'a> {
 /// What is on a page.
 #[derive(Clone, Copy, Debug)]
 pub enum PageContent<'a> {
-    /// Curves of some cells.
+    /// The curves of some cells.
     Cells {
         /// The cells.
         cells: &'a [SolvedCell],
-        /// Of a coupler grid the places of the curves; otherwise all curves are shown, and nothing is here.
+        /// On a page of a coupler grid, the indices of its curves; empty on other pages, which show all curves.
         curves: &'a [usize],
     },
-    /// Charts, on which every cell of the family may count.
+    /// Charts, which may show every cell of the family.
     Charts,
 }
 
@@ -63,127 +63,133 @@ impl PageJob<'_> {
     }
 }
 
-/// What is done with what comes off the press, on all threads.
+/// Receives solved cells and composed pages; called on every worker thread.
 pub trait Sink: Sync {
-    /// What comes of a group of cells.
+    /// The result for a group of cells.
     type CellsOutput: Send;
-    /// What comes of a page.
+    /// The result for a page.
     type PageOutput: Send;
-    /// Why it stops.
+    /// The error that ends the run.
     type Error: Send;
 
-    /// Takes the next cells, in the order of their numbers.
+    /// Processes a group of cells, which are in the order of their numbers.
     ///
     /// # Errors
-    /// Whatever ends the run.
+    /// Any error ends the run.
     fn receive_cells(&self, solved: &[SolvedCell]) -> Result<Self::CellsOutput, Self::Error>;
 
-    /// Takes a page.
+    /// Processes a page.
     ///
     /// # Errors
-    /// Whatever ends the run.
-    fn receive_page(&self, leaf: PageJob) -> Result<Self::PageOutput, Self::Error>;
+    /// Any error ends the run.
+    fn receive_page(&self, job: PageJob) -> Result<Self::PageOutput, Self::Error>;
 
-    /// About how many bytes it takes to work on a page.
+    /// The approximate memory for processing a page, in bytes.
     fn bytes_per_page(&self) -> usize;
 }
 
-/// What has come off the press.
+/// The results of a [`Sink`].
 #[derive(Debug)]
 pub enum Output<C, P> {
-    /// Cells, in the order of their numbers.
+    /// The result for cells, in the order of their numbers.
     Cells(C),
-    /// A page, in the order of pages.
+    /// The result for a page, in the order of pages.
     Page(P),
 }
 
-/// What comes of a group of cells, and what charts take of them.
-type GroupOutput<H> = (Option<<H as Sink>::CellsOutput>, Vec<<H as Sink>::PageOutput>, Vec<ChartSample>);
+/// The results for a group of cells and its pages, and the samples that charts take from it.
+type GroupOutput<S> = (Option<<S as Sink>::CellsOutput>, Vec<<S as Sink>::PageOutput>, Vec<ChartSample>);
 
 impl<'a> FamilyPipeline<'a> {
-    /// The press for a family; nothing where `stop` becomes true while its cells are arranged.
+    /// Prepares the pipeline of a family; `None` if `stop` becomes true while its cells are selected.
     pub fn new(plan: &'a Plan, planned: &'a PlannedFamily, stop: &AtomicBool) -> Option<FamilyPipeline<'a>> {
         let counts_points = planned.layout == Layout::CouplerGrid;
         let arrangement = sweep::select_cells(&planned.family, counts_points, stop)?;
-        let setting = Pagination::new(planned, &arrangement);
-        let composer = Composer { plan, planned, page_count: setting.page_count };
-        Some(FamilyPipeline { composer, arrangement, pagination: setting })
+        let pagination = Pagination::new(planned, &arrangement);
+        let composer = Composer { plan, planned, page_count: pagination.page_count };
+        Some(FamilyPipeline { composer, arrangement, pagination })
     }
 
-    /// Solves and measures all cells and hands them and their pages to `hand` on all threads, and what comes of them, in
-    /// order, to `take` on the thread that calls.
+    /// Solves and measures all cells, passes them and their pages to `sink` on all threads, and passes the results in order
+    /// to `receive` on the calling thread.
     ///
     /// # Errors
-    /// The first error of either.
-    pub fn run<H: Sink>(
+    /// The first error of `sink` or `receive`.
+    pub fn run<S: Sink>(
         &self,
-        hand: &H,
-        mut take: impl FnMut(Output<H::CellsOutput, H::PageOutput>) -> Result<(), H::Error>,
-    ) -> Result<(), H::Error> {
+        sink: &S,
+        mut receive: impl FnMut(Output<S::CellsOutput, S::PageOutput>) -> Result<(), S::Error>,
+    ) -> Result<(), S::Error> {
         let planned = self.composer.planned;
         let chart = planned.chart.as_ref();
         let is_sorted = planned.family.sort.is_some();
-        let mut gathering = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
-        let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<H>, H::Error> {
-            let cells = hand.receive_cells(&solved)?;
-            let pages = if chart.is_none() && !is_sorted { self.send_pages(group, &solved, hand)? } else { Vec::new() };
-            let taken = chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(solved)));
-            Ok((Some(cells), pages, taken.collect()))
+        let mut builder = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
+        let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<S>, S::Error> {
+            let cells = sink.receive_cells(&solved)?;
+            let pages = if chart.is_none() && !is_sorted { self.send_pages(group, &solved, sink)? } else { Vec::new() };
+            let samples = chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(solved)));
+            Ok((Some(cells), pages, samples.collect()))
         };
-        let mut off = |made: Result<GroupOutput<H>, H::Error>| {
-            let (cells, pages, taken) = made?;
-            if let Some(gathering) = &mut gathering {
-                taken.into_iter().for_each(|taken| gathering.add(taken));
+        let mut deliver = |output: Result<GroupOutput<S>, S::Error>| {
+            let (cells, pages, samples) = output?;
+            if let Some(builder) = &mut builder {
+                samples.into_iter().for_each(|sample| builder.add(sample));
             }
-            cells.into_iter().try_for_each(|cells| take(Output::Cells(cells)))?;
-            pages.into_iter().try_for_each(|page| take(Output::Page(page)))
+            cells.into_iter().try_for_each(|cells| receive(Output::Cells(cells)))?;
+            pages.into_iter().try_for_each(|page| receive(Output::Page(page)))
         };
-        sweep::process_groups(&planned.family, self.cell_groups(&self.arrangement.kept, hand, None), make, &mut off)?;
+        sweep::process_groups(
+            &planned.family,
+            self.cell_groups(&self.arrangement.kept, sink, None),
+            make,
+            &mut deliver,
+        )?;
         if chart.is_none() && is_sorted {
-            // The order of the tables is that of the cells, the order of pages their own.
-            let wanted = measures_used_on_pages(&planned.family);
-            let groups = self.cell_groups(&self.arrangement.page_order, hand, Some(&wanted));
+            // Tables are in the order of the cells, but pages are sorted.
+            let measures = measures_used_on_pages(&planned.family);
+            let groups = self.cell_groups(&self.arrangement.page_order, sink, Some(&measures));
             let make =
-                |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, hand)?, Vec::new()));
-            sweep::process_groups(&planned.family, groups, make, &mut off)?;
+                |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, sink)?, Vec::new()));
+            sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
         }
-        match (chart, gathering) {
-            (Some(chart), Some(gathering)) => self.send_charts(chart, gathering, hand, &mut take),
+        match (chart, builder) {
+            (Some(chart), Some(builder)) => self.send_charts(chart, builder, sink, &mut receive),
             _ => Ok(()),
         }
     }
 
-    fn cell_groups<'c>(&self, cells: &'c [usize], hand: &impl Sink, wanted: Option<&'c [bool]>) -> CellGroups<'c> {
+    /// The groups in which cells are processed.
+    fn cell_groups<'c>(&self, cells: &'c [usize], sink: &impl Sink, measures: Option<&'c [bool]>) -> CellGroups<'c> {
         CellGroups {
             cells,
             size: self.pagination.group_size,
-            work_bytes: hand.bytes_per_page(),
-            requested_measures: wanted,
+            work_bytes: sink.bytes_per_page(),
+            requested_measures: measures,
         }
     }
 
-    /// The pages of a group of cells.
-    fn send_pages<H: Sink>(
+    /// Passes the pages of a group of cells to the sink.
+    fn send_pages<S: Sink>(
         &self,
         group: usize,
         cells: &[SolvedCell],
-        hand: &H,
-    ) -> Result<Vec<H::PageOutput>, H::Error> {
+        sink: &S,
+    ) -> Result<Vec<S::PageOutput>, S::Error> {
         let page = self.pagination.first_page(group * self.pagination.group_size);
         match (self.composer.planned.layout, cells) {
             (Layout::CouplerGrid, [solved]) => {
-                let print = |(page, shown, compose): (usize, Vec<usize>, _)| {
-                    hand.receive_page(PageJob {
+                let send = |(page, shown, compose): (usize, Vec<usize>, _)| {
+                    sink.receive_page(PageJob {
                         number: page,
                         content: PageContent::Cells { cells, curves: &shown },
                         compose: Box::new(compose),
                     })
                 };
-                self.composer.coupler_grid_pages(page, solved).map(print).collect()
+                self.composer.coupler_grid_pages(page, solved).map(send).collect()
             }
             _ => {
                 let compose = Box::new(move || self.composer.panel_page(page, cells));
-                Ok(vec![hand.receive_page(PageJob {
+                Ok(vec![sink.receive_page(PageJob {
                     number: page,
                     content: PageContent::Cells { cells, curves: &[] },
                     compose,
@@ -192,17 +198,22 @@ impl<'a> FamilyPipeline<'a> {
         }
     }
 
-    fn send_charts<H: Sink>(
+    /// Passes the pages of charts to the sink.
+    fn send_charts<S: Sink>(
         &self,
         chart: &Chart,
-        gathering: ChartBuilder,
-        hand: &H,
-        take: &mut impl FnMut(Output<H::CellsOutput, H::PageOutput>) -> Result<(), H::Error>,
-    ) -> Result<(), H::Error> {
-        let gathered = gathering.build();
+        builder: ChartBuilder,
+        sink: &S,
+        receive: &mut impl FnMut(Output<S::CellsOutput, S::PageOutput>) -> Result<(), S::Error>,
+    ) -> Result<(), S::Error> {
+        let chart_data = builder.build();
         for page in 1..=self.pagination.page_count {
-            let compose = Box::new(|| self.composer.chart_page(page, chart, &gathered));
-            take(Output::Page(hand.receive_page(PageJob { number: page, content: PageContent::Charts, compose })?))?;
+            let compose = Box::new(|| self.composer.chart_page(page, chart, &chart_data));
+            receive(Output::Page(sink.receive_page(PageJob {
+                number: page,
+                content: PageContent::Charts,
+                compose,
+            })?))?;
         }
         Ok(())
     }

@@ -1,49 +1,51 @@
+//! Distributes the cells of a family over pages.
+
 use crate::manifest::PlannedFamily;
 use crate::sweep::CellSelection;
 use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure};
 use coupler_drawing::page::{self, Layout};
 
-/// Which measures it takes to draw the cells of a family on pages of their own.
+/// Which measures are needed to draw the pages of a family, by their indices in [`measure::ALL`].
 pub fn measures_used_on_pages(family: &Family) -> Vec<bool> {
-    let is_told = |(k, measure): (usize, &Measure)| {
-        let is_told =
+    let is_used = |(k, measure): (usize, &Measure)| {
+        let is_used =
             page::PAGE_MEASURES.contains(&measure.name) || family.filter_or_sort_uses(k) || family.captions_use(k);
-        is_told && family.is_computed[k]
+        is_used && family.is_computed[k]
     };
-    measure::ALL.iter().enumerate().map(is_told).collect()
+    measure::ALL.iter().enumerate().map(is_used).collect()
 }
 
-/// How the cells of a family are put on pages.
+/// How the cells of a family are distributed over pages.
 #[derive(Clone, Debug)]
 pub struct Pagination {
-    /// How many cells are worked on together: those of a page, or one with all its pages.
+    /// The number of cells processed together: those of a page, or one with all its pages.
     pub group_size: usize,
-    /// How many pages there are.
+    /// The number of pages.
     pub page_count: usize,
-    /// The numbers of the first pages of cells that have several.
+    /// The number of the first page of each cell, if cells have several pages; otherwise empty.
     first_pages: Vec<usize>,
 }
 
-/// How many cells charts take in at a time.
+/// The number of cells processed together for charts.
 const CHART_GROUP_SIZE: usize = 16;
 
 impl Pagination {
-    /// How those of a family are that are arranged so.
-    pub fn new(planned: &PlannedFamily, arrangement: &CellSelection) -> Pagination {
-        let kept = arrangement.kept.len();
-        let cells_to_a_page = planned.layout.cells_per_page();
-        let begins = match planned.layout {
-            Layout::CouplerGrid => first_pages(&arrangement.point_counts),
+    /// The pagination of a family with these selected cells.
+    pub fn new(planned: &PlannedFamily, selection: &CellSelection) -> Pagination {
+        let kept = selection.kept.len();
+        let cells_per_page = planned.layout.cells_per_page();
+        let starts = match planned.layout {
+            Layout::CouplerGrid => first_pages(&selection.point_counts),
             _ => Vec::new(),
         };
         let (size, pages) = match &planned.chart {
-            None if planned.layout == Layout::CouplerGrid => (1, begins.last().map_or(0, |end| end - 1)),
-            None => (cells_to_a_page, kept.div_ceil(cells_to_a_page)),
+            None if planned.layout == Layout::CouplerGrid => (1, starts.last().map_or(0, |end| end - 1)),
+            None => (cells_per_page, kept.div_ceil(cells_per_page)),
             Some(_) if kept == 0 => (CHART_GROUP_SIZE, 0),
-            Some(chart) => (CHART_GROUP_SIZE, chart.y.len().div_ceil(cells_to_a_page)),
+            Some(chart) => (CHART_GROUP_SIZE, chart.y.len().div_ceil(cells_per_page)),
         };
-        Pagination { group_size: size, page_count: pages, first_pages: begins }
+        Pagination { group_size: size, page_count: pages, first_pages: starts }
     }
 
     /// The first page of the k-th cell in the order of pages.
@@ -52,13 +54,13 @@ impl Pagination {
     }
 }
 
-/// The numbers of the first pages of cells with so many traced points, and the one after the last.
+/// The first page of each cell of a coupler grid, given the traced points of each, and the page after the last.
 fn first_pages(points: &[usize]) -> Vec<usize> {
     let mut next = 1;
-    let mut begins = vec![next];
+    let mut starts = vec![next];
     for points in points {
         next += points.div_ceil(Layout::POINTS_PER_PAGE).max(1);
-        begins.push(next);
+        starts.push(next);
     }
-    begins
+    starts
 }

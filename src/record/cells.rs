@@ -1,9 +1,11 @@
+//! The table `cells.csv`.
+
 use coupler_curves::exchange::{append_integer, append_number};
 use coupler_curves::family::Family;
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, Status};
 
-/// `cells.csv`: a row for each traced curve; a single one, without trace and circuit, for a cell that has no motion.
+/// `cells.csv`: a row for each traced curve, and one without trace and circuit for a cell that has no curves.
 #[derive(Clone, Copy, Debug)]
 pub struct CellTable<'a> {
     family: &'a Family,
@@ -15,7 +17,7 @@ impl<'a> CellTable<'a> {
         CellTable { family }
     }
 
-    /// The names of the columns.
+    /// The header line.
     pub fn header(self) -> String {
         let parameters = self.family.template.parameters.iter().map(|parameter| parameter.name.as_str());
         let measures = self.family.computed_measures().map(|(_, measure)| measure.name);
@@ -27,7 +29,7 @@ impl<'a> CellTable<'a> {
         String::from_utf8(rows.into_bytes()).unwrap_or_default()
     }
 
-    /// The rows of a cell.
+    /// Appends the rows of a cell.
     pub fn append_rows(self, solved: &SolvedCell, out: &mut Vec<u8>) {
         if solved.is_left_out() {
             return;
@@ -48,7 +50,7 @@ impl<'a> CellTable<'a> {
         rows.integer(curve.map(|curve| curve.circuit));
         self.family.parameter_values(&solved.cell).iter().for_each(|&value| rows.number(value));
         rows.field(solved.status().name().as_bytes());
-        rows.field(solved.motion.incomplete_reason.as_deref().unwrap_or_default().as_bytes());
+        rows.field(solved.reason().as_bytes());
         for (k, _) in self.family.computed_measures() {
             match curve.map(|curve| curve.values[k]) {
                 Some(Value::Number(value)) => rows.number(value),
@@ -60,20 +62,20 @@ impl<'a> CellTable<'a> {
     }
 }
 
-/// The cells of a `cells.csv` that were not assembled, or not over the whole range asked for, and why.
+/// Reads from a `cells.csv` the cells that could not be assembled, or not over the whole requested range, and why.
 pub fn read_unassembled_cells(file: impl std::io::Read) -> Vec<(usize, String)> {
     let mut reader = csv::Reader::from_reader(file);
     let headers = reader.headers().cloned().unwrap_or_default();
-    let place = |name: &str| headers.iter().position(|header| header == name);
-    let (Some(cell), Some(status), Some(reason)) = (place("cell"), place("status"), place("reason")) else {
+    let column = |name: &str| headers.iter().position(|header| header == name);
+    let (Some(cell), Some(status), Some(reason)) = (column("cell"), column("status"), column("reason")) else {
         return Vec::new();
     };
     let mut found: Vec<(usize, String)> = Vec::new();
-    // A line that cannot be read tells nothing.
+    // Lines that cannot be read are skipped.
     for row in reader.records().flatten() {
         let number = row.get(cell).and_then(|number| number.parse().ok());
         let falls_short = row.get(status) != Some(Status::Ok.name());
-        // A cell has a row for each of its curves.
+        // A cell may have several rows, one for each of its curves.
         if let Some(number) = number.filter(|number| falls_short && found.last().is_none_or(|(last, _)| last != number))
         {
             found.push((number, row.get(reason).unwrap_or_default().to_owned()));
@@ -82,16 +84,16 @@ pub fn read_unassembled_cells(file: impl std::io::Read) -> Vec<(usize, String)> 
     found
 }
 
-/// Lines of comma-separated values, quoted where they have to be.
+/// Writes lines of comma-separated values, quoted where necessary.
 struct CsvWriter {
     writer: csv::Writer<Vec<u8>>,
-    /// The digits of a number.
+    /// A buffer for the digits of a number.
     digits: Vec<u8>,
 }
 
 // Writing to memory cannot fail.
 impl CsvWriter {
-    /// Lines after those there are.
+    /// Appends lines to existing text.
     fn append_to(out: Vec<u8>) -> CsvWriter {
         CsvWriter { writer: csv::Writer::from_writer(out), digits: Vec::new() }
     }

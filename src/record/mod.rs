@@ -1,6 +1,6 @@
-//! What is recorded of a run: `points.csv`, `cells.csv` and `run.json`.
+//! The record of a run: `points.csv`, `cells.csv`, `run.json`, and the curves drawn in SVG pages.
 
-/// The name of the file by which a run keeps others from writing to its folder.
+/// The name of the file that a run locks, so that no other run writes to its folder.
 pub const LOCK_FILE_NAME: &str = ".coupler-atlas.lock";
 
 mod cells;

@@ -1,4 +1,6 @@
-/// Whether every chunk of a PNG is there and has the checksum it was written with.
+//! Checks the integrity of PNG images.
+
+/// Whether every chunk of a PNG is present and has its correct checksum.
 pub fn is_intact_png(bytes: &[u8]) -> bool {
     let chunks = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n");
     let mut rest = chunks.unwrap_or_default();
@@ -11,7 +13,7 @@ pub fn is_intact_png(bytes: &[u8]) -> bool {
     false
 }
 
-/// The kind and contents of the first chunk, and what follows it; nothing where it is cut short or not as it was written.
+/// Splits off the type and data of the first chunk; `None` if the chunk is incomplete or its checksum is wrong.
 fn read_chunk(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first_chunk()?;
     let (body, rest) = rest.split_at_checked((u32::from_be_bytes(*length) as usize).checked_add(4)?)?;

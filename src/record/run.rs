@@ -1,3 +1,5 @@
+//! The record of a run, `run.json`.
+
 use std::io::Read;
 use std::path::Path;
 
@@ -8,13 +10,13 @@ use sha2::{Digest, Sha256};
 /// The version of the format of `run.json`.
 pub const FORMAT_VERSION: u32 = 1;
 
-/// A record of more bytes, some millions of files, is none.
+/// The most bytes of a record, enough for some millions of files.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// `run.json`: what a run has written. No time, host, path or number of jobs, so that the same run has the same bytes.
+/// `run.json`: what a run has written. It has no time, host, path or number of threads, so equal runs have equal bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunRecord {
-    /// The version of this format.
+    /// The version of the format.
     pub format: u32,
     /// The program that wrote it.
     pub program: String,
@@ -24,7 +26,7 @@ pub struct RunRecord {
     pub title: String,
     /// The families, in the order of the manifest.
     pub families: Vec<FamilyRecord>,
-    /// The book, where there is one.
+    /// The book, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub book: Option<BookRecord>,
     /// The gallery's page.
@@ -32,91 +34,91 @@ pub struct RunRecord {
     pub gallery: Option<FileRecord>,
 }
 
-/// What was written of the book.
+/// The record of the book.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BookRecord {
-    /// SHA-256 of what it was made from; none while it is not finished.
+    /// SHA-256 of what it was made from; `None` while it is not finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inputs_sha256: Option<String>,
-    /// How many pages it has, with those that stand before and after those of the families.
+    /// The number of its pages, including front matter and index.
     pub pages: usize,
     /// Its volumes, in the atlas's folder.
     pub files: Vec<FileRecord>,
 }
 
-/// What was written of a family.
+/// The record of a family.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FamilyRecord {
     /// Its id, and the name of its folder.
     pub id: String,
     /// Its title.
     pub title: String,
-    /// The linkage.
+    /// The id of its linkage.
     pub linkage: String,
-    /// SHA-256 of what all its files were made from; none while they are not all finished.
+    /// SHA-256 of what all its files were made from; `None` while not all of them are finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inputs_sha256: Option<String>,
-    /// How many cells it has.
+    /// The number of its cells.
     pub cells: usize,
-    /// How many of them `where` kept.
+    /// The number of cells kept by `where`.
     pub kept: usize,
-    /// How many of those could not be assembled, or not over the whole range asked for.
+    /// The number of kept cells that could not be assembled, or not over the whole requested range.
     pub not_assembled: usize,
-    /// How many curves of the cells kept `where` left out.
+    /// The number of curves of kept cells that `where` left out.
     pub curves_left_out: usize,
-    /// How many curves were traced.
+    /// The number of traced curves.
     pub curves: usize,
-    /// How many pages there are.
+    /// The number of its pages.
     pub pages: usize,
     /// Its files, in its folder.
     pub files: Vec<FileRecord>,
 }
 
-/// A file.
+/// The record of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
     /// Its name.
     pub name: String,
-    /// SHA-256 of its bytes; none for an image or a book, whose bytes may differ from machine to machine.
+    /// SHA-256 of its bytes; `None` for an image or a book, whose bytes may differ from machine to machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    /// SHA-256 of what an image is drawn from: the page's SVG, and the resolution.
+    /// SHA-256 of what an image is drawn from: the page's SVG and the resolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn_from_sha256: Option<String>,
-    /// SHA-256 of what a page is made from: the program's version, what the manifest says, and the cells on it.
+    /// SHA-256 of what a page is made from: the program's version, its part of the manifest, and the cells on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inputs_sha256: Option<String>,
 }
 
-/// Why a `run.json` cannot be used.
+/// An error of reading a `run.json`.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be read.
     #[error(transparent)]
     Io(#[from] std::io::Error),
-    /// It is no file, or one that is larger than any record.
-    #[error("it is no record of a run: it is no file, or has more than {MAX_BYTES} bytes")]
+    /// It is not a regular file, or larger than any record.
+    #[error("it is not the record of a run: it is not a regular file, or has more than {MAX_BYTES} bytes")]
     NotARecord,
-    /// It is not what this program writes.
-    #[error("it is no record of a run: {0}")]
+    /// It is not JSON as this program writes it.
+    #[error("it is not the record of a run: {0}")]
     Syntax(#[from] serde_json::Error),
-    /// It is of another format.
+    /// It has another format.
     #[error(
-        "it has format {format} on line {line}, written by {writer}, and this is {} {}, which reads format {FORMAT_VERSION}",
+        "it has format {format} on line {line}, written by {writer}, but this is {} {}, which reads format {FORMAT_VERSION}",
         env!("CARGO_PKG_NAME"),
         env!("CARGO_PKG_VERSION")
     )]
     UnsupportedFormat {
         /// The format, as it is written.
         format: String,
-        /// The line it stands on, from 1.
+        /// The line of the format, from 1.
         line: usize,
-        /// The program that wrote it, and its version, as far as it says so.
+        /// The program that wrote it and its version, as far as they are recorded.
         writer: String,
     },
 }
 
-/// What records of all formats say of themselves.
+/// The keys that records of all formats have.
 #[derive(Deserialize)]
 struct FormatHeader {
     format: Value,
@@ -126,11 +128,11 @@ struct FormatHeader {
     version: Value,
 }
 
-/// No value at all.
+/// A type without values: deserializing it always fails.
 #[derive(Deserialize)]
 enum Never {}
 
-/// What cannot be read of any record, and no further than its format.
+/// Deserializing this fails at the value of `format`, so the error has its line.
 #[derive(Deserialize)]
 struct FormatLocator {
     #[serde(rename = "format")]
@@ -138,7 +140,7 @@ struct FormatLocator {
 }
 
 impl FormatHeader {
-    /// What is wrong with a format that is not this program's.
+    /// The error of a format that this program does not read.
     fn format_error(&self, bytes: &[u8]) -> ReadError {
         let line = serde_json::from_slice::<FormatLocator>(bytes).err().map_or(1, |error| error.line());
         let words: Vec<&str> = [&self.program, &self.version].into_iter().filter_map(Value::as_str).collect();
@@ -165,7 +167,7 @@ impl RunRecord {
     /// Reads a record.
     ///
     /// # Errors
-    /// A file that cannot be read, or is no record of this format.
+    /// The file cannot be read, or is not a record of this format.
     pub fn read(path: &Path) -> Result<RunRecord, ReadError> {
         let metadata = std::fs::metadata(path)?;
         if !metadata.is_file() || metadata.len() > MAX_BYTES {
@@ -173,7 +175,7 @@ impl RunRecord {
         }
         let mut bytes = Vec::new();
         std::fs::File::open(path)?.take(MAX_BYTES).read_to_end(&mut bytes)?;
-        // An editor may have put a byte order mark before it.
+        // An editor may have added a byte order mark.
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
         let header: FormatHeader = serde_json::from_slice(bytes)?;
         if header.format != FORMAT_VERSION {
@@ -184,7 +186,7 @@ impl RunRecord {
 
     /// The bytes of the record.
     pub fn to_bytes(&self) -> Vec<u8> {
-        // A record has nothing that JSON cannot say.
+        // Serializing a record cannot fail.
         let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
         bytes.push(b'\n');
         bytes
@@ -199,7 +201,7 @@ impl FileRecord {
         digest.into_file_record(name)
     }
 
-    /// The record of an image by what it is drawn from.
+    /// The record of an image that is drawn from this SVG.
     pub fn from_page_svg(name: impl Into<String>, svg: &[u8], dpi: f64) -> FileRecord {
         let mut digest = RunningDigest::default();
         digest.update(svg);
@@ -208,12 +210,12 @@ impl FileRecord {
         FileRecord { drawn_from_sha256, ..FileRecord::from_name(name) }
     }
 
-    /// The record of a file of which nothing but its name is known.
+    /// A record with only the name of a file.
     pub fn from_name(name: impl Into<String>) -> FileRecord {
         FileRecord { name: name.into(), sha256: None, drawn_from_sha256: None, inputs_sha256: None }
     }
 
-    /// The same, with what the file was made from.
+    /// Sets the digest of what the file was made from.
     pub fn with_inputs(self, inputs_sha256: &str) -> FileRecord {
         FileRecord { inputs_sha256: Some(inputs_sha256.to_owned()), ..self }
     }
@@ -235,7 +237,7 @@ impl std::io::Write for RunningDigest {
 }
 
 impl RunningDigest {
-    /// Takes in more bytes.
+    /// Adds bytes to the digest.
     pub fn update(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
     }
@@ -251,7 +253,7 @@ impl RunningDigest {
     }
 }
 
-/// Two digests of a text: of its bytes as they are, and without carriage returns, as this program would have written it.
+/// Two digests of a text: of its bytes, and of its bytes without carriage returns, as this program writes it.
 #[derive(Clone, Default)]
 pub struct TextDigests([RunningDigest; 2]);
 

@@ -1,5 +1,5 @@
-//! A recorded table, read cell by cell. It is a file that anyone may have written: whatever is in it, reading it takes
-//! bounded memory and time, and ends in rows or in a word on what is wrong.
+//! Reads a recorded table cell by cell. The file is not trusted: reading it takes bounded memory and time, and ends in
+//! rows or in an error, whatever its contents.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -15,51 +15,51 @@ pub struct RecordedTable {
     file: Mutex<File>,
     /// The names of its columns.
     pub header: Vec<String>,
-    /// SHA-256 of its bytes, and of its lines ended as this program ends them.
+    /// SHA-256 of its bytes, and of its text with the line ends and without the byte order mark, as this program writes it.
     pub digests: [String; 2],
-    /// Where the rows of each cell are: as a rule in one piece.
+    /// The places of the rows of each cell, normally a single range.
     row_ranges: HashMap<usize, Vec<RowRange>>,
-    /// What is wrong with it that does not keep its rows from being read.
+    /// Errors that do not prevent its rows from being read.
     pub errors: Vec<TableError>,
 }
 
-/// Rows that follow each other.
+/// Consecutive rows.
 #[derive(Clone, Copy, Debug)]
 struct RowRange {
-    /// Where they begin in the file.
+    /// Their first byte in the file.
     offset: u64,
     len: u64,
-    /// The line they begin on, from 1.
+    /// Their first line, from 1.
     first_line: usize,
 }
 
-/// What is wrong with a recorded table.
+/// An error in a recorded table.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TableError {
-    /// There is none.
-    #[error("is not there")]
+    /// It does not exist.
+    #[error("does not exist")]
     NotFound,
-    /// Something else has its name.
-    #[error("is {0} and not a file")]
+    /// Something other than a file has its name.
+    #[error("is {0}, not a file")]
     NotAFile(&'static str),
     /// It cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(String),
-    /// It is far larger than what this program could have written.
-    #[error("has {bytes} bytes, where no more than {max} are expected")]
+    /// It is far larger than this program could have written.
+    #[error("has {bytes} bytes, expected at most {max}")]
     TooLarge {
-        /// How many bytes it has.
+        /// Its size in bytes.
         bytes: u64,
-        /// How many it may have.
+        /// The greatest size expected.
         max: u64,
     },
     /// It has no header.
     #[error("is empty")]
     Empty,
-    /// Columns are missing from its header.
+    /// Its header lacks columns.
     #[error("has no column {}", .0.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))]
     MissingColumns(Vec<String>),
-    /// A cell has no rows.
+    /// A cell has no rows in it.
     #[error("has no rows in {0}")]
     MissingRows(&'static str),
     /// A line is not what this program writes.
@@ -70,57 +70,57 @@ pub enum TableError {
         /// What is wrong with it.
         reason: String,
     },
-    /// Its last line has no end: it has been cut short.
+    /// Its last line has no line end: the file is truncated.
     #[error("ends in the middle of line {0}")]
     Truncated(usize),
-    /// The rows of a cell stand in several places.
-    #[error("line {line}: the rows of cell {cell} do not follow each other")]
+    /// The rows of a cell are not consecutive.
+    #[error("line {line}: the rows of cell {cell} are not consecutive")]
     NotContiguous {
         /// The cell.
         cell: usize,
-        /// Where they are taken up again.
+        /// The line where they continue.
         line: usize,
     },
 }
 
-/// The longest line that is read, in bytes.
+/// The greatest length of a line, in bytes.
 const MAX_LINE_BYTES: u64 = 1 << 16;
 
-/// How many flaws of one table are told.
+/// The most errors kept for one table.
 const MAX_ERRORS: usize = 20;
 
-/// The byte order mark that some programs put before a text.
+/// The byte order mark that some programs add to a text.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl RecordedTable {
-    /// Opens a table that should not be larger than so many bytes and have rows of not many more than so many cells, and
-    /// finds the rows of each cell.
+    /// Opens a table and finds the rows of each cell. `max_bytes` is the greatest size expected, `cell_count` the number of
+    /// cells; a table with rows of far more cells is not read to its end.
     ///
     /// # Errors
-    /// What keeps it from being read at all.
-    pub fn open(path: &Path, most: u64, cells: usize) -> Result<RecordedTable, TableError> {
-        let file = open_regular_file(path, most)?;
+    /// The table cannot be read at all.
+    pub fn open(path: &Path, max_bytes: u64, cell_count: usize) -> Result<RecordedTable, TableError> {
+        let file = open_regular_file(path, max_bytes)?;
         let unreadable = |error: io::Error| TableError::Unreadable(error.to_string());
-        let scan = Scan::from_file(&file, most, cells).map_err(unreadable)?;
+        let scan = Scan::from_file(&file, max_bytes, cell_count).map_err(unreadable)?;
         let header = scan.header.ok_or(TableError::Empty)?;
         let digests = scan.digests.map(RunningDigest::finish);
         Ok(RecordedTable { file: Mutex::new(file), header, digests, row_ranges: scan.row_ranges, errors: scan.errors })
     }
 
-    /// The place of a column.
+    /// The index of a column.
     pub fn column_index(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|other| other == name)
     }
 
-    /// The cells that have rows, in no order.
+    /// The numbers of the cells that have rows, in no particular order.
     pub fn cells(&self) -> impl Iterator<Item = usize> {
         self.row_ranges.keys().copied()
     }
 
-    /// The text of a cell's rows, in the order of the file, and the line it begins on; `None` where it has none.
+    /// The text of a cell's rows, in the order of the file, and its first line; `None` if it has no rows.
     ///
     /// # Errors
-    /// Text that cannot be read again.
+    /// The file can no longer be read.
     pub fn cell_text(&self, cell: usize) -> Option<Result<(Vec<u8>, usize), TableError>> {
         let pieces = self.row_ranges.get(&cell)?;
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
@@ -136,22 +136,22 @@ impl RecordedTable {
         Some(read().map(|text| (text, line)).map_err(|error| TableError::Unreadable(error.to_string())))
     }
 
-    /// The rows of a cell, each with its line.
+    /// The rows of a cell.
     ///
     /// # Errors
-    /// A row that has not as many fields as there are columns, or is no text.
+    /// A row is not UTF-8 text, or its number of fields is not that of the columns.
     pub fn cell_rows(&self, cell: usize) -> Result<Vec<Row>, TableError> {
         let Some(text) = self.cell_text(cell) else { return Ok(Vec::new()) };
-        let (text, first) = text?;
-        parse_rows(&text, first, self.header.len())
+        let (text, first_line) = text?;
+        parse_rows(&text, first_line, self.header.len())
     }
 }
 
-/// Opens a file that should not be larger than so many bytes; nothing else that has its name.
+/// Opens a regular file of at most `max_bytes` bytes.
 ///
 /// # Errors
-/// What keeps it from being read.
-pub fn open_regular_file(path: &Path, most: u64) -> Result<File, TableError> {
+/// The file cannot be read, is larger, or is not a regular file.
+pub fn open_regular_file(path: &Path, max_bytes: u64) -> Result<File, TableError> {
     let unreadable = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => TableError::NotFound,
         _ => TableError::Unreadable(error.to_string()),
@@ -165,8 +165,8 @@ pub fn open_regular_file(path: &Path, most: u64) -> Result<File, TableError> {
             () => "a device",
         }));
     }
-    if metadata.len() > most {
-        return Err(TableError::TooLarge { bytes: metadata.len(), max: most });
+    if metadata.len() > max_bytes {
+        return Err(TableError::TooLarge { bytes: metadata.len(), max: max_bytes });
     }
     File::open(path).map_err(unreadable)
 }
@@ -174,29 +174,29 @@ pub fn open_regular_file(path: &Path, most: u64) -> Result<File, TableError> {
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// The line it stands on, from 1; where the rows of a cell do not follow each other, as if they did.
+    /// Its line, from 1; counted as if the rows of its cell were consecutive.
     pub line: usize,
     /// Its fields.
     pub fields: csv::StringRecord,
 }
 
-/// Rows with so many fields, the first of them on a line of this number.
+/// Parses rows with `field_count` fields each, the first of them on line `first_line`.
 ///
 /// # Errors
-/// A row that has another number of fields, or is no text.
-pub fn parse_rows(text: &[u8], first: usize, fields: usize) -> Result<Vec<Row>, TableError> {
+/// A row has another number of fields, or is not UTF-8 text.
+pub fn parse_rows(text: &[u8], first_line: usize, field_count: usize) -> Result<Vec<Row>, TableError> {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text);
     let mut rows = Vec::new();
     for record in reader.records() {
         let before = rows.len();
         let record = record.map_err(|error| {
-            let line = error.position().map_or(before, |at| at.line() as usize - 1) + first;
+            let line = error.position().map_or(before, |position| position.line() as usize - 1) + first_line;
             TableError::InvalidLine { line, reason: "it is not UTF-8 text".to_owned() }
         })?;
-        let line = record.position().map_or(before, |at| at.line() as usize - 1) + first;
-        if record.len() != fields {
-            let wrong = format!("{} fields for {fields} columns", record.len());
-            return Err(TableError::InvalidLine { line, reason: wrong });
+        let line = record.position().map_or(before, |position| position.line() as usize - 1) + first_line;
+        if record.len() != field_count {
+            let reason = format!("expected {field_count} fields, found {}", record.len());
+            return Err(TableError::InvalidLine { line, reason });
         }
         rows.push(Row { line, fields: record });
     }
@@ -204,44 +204,44 @@ pub fn parse_rows(text: &[u8], first: usize, fields: usize) -> Result<Vec<Row>, 
 }
 
 impl Row {
-    /// A number in it; one that is missing is none.
+    /// A field as a number; NaN if it is empty. `name` is the name of the column, for errors.
     ///
     /// # Errors
-    /// A field that is no number this program writes.
+    /// The field is not a number as this program writes it.
     pub fn number(&self, column: usize, name: &str) -> Result<f64, TableError> {
         let text = self.field(column);
-        let wrong = || TableError::InvalidLine {
+        let error = || TableError::InvalidLine {
             line: self.line,
-            reason: format!("{name} is {}, which is no number", quoted(text)),
+            reason: format!("{name} is {}, expected a number", quoted(text)),
         };
         match text {
             "" => Ok(f64::NAN),
             "inf" => Ok(f64::INFINITY),
             "-inf" => Ok(f64::NEG_INFINITY),
-            _ => text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(wrong),
+            _ => text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(error),
         }
     }
 
-    /// A whole number in it.
+    /// A field as an integer. `name` is the name of the column, for errors.
     ///
     /// # Errors
-    /// A field that is none.
+    /// The field is not an integer.
     pub fn integer(&self, column: usize, name: &str) -> Result<i64, TableError> {
         let text = self.field(column);
-        let wrong = || TableError::InvalidLine {
+        let error = || TableError::InvalidLine {
             line: self.line,
-            reason: format!("{name} is {}, which is no whole number", quoted(text)),
+            reason: format!("{name} is {}, expected an integer", quoted(text)),
         };
-        text.parse().map_err(|_| wrong())
+        text.parse().map_err(|_| error())
     }
 
-    /// A field.
+    /// A field as text; empty if there is none.
     pub fn field(&self, column: usize) -> &str {
         self.fields.get(column).unwrap_or_default()
     }
 }
 
-/// A field of a stranger's, as it can be shown.
+/// An untrusted field in backquotes, shortened and escaped.
 fn quoted(text: &str) -> String {
     const MAX_CHARS: usize = 40;
     let shown: String = text.chars().take(MAX_CHARS).collect();
@@ -249,7 +249,7 @@ fn quoted(text: &str) -> String {
     format!("`{}{more}`", shown.escape_debug())
 }
 
-/// What is found by going through a table once.
+/// The result of reading a table once.
 #[derive(Default)]
 struct Scan {
     header: Option<Vec<String>>,
@@ -258,17 +258,17 @@ struct Scan {
     errors: Vec<TableError>,
     /// The cell of the last row.
     last_cell: Option<usize>,
-    /// How many more pieces are kept.
+    /// How many more row ranges may be stored.
     row_ranges_left: usize,
 }
 
 impl Scan {
-    fn from_file(file: &File, most: u64, cells: usize) -> io::Result<Scan> {
-        // An atlas that has lost most of its cells may be compared, and one whose rows are shuffled.
-        let mut scan = Scan { row_ranges_left: 10 * cells + 100_000, ..Scan::default() };
-        // A file that grows while it is read is not followed for ever.
-        let mut reader = BufReader::with_capacity(1 << 18, file).take(most);
-        let (mut at, mut number, mut line) = (0, 0, Vec::new());
+    fn from_file(file: &File, max_bytes: u64, cell_count: usize) -> io::Result<Scan> {
+        // Generous, so that an atlas of fewer cells, or one with shuffled rows, can still be compared.
+        let mut scan = Scan { row_ranges_left: 10 * cell_count + 100_000, ..Scan::default() };
+        // The limit ends the loop even if the file grows while it is read.
+        let mut reader = BufReader::with_capacity(1 << 18, file).take(max_bytes);
+        let (mut offset, mut number, mut line) = (0, 0, Vec::new());
         loop {
             line.clear();
             number += 1;
@@ -277,27 +277,27 @@ impl Scan {
                 return Ok(scan);
             }
             if bytes == MAX_LINE_BYTES && line.last() != Some(&b'\n') {
-                let wrong = format!("it is longer than {MAX_LINE_BYTES} bytes; what follows is not read");
-                scan.add_error(TableError::InvalidLine { line: number, reason: wrong });
+                let reason = format!("it is longer than {MAX_LINE_BYTES} bytes; the rest is not read");
+                scan.add_error(TableError::InvalidLine { line: number, reason });
                 return Ok(scan);
             }
-            scan.scan_line(&line, at, number);
-            at += bytes;
+            scan.scan_line(&line, offset, number);
+            offset += bytes;
             if scan.row_ranges_left == 0 {
-                let wrong = "there are rows of far more cells than the family has; what follows is not read".to_owned();
-                scan.add_error(TableError::InvalidLine { line: number, reason: wrong });
+                let reason = "there are rows of far more cells than the family has; the rest is not read".to_owned();
+                scan.add_error(TableError::InvalidLine { line: number, reason });
                 return Ok(scan);
             }
         }
     }
 
-    fn add_error(&mut self, flaw: TableError) {
+    fn add_error(&mut self, error: TableError) {
         if self.errors.len() < MAX_ERRORS {
-            self.errors.push(flaw);
+            self.errors.push(error);
         }
     }
 
-    fn scan_line(&mut self, line: &[u8], at: u64, number: usize) {
+    fn scan_line(&mut self, line: &[u8], offset: u64, number: usize) {
         let marked = if number == 1 { line.strip_prefix(BYTE_ORDER_MARK) } else { None };
         let text = marked.unwrap_or(line);
         let ended = text.strip_suffix(b"\n");
@@ -320,23 +320,26 @@ impl Scan {
         let first = bare.split(|&b| b == b',').next().unwrap_or_default();
         let cell = std::str::from_utf8(first).ok().and_then(|text| text.trim_matches('"').parse::<usize>().ok());
         match cell.filter(|&cell| cell > 0) {
-            Some(cell) => self.add_row(cell, at, line.len() as u64, number),
+            Some(cell) => self.add_row(cell, offset, line.len() as u64, number),
             None => {
-                let wrong = format!("it begins with {}, which is no cell", quoted(&String::from_utf8_lossy(first)));
-                self.add_error(TableError::InvalidLine { line: number, reason: wrong });
+                let reason = format!(
+                    "it begins with {}, expected the number of a cell",
+                    quoted(&String::from_utf8_lossy(first))
+                );
+                self.add_error(TableError::InvalidLine { line: number, reason });
                 self.last_cell = None;
             }
         }
     }
 
-    fn add_row(&mut self, cell: usize, at: u64, bytes: u64, line: usize) {
+    fn add_row(&mut self, cell: usize, offset: u64, bytes: u64, line: usize) {
         let pieces = self.row_ranges.entry(cell).or_default();
         match pieces.last_mut() {
             Some(piece) if self.last_cell == Some(cell) => piece.len += bytes,
             open => {
                 let is_again = open.is_some();
                 self.row_ranges_left -= 1;
-                pieces.push(RowRange { offset: at, len: bytes, first_line: line });
+                pieces.push(RowRange { offset, len: bytes, first_line: line });
                 if is_again {
                     self.add_error(TableError::NotContiguous { cell, line });
                 }

@@ -328,8 +328,8 @@ test("what cannot be a linkage is told in a sentence", () => {
       (error) => error instanceof LinkageError && sentence.test(error.message),
     );
   };
-  wrong((t) => (t.joints[2].length = -1), /the length -1 of `A` is not positive/);
+  wrong((t) => (t.joints[2].length = -1), /the length of `A` must be positive, found -1/);
   wrong((t) => (t.joints[4].point = [2, 1]), /`M` needs a link with both `A` and `C`/);
-  wrong((t) => (t.joints[3].dyad = [2, 2]), /`A` and `A`, which are one joint/);
+  wrong((t) => (t.joints[3].dyad = [2, 2]), /`A` and `A`, which are the same joint/);
   wrong((t) => (t.parameters = [{ name: "p", min: 0, max: null }]), /`p` is undefined/);
 });

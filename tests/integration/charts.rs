@@ -74,17 +74,17 @@ fn each_mistake_has_its_message() {
     let chart = "chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }";
     let with = |chart: &str| format!("chart = {{ {chart} }}");
     let cases = [
-        (chart, String::new(), "the layout is chart, and there is no `chart`", "8:10"),
-        ("layout = \"chart\"\n", String::new(), "there is a `chart`, and the layout is panels", "8:9"),
+        (chart, String::new(), "the layout is `chart`, but there is no `chart`", "8:10"),
+        ("layout = \"chart\"\n", String::new(), "there is a `chart`, but the layout is not `chart`", "8:9"),
         ("\"chart\"", "\"charts\"".into(), "`charts` is not one of the words allowed here", "8:10"),
         (chart, with("x = \"p\""), "`chart` has no `y`", "9:9"),
         (chart, with("y = \"length\""), "`chart` has no `x`", "9:9"),
-        (chart, with("x = \"p\", y = []"), "there is nothing to draw", "9:24"),
-        (chart, with("x = \"p\", y = 3"), "text is wanted here", "9:24"),
-        (chart, with("x = \"q\", y = \"length\""), "there is no `q`", "9:16"),
-        (chart, with("x = \"p\", y = \"lenght\""), "there is no `lenght`", "9:25"),
-        (chart, with("x = \"p\", y = \"length +\""), "the expression ends too soon", "9:33"),
-        (chart, with("x = \"p\", y = \"is_crank_rocker\""), "a truth where a number is wanted", "9:25"),
+        (chart, with("x = \"p\", y = []"), "`y` is empty", "9:24"),
+        (chart, with("x = \"p\", y = 3"), "expected a string, found a number", "9:24"),
+        (chart, with("x = \"q\", y = \"length\""), "unknown name `q`", "9:16"),
+        (chart, with("x = \"p\", y = \"lenght\""), "unknown name `lenght`", "9:25"),
+        (chart, with("x = \"p\", y = \"length +\""), "unexpected end of the expression", "9:33"),
+        (chart, with("x = \"p\", y = \"is_crank_rocker\""), "expected a number, found a condition", "9:25"),
         (chart, with("x = \"p\", y = [\"length\", \"length\"]"), "`length` is named twice", "9:35"),
         (
             chart,
@@ -93,10 +93,10 @@ fn each_mistake_has_its_message() {
             "9:35",
         ),
         (chart, with("x = \"p\", y = \"length\", by = [\"h\"]"), "there is no `h`", "9:40"),
-        (chart, with("x = \"p\", y = \"length\", log = \"area\""), "the chart draws no `area`", "9:40"),
-        (chart, with("x = \"p\", y = \"length\", range = { area = [0, 1] }"), "the chart draws no `area`", "9:44"),
-        (chart, with("x = \"p\", y = \"length\", range = { p = [3, 1] }"), "from 3 to 1 is no range", "9:48"),
-        (chart, with("x = \"p\", y = \"length\", range = { p = [3] }"), "two values are wanted here", "9:48"),
+        (chart, with("x = \"p\", y = \"length\", log = \"area\""), "the chart has no quantity `area`", "9:40"),
+        (chart, with("x = \"p\", y = \"length\", range = { area = [0, 1] }"), "the chart has no quantity `area`", "9:44"),
+        (chart, with("x = \"p\", y = \"length\", range = { p = [3, 1] }"), "[3, 1] is not a range", "9:48"),
+        (chart, with("x = \"p\", y = \"length\", range = { p = [3] }"), "expected two values, found 1", "9:48"),
         (
             chart,
             with("x = \"p\", y = \"length\", log = \"p\", range = { p = [0, 1] }"),
@@ -104,12 +104,12 @@ fn each_mistake_has_its_message() {
             "9:59",
         ),
         (chart, with("x = \"p\", y = \"length\", title = \"T\""), "`chart` has no key `title`", "9:34"),
-        ("sampling", "panels = [40, 1]\nsampling".into(), "40 will not do here", "10:11"),
-        ("k = [1.5, 2]", "h = [1.5, 2]".into(), "`h` is no parameter of `evans`, and nothing uses it", "11:25"),
+        ("sampling", "panels = [40, 1]\nsampling".into(), "invalid value `40`", "10:11"),
+        ("k = [1.5, 2]", "h = [1.5, 2]".into(), "`h` is not a parameter of `evans`, and no expression uses it", "11:25"),
         (
             "k = [1.5, 2] }",
             "k = { from = 1, to = 2, count = 50000 } }\nlimit = 1000000".into(),
-            "a chart is drawn of 100000 cells at most",
+            "a chart can have at most 100000 cells",
             "9:9",
         ),
         ("linkage = \"evans\"", "linkage = \"evens\"".into(), "there is no linkage `evens`", "7:11"),
@@ -128,7 +128,7 @@ fn each_mistake_has_its_message() {
     }
     // Of a linkage that is not known, it is still seen that an expression cannot be read.
     let text = GOOD.replace("linkage = \"evans\"", "linkage = \"evens\"").replace("\"length\"", "\"length +\"");
-    assert!(report(&manifest::parse(&text).problems, "m", &text, false).contains("ends too soon"));
+    assert!(report(&manifest::parse(&text).problems, "m", &text, false).contains("unexpected end of the expression"));
 }
 
 #[test]
@@ -324,7 +324,7 @@ fn an_empty_chart_says_so() {
     let nothing = page(&rendered(&GOOD.replace("\"length\"", "\"input_min_deg\"")), 1);
     assert!(nothing.contains(">no finite value</text>") && nothing.contains("id=\"evans-chart-2-2\""));
     let low = GOOD.replace("\"mu_min_deg\"]", "\"-length\"], log = [\"-length\"]");
-    assert!(page(&rendered(&low), 1).contains("no value that a logarithmic axis has a place for"));
+    assert!(page(&rendered(&low), 1).contains("no positive value for a logarithmic axis"));
     let some = GOOD.replace("\"mu_min_deg\"]", "\"p - 3\"], log = [\"p - 3\"]");
     assert!(page(&rendered(&some), 1).contains(">4 values of 0 or less are left out</text>"));
     // Nothing at all can be assembled, or is kept.
@@ -396,8 +396,8 @@ fn too_many_numbers_are_counted_and_not_kept() {
     assert_eq!((gathered.series.len(), gathered.curve_count, gathered.left_out_count), (3, 6, 3));
 }
 
-/// Chebyshev's curve is that of an Evans linkage at half size (Roberts and Chebyshev), for the thesis's proportions; and
-/// the ratio of its width to its height, which the thesis (10.1.2) has fall, rises with p.
+/// Chebyshev's curve is that of an Evans linkage at half size (Roberts and Chebyshev), for the thesis's proportions;
+/// and the ratio of its width to its height, which the thesis (10.1.2) has fall, rises with p.
 #[test]
 fn the_range_of_x_to_that_of_y_rises_with_p() {
     let ratio = "(bbox_x_max - bbox_x_min) / (bbox_y_max - bbox_y_min)";

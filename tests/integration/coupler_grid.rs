@@ -70,7 +70,7 @@ fn on((width, height): (f64, f64)) -> Options {
 }
 
 fn labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
-    let joint = |name: &str| solved.linkage.joints.iter().position(|joint| joint.name == name);
+    let joint = |name: &str| solved.linkage.find_joint(name);
     let label =
         |(ends, text): ([&str; 2], String)| Some(LinkLabel { joints: [joint(ends[0])?, joint(ends[1])?], text });
     family.template.link_length_names().into_iter().filter_map(label).collect()
@@ -88,23 +88,14 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
     let compose = |(page, shown): (usize, Vec<usize>)| {
         let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
         let (title, symbols, source) = (family.title.as_str(), family.names.as_slice(), source.to_owned());
-        let heading = Heading {
-            atlas_title: "The atlas",
-            family_id: &family.id,
-            family_title: title,
-            source,
-            symbols,
-            page,
-            page_count: of,
-        };
-        let panel = Panel {
-            caption,
-            note,
-            facts: page::cell_facts(solved),
-            solved_cell: solved,
-            pose: view.clone(),
-            link_inks: Vec::new(),
-        };
+        let heading = Heading::new(title)
+            .with_family_id(&family.id)
+            .with_atlas_title("The atlas")
+            .with_source(source)
+            .with_symbols(symbols)
+            .with_page(page, of);
+        let facts = page::cell_facts(solved);
+        let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(view.clone());
         let sheet = CouplerGridPage { heading, panel, curve_indices: shown.clone(), labels: &labels };
         (page::compose_coupler_grid(&sheet, options), shown)
     };

@@ -1,5 +1,6 @@
 //! Chapter 10: wishes in, linkages out, each measured afresh.
 
+use coupler_curves::linkage::JointId;
 use std::path::Path;
 use std::process::Command;
 
@@ -34,7 +35,7 @@ fn afresh(design: &Design) -> [f64; 4] {
     let straight = StraightCriterion::Tolerance(design.tolerance * 1.005);
     let subject = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(straight);
     let portion = subject.straight().unwrap();
-    let joints = 0..linkage.joints.len();
+    let joints = linkage.joint_ids();
     let far = |samples: &[usize]| {
         let at: Vec<Point> =
             joints.clone().flat_map(|joint| samples.iter().map(move |&k| circuit.positions.point(joint, k))).collect();
@@ -58,9 +59,9 @@ fn afresh(design: &Design) -> [f64; 4] {
                 (0.0..=portion.length).contains(&s) && h.abs() <= 2.01 * portion.deviation
             };
             let samples: Vec<usize> = (0..circuit.len()).filter(is_on).collect();
-            let named = |name: &str| linkage.joints.iter().position(|joint| joint.name == name).unwrap();
+            let named = |name: &str| linkage.find_joint(name).unwrap();
             let [o, a, b, c] = ["O", "A", "B", "C"].map(named);
-            let angle = |k: usize, [p, q, r]: [usize; 3]| {
+            let angle = |k: usize, [p, q, r]: [JointId; 3]| {
                 let at = |joint| circuit.positions.point(joint, k);
                 acute((at(p) - at(q)).angle(&(at(r) - at(q))).to_degrees())
             };
@@ -366,7 +367,7 @@ fn odd_wishes_are_told_all_at_once() {
         "--tolerance: 0.000000000001 is not from 0.00002",
         "--size: `1/0` is inf: give a finite number",
         "--mu-min: 90 is not from 0 to 89",
-        "--types: there is no `hoken` here: did you mean `hoeken`?",
+        "--types: unknown linkage `hoken`: did you mean `hoeken`?",
         "--best: 0 is not a whole number from 1 to 20",
     ] {
         assert!(err.contains(part), "{part}: {err}");
@@ -375,6 +376,6 @@ fn odd_wishes_are_told_all_at_once() {
     let too_small = ["--types", "hoeken", "--length", "10", "--size", "10.001"];
     let (code, out, err) = run(folder.path(), &too_small);
     assert_eq!((code, out.as_str()), (2, ""));
-    assert!(err.contains("nothing meets these wishes") && err.contains("hint: with --size "), "{err}");
+    assert!(err.contains("no linkage meets these requirements") && err.contains("hint: with --size "), "{err}");
     assert_eq!(run(folder.path(), &["--deviation", "0.1"]).0, 2, "a deviation is of a length");
 }

@@ -254,56 +254,56 @@ fn a_page_that_is_edited_reads_the_same_or_says_what_is_wrong() {
         text.replacen(from, to, 1)
     };
     for (edited, message) in [
-        (String::new(), "it is no SVG page"),
-        ("words".to_owned(), "it is no SVG page"),
-        (first("<svg", "<html").replace("</svg>", "</html>"), "it is no SVG page"),
-        (format!("{text}{text}"), "it is no SVG page"),
+        (String::new(), "it is not an SVG page"),
+        ("words".to_owned(), "it is not an SVG page"),
+        (first("<svg", "<html").replace("</svg>", "</html>"), "it is not an SVG page"),
+        (format!("{text}{text}"), "it is not an SVG page"),
         (format!("<!DOCTYPE svg [<!ENTITY a \"b\">]>{text}"), "it has a document type, which pages do not have"),
         (first("<rect", "<style>g{transform:scale(2)}</style><rect"), "it has a style sheet, which pages do not have"),
         (first("mm\" viewBox", "cm\" viewBox"), "its viewBox is not its width and height in millimetres"),
-        (first("data-cell=\"1\" ", ""), "curve 'evans-1-1-1' has no data-cell"),
+        (first("data-cell=\"1\" ", ""), "curve `evans-1-1-1` has no data-cell"),
         (
             first("data-trace=\"1\"", "data-trace=\"-1\""),
-            "data-trace=\"-1\" of curve 'evans-1-1-1' is not a whole number",
+            "data-trace=\"-1\" of curve `evans-1-1-1` is not a whole number",
         ),
         (
             first("data-dash=\"5 3\"", "data-dash=\"5\""),
-            "data-dash=\"5\" of curve 'evans-1-1-1' is not two positive numbers, the second not above the first",
+            "data-dash=\"5\" of curve `evans-1-1-1` is not two positive numbers, the second not above the first",
         ),
         (
             first("data-dash=\"5 3\"", "data-dash=\"5 3 1\""),
-            "data-dash=\"5 3 1\" of curve 'evans-1-1-1' is not two positive numbers, the second not above the first",
+            "data-dash=\"5 3 1\" of curve `evans-1-1-1` is not two positive numbers, the second not above the first",
         ),
         (
             first("data-scale=\"", "data-scale=\"inf\" data-x=\""),
-            "data-scale=\"inf\" of curve 'evans-1-1-1' is not a positive number",
+            "data-scale=\"inf\" of curve `evans-1-1-1` is not a positive number",
         ),
         (first("data-origin=\"", "data-origin=\"a "), "is not two numbers"),
         (
             first(group, &format!("{group} transform=\"scale(2)\"")),
-            "curve 'evans-1-1-1' has a transform, on it or on what it is in",
+            "curve `evans-1-1-1`, or an element around it, has a transform",
         ),
         (
             first(group, &format!("{group} style=\"display:none\"")),
-            "curve 'evans-1-1-1' has a style, on it or on what it is in",
+            "curve `evans-1-1-1`, or an element around it, has a style",
         ),
         (
             first("<svg ", "<svg transform=\"scale(2)\" "),
-            "curve 'evans-1-1-1' has a transform, on it or on what it is in",
+            "curve `evans-1-1-1`, or an element around it, has a transform",
         ),
         (
             first("<rect", "<g transform=\"scale(2)\"><rect").replace("</svg>", "</g></svg>"),
-            "curve 'evans-1-1-1' has a transform, on it or on what it is in",
+            "curve `evans-1-1-1`, or an element around it, has a transform",
         ),
         (
             first("<rect", "<defs><rect").replace("</svg>", "</defs></svg>"),
-            "curve 'evans-1-1-1' and <defs> are one in the other",
+            "curve `evans-1-1-1` contains or is inside <defs>",
         ),
         (
             first("data-dash=\"5 3\">", "data-dash=\"5 3\"><polyline points=\"0 0 9 9\"/>"),
-            "curve 'evans-1-1-1' and <polyline> are one in the other",
+            "curve `evans-1-1-1` contains or is inside <polyline>",
         ),
-        (first(group, &format!("{group} id=\"b\"")), "an attribute stands twice"),
+        (first(group, &format!("{group} id=\"b\"")), "an attribute is repeated"),
         (first("data-cell=\"1\" ", "data-cell=\"&one;\" "), "is not well-formed XML"),
     ] {
         match read(&edited) {

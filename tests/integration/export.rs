@@ -10,8 +10,8 @@ use tempfile::TempDir;
 
 use crate::folder::files;
 
-/// Crank pins that draw circles, a rocker pin on an arc, sampling of every kind, a placed family, a length for an input, and
-/// a title with marks in it.
+/// Crank pins that draw circles, a rocker pin on an arc, sampling of every kind, a placed family, a length for an
+/// input, and a title with marks in it.
 const MANIFEST: &str = r#"[atlas]
 title = "T"
 output = "out"
@@ -507,15 +507,15 @@ fn wrong_words_are_all_told_and_nothing_is_written() {
         (&["watt:2.1.1"], &["there is no watt:2.1.1: it is not assembled"]),
         (&["evans:1.1.1?q=2"], &["evans: there is no `q`"]),
         (&["evans:1.1.1?p=-2"], &["evans:1: `p` is -2, and must be more than 0"]),
-        (&["evans?p=2"], &["parameters are changed of one cell"]),
+        (&["evans?p=2"], &["only the parameters of a single cell can be replaced"]),
         (&["evans:1.1.1?M.up=2"], &["there is no `M.up`: it can be `M.along` or `M.across`"]),
         (&["evans"], &["there are 2 files to write: name a folder for them with -o"]),
         (&["evans", "-o", "a-file"], &["a-file is a file, and there are 2 to write"]),
-        (&["evans:1", "--format", "dwg"], &["there is no format `dwg`"]),
-        (&["evans:1", "--chord", "0"], &["give a number from 1e-9 to 0.1"]),
+        (&["evans:1", "--format", "dwg"], &["unknown format `dwg`"]),
+        (&["evans:1", "--chord", "0"], &["expected a number from 1e-9 to 0.1"]),
         (&["--only", "evan"], &["there is no family `evan`"]),
         (&["--linkage", "evan", "p=2"], &["there is no linkage `evan`: did you mean `evans`?"]),
-        (&["--linkage", "evans", "p=2", "z=1", "q"], &["`q`: there is no `=`", "there is no parameter `z`"]),
+        (&["--linkage", "evans", "p=2", "z=1", "q"], &["`q`: there is no `=`", "unknown parameter `z`"]),
         (
             &["--linkage", "evans", "p=2", "a=2.59", "7.1"],
             &["there is no evans:1.7.1: the cell's only curve is evans:1.1.1"],

@@ -50,7 +50,7 @@ fn a_manifest_of_another_format_is_refused_with_one_word() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
         let version = env!("CARGO_PKG_VERSION");
-        let message = format!("the manifest has format 2, and this is version {version}, which reads format 1");
+        let message = format!("the manifest has format 2, but this is version {version}, which reads format 1");
         assert!(said.contains(&message) && said.contains("atlas.toml:2:10\n"), "{said}");
         assert!(said.contains("help: use a newer version; or write format = 1"), "{said}");
         assert_eq!(said.matches("error: the manifest").count(), 1, "{said}");
@@ -60,7 +60,7 @@ fn a_manifest_of_another_format_is_refused_with_one_word() {
         let loaded = manifest::parse(&with_format(none));
         assert!(loaded.plan.is_none());
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
-        assert_eq!(problem.message, "there is no such format", "{none}");
+        assert_eq!(problem.message, "unknown format version", "{none}");
         assert!(problem.help.starts_with("write format = 1, or leave it out"), "{}", problem.help);
     }
 }
@@ -99,9 +99,9 @@ fn a_folder_of_another_format_is_left_alone() {
             let (code, out, err) = atlas.run(arguments);
             assert_eq!((code, out.as_str()), (2, ""), "{err}");
             let told =
-                format!("it has format {format} on line {line}, written by {writer}, and this is coupler-atlas ");
+                format!("it has format {format} on line {line}, written by {writer}, but this is coupler-atlas ");
             assert!(
-                err.contains("cannot render over out") && err.contains("run.json: ") && err.contains(&told),
+                err.contains("cannot overwrite out") && err.contains("run.json: ") && err.contains(&told),
                 "{err}"
             );
             assert!(err.contains("render with the version that wrote it, or into another folder with -o"), "{err}");
@@ -182,7 +182,7 @@ fn a_drive_is_a_problem_where_there_are_none() {
     for output in ["'C:\\atlas'", "\"d:/atlas\"", "'\\\\server\\share'"] {
         let loaded = manifest::parse(&MANIFEST.replace("\"out\"", output));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
-        assert_eq!(problem.message, "only Windows has such a folder", "{output}");
+        assert_eq!(problem.message, "drives and network shares exist only on Windows", "{output}");
         assert!(problem.help.contains("relative to the manifest"), "{}", problem.help);
     }
 }
@@ -192,7 +192,7 @@ fn ids_are_no_devices_of_windows() {
     for id in ["con", "prn", "aux", "nul", "com0", "com9", "lpt1"] {
         let loaded = manifest::parse(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\"")));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
-        assert_eq!(problem.message, format!("Windows has no folder `{id}`, for it has a device of that name"));
+        assert_eq!(problem.message, format!("the id `{id}` is a device name on Windows"));
         assert_eq!(problem.help, format!("an id names folders and files: take another, as in \"{id}-1\""));
     }
     for id in ["con-1", "cone", "com", "com10", "lpt", "lpta", "a-nul"] {

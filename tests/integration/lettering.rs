@@ -184,7 +184,7 @@ fn control_characters_are_refused_at_their_place() {
             let loaded = manifest::parse(&text);
             assert!(loaded.plan.is_none(), "{c:?} in {}", &text[at - 10..]);
             let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
-            let message = format!("a text cannot have the control character U+{:04X}", u32::from(c));
+            let message = format!("a string cannot contain the control character U+{:04X}", u32::from(c));
             assert_eq!((problem.message.as_str(), problem.span.clone()), (message.as_str(), at..at + spoilt.len()));
         }
     }

@@ -263,7 +263,7 @@ fn a_record_that_cannot_be_read_removes_nothing() {
         fs::write(atlas.out().join("evans/evans-004.svg"), "old").unwrap();
         let (code, out, err) = atlas.run(&[]);
         assert_eq!(code, 0);
-        assert!(err.contains("warning: out/run.json is no help: "), "{err}");
+        assert!(err.contains("warning: cannot use out/run.json: "), "{err}");
         assert!(!out.contains("unchanged"), "{out}");
         fs::remove_file(atlas.out().join("evans/evans-004.svg")).unwrap();
         assert!(tree(&atlas.out()) == before);
@@ -375,7 +375,7 @@ fn a_run_that_is_interrupted_is_gone_on_with() {
         terminate(&child);
         let Output { status, stderr, .. } = child.wait_with_output().unwrap();
         assert_eq!(status.code(), Some(130));
-        let message = "error: interrupted: what is finished is kept, and the next run goes on from there\n";
+        let message = "error: interrupted: finished files are kept, and the next run continues from there\n";
         assert_eq!(String::from_utf8(stderr).unwrap(), message);
         // Nothing is left that is not finished, and everything that is finished is recorded.
         let pages: Vec<String> = files(&atlas.out()).into_iter().filter(|name| name.ends_with(".svg")).collect();
@@ -469,7 +469,7 @@ fn two_runs_do_not_write_to_one_folder() {
     let mut child = started(&atlas, has_drawn(&atlas, 1));
     let (code, out, err) = atlas.run(&[]);
     assert_eq!((code, out.as_str()), (3, ""));
-    assert_eq!(err, "error: another run is writing to out: wait for its end, or name another folder with -o\n");
+    assert_eq!(err, "error: another run is writing to out: wait until it ends, or name another folder with -o\n");
     assert_eq!(atlas.run(&["-o", "elsewhere"]).0, 0);
     assert!(child.wait().unwrap().success());
     assert!(!atlas.out().join(".coupler-atlas.lock").exists());

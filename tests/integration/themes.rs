@@ -79,23 +79,23 @@ fn said(theme: &str) -> (String, bool) {
 fn each_mistake_has_its_message() {
     let cases = [
         ("\"drak\"", "`drak` is not one of the words allowed here", "5:9"),
-        ("3", "a table is wanted here", "5:9"),
+        ("3", "expected a table, found a number", "5:9"),
         ("{ bace = \"dark\" }", "a theme has no key `bace`", "5:11"),
         ("{ base = \"night\" }", "`night` is not one of the words allowed here", "5:18"),
-        ("{ paper = \"white\" }", "`white` is no colour", "5:19"),
-        ("{ ink = \"#12345\" }", "`#12345` is no colour", "5:17"),
-        ("{ ink = 0 }", "text is wanted here", "5:17"),
-        ("{ curves = \"#000\" }", "a list is wanted here", "5:20"),
-        ("{ curves = [] }", "curves are drawn in no ink at all", "5:20"),
-        ("{ curves = [\"#000\", \"blue\"] }", "`blue` is no colour", "5:29"),
-        ("{ curves = [\"#000\", \"#fffeff\"] }", "#fffeff cannot be told from the paper, #fffdf8", "5:29"),
-        ("{ ink = \"#f0f0f0\" }", "#f0f0f0 cannot be told from the paper", "5:17"),
+        ("{ paper = \"white\" }", "`white` is not a colour", "5:19"),
+        ("{ ink = \"#12345\" }", "`#12345` is not a colour", "5:17"),
+        ("{ ink = 0 }", "expected a string, found a number", "5:17"),
+        ("{ curves = \"#000\" }", "expected a list, found a string", "5:20"),
+        ("{ curves = [] }", "`curves` is empty", "5:20"),
+        ("{ curves = [\"#000\", \"blue\"] }", "`blue` is not a colour", "5:29"),
+        ("{ curves = [\"#000\", \"#fffeff\"] }", "#fffeff cannot be distinguished from the paper, #fffdf8", "5:29"),
+        ("{ ink = \"#f0f0f0\" }", "#f0f0f0 cannot be distinguished from the paper", "5:17"),
         (
             "{ paper = \"#000\" }",
-            "on this paper, #000000, the theme's `ink`, `grey`, `curves` cannot well be seen",
+            "on this paper, #000000, the theme's `ink`, `grey`, `curves` are hard to see",
             "5:19",
         ),
-        ("{ monochrome = \"yes\" }", "true or false is wanted here", "5:24"),
+        ("{ monochrome = \"yes\" }", "expected a boolean, found a string", "5:24"),
         ("{ face = \"times\" }", "`times` is not one of the words allowed here", "5:18"),
         ("{ drawn = 0 }", "0 of a dash's span is out of range", "5:19"),
         ("{ drawn = 1.5 }", "1.5 of a dash's span is out of range", "5:19"),
@@ -128,9 +128,9 @@ fn what_can_hardly_be_seen_is_warned_of() {
         ("{ base = \"dark\", grey = \"#777\" }", "#777777 is hard to see on the paper, #14181d"),
         (
             "{ paper = \"#c0c0c0\" }",
-            "on this paper, #c0c0c0, the theme's `grey`, `hairline`, `curves` cannot well be seen",
+            "on this paper, #c0c0c0, the theme's `grey`, `hairline`, `curves` are hard to see",
         ),
-        ("{ curves = [\"#000\", \"#00f\", \"#080\"] }", "curves are told apart by 5 inks, and here are 3"),
+        ("{ curves = [\"#000\", \"#00f\", \"#080\"] }", "expected at least 5 inks to tell curves apart, found 3"),
         (
             "{ curves = [\"#8c2d19\", \"#1f3d66\", \"#2f6b3a\", \"#5b2d82\", \"#8f2f1b\"] }",
             "#8f2f1b looks like #8c2d19, which is given before it",
@@ -199,7 +199,7 @@ fn sizes_follow_the_paper() {
         assert_eq!(weights(&double), weights(&plain).map(|weight| 2.0 * weight));
     }
     // Where lettering is larger there is room for fewer panels.
-    let large = Options { theme: theme("{ lettering = 2 }"), ..Options::for_paper(Paper::NAMED[1].1) };
+    let large = Options::for_paper(Paper::NAMED[1].1).with_theme(theme("{ lettering = 2 }"));
     let plain = Options::for_paper(Paper::NAMED[1].1);
     let [fewer, more] = [&large, &plain].map(Layout::max_panels);
     assert!(fewer[0] < more[0] && fewer[1] < more[1], "{fewer:?} {more:?}");
@@ -341,8 +341,8 @@ const DICHROMACIES: [[[f64; 3]; 3]; 3] = [
 fn inks_can_be_told_apart_by_all_readers() {
     let distance = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt();
     let lightness = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).abs();
-    // What docs/themes.md says, rounded down: in colour, under each dichromacy, in grey. About 2 can just be seen side by
-    // side; thin lines want several times that.
+    // What docs/themes.md says, rounded down: in colour, under each dichromacy, in grey. About 2 can just be seen
+    // side by side; thin lines want several times that.
     let cases = [
         ("paper", [34.9, 20.1, 23.6, 26.3, 8.7]),
         ("print", [34.9, 20.1, 23.6, 26.3, 8.7]),

@@ -1,15 +1,31 @@
 //! Kinematics of planar linkages: coupler curves, their analysis and their measures.
 //!
-//! Data flows one way; the modules are in reading order, and none imports one that comes after it:
+//! Data flows one way; the modules are listed in reading order, and none imports a later one:
 //!
 //! ```text
 //! linkage format -> template -> family x cell -> linkage -> motion -> measures -> solved cell -> exchange formats
 //! ```
 //!
-//! A four-bar and its coupler curve, without a manifest:
+//! A four-bar, its class, its coupler curve and its longest straight portion:
 //!
 //! ```
-//! use coupler_curves::linkage::{FourBar, FourBarClass, LinkageBuilder, MotionOptions, Side};
+//! use coupler_curves::FourBar;
+//!
+//! let four_bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
+//! let curve = four_bar.coupler_curve(1.5, 1.0)?;
+//! let straight = curve.straight_portion().expect("every curve has one");
+//! println!("{}: {} points, straight over {:.3}", four_bar.class(), curve.points().count(), straight.length);
+//! # assert_eq!(four_bar.class().to_string(), "crank-rocker");
+//! # assert!((1.0..3.0).contains(&straight.length));
+//! # Ok::<(), coupler_curves::CurveError>(())
+//! ```
+//!
+//! Any other linkage of one degree of freedom is built joint by joint with [`linkage::LinkageBuilder`] and solved with
+//! [`motion::Motion::solve`], or taken from the [`catalogue`] with [`family::Family::single_cell`] and solved with
+//! [`solve::solve_cell`]:
+//!
+//! ```
+//! use coupler_curves::linkage::{LinkageBuilder, MotionOptions, Side};
 //! use coupler_curves::motion::{Motion, Sampler, Sampling};
 //!
 //! let mut builder = LinkageBuilder::default();
@@ -20,7 +36,6 @@
 //! let m = builder.point("M", [a, b], 1.5, 1.0)?;
 //! let linkage = builder.build(vec![m], None, MotionOptions::default())?;
 //!
-//! assert_eq!(FourBar::from_linkage(&linkage).map(FourBar::class), Some(FourBarClass::CrankRocker));
 //! let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(2.0)));
 //! assert_eq!(motion.circuits[0].points(m).count(), 180);
 //! # Ok::<(), coupler_curves::linkage::Error>(())
@@ -46,3 +61,8 @@ pub mod family;
 pub mod solve;
 
 pub mod exchange;
+
+mod coupler_curve;
+
+pub use coupler_curve::{CouplerCurve, CurveError};
+pub use linkage::{FourBar, FourBarClass};

@@ -1,11 +1,13 @@
+//! The report as annotations of a GitHub workflow.
+
 use coupler_atlas::check::Report;
 
 use super::super::source::ManifestSource;
 
-/// GitHub shows no more annotations of one step than this.
+/// GitHub shows at most this many annotations of one step.
 const MAX_ANNOTATIONS: usize = 10;
 
-/// Annotations of a workflow, each at the family's table in the manifest.
+/// The worst findings as annotations, each at the table of its family in the manifest.
 pub fn text(report: &Report, source: &ManifestSource) -> String {
     let file = source.path.display().to_string().replace('\\', "/");
     let line_of = |id: &str| {
@@ -23,21 +25,22 @@ pub fn text(report: &Report, source: &ManifestSource) -> String {
             escape_data(&finding.change.to_string())
         ));
     }
-    let left = report.total().saturating_sub(MAX_ANNOTATIONS);
-    if left > 0 {
+    let omitted = report.total().saturating_sub(MAX_ANNOTATIONS);
+    if omitted > 0 {
         text.push_str(&format!(
-            "::error file={},line=1,title=and {left} more::see the report\n",
+            "::error file={},line=1,title=and {omitted} more::see the report\n",
             escape_property(&file)
         ));
     }
     text
 }
 
-/// What stands in an annotation, so that it stays in it.
+/// Escapes the message of an annotation.
 fn escape_data(text: &str) -> String {
     text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
+/// Escapes a property of an annotation.
 fn escape_property(text: &str) -> String {
     escape_data(text).replace(':', "%3A").replace(',', "%2C")
 }

@@ -1,3 +1,5 @@
+//! The report as JSON.
+
 use coupler_atlas::check::Report;
 use serde::Serialize;
 
@@ -14,7 +16,7 @@ struct Document<'a> {
     report: &'a Report,
 }
 
-/// The report as JSON, as docs/check.md has it. What is infinite is null there.
+/// The report as JSON, described in docs/check.md; infinite numbers are null.
 pub fn text(report: &Report) -> anyhow::Result<String> {
     let document = Document {
         format: FORMAT,

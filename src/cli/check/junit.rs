@@ -1,35 +1,38 @@
+//! The report as JUnit XML.
+
 use std::collections::BTreeMap;
 
 use coupler_atlas::check::{Finding, Report};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
-/// The report as JUnit XML: a suite for each family with a finding, in it a case for each place, and one for all else.
+/// The report as JUnit XML: a suite for each family with findings, with a case for each location, and a passing case for
+/// everything else.
 pub fn text(report: &Report) -> anyhow::Result<String> {
     let mut families: BTreeMap<&str, BTreeMap<String, Vec<&Finding>>> = BTreeMap::new();
     for finding in &report.findings {
         let cases = families.entry(&finding.location.family).or_default();
         cases.entry(finding.location.to_string()).or_default().push(finding);
     }
-    let differing = |findings: &Vec<&Finding>| findings.iter().any(|finding| finding.change.is_difference());
-    let failures: usize = families.values().flat_map(BTreeMap::values).filter(|found| differing(found)).count();
+    let has_difference = |findings: &Vec<&Finding>| findings.iter().any(|finding| finding.change.is_difference());
+    let failures: usize = families.values().flat_map(BTreeMap::values).filter(|findings| has_difference(findings)).count();
     let cases: usize = families.values().map(BTreeMap::len).sum();
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let suites = with_counts(BytesStart::new("testsuites"), "coupler-atlas check", cases + 1, failures);
     writer.write_event(Event::Start(suites))?;
     for (family, cases) in &families {
-        let failed = cases.values().filter(|found| differing(found)).count();
+        let failed = cases.values().filter(|findings| has_difference(findings)).count();
         let name = if family.is_empty() { "atlas" } else { family };
         writer.write_event(Event::Start(with_counts(BytesStart::new("testsuite"), name, cases.len(), failed)))?;
-        for (place, findings) in cases {
-            write_case(&mut writer, name, place, findings)?;
+        for (location, findings) in cases {
+            write_case(&mut writer, name, location, findings)?;
         }
         writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
     }
     writer.write_event(Event::Start(with_counts(BytesStart::new("testsuite"), "all else", 1, 0)))?;
-    let held = format!("{} curves on {} pages of {} families", report.curves, report.pages, report.families);
-    write_case(&mut writer, "all else", &held, &[])?;
+    let checked = format!("{} curves on {} pages of {} families", report.curves, report.pages, report.families);
+    write_case(&mut writer, "all else", &checked, &[])?;
     writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
     writer.write_event(Event::End(BytesEnd::new("testsuites")))?;
     Ok(String::from_utf8(writer.into_inner())? + "\n")
@@ -42,14 +45,14 @@ fn with_counts<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures
     start
 }
 
-fn write_case(writer: &mut Writer<Vec<u8>>, family: &str, place: &str, findings: &[&Finding]) -> anyhow::Result<()> {
+fn write_case(writer: &mut Writer<Vec<u8>>, family: &str, location: &str, findings: &[&Finding]) -> anyhow::Result<()> {
     let mut start = BytesStart::new("testcase");
     start.push_attribute(("classname", family));
-    start.push_attribute(("name", place));
+    start.push_attribute(("name", location));
     writer.write_event(Event::Start(start))?;
     let texts = |is_difference: bool| -> Vec<String> {
-        let ours = findings.iter().filter(|finding| finding.change.is_difference() == is_difference);
-        ours.map(|finding| format!("{}: {}", finding.change.kind(), finding.change)).collect()
+        let matching = findings.iter().filter(|finding| finding.change.is_difference() == is_difference);
+        matching.map(|finding| format!("{}: {}", finding.change.kind(), finding.change)).collect()
     };
     for (name, texts) in [("failure", texts(true)), ("system-out", texts(false))] {
         let Some(first) = texts.first() else { continue };

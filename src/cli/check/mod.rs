@@ -1,4 +1,4 @@
-//! `check`: what has changed since an atlas was recorded.
+//! `check`: compares a fresh run of a manifest with a recorded atlas.
 
 mod github;
 mod json;
@@ -10,59 +10,88 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use coupler_atlas::check::{self, Event, Report};
-use coupler_atlas::manifest::PartialTolerances;
+use coupler_atlas::manifest::{PartialTolerances, Tolerances};
 use coupler_atlas::output;
 use coupler_curves::problem::suggestion;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::source::{self, ManifestSource};
+use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
 use super::{InputError, Outcome, print, print_stderr};
 
-/// Run a manifest afresh, and tell what has changed since an atlas was recorded: which curve, where and by how much.
+/// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
-/// Nothing is written but the reports asked for. Exits with 0 if nothing has changed, and with 1 if anything has.
+/// Nothing is written except the requested reports. Exits with 0 if nothing has changed, and with 1 if anything has.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The manifest.
-    #[arg(default_value = "atlas.toml")]
+    #[arg(default_value = DEFAULT_MANIFEST)]
     manifest: PathBuf,
     /// The folder of the recorded atlas, with its run.json.
     #[arg(long, value_name = "DIR")]
     against: PathBuf,
-    /// Check this family only; may be given more than once.
+    /// Check only this family; may be given more than once.
     #[arg(long, value_name = "FAMILY")]
     only: Vec<String>,
-    /// How far a point may move, in units of length, in place of the manifest's [default: 0].
-    #[arg(long, value_name = "LENGTH", value_parser = parse_tolerance, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = parse_tolerance,
+        allow_negative_numbers = true,
+        help = tolerance_help("The greatest distance a point may move", |tolerances| tolerances.atol)
+    )]
     atol: Option<f64>,
-    /// How far a point may move, in parts of its curve's size [default: 1e-12]. The greater of both counts.
-    #[arg(long, value_name = "PART", value_parser = parse_tolerance, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "RATIO",
+        value_parser = parse_tolerance,
+        allow_negative_numbers = true,
+        help = tolerance_help(
+            "The greatest distance a point may move, relative to the size of its curve; a move is reported if it exceeds \
+             both --atol and --rtol",
+            |tolerances| tolerances.rtol
+        )
+    )]
     rtol: Option<f64>,
-    /// How much a measure may change, in parts of itself [default: 1e-9].
-    #[arg(long, value_name = "PART", value_parser = parse_tolerance, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "RATIO",
+        value_parser = parse_tolerance,
+        allow_negative_numbers = true,
+        help = tolerance_help("The greatest relative change of a measure", |tolerances| tolerances.measure_rtol)
+    )]
     measure_rtol: Option<f64>,
-    /// Report as json, junit or github (annotations), to a file, or instead of the table; may be given more than once.
+    /// Write a report as json, junit or github (annotations) to a file, or print it instead of the table; may be given more
+    /// than once.
     #[arg(long, value_name = "FORMAT[=FILE]", value_parser = parse_report)]
     report: Vec<ReportRequest>,
-    /// Draw a page for each curve that has moved into this folder, old and new, and an index.html of them.
+    /// Draw each curve that has moved, as recorded and as it is now, into this folder, with an index.html.
     #[arg(long, value_name = "DIR")]
     diff: Option<PathBuf>,
-    /// Make what comes out now the recorded atlas, after telling what that replaces.
+    /// Report the changes, then replace the recorded atlas by the new run.
     #[arg(long)]
     bless: bool,
-    /// How many threads to use [default: one for each processor].
+    /// The number of threads [default: one for each processor].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Say nothing but what has changed.
+    /// Print only changes.
     #[arg(short, long)]
     quiet: bool,
 }
 
-/// A report that is asked for.
+/// The help of a tolerance, with its default.
+fn tolerance_help(text: &str, value: fn(&Tolerances) -> f64) -> String {
+    let default = match value(&Tolerances::default()) {
+        0.0 => "0".to_owned(),
+        value => format!("{value:e}"),
+    };
+    format!("{text} [default: that of the manifest, or {default}]")
+}
+
+/// A requested report.
 #[derive(Clone, Debug)]
 struct ReportRequest {
     format: ReportFormat,
-    /// Where it goes; to standard output, in place of the table, where it is not said.
+    /// The file to write; if `None`, the report is printed instead of the table.
     file: Option<PathBuf>,
 }
 
@@ -79,24 +108,24 @@ fn parse_report(text: &str) -> Result<ReportRequest, String> {
     let (name, file) = text.split_once('=').map_or((text, None), |(name, file)| (name, Some(file)));
     let names = KNOWN.map(|(name, _)| name);
     let format = KNOWN.into_iter().find(|(known, _)| *known == name).map(|(_, format)| format);
-    let format = format.ok_or_else(|| format!("there is no report `{name}`: {}", suggestion(name, &names)))?;
+    let format = format.ok_or_else(|| format!("unknown report `{name}`: {}", suggestion(name, &names)))?;
     match file {
-        Some("") => Err(format!("there is no file after `=`: write {name}=report.{name}")),
+        Some("") => Err(format!("expected a file after `=`, as in {name}=report.{name}")),
         file => Ok(ReportRequest { format, file: file.map(PathBuf::from) }),
     }
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "it is no number: give one such as 1e-9".to_owned())?;
-    if value >= 0.0 { Ok(value) } else { Err("a tolerance is 0 or more".to_owned()) }
+    let value: f64 = text.parse().map_err(|_| "expected a number, as in 1e-9".to_owned())?;
+    if value >= 0.0 { Ok(value) } else { Err("a tolerance must not be negative".to_owned()) }
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let source = source::read(&arguments.manifest)?;
     source.require_families(&arguments.only)?;
     if arguments.bless && !arguments.only.is_empty() {
-        let words = "--bless records all families: leave out --only, or `render --force --only` one of them";
-        return Err(InputError(words.to_owned()).into());
+        let message = "--bless records all families: leave out --only, or use `render --force --only` for a single family";
+        return Err(InputError(message.to_owned()).into());
     }
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
@@ -126,16 +155,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(if report.has_differences() { Outcome::Difference } else { Outcome::Done })
 }
 
-/// Writes the reports that are asked for, and the table unless another takes its place.
+/// Writes the requested reports, and prints the table unless a report is printed instead.
 fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<()> {
     let mut has_table = true;
-    for wanted in &arguments.report {
-        let text = match wanted.format {
+    for request in &arguments.report {
+        let text = match request.format {
             ReportFormat::Json => json::text(report)?,
             ReportFormat::Junit => junit::text(report)?,
             ReportFormat::Github => github::text(report, source),
         };
-        match &wanted.file {
+        match &request.file {
             Some(file) => output::write_file(file, text.as_bytes())?,
             None => {
                 has_table = false;
@@ -149,14 +178,14 @@ fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report
     Ok(())
 }
 
-/// Records what comes out now.
+/// Replaces the recorded atlas by a fresh run.
 fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<Outcome> {
     if report.findings.is_empty() {
-        print_stderr("nothing has changed: the recorded atlas stays as it is\n");
+        print_stderr("nothing has changed: the recorded atlas is kept\n");
         return Ok(Outcome::Done);
     }
     let folder: &Path = &arguments.against;
-    print_stderr(&format!("recording the new state in {}\n", folder.display()));
+    print_stderr(&format!("recording the new atlas in {}\n", folder.display()));
     let options = output::Options { force: true, ..output::Options::default() };
     output::write_atlas(&source.plan, folder, &options, &mut |_| {})?;
     Ok(Outcome::Done)

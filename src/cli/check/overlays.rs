@@ -1,3 +1,5 @@
+//! Drawings of the curves that have moved.
+
 use std::path::Path;
 
 use coupler_atlas::check::{self, Options, Report};
@@ -7,21 +9,21 @@ use quick_xml::escape::escape;
 
 use super::super::{pluralize, print_stderr};
 
-/// So many curves are drawn, the worst of them: nobody looks at more.
+/// At most this many curves are drawn, the worst ones: nobody looks at more.
 const MAX_CURVES: usize = 500;
 
 const STYLE: &str = "body{font:16px/1.5 'DejaVu Serif Condensed',Georgia,serif;color:#111;background:#fffdf8;\
                      margin:2rem auto;max-width:70rem;padding:0 1rem}figure{margin:2rem 0}img{width:100%}";
 
-/// Draws a page for each curve that has moved, and an index of them.
+/// Writes a page for each curve that has moved, and an index of the pages.
 pub fn write(folder: &Path, plan: &Plan, recorded: &Path, found: (&Options, &Report)) -> anyhow::Result<()> {
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
     check::draw_overlays(plan, recorded, found, MAX_CURVES, |overlay| {
-        let (name, place) = (&overlay.name, escape(overlay.finding.location.to_string()));
+        let (name, location) = (&overlay.name, escape(overlay.finding.location.to_string()));
         figures.push_str(&format!(
-            "<figure id=\"{name}\"><figcaption><b>{place}</b>: {}</figcaption>\
-             <a href=\"{name}\"><img src=\"{name}\" alt=\"{place}, old and new\" loading=\"lazy\"></a></figure>\n",
+            "<figure id=\"{name}\"><figcaption><b>{location}</b>: {}</figcaption>\
+             <a href=\"{name}\"><img src=\"{name}\" alt=\"{location}, old and new\" loading=\"lazy\"></a></figure>\n",
             escape(overlay.finding.change.to_string()),
         ));
         match output::write_file(&folder.join(name), &overlay.svg) {
@@ -33,14 +35,14 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, found: (&Options, &Rep
         return Err(error.into());
     }
     let title = escape(&plan.title);
-    let told = match written {
+    let summary = match written {
         0 => "No curve has moved.".to_owned(),
         n => format!("{}, the worst first.", pluralize(n, "curve")),
     };
     let page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}: what has moved</title>\n\
          <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head>\n\
-         <body><h1>{title}: what has moved</h1>\n<p>{told}</p>\n{figures}</body></html>\n"
+         <body><h1>{title}: what has moved</h1>\n<p>{summary}</p>\n{figures}</body></html>\n"
     );
     output::write_file(&folder.join("index.html"), page.as_bytes())?;
     print_stderr(&format!("{} drawn in {}\n", pluralize(written, "curve"), folder.display()));

@@ -1,4 +1,4 @@
-//! A manifest that renders what was found.
+//! A manifest that renders the designs.
 
 use std::fmt::Write;
 
@@ -6,10 +6,10 @@ use coupler_atlas::design::Design;
 
 use super::Report;
 
-/// A whole manifest: a family for each linkage and tolerance, its cases in order of rank.
+/// A complete manifest: one family for each linkage and tolerance, with its cases in order of rank.
 pub(super) fn manifest(report: &Report) -> String {
     let mut out =
-        "# Straight-line linkages, by `coupler-atlas design straight-line`; `coupler-atlas render` draws them.\n\n\
+        "# Straight-line linkages found by `coupler-atlas design straight-line`; `coupler-atlas render` draws them.\n\n\
                    [atlas]\ntitle = \"Straight-line linkages\"\nformats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n"
             .to_owned();
     let mut families: Vec<(String, Vec<&Design>)> = Vec::new();
@@ -26,12 +26,12 @@ pub(super) fn manifest(report: &Report) -> String {
         }
     }
     for (id, designs) in &families {
-        family(id, designs, &mut out);
+        append_family(id, designs, &mut out);
     }
     out
 }
 
-fn family(id: &str, designs: &[&Design], out: &mut String) {
+fn append_family(id: &str, designs: &[&Design], out: &mut String) {
     let first = designs[0];
     let template = &first.family.template;
     let columns = designs.len().min(3);

@@ -1,3 +1,5 @@
+//! The JSON that `design --json` prints.
+
 use coupler_atlas::design::{Design, DrivenLinkage, Driver, ProportionOrigin};
 use serde_json::{Map, Value, json};
 
@@ -7,42 +9,43 @@ use super::{Report, option_name};
 /// The version of the format.
 const FORMAT: u32 = 1;
 
-/// For programs.
+/// The requirements, the designs, the rejected linkages and the relaxations, as indented JSON.
 pub(super) fn json(report: &Report) -> String {
-    let Report { requirements: wishes, results: found, .. } = report;
-    let designs: Vec<Value> = (0..found.designs.len())
+    let Report { requirements, results, .. } = report;
+    let designs: Vec<Value> = (0..results.designs.len())
         .map(|k| {
-            let mut value = design(&found.designs[k]);
-            value["trade_offs"] = json!(trade_offs(&found.designs, k));
+            let mut value = design_json(&results.designs[k]);
+            value["trade_offs"] = json!(trade_offs(&results.designs, k));
             value
         })
         .collect();
-    let left_out = found.rejected.iter().map(|one| {
-        let closed = one.is_closed_form.then(|| one.driven_linkage.kind.closed_condition());
-        json!({ "linkage": one.driven_linkage.kind.id(), "input": arrangement_input(one.driven_linkage), "condition": closed, "why": one.reason })
+    let rejected = results.rejected.iter().map(|rejected| {
+        let DrivenLinkage { kind, input } = rejected.driven_linkage;
+        let condition = rejected.is_closed_form.then(|| kind.closed_condition());
+        json!({ "linkage": kind.id(), "input": input_name(input), "condition": condition, "why": rejected.reason })
     });
-    let relaxations = found.relaxations.iter().map(|relaxation| {
-        let design = design(&relaxation.design);
+    let relaxations = results.relaxations.iter().map(|relaxation| {
+        let design = design_json(&relaxation.design);
         json!({ "wish": option_name(relaxation.requirement), "to": relaxation.value, "design": design })
     });
-    let whole = json!({
+    let document = json!({
         "format": FORMAT,
         "wishes": {
-            "input": wishes.input.map(input_name),
-            "double_point": wishes.double_point,
-            "quick_return": wishes.quick_return,
-            "p": wishes.p,
-            "length": wishes.length,
-            "tolerance": wishes.tolerance,
-            "size": wishes.size,
-            "mu_min_deg": wishes.mu_min,
-            "types": wishes.kinds.iter().map(|kind| kind.id()).collect::<Vec<_>>(),
+            "input": requirements.input.map(input_name),
+            "double_point": requirements.double_point,
+            "quick_return": requirements.quick_return,
+            "p": requirements.p,
+            "length": requirements.length,
+            "tolerance": requirements.tolerance,
+            "size": requirements.size,
+            "mu_min_deg": requirements.mu_min,
+            "types": requirements.kinds.iter().map(|kind| kind.id()).collect::<Vec<_>>(),
         },
         "designs": designs,
-        "left_out": left_out.collect::<Vec<_>>(),
+        "left_out": rejected.collect::<Vec<_>>(),
         "relaxations": relaxations.collect::<Vec<_>>(),
     });
-    format!("{whole:#}\n")
+    format!("{document:#}\n")
 }
 
 fn input_name(input: Driver) -> &'static str {
@@ -52,18 +55,15 @@ fn input_name(input: Driver) -> &'static str {
     }
 }
 
-fn arrangement_input(arrangement: DrivenLinkage) -> &'static str {
-    input_name(arrangement.input)
-}
-
-fn design(design: &Design) -> Value {
+fn design_json(design: &Design) -> Value {
+    let DrivenLinkage { kind, input } = design.driven_linkage;
     let names = design.family.template.parameters.iter().map(|parameter| parameter.name.clone());
     let parameters: Map<String, Value> = names.map(|name| (name.clone(), json!(design.parameter(&name)))).collect();
     json!({
-        "linkage": design.driven_linkage.kind.id(),
-        "input": arrangement_input(design.driven_linkage),
+        "linkage": kind.id(),
+        "input": input_name(input),
         "driven": design.performance.input_link.name(),
-        "condition": (design.origin == ProportionOrigin::ClosedCondition).then(|| design.driven_linkage.kind.closed_condition()),
+        "condition": (design.origin == ProportionOrigin::ClosedCondition).then(|| kind.closed_condition()),
         "parameters": parameters,
         "class": design.class,
         "tolerance": design.tolerance,
@@ -75,7 +75,7 @@ fn design(design: &Design) -> Value {
         "mu_min_deg": design.performance.mu_min,
         "size": design.performance.size,
         "time_ratio": design.time_ratio(),
-        // Unbounded where the driven link or the point stands still; JSON has no infinity.
+        // Infinite where the driven link or the point is at rest, which JSON cannot represent.
         "speed_ratio": Some(design.speed_ratio).filter(|ratio| ratio.is_finite()),
         "double_points": design.crunode_count,
     })

@@ -1,5 +1,6 @@
-//! Chapter 10 of the thesis as a command: what is wished, what is found, and what would have to give.
+//! `design`: finds linkages for a designer's requirements, or the requirements to relax (Natesan, chapter 10).
 
+mod format;
 mod fragment;
 mod json;
 mod plate;
@@ -16,104 +17,145 @@ use coupler_curves::problem::suggestion;
 
 use super::{InputError, Outcome, print};
 
-/// Find the linkages that meet a designer's wishes, ranked, with their trade-offs (Natesan, chapter 10).
+/// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
 ///
-/// straight-line: Evans's, Chebyshev's, Watt's, Roberts's and Hoeken's linkages with a straight portion, searched by a sweep
-/// over their proportions and refined. Given --length or --size, or neither, the best has the longest straight portion for
-/// its size; given both, it is the straightest that has this length within this size. Where nothing meets the wishes,
-/// it is told what each of them would have to be, the others kept. Numbers may be expressions: "sqrt(2)".
+/// straight-line: Searches the linkages of Evans, Chebyshev, Watt, Roberts and Hoeken for a straight portion, by a sweep
+/// over their proportions that is then refined. Without --length or --size, or with one of them, the best design has the
+/// longest straight portion for its size; with both, it is the straightest that has this length within this size. If no
+/// linkage meets the requirements, the error lists what each of them would have to be while the others are kept.
+/// Numbers may be expressions: "sqrt(2)".
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to design.
+    #[arg(value_name = "TASK")]
     what: Task,
-    /// What moves it: a motor wants a link that turns fully, a rocker goes there and back over the straight stroke.
+    /// What drives the linkage.
     #[arg(long, value_enum, default_value_t = InputChoice::Any)]
     input: InputChoice,
-    /// The way back: quick takes less of the turn than the straight stroke.
+    /// How fast the linkage returns from the straight stroke.
     #[arg(long = "return", value_enum, default_value_t = ReturnChoice::Any)]
     back: ReturnChoice,
-    /// Whether the curve is to cross itself, as Watt's does, which the thesis would use to return by.
+    /// Whether the curve crosses itself, as that of Watt does, which the thesis would use for the return.
     #[arg(long, value_enum, default_value_t = DoublePointChoice::Any)]
     double_point: DoublePointChoice,
-    /// The frame to the crank of Evans's and Hoeken's linkages, to the coupler of the others; what (8.10) and (8.19) give
-    /// for it is shown beside what is found.
+    /// The ratio of the frame to the crank (evans, hoeken) or to the coupler (the others); the proportions that (8.10) and
+    /// (8.19) give for it are shown as well.
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     p: Option<String>,
-    /// The length of the straight portion, projected on its line; every length is then in its unit.
+    /// The length of the straight portion, projected on its line; sets the unit of all other lengths.
     #[arg(long, value_name = "L", allow_hyphen_values = true)]
     length: Option<String>,
-    /// How straight: the width of the strip it lies in over its length, twice the deviation [default: 0.001].
-    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "deviation")]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "deviation", help = tolerance_help())]
     tolerance: Option<String>,
-    /// How straight: the greatest distance from its line, in the unit of --length.
+    /// The greatest distance of the straight portion from its line, in the unit of --length; replaces --tolerance.
     #[arg(long, value_name = "D", allow_hyphen_values = true, requires = "length")]
     deviation: Option<String>,
-    /// The largest size: the greatest distance between any two places that its joints, pivots and coupler point come to;
-    /// of a motor's linkage over the whole turn, of a rocker's over the straight stroke.
+    /// The greatest size: the largest distance between any two positions of the joints, pivots and coupler point, over
+    /// the whole turn with a motor and over the straight stroke with a rocker.
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     size: Option<String>,
-    /// The smallest transmission angle in degrees, over the same motion; one over 90 counts as its supplement. 0 asks for
-    /// nothing [default: 20].
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, help = mu_min_help())]
     mu_min: Option<String>,
-    /// The linkages to choose from [default: all of evans,hoeken,chebyshev,watt,roberts].
-    #[arg(long, value_name = "TYPES", value_delimiter = ',')]
+    #[arg(long, value_name = "TYPES", value_delimiter = ',', help = types_help())]
     types: Option<Vec<String>>,
-    /// How many to show at most, 1 to 20; of a given p, what (8.10) and (8.19) give is shown beside them.
-    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "5")]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_hyphen_values = true,
+        default_value_t = Requirements::default().max_designs.to_string(),
+        help = best_help()
+    )]
     best: String,
-    /// Draw them on one plate.
+    /// Draw the designs on one plate, and write it to this file.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Print a manifest that renders them, whole: coupler-atlas design … --toml > best.toml
+    /// Print a manifest that renders the designs: coupler-atlas design … --toml > best.toml
     #[arg(long, conflicts_with = "json")]
     toml: bool,
-    /// As JSON.
+    /// Print the designs as JSON.
     #[arg(long)]
     json: bool,
 }
 
+/// The greatest number of designs that `--best` accepts.
+const MAX_BEST: usize = 20;
+
+fn tolerance_help() -> String {
+    let default = Requirements::default().tolerance;
+    format!(
+        "The greatest width of the strip around the straight portion, relative to its length; twice the greatest \
+         deviation [default: {default}]"
+    )
+}
+
+fn mu_min_help() -> String {
+    let default = Requirements::default().mu_min;
+    format!(
+        "The least transmission angle in degrees, over the motion of --size; an angle over 90 counts as its supplement, \
+         and 0 sets no limit [default: {default}]"
+    )
+}
+
+fn types_help() -> String {
+    format!("The linkages to choose from, separated by commas [default: {}]", LinkageKind::ALL.map(LinkageKind::id).join(","))
+}
+
+fn best_help() -> String {
+    format!(
+        "How many designs to show at most, 1 to {MAX_BEST}; with --p, the proportions that (8.10) and (8.19) give are shown \
+         in addition"
+    )
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Task {
-    /// A linkage with a straight line.
+    /// A linkage that guides a point along a straight line.
     StraightLine,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum InputChoice {
+    /// A motor on a link that turns fully.
     Motor,
+    /// A link that rocks over the straight stroke and back.
     Rocker,
+    /// Either.
     Any,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum ReturnChoice {
+    /// The return takes less of the turn than the straight stroke.
     Quick,
+    /// No requirement.
     Any,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum DoublePointChoice {
+    /// The curve crosses itself.
     Yes,
+    /// The curve does not cross itself.
     No,
+    /// No requirement.
     Any,
 }
 
-/// What was wished, as it was given, and what came of it.
+/// The requirements and the result of the search.
 struct Report {
     requirements: Requirements,
-    /// Whether a deviation was given in place of a tolerance.
+    /// Whether the straightness was given as `--deviation`, not as `--tolerance`.
     is_deviation_given: bool,
     results: SynthesisResult,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let Task::StraightLine = arguments.what;
-    let wishes = parse_requirements(arguments).map_err(|wrong| InputError(wrong.join("\nerror: ")))?;
-    let found = design::straight_line(&wishes);
-    let report = Report { requirements: wishes, is_deviation_given: arguments.deviation.is_some(), results: found };
+    let requirements = parse_requirements(arguments).map_err(|errors| InputError(errors.join("\nerror: ")))?;
+    let results = design::straight_line(&requirements);
+    let report = Report { requirements, is_deviation_given: arguments.deviation.is_some(), results };
     if report.results.designs.is_empty() {
-        // Programs are told as JSON too, and by the exit code as everyone.
+        // The JSON lists the relaxations; the exit code is that of an error all the same.
         if arguments.json {
             print(&json::json(&report))?;
         }
@@ -131,12 +173,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// The wishes, or everything that is wrong with them.
+/// Reads the requirements.
+///
+/// # Errors
+/// Every error in the options, one message each.
 fn parse_requirements(arguments: &Arguments) -> Result<Requirements, Vec<String>> {
-    let mut wrong = Vec::new();
+    let mut errors = Vec::new();
     let mut read = |text: &Option<String>, name: &str, example: &str| {
         let text = text.as_deref()?;
-        parse_number(text, &format!("--{name} {example}")).map_err(|why| wrong.push(format!("--{name}: {why}"))).ok()
+        let number = parse_number(text, &format!("--{name} {example}"));
+        number.map_err(|error| errors.push(format!("--{name}: {error}"))).ok()
     };
     let default = Requirements::default();
     let (p, length) = (read(&arguments.p, "p", "2"), read(&arguments.length, "length", "100"));
@@ -144,15 +190,15 @@ fn parse_requirements(arguments: &Arguments) -> Result<Requirements, Vec<String>
     let tolerance = read(&arguments.tolerance, "tolerance", "0.001");
     let (size, mu_min) = (read(&arguments.size, "size", "400"), read(&arguments.mu_min, "mu-min", "30"));
     let best = read(&Some(arguments.best.clone()), "best", "5").unwrap_or(1.0);
-    if !(1.0..=20.0).contains(&best) || best.fract() != 0.0 {
-        wrong.push(format!("--best: {best} is not a whole number from 1 to 20"));
+    if !(1.0..=MAX_BEST as f64).contains(&best) || best.fract() != 0.0 {
+        errors.push(format!("--best: {best} is not a whole number from 1 to {MAX_BEST}"));
     }
     let kinds = match &arguments.types {
         None => default.kinds,
-        Some(names) => parse_kinds(names, &mut wrong),
+        Some(names) => parse_kinds(names, &mut errors),
     };
-    let by_deviation = deviation.zip(length).map(|(deviation, length)| 2.0 * deviation / length);
-    let wishes = Requirements {
+    let deviation_tolerance = deviation.zip(length).map(|(deviation, length)| 2.0 * deviation / length);
+    let requirements = Requirements {
         input: match arguments.input {
             InputChoice::Motor => Some(Driver::Motor),
             InputChoice::Rocker => Some(Driver::Rocker),
@@ -166,36 +212,36 @@ fn parse_requirements(arguments: &Arguments) -> Result<Requirements, Vec<String>
         quick_return: arguments.back == ReturnChoice::Quick,
         p,
         length,
-        tolerance: by_deviation.or(tolerance).unwrap_or(default.tolerance),
+        tolerance: deviation_tolerance.or(tolerance).unwrap_or(default.tolerance),
         size,
         mu_min: mu_min.unwrap_or(default.mu_min),
         kinds,
         max_designs: best as usize,
     };
-    let named = |(wish, why): (Requirement, String)| match wish {
-        Requirement::Tolerance if deviation.is_some() => format!("--deviation: twice it over the length is {why}"),
-        _ => format!("{}: {why}", option_name(wish)),
+    let with_option = |(requirement, error): (Requirement, String)| match requirement {
+        Requirement::Tolerance if deviation.is_some() => format!("--deviation: twice its ratio to the length is {error}"),
+        _ => format!("{}: {error}", option_name(requirement)),
     };
-    // No linkage is left where the names given are wrong: that has been said.
-    let is_new = |(wish, _): &(Requirement, String)| *wish != Requirement::Kinds || wrong.is_empty();
-    let objections: Vec<String> = wishes.errors().into_iter().filter(is_new).map(named).collect();
-    wrong.extend(objections);
-    if wrong.is_empty() { Ok(wishes) } else { Err(wrong) }
+    // With a wrong name in `--types` there may be no linkage to choose from, and the name has been reported.
+    let is_new = |(requirement, _): &(Requirement, String)| *requirement != Requirement::Kinds || errors.is_empty();
+    let further: Vec<String> = requirements.errors().into_iter().filter(is_new).map(with_option).collect();
+    errors.extend(further);
+    if errors.is_empty() { Ok(requirements) } else { Err(errors) }
 }
 
-fn parse_kinds(names: &[String], wrong: &mut Vec<String>) -> Vec<LinkageKind> {
+fn parse_kinds(names: &[String], errors: &mut Vec<String>) -> Vec<LinkageKind> {
     let known = LinkageKind::ALL.map(LinkageKind::id);
     let mut kinds = Vec::new();
     for name in names {
         match LinkageKind::ALL.into_iter().find(|kind| kind.id() == name.trim()) {
             Some(kind) => kinds.push(kind),
-            None => wrong.push(format!("--types: there is no `{name}` here: {}", suggestion(name, &known))),
+            None => errors.push(format!("--types: unknown linkage `{name}`: {}", suggestion(name, &known))),
         }
     }
     kinds
 }
 
-/// A finite number, or an expression without names that is one.
+/// Reads a finite number or an expression without names; `example` is shown in the error.
 fn parse_number(text: &str, example: &str) -> Result<f64, String> {
     let expression =
         Expression::parse(text).map_err(|error| format!("`{text}`: {}; write it like {example}", error.message))?;
@@ -208,9 +254,9 @@ fn parse_number(text: &str, example: &str) -> Result<f64, String> {
     }
 }
 
-/// The option a wish is given by.
-fn option_name(wish: Requirement) -> &'static str {
-    match wish {
+/// The command-line option that sets a requirement.
+fn option_name(requirement: Requirement) -> &'static str {
+    match requirement {
         Requirement::Input => "--input",
         Requirement::DoublePoint => "--double-point",
         Requirement::QuickReturn => "--return",

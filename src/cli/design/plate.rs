@@ -1,15 +1,17 @@
+//! A drawing of the designs.
+
 use coupler_atlas::design::Design;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, Paper, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 
 use super::Report;
-use super::text::{format_significant, proportions};
+use super::format::{format_significant, proportions};
 
-/// The designs on one plate, in order of rank, as SVG.
+/// An SVG with one panel for each design, in order of rank.
 pub(super) fn plate(report: &Report) -> Vec<u8> {
     let designs = &report.results.designs;
-    // A panel is numbered by its cell: here by its rank.
+    // A panel shows the number of its cell; here that is the rank.
     let ranked = |(k, design): (usize, &Design)| {
         let mut solved = design.solved_cell.clone();
         solved.cell.number = k + 1;
@@ -20,28 +22,17 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
     let rows = designs.len().div_ceil(columns);
     let panel = |(design, solved)| {
         let design: &Design = design;
-        let view = design.pose.clone().map_or(PoseChoice::Clearest, PoseChoice::Fixed);
-        Panel {
-            link_inks: Vec::new(),
-            caption: caption(design),
-            note: note(design),
-            facts: Default::default(),
-            solved_cell: solved,
-            pose: view,
-        }
+        let pose = design.pose.clone().map_or(PoseChoice::Clearest, PoseChoice::Fixed);
+        Panel::new(solved).with_caption(caption(design)).with_note(note(design)).with_pose(pose)
     };
     let mut symbols: Vec<String> = designs.iter().flat_map(|design| design.family.names.clone()).collect();
     symbols.sort();
     symbols.dedup();
-    let heading = Heading {
-        atlas_title: "coupler-atlas",
-        family_id: "design",
-        family_title: "Straight-line linkages",
-        source: requirements_line(report),
-        symbols: &symbols,
-        page: 1,
-        page_count: 1,
-    };
+    let heading = Heading::new("Straight-line linkages")
+        .with_family_id("design")
+        .with_atlas_title("coupler-atlas")
+        .with_source(requirements_line(report))
+        .with_symbols(&symbols);
     let sheet = PanelPage {
         heading,
         layout: Layout::Panels { columns, rows },
@@ -56,28 +47,28 @@ fn caption(design: &Design) -> String {
 }
 
 fn note(design: &Design) -> String {
-    let (straight, figures) = (&design.straight, &design.performance);
+    let (straight, performance) = (&design.straight, &design.performance);
     format!(
         "straight {} ± {} over {:.1}° of the {}; μ ≥ {:.1}°; size {}",
         format_significant(straight.length, 5),
         format_significant(straight.deviation, 3),
         design.swing,
-        figures.input_link.name(),
-        figures.mu_min,
-        format_significant(figures.size, 5)
+        performance.input_link.name(),
+        performance.mu_min,
+        format_significant(performance.size, 5)
     )
 }
 
-/// What was wished, in a line.
+/// The requirements in one line.
 fn requirements_line(report: &Report) -> String {
-    let wishes = &report.requirements;
+    let requirements = &report.requirements;
     let number = |name: &str, value: Option<f64>| value.map(|value| format!("{name} {}", format_significant(value, 5)));
     let parts = [
-        number("straight length", wishes.length),
-        number("strip's width over length at most", Some(wishes.tolerance)),
-        number("size at most", wishes.size),
-        number("frame p =", wishes.p),
-        Some(wishes.mu_min)
+        number("straight length", requirements.length),
+        number("strip width over length at most", Some(requirements.tolerance)),
+        number("size at most", requirements.size),
+        number("frame p =", requirements.p),
+        Some(requirements.mu_min)
             .filter(|&mu| mu > 0.0)
             .map(|mu| format!("transmission angle μ ≥ {}°", format_significant(mu, 4))),
     ];

@@ -1,20 +1,20 @@
-//! Trade-offs: what a linkage has over another, and what it lacks, from their numbers.
+//! Trade-offs: how a design is better or worse than another, in words.
 
 use coupler_atlas::design::Design;
 
-use super::text::format_significant;
+use super::format::{format_ratio, format_significant};
 
-/// What designers weigh.
+/// A property by which designs are compared.
 struct Quality {
     /// Its value; `None` where it does not apply.
     value: fn(&Design) -> Option<f64>,
-    /// Whether more of it is better.
+    /// Whether a greater value is better.
     is_more_better: bool,
-    /// What two values differ by at least to be told apart, as a part of the greater.
+    /// The least difference of two values that counts, relative to the greater in magnitude.
     min_difference: f64,
-    /// How a better and a worse value is told, beside the other.
+    /// The words for a value that is better than another, and for one that is worse.
     describe: fn(f64, f64) -> [String; 2],
-    /// What the best of all is called.
+    /// The words for the best value of all; empty if it is not mentioned.
     superlative: &'static str,
 }
 
@@ -44,8 +44,8 @@ const QUALITIES: [Quality; 6] = [
         is_more_better: true,
         min_difference: 0.03,
         describe: |own, other| {
-            let by = format_significant((own - other).abs(), 2);
-            [format!("transmission angle {by}° better"), format!("transmission angle {by}° worse")]
+            let difference = format_significant((own - other).abs(), 2);
+            [format!("transmission angle {difference}° better"), format!("transmission angle {difference}° worse")]
         },
         superlative: "best transmission angle",
     },
@@ -81,13 +81,8 @@ const QUALITIES: [Quality; 6] = [
     },
 ];
 
-/// A ratio to read.
-pub(super) fn format_ratio(value: f64) -> String {
-    if value.is_finite() { format!("{value:.2}") } else { "∞".to_owned() }
-}
-
 impl Quality {
-    /// 1 where the first is better, -1 where it is worse, 0 where they are alike or cannot be compared.
+    /// 1 if the first is better, -1 if it is worse, 0 if they are alike or cannot be compared.
     fn compare(&self, own: &Design, other: &Design) -> i32 {
         let (Some(a), Some(b)) = ((self.value)(own), (self.value)(other)) else { return 0 };
         if a == b || (a - b).abs() <= self.min_difference * a.abs().max(b.abs()) {
@@ -97,7 +92,7 @@ impl Quality {
     }
 }
 
-/// What is to be said for and against a design, beside the first of all; of the first, where others are better.
+/// How the `k`-th design is better and worse than the first; for the first itself, where it leads and where others do.
 pub(super) fn trade_offs(designs: &[Design], k: usize) -> String {
     let (own, first) = (&designs[k], &designs[0]);
     if k == 0 {
@@ -123,22 +118,22 @@ pub(super) fn trade_offs(designs: &[Design], k: usize) -> String {
 
 fn first_trade_offs(designs: &[Design]) -> String {
     let first = &designs[0];
-    let (mut led, mut others) = (Vec::new(), Vec::new());
+    let (mut leads, mut others) = (Vec::new(), Vec::new());
     for quality in QUALITIES.iter().filter(|quality| !quality.superlative.is_empty()) {
         let is_better = |a: usize, b: usize| quality.compare(&designs[a], &designs[b]) > 0;
-        let beaten = (1..designs.len()).filter(|&k| is_better(k, 0));
-        match beaten.reduce(|best, k| if is_better(k, best) { k } else { best }) {
+        let better = (1..designs.len()).filter(|&k| is_better(k, 0));
+        match better.reduce(|best, k| if is_better(k, best) { k } else { best }) {
             Some(k) => others.push(format!("{} in {}", quality.superlative, k + 1)),
             None if (1..designs.len()).any(|k| quality.compare(first, &designs[k]) > 0) => {
-                led.push(quality.superlative)
+                leads.push(quality.superlative)
             }
             None => {}
         }
     }
-    match (led.is_empty(), others.is_empty()) {
-        (true, true) => "the only one".to_owned(),
-        (false, true) => format!("of all: {}", led.join(", ")),
+    match (leads.is_empty(), others.is_empty()) {
+        (true, true) => "the only design".to_owned(),
+        (false, true) => format!("of all: {}", leads.join(", ")),
         (true, false) => others.join(", "),
-        (false, false) => format!("of all: {}; but {}", led.join(", "), others.join(", ")),
+        (false, false) => format!("of all: {}; but {}", leads.join(", "), others.join(", ")),
     }
 }

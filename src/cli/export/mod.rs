@@ -1,9 +1,10 @@
-//! Curves taken away: to a file, to a folder, or to standard output.
+//! `export`: writes curves to a file, to a folder, or to standard output.
 
 mod moved_point;
 mod selection;
 mod selector;
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -11,54 +12,80 @@ use coupler_atlas::export::{self, Format, Options};
 use coupler_atlas::manifest::Plan;
 use coupler_atlas::output;
 use coupler_curves::exchange::{ParameterSet, SelectedCurve, manifest_fragment};
-use coupler_curves::family::{Family, Sampling};
+use coupler_curves::family::{Family, MAX_SAMPLES, Sampling};
 use coupler_curves::problem::suggestion;
 use coupler_drawing::page;
 use coupler_drawing::render::TextMode;
 
-use super::{InputError, Outcome, linkage, pluralize, print, print_bytes, print_stderr, source};
+use super::linkage::{self, DEFAULT_SAMPLES};
+use super::source::{self, DEFAULT_MANIFEST};
+use super::{InputError, Outcome, pluralize, print, print_bytes, print_stderr};
 use selection::CurveSelection;
 use selector::CurveSelector;
 
-/// Take curves away: as drawings, still or moving, for CAD, as tables, as JSON, or as a piece of a manifest.
+/// Export curves as drawings, still or moving, CAD drawings, tables, JSON, or a fragment of a manifest.
 ///
-/// A curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, by the numbers it has in points.csv; FAMILY:CELL is every
-/// curve of a cell, FAMILY every curve of a family, and no name at all every curve of the manifest. Parameters may be
-/// changed: "evans:12.1.1?p=2.5&k=2". One result goes to standard output if no file is given, several need a folder.
-/// docs/export.md describes the formats.
+/// A curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, by its numbers in points.csv; FAMILY:CELL names every
+/// curve of a cell, and FAMILY every curve of a family. Without a name, every curve of the manifest is exported.
+/// Parameters can be replaced: "evans:12.1.1?p=2.5&k=2". A single file is written to standard output unless --output is
+/// given; several need a folder. docs/export.md describes the formats.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The manifest, if the first word ends in .toml [default: atlas.toml], and names of curves; with --linkage, parameters
-    /// as NAME=VALUE, and curves as TRACE.CIRCUIT, all if there are none.
-    #[arg(value_name = "MANIFEST|CURVE")]
+    #[arg(value_name = "MANIFEST|CURVE", help = words_help())]
     words: Vec<String>,
-    /// What to make: svg, moving-svg, png, dxf (AutoCAD R12), csv, json, toml (a [[family]] of all together).
+    /// The formats to export: svg, moving-svg, png, dxf (AutoCAD R12), csv, json, toml (one fragment of a manifest for all
+    /// curves).
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_value = "svg", value_parser = parse_format)]
     format: Vec<Format>,
-    /// The file to write, or of several the folder, relative to the current folder.
+    /// The file to write, or the folder if there are several files.
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
-    /// Take the curves of this family only; may be given more than once.
+    /// Export only curves of this family; may be given more than once.
     #[arg(long, value_name = "FAMILY", conflicts_with = "linkage")]
     only: Vec<String>,
-    /// Take the curves of one linkage: of the catalogue, or of the manifest given.
+    /// Export the curves of a single linkage from the catalogue, or from the manifest given with --manifest.
     #[arg(long, value_name = "LINKAGE")]
     linkage: Option<String>,
-    /// A manifest whose own linkages can be named.
+    /// A manifest whose linkages --linkage can name.
     #[arg(long, value_name = "FILE", requires = "linkage")]
     manifest: Option<PathBuf>,
-    /// Of a linkage, a sample at every multiple of so much input, in degrees or as a length.
+    /// With --linkage, the input between samples, in degrees or as a length.
     #[arg(long, value_name = "STEP", requires = "linkage", conflicts_with = "samples", value_parser = parse_step)]
     step: Option<f64>,
-    /// Of a linkage, so many samples to a circuit [default: 360].
-    #[arg(long, value_name = "N", requires = "linkage", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "linkage",
+        value_parser = clap::value_parser!(u32).range(2..=MAX_SAMPLES as i64),
+        help = format!("With --linkage, the number of samples of a circuit [default: {DEFAULT_SAMPLES}]")
+    )]
     samples: Option<u32>,
-    /// How far a chord of a DXF polyline may be from the curve, in parts of the curve's extent.
+    /// The greatest distance of a chord of a DXF polyline from the curve, relative to the curve's extent.
     #[arg(long, value_name = "X", default_value_t = Options::DEFAULT_CHORD_TOLERANCE, value_parser = parse_chord)]
     chord: f64,
-    /// Pixels to the inch of PNG images [default: the manifest's, or 150].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(10..=2400))]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(10..=2400),
+        help = format!("The resolution of PNG images, in pixels per inch [default: that of the manifest, or {DEFAULT_DPI}]")
+    )]
     dpi: Option<u32>,
+}
+
+/// The resolution of images of a linkage that is in no manifest, in pixels per inch.
+const DEFAULT_DPI: u32 = 150;
+
+/// The chord tolerances that `--chord` accepts.
+const CHORD_RANGE: RangeInclusive<f64> = 1e-9..=0.1;
+
+/// The least input between samples: with a smaller one, a full turn has too many samples.
+const MIN_STEP: f64 = 360.0 / MAX_SAMPLES as f64;
+
+fn words_help() -> String {
+    format!(
+        "The manifest, if the first word ends in .toml [default: {DEFAULT_MANIFEST}], followed by the names of curves; with \
+         --linkage, parameters as NAME=VALUE and curves as TRACE.CIRCUIT [default: all curves]"
+    )
 }
 
 fn parse_format(name: &str) -> Result<Format, String> {
@@ -66,31 +93,33 @@ fn parse_format(name: &str) -> Result<Format, String> {
     Format::ALL
         .into_iter()
         .find(|format| format.name() == name)
-        .ok_or_else(|| format!("there is no format `{name}`: {}", suggestion(name, &known)))
+        .ok_or_else(|| format!("unknown format `{name}`: {}", suggestion(name, &known)))
 }
 
 fn parse_chord(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "it is no number; give one like 1e-4".to_owned())?;
-    let is_good = (1e-9..=0.1).contains(&value);
-    is_good.then_some(value).ok_or_else(|| "give a number from 1e-9 to 0.1, as in --chord 1e-4".to_owned())
+    let value: f64 = text.parse().map_err(|_| "expected a number, as in --chord 1e-4".to_owned())?;
+    let error = || {
+        let (least, greatest) = (CHORD_RANGE.start(), CHORD_RANGE.end());
+        format!("expected a number from {least:e} to {greatest}, as in --chord 1e-4")
+    };
+    CHORD_RANGE.contains(&value).then_some(value).ok_or_else(error)
 }
 
 fn parse_step(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "it is no number; give one like 2".to_owned())?;
-    // A shorter one makes more samples of a turn than there may be.
-    let is_good = value.is_finite() && value >= 0.0036;
-    is_good.then_some(value).ok_or_else(|| "give a number from 0.0036, as in --step 2".to_owned())
+    let value: f64 = text.parse().map_err(|_| "expected a number, as in --step 2".to_owned())?;
+    let is_valid = value.is_finite() && value >= MIN_STEP;
+    is_valid.then_some(value).ok_or_else(|| format!("expected a number of at least {MIN_STEP}, as in --step 2"))
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let (choices, plan) = match &arguments.linkage {
+    let (selections, plan) = match &arguments.linkage {
         Some(id) => (vec![select_from_linkage(id, arguments)?], None),
         None => {
-            let (choices, plan) = select_from_manifest(arguments)?;
-            (choices, Some(plan))
+            let (selections, plan) = select_from_manifest(arguments)?;
+            (selections, Some(plan))
         }
     };
-    let curves = count_curves(&choices)?;
+    let curves = count_curves(&selections)?;
     let mut formats = arguments.format.clone();
     formats.sort_unstable();
     formats.dedup();
@@ -99,8 +128,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let options = export_options(arguments, plan.as_ref());
     let mut destination = Destination::from_path(arguments.output.as_deref(), files)?;
     let mut cases = Vec::new();
-    for choice in &choices {
-        export_selection(choice, (&formats, &options), &mut destination, &mut cases)?;
+    for selection in &selections {
+        export_selection(selection, (&formats, &options), &mut destination, &mut cases)?;
     }
     if formats.contains(&Format::Toml) {
         destination.write_file("curves.toml", manifest_fragment(&cases).as_bytes())?;
@@ -111,12 +140,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// Several problems at once.
+/// One error of several messages.
 fn problems_error(problems: &[String]) -> anyhow::Error {
     InputError(problems.join("\nerror: ")).into()
 }
 
-/// The curves of one linkage.
+/// Selects the curves of a single linkage.
+///
+/// # Errors
+/// Every error in the parameters and curves on the command line.
 fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveSelection> {
     let template = linkage::find_template(id, arguments.manifest.as_deref())?;
     let mut problems = Vec::new();
@@ -125,118 +157,123 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
         match (CurveSelector::parse_curve_numbers(word), linkage::parse_parameter(word)) {
             (Some(curve), _) => curves.push(curve),
             (None, Ok(parameter)) => given.push(parameter),
-            (None, Err(why)) => problems.push(why.to_string()),
+            (None, Err(error)) => problems.push(error.to_string()),
         }
     }
     let sampling = match (arguments.step, arguments.samples) {
         (Some(step), _) => Sampling::Step(step),
-        (None, samples) => Sampling::Samples(samples.unwrap_or(360) as usize),
+        (None, samples) => Sampling::Samples(samples.unwrap_or(DEFAULT_SAMPLES) as usize),
     };
-    let legend = [&template.source, &template.legend].map(String::as_str);
-    let source: Vec<&str> = legend.into_iter().filter(|part| !part.is_empty()).collect();
-    let source = source.join(" · ");
+    let source = template.source_line();
     match Family::single_cell(template, &given, sampling) {
-        Err(objections) => problems.extend(objections.into_iter().map(|objection| format!("{id}: {objection}"))),
+        Err(errors) => problems.extend(errors.iter().map(|error| format!("{id}: {error}"))),
         Ok(family) if problems.is_empty() => {
-            let mut choice = CurveSelection::empty(family, source);
-            let name = |curve| CurveSelector { family: id.to_owned(), cell: Some(1), curve, overrides: Vec::new() };
-            let names: Vec<CurveSelector> = match curves.len() {
-                0 => vec![name(None)],
-                _ => curves.into_iter().map(|curve| name(Some(curve))).collect(),
+            let mut selection = CurveSelection::empty(family, source);
+            let selector = |curve| CurveSelector { family: id.to_owned(), cell: Some(1), curve, overrides: Vec::new() };
+            let selectors: Vec<CurveSelector> = match curves.len() {
+                0 => vec![selector(None)],
+                _ => curves.into_iter().map(|curve| selector(Some(curve))).collect(),
             };
-            names.iter().try_for_each(|name| choice.add(name)).map_err(InputError)?;
-            return Ok(choice);
+            selectors.iter().try_for_each(|selector| selection.add(selector)).map_err(InputError)?;
+            return Ok(selection);
         }
         Ok(_) => {}
     }
     Err(problems_error(&problems))
 }
 
-/// The curves that are named of a manifest, and its plan.
+/// Selects the named curves of a manifest, and returns its plan.
+///
+/// # Errors
+/// The manifest cannot be read, or every error in the names.
 fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelection>, Plan)> {
     let (path, words) = match arguments.words.split_first() {
         Some((first, rest)) if first.to_lowercase().ends_with(".toml") => (Path::new(first), rest),
-        _ => (Path::new("atlas.toml"), &arguments.words[..]),
+        _ => (Path::new(DEFAULT_MANIFEST), &arguments.words[..]),
     };
     let source = source::read(path)?;
     source.require_families(&arguments.only)?;
-    let is_asked = |id: &str| arguments.only.is_empty() || arguments.only.iter().any(|only| only == id);
-    let planned: Vec<_> = source.plan.families.iter().filter(|planned| is_asked(&planned.family.id)).collect();
+    let is_requested = |id: &str| arguments.only.is_empty() || arguments.only.iter().any(|only| only == id);
+    let planned: Vec<_> = source.plan.families.iter().filter(|planned| is_requested(&planned.family.id)).collect();
     let ids: Vec<&str> = planned.iter().map(|planned| planned.family.id.as_str()).collect();
     let mut problems = Vec::new();
-    let mut choices: Vec<CurveSelection> = Vec::new();
+    let mut selections: Vec<CurveSelection> = Vec::new();
     for word in words {
-        let name = match CurveSelector::parse(word) {
-            Ok(name) => name,
-            Err(why) => {
-                problems.push(why);
+        let selector = match CurveSelector::parse(word) {
+            Ok(selector) => selector,
+            Err(error) => {
+                problems.push(error);
                 continue;
             }
         };
-        let Some(planned) = planned.iter().find(|planned| planned.family.id == name.family) else {
-            let remedy = suggestion(&name.family, &ids);
-            problems.push(format!("`{word}`: there is no family `{}`: {remedy}", name.family));
+        let Some(planned) = planned.iter().find(|planned| planned.family.id == selector.family) else {
+            let help = suggestion(&selector.family, &ids);
+            problems.push(format!("`{word}`: there is no family `{}`: {help}", selector.family));
             continue;
         };
         let (family, source) = (&planned.family, &planned.source);
-        if name.overrides.is_empty() {
-            let is_its = |choice: &CurveSelection| choice.overrides.is_empty() && choice.family.id == family.id;
-            let at = choices.iter().position(is_its).unwrap_or_else(|| {
-                choices.push(CurveSelection::empty(family.clone(), source.clone()));
-                choices.len() - 1
+        if selector.overrides.is_empty() {
+            let is_same_family =
+                |selection: &CurveSelection| selection.overrides.is_empty() && selection.family.id == family.id;
+            let index = selections.iter().position(is_same_family).unwrap_or_else(|| {
+                selections.push(CurveSelection::empty(family.clone(), source.clone()));
+                selections.len() - 1
             });
-            problems.extend(choices[at].add(&name).err());
+            problems.extend(selections[index].add(&selector).err());
         } else {
-            match CurveSelection::with_overrides(family, source, &name) {
-                Ok(choice) => choices.push(choice),
-                Err(objections) => problems.extend(objections),
+            match CurveSelection::with_overrides(family, source, &selector) {
+                Ok(selection) => selections.push(selection),
+                Err(errors) => problems.extend(errors),
             }
         }
     }
     if words.is_empty() {
-        choices
+        selections
             .extend(planned.iter().map(|planned| CurveSelection::all(planned.family.clone(), planned.source.clone())));
     }
-    if problems.is_empty() { Ok((choices, source.plan)) } else { Err(problems_error(&problems)) }
+    if problems.is_empty() { Ok((selections, source.plan)) } else { Err(problems_error(&problems)) }
 }
 
-/// How many curves are wanted; what is not there is said, all of it.
-fn count_curves(choices: &[CurveSelection]) -> anyhow::Result<usize> {
+/// The number of selected curves.
+///
+/// # Errors
+/// Every named curve that does not exist; no curve at all.
+fn count_curves(selections: &[CurveSelection]) -> anyhow::Result<usize> {
     let mut curves = 0;
     let mut problems = Vec::new();
-    for choice in choices {
-        let look = |solved| {
-            let missing = choice.missing_curves(&solved);
-            let shortfall = (!solved.motion.is_assembled() && !solved.is_left_out())
-                .then(|| format!("{}:{}", choice.family.id, solved.cell.number));
-            (missing, choice.retain_selected(solved).curves.len(), shortfall)
+    for selection in selections {
+        let inspect = |solved| {
+            let missing = selection.missing_curves(&solved);
+            let unassembled = (!solved.motion.is_assembled() && !solved.is_left_out())
+                .then(|| format!("{}:{}", selection.family.id, solved.cell.number));
+            (missing, selection.retain_selected(solved).curves.len(), unassembled)
         };
         let mut not_assembled = Vec::new();
-        choice.solve_cells(false, look, |(missing, found, shortfall)| {
-            curves += found;
+        selection.solve_cells(false, inspect, |(missing, curve_count, unassembled)| {
+            curves += curve_count;
             if missing.is_empty() {
-                not_assembled.extend(shortfall);
+                not_assembled.extend(unassembled);
             }
             problems.extend(missing);
             Ok::<(), anyhow::Error>(())
         })?;
         if let [first, rest @ ..] = &not_assembled[..] {
             let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
-            print_stderr(&format!("warning: {first}{more}: not assembled, and without a curve\n"));
+            print_stderr(&format!("warning: {first}{more}: not assembled, and has no curve\n"));
         }
     }
     if problems.is_empty() && curves == 0 {
-        problems.push("there is no curve in what is named: look at its cells.csv for the reasons".to_owned());
+        problems.push("there is no curve to export: see cells.csv for the reasons".to_owned());
     }
     if problems.is_empty() { Ok(curves) } else { Err(problems_error(&problems)) }
 }
 
 fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {
     let page = match plan {
-        Some(plan) => page::Options { paper: Options::PLATE_PAPER, ..plan.page.clone() },
+        Some(plan) => plan.page.clone().with_paper(Options::PLATE_PAPER),
         None => page::Options::for_paper(Options::PLATE_PAPER),
     };
-    let dpi = arguments.dpi.map(f64::from).or(plan.map(|plan| plan.dpi)).unwrap_or(150.0);
+    let dpi = arguments.dpi.map(f64::from).or(plan.map(|plan| plan.dpi)).unwrap_or(f64::from(DEFAULT_DPI));
     Options {
         page,
         text_mode: plan.map_or(TextMode::Text, |plan| plan.text_mode),
@@ -245,40 +282,40 @@ fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {
     }
 }
 
-/// Makes the files of a choice, and gathers its cases.
+/// Writes the files of a selection, and appends its cells to `cases`.
 fn export_selection<'a>(
-    choice: &'a CurveSelection,
+    selection: &'a CurveSelection,
     (formats, options): (&[Format], &Options),
     destination: &mut Destination,
     cases: &mut Vec<ParameterSet<'a>>,
 ) -> anyhow::Result<()> {
-    let of_each = || formats.iter().filter(|format| **format != Format::Toml);
-    let make = |solved| {
-        let each = SelectedCurve::all_from_cell(
-            &choice.family,
-            &choice.source,
-            &choice.overrides,
-            &choice.retain_selected(solved),
+    let curve_formats = || formats.iter().filter(|format| **format != Format::Toml);
+    let export_cell = |solved| {
+        let curves = SelectedCurve::all_from_cell(
+            &selection.family,
+            &selection.source,
+            &selection.overrides,
+            &selection.retain_selected(solved),
         );
         let mut files = Vec::new();
-        for chosen in &each {
-            for &format in of_each() {
-                files.push((export::file_name(chosen, format), export::bytes(chosen, format, options)));
+        for curve in &curves {
+            for &format in curve_formats() {
+                files.push((export::file_name(curve, format), export::bytes(curve, format, options)));
             }
         }
-        (files, each.iter().map(ParameterSet::from_curve).collect::<Vec<_>>())
+        (files, curves.iter().map(ParameterSet::from_curve).collect::<Vec<_>>())
     };
-    choice.solve_cells(true, make, |(files, of_cell)| {
-        cases.extend(of_cell);
+    selection.solve_cells(true, export_cell, |(files, cell_cases)| {
+        cases.extend(cell_cases);
         for (file, bytes) in files {
-            let bytes = bytes.map_err(|why| InputError(format!("{file}: {why}; give a smaller --dpi")))?;
+            let bytes = bytes.map_err(|error| InputError(format!("{file}: {error}; give a smaller --dpi")))?;
             destination.write_file(&file, &bytes)?;
         }
         Ok(())
     })
 }
 
-/// Where results go.
+/// Where the files are written.
 enum Destination {
     Stdout,
     File(PathBuf),
@@ -286,13 +323,14 @@ enum Destination {
 }
 
 impl Destination {
-    fn from_path(given: Option<&Path>, files: usize) -> anyhow::Result<Destination> {
-        let Some(path) = given else {
-            let several =
+    /// The destination of `files` files at a path; creates the folder if there are several.
+    fn from_path(path: Option<&Path>, files: usize) -> anyhow::Result<Destination> {
+        let Some(path) = path else {
+            let error =
                 || InputError(format!("there are {files} files to write: name a folder for them with -o FOLDER"));
-            return if files == 1 { Ok(Destination::Stdout) } else { Err(several().into()) };
+            return if files == 1 { Ok(Destination::Stdout) } else { Err(error().into()) };
         };
-        // A file is written beside its place and renamed: what is no file, a device or a pipe, would be gone.
+        // A file is written under a temporary name and renamed, which would replace a device or a pipe.
         if path.exists() && !path.is_file() && !path.is_dir() {
             let path = path.display();
             return Err(InputError(format!(

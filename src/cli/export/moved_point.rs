@@ -1,63 +1,65 @@
-//! A traced point that is moved on its link: `M.along` and `M.across` among changed parameters.
+//! A traced point moved on its link by the overrides `M.along` and `M.across`.
 
 use coupler_curves::expression::{CompiledExpression, Expression, Kind};
 use coupler_curves::template::{Coordinate, JointKindTemplate, JointTemplate, Template};
 
-/// A template with the point of a trace, counted from 1, where `changed` has it on its link, and the number of its trace
-/// then: a point of a grid comes to stand beside the grid, and is traced last.
+/// Moves the point of a trace, counted from 1, on its link, and returns the new template and the number of its trace.
+///
+/// `values` are the values of the template's parameters. A point of a grid is added to the template next to the grid,
+/// and becomes the last trace.
 ///
 /// # Errors
-/// What is wrong with a name, in a sentence.
+/// The trace does not exist, its point cannot be moved, or an override has an unknown name.
 pub(super) fn move_point(
     template: &Template,
     trace: usize,
     values: &[f64],
-    changed: &[&(String, f64)],
+    overrides: &[&(String, f64)],
 ) -> Result<(Template, usize), String> {
-    let (joint, place) = find_traced_point(template, trace).ok_or_else(|| format!("there is no trace {trace}"))?;
-    let JointTemplate { name, kind: placing } = &template.joints[joint];
-    let JointKindTemplate::Point { base, along, across } = placing else {
-        return Err(format!("`{name}` is no point along and across its link, and cannot be moved on it"));
+    let (joint, point) = find_traced_point(template, trace).ok_or_else(|| format!("there is no trace {trace}"))?;
+    let JointTemplate { name, kind } = &template.joints[joint];
+    let JointKindTemplate::Point { base, along, across } = kind else {
+        return Err(format!("`{name}` is not a point with `along` and `across`, and cannot be moved on its link"));
     };
     let number = |coordinate: &Coordinate, k: usize| {
-        coordinate.values(|bound| bound.evaluate(|slot| values[slot])).get(k).copied().unwrap_or(f64::NAN)
+        coordinate.values(|expression| expression.evaluate(|slot| values[slot])).get(k).copied().unwrap_or(f64::NAN)
     };
     let is_grid = along.count() * across.count() > 1;
-    let mut at = [number(along, place / across.count()), number(across, place % across.count())];
-    for (word, value) in changed {
+    let mut coordinates = [number(along, point / across.count()), number(across, point % across.count())];
+    for (word, value) in overrides {
         match word.strip_prefix(name.as_str()).and_then(|rest| rest.strip_prefix('.')) {
-            Some("along") => at[0] = *value,
-            Some("across") => at[1] = *value,
+            Some("along") => coordinates[0] = *value,
+            Some("across") => coordinates[1] = *value,
             _ => return Err(format!("there is no `{word}`: it can be `{name}.along` or `{name}.across`")),
         }
     }
-    let [Some(along), Some(across)] = at.map(constant_expression) else {
-        return Err(format!("`{name}` has no place on its link"));
+    let [Some(along), Some(across)] = coordinates.map(constant_expression) else {
+        return Err(format!("the coordinates of `{name}` are not finite"));
     };
-    let placing =
+    let kind =
         JointKindTemplate::Point { base: *base, along: Coordinate::Single(along), across: Coordinate::Single(across) };
-    let mut own = template.clone();
+    let mut moved = template.clone();
     if is_grid {
-        own.traced.push(own.joints.len());
-        own.joints.push(JointTemplate { name: format!("{name}′"), kind: placing });
-        return Ok((own, template.curve_count() + 1));
+        moved.traced.push(moved.joints.len());
+        moved.joints.push(JointTemplate { name: format!("{name}′"), kind });
+        return Ok((moved, template.curve_count() + 1));
     }
-    own.joints[joint].kind = placing;
-    Ok((own, trace))
+    moved.joints[joint].kind = kind;
+    Ok((moved, trace))
 }
 
-/// The joint of a trace, by its place in the template, and which of its points it is.
+/// The index of the joint of a trace in the template, and the index of the point among those of the joint.
 fn find_traced_point(template: &Template, trace: usize) -> Option<(usize, usize)> {
-    let mut left = trace.checked_sub(1)?;
+    let mut index = trace.checked_sub(1)?;
     for &joint in &template.traced {
         let points = match &template.joints[joint].kind {
             JointKindTemplate::Point { along, across, .. } => along.count() * across.count(),
             _ => 1,
         };
-        if left < points {
-            return Some((joint, left));
+        if index < points {
+            return Some((joint, index));
         }
-        left -= points;
+        index -= points;
     }
     None
 }

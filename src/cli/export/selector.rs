@@ -1,7 +1,9 @@
+//! Names of curves on the command line.
+
 use super::super::linkage;
 
-/// What a word on the command line names: the curves of a family, of one of its cells, or one curve; with other parameters
-/// than the cell's own, if it says so.
+/// The curves that a word names: those of a family, those of a cell, or one curve; with overrides, those that the cell
+/// has with other parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CurveSelector {
     pub family: String,
@@ -9,7 +11,7 @@ pub(super) struct CurveSelector {
     pub cell: Option<usize>,
     /// The numbers of the trace and the circuit, from 1.
     pub curve: Option<[usize; 2]>,
-    /// Parameters in place of the cell's.
+    /// Parameters that replace those of the cell.
     pub overrides: Vec<(String, f64)>,
 }
 
@@ -17,47 +19,47 @@ const SYNTAX_HELP: &str =
     "a curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, and several at once FAMILY:CELL or FAMILY";
 
 impl CurveSelector {
-    /// Reads `evans`, `evans:12`, `evans:12.1.1` or `evans:12.1.1?p=2.5&k=2`.
+    /// Parses `evans`, `evans:12`, `evans:12.1.1` or `evans:12.1.1?p=2.5&k=2`.
     ///
     /// # Errors
-    /// What is wrong with it, in a sentence.
+    /// A message, if the text has another form.
     pub fn parse(text: &str) -> Result<CurveSelector, String> {
-        let (place, query) = text.split_once('?').map_or((text, None), |(place, query)| (place, Some(query)));
-        let (family, numbers) = place.split_once(':').map_or((place, None), |(id, numbers)| (id, Some(numbers)));
-        let wrong = || format!("`{text}`: {SYNTAX_HELP}");
+        let (name, query) = text.split_once('?').map_or((text, None), |(name, query)| (name, Some(query)));
+        let (family, numbers) = name.split_once(':').map_or((name, None), |(id, numbers)| (id, Some(numbers)));
+        let error = || format!("`{text}`: {SYNTAX_HELP}");
         let numbers: Vec<usize> = match numbers {
             None => Vec::new(),
-            Some(numbers) => numbers.split('.').map(parse_positive).collect::<Option<_>>().ok_or_else(wrong)?,
+            Some(numbers) => numbers.split('.').map(parse_positive).collect::<Option<_>>().ok_or_else(error)?,
         };
         let (cell, curve) = match numbers[..] {
             [] => (None, None),
             [cell] => (Some(cell), None),
             [cell, trace, circuit] => (Some(cell), Some([trace, circuit])),
-            _ => return Err(wrong()),
+            _ => return Err(error()),
         };
         if family.is_empty() {
-            return Err(wrong());
+            return Err(error());
         }
         let pairs = query.into_iter().flat_map(|query| query.split('&')).filter(|pair| !pair.is_empty());
-        let changed: Vec<(String, f64)> =
-            pairs.map(linkage::parse_parameter).collect::<Result<_, _>>().map_err(|why| why.to_string())?;
-        if !changed.is_empty() && cell.is_none() {
+        let overrides: Vec<(String, f64)> =
+            pairs.map(linkage::parse_parameter).collect::<Result<_, _>>().map_err(|error| error.to_string())?;
+        if !overrides.is_empty() && cell.is_none() {
             return Err(format!(
-                "`{text}`: parameters are changed of one cell; name it, as in {family}:1?{}",
+                "`{text}`: only the parameters of a single cell can be replaced; name it, as in {family}:1?{}",
                 query.unwrap_or("")
             ));
         }
-        Ok(CurveSelector { family: family.to_owned(), cell, curve, overrides: changed })
+        Ok(CurveSelector { family: family.to_owned(), cell, curve, overrides })
     }
 
-    /// The numbers of a curve of a single linkage, `1.2`; none where a text is something else.
+    /// Parses the trace and circuit of a curve of a single linkage, `1.2`.
     pub fn parse_curve_numbers(text: &str) -> Option<[usize; 2]> {
         let (trace, circuit) = text.split_once('.')?;
         Some([parse_positive(trace)?, parse_positive(circuit)?])
     }
 }
 
-/// A number from 1.
+/// Parses a whole number from 1 on, in digits only.
 fn parse_positive(text: &str) -> Option<usize> {
     text.parse().ok().filter(|number| *number > 0 && text.bytes().all(|b| b.is_ascii_digit()))
 }
@@ -67,24 +69,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_say_family_cell_curve_and_changes() {
-        let name = |cell, curve, changed: &[(&str, f64)]| CurveSelector {
+    fn a_selector_names_family_cell_curve_and_overrides() {
+        let selector = |cell, curve, overrides: &[(&str, f64)]| CurveSelector {
             family: "evans".to_owned(),
             cell,
             curve,
-            overrides: changed.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
+            overrides: overrides.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
         };
-        assert_eq!(CurveSelector::parse("evans"), Ok(name(None, None, &[])));
-        assert_eq!(CurveSelector::parse("evans:3"), Ok(name(Some(3), None, &[])));
-        assert_eq!(CurveSelector::parse("evans:3.1.2"), Ok(name(Some(3), Some([1, 2]), &[])));
+        assert_eq!(CurveSelector::parse("evans"), Ok(selector(None, None, &[])));
+        assert_eq!(CurveSelector::parse("evans:3"), Ok(selector(Some(3), None, &[])));
+        assert_eq!(CurveSelector::parse("evans:3.1.2"), Ok(selector(Some(3), Some([1, 2]), &[])));
         assert_eq!(
             CurveSelector::parse("evans:3.1.2?p=2^2&k=1"),
-            Ok(name(Some(3), Some([1, 2]), &[("p", 4.0), ("k", 1.0)]))
+            Ok(selector(Some(3), Some([1, 2]), &[("p", 4.0), ("k", 1.0)]))
         );
-        for wrong in
+        for invalid in
             ["", ":1", "evans:", "evans:0", "evans:1.2", "evans:1.1.1.1", "evans:+1", "evans:1.1.1?p", "evans?p=1"]
         {
-            assert!(CurveSelector::parse(wrong).is_err(), "{wrong}");
+            assert!(CurveSelector::parse(invalid).is_err(), "{invalid}");
         }
     }
 }

@@ -1,34 +1,35 @@
-//! The two other four-bars that draw a linkage's curve: found, drawn, and written as a manifest.
+//! The Roberts-Chebyshev cognates of a linkage, as a panel, as text and as a manifest.
 
 use std::fmt::Write;
 
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{
-    CircuitSelection, Cognate, CognateError, Cognates, FourBar, FourBarClass, JointId, Linkage, MotionOptions,
-    PlacedFourBar,
+    CircuitSelection, Cognate, CognateError, Cognates, DyadId, FourBar, FourBarClass, JointId, LinkId, Linkage,
+    MotionOptions, PlacedFourBar,
 };
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use coupler_drawing::page::{self, Panel, PoseChoice};
+use coupler_drawing::page::{self, Panel};
 
-use super::text::{describe_circuit, format_point, format_significant};
+use super::super::linkage::DEFAULT_SAMPLES;
+use super::format::{describe_circuit, format_point, format_significant};
 use super::{InputError, Report};
 
-/// The three four-bars that draw one curve.
+/// The three four-bars that trace the same coupler curve.
 pub(super) struct CognateSet {
     /// The number of the traced joint, from 1.
     pub trace: usize,
-    /// The lengths, and the third pivot.
+    /// The link lengths and the third pivot.
     pub cognates: Cognates,
-    /// The original as a plain four-bar and both others, each with what it does.
+    /// The original as a plain four-bar, and its two cognates.
     pub linkages: [CognateMember; 3],
-    /// The original with the others hung on, and the links of each.
-    pub assembled: (SolvedCell, [Vec<usize>; 2]),
+    /// The original and both cognates, assembled as one linkage, and the links of each cognate.
+    pub assembled: (SolvedCell, [Vec<LinkId>; 2]),
 }
 
-/// One of the three.
+/// One of the three four-bars, with its motion.
 pub(super) struct CognateMember {
-    /// Its place among the three, in words.
+    /// `original`, `cognate 1` or `cognate 2`.
     pub name: &'static str,
     pub cognate: Cognate,
     pub class: FourBarClass,
@@ -36,31 +37,34 @@ pub(super) struct CognateMember {
     pub motion: Motion,
 }
 
-/// The cognates of a solved linkage with a traced joint for its coupler point, counted from 1.
+/// Finds the cognates of a solved linkage; its coupler point is the `trace`-th traced joint, counted from 1.
+///
+/// # Errors
+/// There is no such joint, the linkage is not a four-bar with a coupler point there, or a cognate cannot be assembled.
 pub(super) fn find_cognates(id: &str, solved: &SolvedCell, trace: usize) -> anyhow::Result<CognateSet> {
     let traced = &solved.linkage.traced;
     let Some(&joint) = trace.checked_sub(1).and_then(|k| traced.get(k)) else {
         return Err(InputError(format!("{id} traces {} joints: give --trace 1 to {0}", traced.len())).into());
     };
-    let wrong = |why: CognateError| InputError(format!("{id}: {why}; {}", why.help()));
-    let placed = PlacedFourBar::from_linkage(&solved.linkage, joint).map_err(wrong)?;
-    let cognates = Cognates::from_four_bar(placed).map_err(wrong)?;
-    let (hung, links) = Cognates::assemble(&solved.linkage, joint).map_err(wrong)?;
+    let input_error = |error: CognateError| InputError(format!("{id}: {error}; {}", error.help()));
+    let placed = PlacedFourBar::from_linkage(&solved.linkage, joint).map_err(input_error)?;
+    let cognates = Cognates::from_four_bar(placed).map_err(input_error)?;
+    let (assembled, links) = Cognates::assemble(&solved.linkage, joint).map_err(input_error)?;
     let poses = four_bar_poses(solved);
-    let travel = &solved.linkage.motion_options;
+    let motion_options = &solved.linkage.motion_options;
     let member = |(name, cognate): (&'static str, Cognate)| -> anyhow::Result<CognateMember> {
         let linkage = cognate
-            .to_linkage(poses.iter().copied(), travel)
-            .map_err(|why| InputError(format!("{id}: of its {name}, {why}; {}", why.help())))?;
-        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
+            .to_linkage(poses.iter().copied(), motion_options)
+            .map_err(|error| InputError(format!("{id}, {name}: {error}; {}", error.help())))?;
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(DEFAULT_SAMPLES as usize)));
         Ok(CognateMember { name, cognate, class: cognate.four_bar.lengths.class(), linkage, motion })
     };
     let [original, first, second] = cognates.all();
     let linkages = [member(("original", original))?, member(("cognate 1", first))?, member(("cognate 2", second))?];
-    Ok(CognateSet { trace, cognates, linkages, assembled: (with_motion(solved, hung, joint), links) })
+    Ok(CognateSet { trace, cognates, linkages, assembled: (with_motion(solved, assembled, joint), links) })
 }
 
-/// Crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
+/// The crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
 fn four_bar_poses(solved: &SolvedCell) -> Vec<[Point; 4]> {
     let (Some(pins), Some(circuit)) = (FourBar::pins(&solved.linkage), solved.motion.circuits.first()) else {
         return Vec::new();
@@ -68,47 +72,45 @@ fn four_bar_poses(solved: &SolvedCell) -> Vec<[Point; 4]> {
     (0..circuit.len()).map(|sample| pins.map(|pin| circuit.positions.point(pin, sample))).collect()
 }
 
-/// The motion of the linkage with its cognates, of which one curve is wanted.
-fn with_motion(solved: &SolvedCell, hung: Linkage, joint: JointId) -> SolvedCell {
-    let linkage = Linkage { traced: vec![joint], ..hung };
-    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
+/// Solves the linkage assembled with its cognates; only the curve of `joint` is kept.
+fn with_motion(solved: &SolvedCell, assembled: Linkage, joint: JointId) -> SolvedCell {
+    let linkage = Linkage { traced: vec![joint], ..assembled };
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(DEFAULT_SAMPLES as usize)));
     let curves = solved.curves.iter().filter(|curve| curve.joint == joint).cloned();
     let curves = curves.map(|curve| MeasuredCurve { trace: 1, ..curve }).collect();
     SolvedCell { linkage, motion, curves, ..solved.clone() }
 }
 
-/// The panel of the three.
-pub(super) fn panel<'a>(report: &'a Report, found: &'a CognateSet) -> Panel<'a> {
-    let (hung, links) = &found.assembled;
-    let ink = |(links, ink): (&Vec<usize>, usize)| links.iter().map(move |&link| (link, ink)).collect::<Vec<_>>();
+/// A panel that shows the three four-bars.
+pub(super) fn panel<'a>(report: &'a Report, cognate_set: &'a CognateSet) -> Panel<'a> {
+    let (assembled, links) = &cognate_set.assembled;
+    let ink = |(links, ink): (&Vec<LinkId>, usize)| links.iter().map(move |&link| (link, ink)).collect::<Vec<_>>();
     let [first, second] = links;
-    let [_, one, two] = &found.linkages;
-    let note = [(one, "green"), (two, "purple")].map(|(member, ink)| {
+    let [_, first_cognate, second_cognate] = &cognate_set.linkages;
+    let note = [(first_cognate, "green"), (second_cognate, "purple")].map(|(member, ink)| {
         let [frame, crank, coupler, rocker] =
             lengths(member.cognate.four_bar.lengths).map(|length| format_significant(length, 4));
         format!("{ink}, {}: frame {frame}, crank {crank}, coupler {coupler}, rocker {rocker}", member.class.name())
     });
-    Panel {
-        caption: report.family.format_captions(&report.solved.cell, report.solved.first_curve_values())[0].clone(),
-        facts: page::cell_facts(report.solved),
-        note: note.join(" · "),
-        solved_cell: hung,
-        pose: PoseChoice::Clearest,
-        // The first two inks are those of the circuits.
-        link_inks: [ink((first, 2)), ink((second, 3))].concat(),
-    }
+    let [caption, _] = report.family.format_captions(&report.solved.cell, report.solved.first_curve_values());
+    Panel::new(assembled)
+        .with_caption(caption)
+        .with_note(note.join(" · "))
+        .with_facts(page::cell_facts(report.solved))
+        // Inks 0 and 1 are those of the circuits.
+        .with_link_inks([ink((first, 2)), ink((second, 3))].concat())
 }
 
 fn lengths(FourBar { frame, crank, coupler, rocker }: FourBar) -> [f64; 4] {
     [frame, crank, coupler, rocker]
 }
 
-/// For people.
-pub(super) fn text(found: &CognateSet, out: &mut String) {
-    let _ = writeln!(out, "\ncognates: third pivot at {}", format_point(found.cognates.third_pivot));
-    for CognateMember { name, cognate, class, linkage, motion } in &found.linkages {
-        let PlacedFourBar { pivots: [o, c], lengths: bars, coupler_point: m } = cognate.four_bar;
-        let [frame, crank, coupler, rocker] = lengths(bars).map(|length| format_significant(length, 10));
+/// Appends the lengths, pivots and circuits of the three four-bars.
+pub(super) fn append_text(cognate_set: &CognateSet, out: &mut String) {
+    let _ = writeln!(out, "\ncognates: third pivot at {}", format_point(cognate_set.cognates.third_pivot));
+    for CognateMember { name, cognate, class, linkage, motion } in &cognate_set.linkages {
+        let PlacedFourBar { pivots: [o, c], lengths: four_bar, coupler_point: m } = cognate.four_bar;
+        let [frame, crank, coupler, rocker] = lengths(four_bar).map(|length| format_significant(length, 10));
         let _ = writeln!(out, "{name}: {}", class.name());
         let _ = writeln!(out, "  frame {frame}, crank {crank}, coupler {coupler}, rocker {rocker}");
         let (along, across) = (format_significant(m.x, 10), format_significant(m.y, 10));
@@ -119,7 +121,7 @@ pub(super) fn text(found: &CognateSet, out: &mut String) {
             format_point(c)
         );
         if *name != "original" {
-            let [crank, coupler, rocker] = cognate.counterparts.map(|bar| bar.name());
+            let [crank, coupler, rocker] = cognate.counterparts.map(|link| link.name());
             let _ = writeln!(out, "  crank, coupler and rocker turn as the original's {crank}, {coupler} and {rocker}");
         }
         for (number, circuit) in (1..).zip(&motion.circuits) {
@@ -128,38 +130,39 @@ pub(super) fn text(found: &CognateSet, out: &mut String) {
     }
 }
 
-/// A manifest of the three: a linkage and a family for each.
-pub(super) fn manifest(report: &Report, found: &CognateSet) -> String {
+/// A manifest with a linkage and a family for each of the three four-bars.
+pub(super) fn manifest(report: &Report, cognate_set: &CognateSet) -> String {
     let id = &report.family.id;
     let values = report.family.names.iter().zip(&report.solved.cell.values);
     let values: Vec<String> = values.map(|(name, value)| format!("{name} = {value}")).collect();
     let mut out = format!(
-        "# {id}, {}, and its cognates: three four-bars that draw one curve.\n\n[atlas]\ntitle = \"The cognates of {id}\"\n",
+        "# {id}, {}, and its cognates: three four-bars that trace the same curve.\n\n\
+         [atlas]\ntitle = \"The cognates of {id}\"\n",
         values.join(", ")
     );
-    for CognateMember { name, cognate, class, linkage, .. } in &found.linkages {
+    for CognateMember { name, cognate, class, linkage, .. } in &cognate_set.linkages {
         let stem: String = id.chars().take(50).collect();
-        let own = format!("{}-{}", stem.trim_end_matches('-'), name.replace(' ', "-"));
+        let linkage_id = format!("{}-{}", stem.trim_end_matches('-'), name.replace(' ', "-"));
         let class = class.name();
-        let _ = write!(out, "\n[[linkage]]\nid = \"{own}\"\ncaption = \"{name}, {class}\"\ntrace = [\"M\"]\n");
+        let _ = write!(out, "\n[[linkage]]\nid = \"{linkage_id}\"\ncaption = \"{name}, {class}\"\ntrace = [\"M\"]\n");
         let MotionOptions { circuits, start, .. } = &linkage.motion_options;
         let _ = match (circuits, start) {
             (CircuitSelection::Start, Some(start)) => writeln!(out, "start = \"{start} deg\""),
             _ => writeln!(out, "circuits = \"all\""),
         };
-        let PlacedFourBar { pivots: [o, c], lengths: bars, coupler_point: m } = cognate.four_bar;
-        let side = if linkage.motion_options.mode.sign(0) > 0 { "left" } else { "right" };
+        let PlacedFourBar { pivots: [o, c], lengths: four_bar, coupler_point: m } = cognate.four_bar;
+        let side = if linkage.motion_options.mode.sign(DyadId::FIRST) > 0 { "left" } else { "right" };
         let _ = writeln!(out, "\n[linkage.joints]");
         let _ = writeln!(out, "O = {{ fixed = [{}, {}] }}", o.x, o.y);
         let _ = writeln!(out, "C = {{ fixed = [{}, {}] }}", c.x, c.y);
-        let _ = writeln!(out, "A = {{ crank = \"O\", length = {} }}", bars.crank);
+        let _ = writeln!(out, "A = {{ crank = \"O\", length = {} }}", four_bar.crank);
         let _ = writeln!(
             out,
             "B = {{ dyad = [\"A\", \"C\"], lengths = [{}, {}], side = \"{side}\" }}",
-            bars.coupler, bars.rocker
+            four_bar.coupler, four_bar.rocker
         );
         let _ = writeln!(out, "M = {{ point = [\"A\", \"B\"], along = {}, across = {} }}", m.x + 0.0, m.y + 0.0);
-        let _ = writeln!(out, "\n[[family]]\nid = \"{own}\"\nlinkage = \"{own}\"\ntitle = \"{id}, {name}\"");
+        let _ = writeln!(out, "\n[[family]]\nid = \"{linkage_id}\"\nlinkage = \"{linkage_id}\"\ntitle = \"{id}, {name}\"");
         let _ = writeln!(out, "panels = [1, 1]\nsampling = {{ step = \"2 deg\" }}\ncases = [{{}}]");
     }
     out

@@ -1,4 +1,4 @@
-//! The equations of the curves that points of a four-bar's coupler draw.
+//! The equations of the coupler curves of a four-bar.
 
 use std::fmt::Write;
 
@@ -6,17 +6,18 @@ use coupler_curves::linkage::{DoublePointKind, PlacedFourBar, Sextic};
 use coupler_curves::solve::SolvedCell;
 use serde_json::{Value, json};
 
-use super::text::{format_point, format_significant};
+use super::format::{format_point, format_significant};
 
 /// The equation of one coupler curve.
 pub(super) struct Equation {
-    /// The number of the traced joint, from 1, and its name.
+    /// The number of the traced joint, from 1.
     trace: usize,
+    /// The name of the traced joint.
     name: String,
     sextic: Sextic,
 }
 
-/// Those of all traced joints on the coupler of a four-bar; none of other joints, nor of the pins, which go on circles.
+/// The equations of all traced joints on the coupler of a four-bar, except its pins, which move on circles.
 pub(super) fn coupler_equations(solved: &SolvedCell) -> Vec<Equation> {
     let linkage = &solved.linkage;
     let equation = |(trace, &joint)| {
@@ -27,24 +28,24 @@ pub(super) fn coupler_equations(solved: &SolvedCell) -> Vec<Equation> {
     (1..).zip(&linkage.traced).filter_map(equation).collect()
 }
 
-/// For people: a line for each, and the coefficients if they are wanted.
-pub(super) fn text(equations: &[Equation], in_full: bool, out: &mut String) {
-    let is_grid = equations.len() > 1;
+/// Appends a line for each equation, followed by its coefficients if `with_coefficients`.
+pub(super) fn append_text(equations: &[Equation], with_coefficients: bool, out: &mut String) {
+    let has_several = equations.len() > 1;
     for Equation { trace, name, sextic } in equations {
-        let name = if is_grid { format!("{name} {trace}") } else { name.clone() };
-        let doubles = sextic.double_points();
-        let double = |double: &coupler_curves::linkage::DoublePoint| {
+        let name = if has_several { format!("{name} {trace}") } else { name.clone() };
+        let double_points = sextic.double_points();
+        let describe = |double: &coupler_curves::linkage::DoublePoint| {
             let isolated = if double.kind == DoublePointKind::Acnode { ", isolated" } else { "" };
             format!("{} {}{isolated}", double.kind.name(), format_point(double.point))
         };
-        let list = doubles.iter().map(double).collect::<Vec<_>>().join(", ");
+        let list = double_points.iter().map(describe).collect::<Vec<_>>().join(", ");
         let list = if list.is_empty() { "none".to_owned() } else { list };
         let _ = writeln!(
             out,
             "{name}: on a sextic, {} through the circular points; real double points: {list}",
             count_word(sextic.circularity())
         );
-        if in_full {
+        if with_coefficients {
             write_coefficients(sextic, out);
         }
     }
@@ -54,7 +55,7 @@ fn count_word(n: usize) -> String {
     ["not", "once", "twice", "three times"].get(n).map_or_else(|| format!("{n} times"), |word| (*word).to_owned())
 }
 
-/// The coefficients, a row to a power of x and a column to a power of y.
+/// Writes the coefficients, one row for each power of x and one column for each power of y.
 fn write_coefficients(sextic: &Sextic, out: &mut String) {
     let power = |letter: &str, n: usize| match n {
         0 => "1".to_owned(),
@@ -70,16 +71,16 @@ fn write_coefficients(sextic: &Sextic, out: &mut String) {
     }
 }
 
-/// For programs.
+/// The equations, for `inspect --json`.
 pub(super) fn json(equations: &[Equation]) -> Vec<Value> {
     let equation = |Equation { trace, sextic, .. }: &Equation| {
-        // Adding 0 makes a zero of either sign plain.
+        // Adding 0 turns -0 into 0.
         let row = |i: usize| (0..=6 - i).map(|j| sextic.coefficient(i, j) + 0.0).collect::<Vec<f64>>();
-        let doubles = sextic.double_points().into_iter();
+        let double_points = sextic.double_points().into_iter();
         json!({
             "trace": trace,
             "coefficients": (0..=6).map(row).collect::<Vec<_>>(),
-            "double_points": doubles
+            "double_points": double_points
                 .map(|double| json!({ "at": [double.point.x, double.point.y], "kind": double.kind.name() }))
                 .collect::<Vec<_>>(),
             "circular_points": sextic.circularity(),

@@ -1,17 +1,20 @@
+//! The JSON that `inspect --json` prints.
+
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::{FourBar, Input, Linkage, MovingLink, PlacedFourBar};
+use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, Linkage, MovingLink, PlacedFourBar};
 use coupler_curves::measure;
 use coupler_curves::motion::{Circuit, Pass, PassEnd};
 use serde_json::{Map, Value, json};
 
+use super::Report;
 use super::cognates::{CognateMember, CognateSet};
 use super::equation;
-use super::{Pose, Report, flat_joints, instant_geometries, link_rotations};
+use super::pose::{Pose, flat_joints, instant_geometries, link_rotations};
 
 /// The version of the format; docs/inspect.md describes it.
 const FORMAT: u32 = 1;
 
-/// For programs.
+/// The report as indented JSON.
 pub(super) fn json(report: &Report) -> String {
     let Report { family, solved, .. } = report;
     let values = solved.cell.values.iter().map(|value| number(*value));
@@ -21,24 +24,24 @@ pub(super) fn json(report: &Report) -> String {
         .iter()
         .map(|curve| json!({ "trace": curve.trace, "circuit": curve.circuit, "measures": measures(&curve.values) }))
         .collect();
-    let whole = json!({
+    let document = json!({
         "format": FORMAT,
         "linkage": family.id,
         "parameters": parameters,
         "class": FourBar::from_linkage(&solved.linkage).map(|four_bar| four_bar.class().name()),
         "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
         "status": solved.status().name(),
-        "reason": solved.motion.incomplete_reason,
+        "reason": solved.motion.assembly_error.as_ref().map(ToString::to_string),
         "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect::<Vec<_>>(),
         "curves": curves,
         "equations": equation::json(&report.equations.0),
         "cognates": report.cognates.as_ref().map(cognates),
         "poses": report.poses.iter().map(|pose| self::pose(report, pose)).collect::<Vec<_>>(),
     });
-    format!("{whole:#}\n")
+    format!("{document:#}\n")
 }
 
-/// JSON has no infinity: what is unbounded, and what does not exist, is null.
+/// A number, or null if it is infinite or does not exist.
 fn number(value: f64) -> Value {
     if value.is_finite() { json!(value) } else { Value::Null }
 }
@@ -54,14 +57,14 @@ fn point(p: Point) -> Value {
 fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
     let end = |end: PassEnd| json!({ "input": end.input.value, "flat": flat_joints(linkage, end.flat_dyads) });
     let pass = |(k, pass): (usize, &Pass)| {
-        let signs: Vec<i8> = (0..linkage.dyad_count()).map(|dyad| pass.mode.sign(dyad)).collect();
+        let signs: Vec<i8> = linkage.dyad_ids().map(|dyad| pass.mode.sign(dyad)).collect();
         json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.reverses_after(k) })
     };
     let passes: Vec<Value> = circuit.passes.iter().enumerate().map(pass).collect();
     json!({ "closed": circuit.is_closed, "passes": passes })
 }
 
-fn cognates(found: &CognateSet) -> Value {
+fn cognates(cognate_set: &CognateSet) -> Value {
     let member = |CognateMember { cognate, class, linkage, motion, .. }: &CognateMember| {
         let PlacedFourBar { pivots, lengths, coupler_point } = cognate.four_bar;
         let circuits: Vec<Value> = motion.circuits.iter().map(|circuit| self::circuit(linkage, circuit)).collect();
@@ -76,14 +79,14 @@ fn cognates(found: &CognateSet) -> Value {
             "across": number(coupler_point.y),
             "turns_as": cognate.counterparts.map(MovingLink::name),
             "start": linkage.motion_options.start,
-            "side": linkage.motion_options.mode.sign(0),
+            "side": linkage.motion_options.mode.sign(DyadId::FIRST),
             "circuits": circuits,
         })
     };
     json!({
-        "trace": found.trace,
-        "third_pivot": point(found.cognates.third_pivot),
-        "linkages": found.linkages.iter().map(member).collect::<Vec<_>>(),
+        "trace": cognate_set.trace,
+        "third_pivot": point(cognate_set.cognates.third_pivot),
+        "linkages": cognate_set.linkages.iter().map(member).collect::<Vec<_>>(),
     })
 }
 
@@ -99,7 +102,7 @@ fn measures(values: &[measure::Value]) -> Value {
 
 fn pose(report: &Report, pose: &Pose) -> Value {
     let (solved, jets) = (report.solved, &pose.jets);
-    let joint = |joint: usize| {
+    let joint = |joint: JointId| {
         json!({
             "name": solved.linkage.joints[joint].name,
             "place": point(jets.position(joint)),
@@ -108,14 +111,14 @@ fn pose(report: &Report, pose: &Pose) -> Value {
             "jerk": pair(jets.jerk(joint)),
         })
     };
-    let joints: Vec<Value> = (0..solved.linkage.joints.len()).map(joint).collect();
+    let joints: Vec<Value> = solved.linkage.joint_ids().map(joint).collect();
     let links: Vec<Value> = link_rotations(solved, pose)
         .into_iter()
-        .map(|turning| {
+        .map(|link| {
             json!({
-                "joints": turning.joints,
-                "angular_velocity": number(turning.angular_velocity),
-                "angular_acceleration": number(turning.angular_acceleration),
+                "joints": link.joints,
+                "angular_velocity": number(link.angular_velocity),
+                "angular_acceleration": number(link.angular_acceleration),
             })
         })
         .collect();
@@ -138,7 +141,7 @@ fn pose(report: &Report, pose: &Pose) -> Value {
     json!({
         "input": pose.input,
         "circuit": pose.circuit,
-        "branch": pose.pass.mode.sign(0),
+        "branch": pose.pass.mode.sign(DyadId::FIRST),
         "joints": joints,
         "links": links,
         "instants": instants,

@@ -1,37 +1,37 @@
-//! How far samples and what is drawn of their curve are from each other.
+//! Compares a drawn curve with the samples of its curve.
 
 use super::DrawnCurve;
 use coupler_curves::geometry::{Capsule, CapsuleTree, Point, Vector};
 
-/// What a line may be off its curve, in millimetres: its chords' error and the rounding of its places.
+/// How far a drawn line may be from its curve, in millimetres: the error of its chords and the rounding of its points.
 const TOLERANCE_MM: f64 = 0.01;
 
 impl DrawnCurve {
-    /// Which of the samples in its dashes is the furthest from what is drawn, counted from 0, and how far it is, in
-    /// millimetres of the page; infinitely far where nothing is drawn. `None` where no sample is in a dash.
+    /// The sample in a dash that is furthest from the drawn lines: its index, and its distance in millimetres of the page,
+    /// infinite if nothing is drawn. `None` if no sample is in a dash.
     ///
-    /// The samples are all of the curve in their order, each with its input and its place in the plane; `closed` says
-    /// whether the curve goes on from the last to the first. Those that have no place are passed over. A sample at the
-    /// very end of a dash (to 1e-9 of the period) counts if the curve goes on from it into the dash.
+    /// The samples are all samples of the curve in order, each with its input and its point in the plane; `closed` says
+    /// whether the curve continues from the last to the first. Samples without finite coordinates are skipped. A sample at
+    /// the end of a dash, to 1e-9 of the period, counts if the curve continues from it into the dash.
     ///
-    /// It takes a search in a tree of the lines' segments for each sample, cut short where a sample is found to be nearer
-    /// than the furthest so far.
+    /// Each sample takes a search in a tree of the segments, which ends early if the sample is nearer than the furthest so
+    /// far.
     pub fn furthest_sample(&self, samples: impl Iterator<Item = (f64, Point)>, closed: bool) -> Option<(usize, f64)> {
         let segments = self.polylines.iter().flat_map(|line| line.windows(2));
         let drawn = CapsuleTree::new(segments.map(|pair| Capsule { ends: [pair[0], pair[1]], radius: 0.0 }).collect());
         let mut samples = samples.enumerate().peekable();
-        let mut before = None;
+        let mut previous = None;
         let mut furthest: Option<(usize, f64)> = None;
         while let Some((k, (input, place))) = samples.next() {
-            // Where a closed curve comes back to its first sample, its input goes on as it did.
-            let beyond = before.filter(|_| closed).map(|before| 2.0 * input - before);
-            let after = samples.peek().map(|(_, (input, _))| *input).or(beyond);
-            let is_drawn = self.is_in_dash(input, [before, after]);
-            before = Some(input);
+            // After its last sample a closed curve continues with the same step of the input.
+            let extrapolated = previous.filter(|_| closed).map(|previous| 2.0 * input - previous);
+            let next = samples.peek().map(|(_, (input, _))| *input).or(extrapolated);
+            let is_drawn = self.is_in_dash(input, [previous, next]);
+            previous = Some(input);
             if is_drawn && place.x.is_finite() && place.y.is_finite() {
-                let most = furthest.map_or(f64::NEG_INFINITY, |(_, most)| most);
-                let distance = drawn.signed_distance(self.page_from_plane.apply(place), most);
-                if distance > most {
+                let furthest_distance = furthest.map_or(f64::NEG_INFINITY, |(_, furthest_distance)| furthest_distance);
+                let distance = drawn.signed_distance(self.page_from_plane.apply(place), furthest_distance);
+                if distance > furthest_distance {
                     furthest = Some((k, distance));
                 }
             }
@@ -39,59 +39,59 @@ impl DrawnCurve {
         furthest
     }
 
-    /// Whether there is a dash at an input, by the inputs of the samples beside it.
-    fn is_in_dash(&self, input: f64, beside: [Option<f64>; 2]) -> bool {
+    /// Whether there is a dash at an input, given the inputs of the neighbouring samples.
+    fn is_in_dash(&self, input: f64, neighbours: [Option<f64>; 2]) -> bool {
         let [period, drawn] = self.dash;
-        let near = 1e-9 * period;
+        let tolerance = 1e-9 * period;
         let phase = input.rem_euclid(period);
-        let goes = |sign: f64| beside.iter().flatten().any(|other| (other - input) * sign > 0.0);
-        if drawn >= period - near {
+        let continues = |sign: f64| neighbours.iter().flatten().any(|other| (other - input) * sign > 0.0);
+        if drawn >= period - tolerance {
             true
-        } else if phase <= near || phase >= period - near {
-            goes(1.0)
-        } else if (phase - drawn).abs() <= near {
-            goes(-1.0)
+        } else if phase <= tolerance || phase >= period - tolerance {
+            continues(1.0)
+        } else if (phase - drawn).abs() <= tolerance {
+            continues(-1.0)
         } else {
             phase < drawn
         }
     }
 
-    /// How far what is drawn strays, at most, from the course of the samples beyond what is allowed to it, in millimetres
-    /// of the page. `None` where it does not stray, and where there are fewer than five samples to tell a course by.
+    /// The greatest distance of the drawn lines from the interpolated samples beyond the tolerance, in millimetres of the
+    /// page. `None` if they are within the tolerance, or if there are fewer than five samples to interpolate.
     ///
-    /// The samples are all of the curve in their order, in the plane; `closed` says whether the curve goes on from the
-    /// last to the first. Their course between two of them is the cubic through four; allowed are 0.01 mm and twice what
-    /// the cubic may be off by, as estimated from fourth differences. So a detour is found in steps that are small for
-    /// the curve; where they are not, at limits of the input for one, more is allowed.
+    /// The samples are all samples of the curve in order, in the plane; `closed` says whether the curve continues from the
+    /// last to the first. Between two samples the interpolant is the cubic through four; the tolerance is 0.01 mm and
+    /// twice the error of the cubic, as estimated from fourth differences. A detour is therefore found where the steps are
+    /// small for the curve; where they are large, for example at limits of the input, the tolerance is greater.
     pub fn max_stray(&self, samples: &[Point], closed: bool) -> Option<f64> {
         let is_place = |p: &&Point| p.x.is_finite() && p.y.is_finite();
         let places: Vec<Point> = samples.iter().filter(is_place).map(|p| self.page_from_plane.apply(*p)).collect();
-        let course = CapsuleTree::new(SampleInterpolant::new(&places, closed)?.tubes());
+        let interpolant = CapsuleTree::new(SampleInterpolant::new(&places, closed)?.tubes());
         let segments = self.polylines.iter().flat_map(|line| line.windows(2));
-        let strays = segments.flat_map(|pair| points_along(pair[0], pair[1])).fold(0.0, |most: f64, point| {
-            // The search ends where no more than the most so far is to be found.
-            most.max(course.signed_distance(point, most))
+        let stray = segments.flat_map(|pair| points_along(pair[0], pair[1])).fold(0.0, |most: f64, point| {
+            // The search ends early if the distance cannot exceed the greatest so far.
+            most.max(interpolant.signed_distance(point, most))
         });
-        (strays > 0.0).then_some(strays)
+        (stray > 0.0).then_some(stray)
     }
 }
 
-/// Places along a segment, its ends among them, a millimetre apart or less; of a long one no more than 64.
+/// Points along a segment, including its ends, at most a millimetre apart; a long segment has only 64 steps.
 fn points_along(a: Point, b: Point) -> impl Iterator<Item = Point> {
     let steps = (b - a).norm().ceil().clamp(2.0, 64.0);
     (0..=steps as u32).map(move |k| a + (b - a) * (f64::from(k) / steps))
 }
 
-/// Where a curve goes, told by its samples.
+/// The curve through samples, by cubic interpolation.
 struct SampleInterpolant<'a> {
     samples: &'a [Point],
     is_closed: bool,
-    /// The length of the fourth difference of each five samples that follow each other, by the first of them.
+    /// The length of the fourth difference of each five consecutive samples, by the first of them.
     fourth_differences: Vec<f64>,
 }
 
 impl SampleInterpolant<'_> {
-    /// Chords between two samples.
+    /// The number of chords between two samples.
     const CHORDS_PER_INTERVAL: usize = 8;
 
     fn new(places: &[Point], closed: bool) -> Option<SampleInterpolant<'_>> {
@@ -112,13 +112,13 @@ impl SampleInterpolant<'_> {
         })
     }
 
-    /// The course in chords, with what is allowed on either side of each.
+    /// The interpolant in chords, each with the tolerance as its radius.
     fn tubes(&self) -> Vec<Capsule> {
         let intervals = if self.is_closed { self.samples.len() } else { self.samples.len() - 1 };
         (0..intervals).flat_map(|k| self.interval_tubes(k)).collect()
     }
 
-    /// The course from a sample to the next.
+    /// The chords from a sample to the next.
     fn interval_tubes(&self, k: usize) -> impl Iterator<Item = Capsule> {
         let count = self.samples.len();
         let (first, before) = if self.is_closed {
@@ -128,16 +128,18 @@ impl SampleInterpolant<'_> {
             (first, k - first)
         };
         let four = [0, 1, 2, 3].map(|i| self.samples[(first + i) % count]);
-        let bend = |i: usize| (four[i].coords - four[i + 1].coords * 2.0 + four[i + 2].coords).norm();
-        // The chords' own bend, and the remainder of the cubic, the larger at an end: of t (t-1) (t-2) (t-3) / 24.
-        let chords = bend(0).max(bend(1)) / (8 * Self::CHORDS_PER_INTERVAL * Self::CHORDS_PER_INTERVAL) as f64;
+        let second_difference = |i: usize| (four[i].coords - four[i + 1].coords * 2.0 + four[i + 2].coords).norm();
+        // The error of the chords, and the remainder of the cubic, t (t-1) (t-2) (t-3) / 24, which is larger at an end.
+        let chords = second_difference(0).max(second_difference(1))
+            / (8 * Self::CHORDS_PER_INTERVAL * Self::CHORDS_PER_INTERVAL) as f64;
         let remainder = if before == 1 { 3.0 / 128.0 } else { 1.0 / 24.0 } * self.max_fourth_difference(k);
         let radius = TOLERANCE_MM + 2.0 * (chords + remainder);
-        let at = move |j: usize| interpolate_cubic(four, before as f64 + j as f64 / Self::CHORDS_PER_INTERVAL as f64);
-        (0..Self::CHORDS_PER_INTERVAL).map(move |j| Capsule { ends: [at(j), at(j + 1)], radius })
+        let point =
+            move |j: usize| interpolate_cubic(four, before as f64 + j as f64 / Self::CHORDS_PER_INTERVAL as f64);
+        (0..Self::CHORDS_PER_INTERVAL).map(move |j| Capsule { ends: [point(j), point(j + 1)], radius })
     }
 
-    /// The largest of the fourth differences that reach over an interval.
+    /// The largest of the fourth differences that span an interval.
     fn max_fourth_difference(&self, k: usize) -> f64 {
         let windows = self.fourth_differences.len();
         let window = |back: usize| {
@@ -160,13 +162,13 @@ mod tests {
     use super::*;
     use coupler_curves::geometry::{Similarity, trig};
 
-    /// The place of a circle of 20 mm at an angle in degrees.
+    /// The point of a circle of radius 20 at an angle in degrees.
     fn at(deg: f64) -> Point {
         let (cos, sin) = trig::cos_sin_deg(deg);
         Point::new(20.0 * cos, 20.0 * sin)
     }
 
-    /// So much of the circle in dashes of 3 of 5 degrees, in chords of half a degree, which are off by 0.0002 mm.
+    /// The first dashes of the circle, 3 of every 5 degrees, in chords of half a degree, which deviate by 0.0002 mm.
     fn circle(dashes: u32) -> DrawnCurve {
         let page_from_plane = Similarity { scale: 1.0, flips_y: true, origin: Point::new(50.0, 40.0) };
         let place = |k: u32, j: u32| page_from_plane.apply(at(f64::from(5 * k) + f64::from(j) / 2.0));
@@ -182,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_at_the_end_of_a_dash_counts_where_the_curve_goes_into_it() {
+    fn a_sample_at_the_end_of_a_dash_counts_if_the_curve_continues_into_it() {
         let found = |dashes, count, step, moved, closed| {
             let (k, distance) = circle(dashes).furthest_sample(samples(count, step, moved), closed).unwrap();
             (distance > 0.01).then_some((k, (distance * 100.0).round()))
@@ -191,11 +193,11 @@ mod tests {
         for k in [0, 1, 40, 71] {
             assert_eq!(found(72, 72, 5.0, Some(k), true), Some((k as usize, 50.0)));
         }
-        // The half ends where a dash would begin.
+        // Half of the circle ends where a dash would begin.
         assert_eq!(found(36, 37, 5.0, None, false), None);
         assert_eq!(found(36, 37, 5.0, Some(35), false), Some((35, 50.0)));
         assert_eq!(found(36, 37, 5.0, Some(36), false), None);
-        // Of samples at every degree, those in gaps are not looked at, those at the ends of dashes are.
+        // Of samples at every degree, those in gaps are skipped, and those at the ends of dashes are not.
         for (k, is_found) in [(2, true), (3, true), (4, false), (5, true)] {
             assert_eq!(found(72, 360, 1.0, Some(k), true).is_some(), is_found, "{k}");
         }
@@ -211,10 +213,10 @@ mod tests {
         assert!(curve.max_stray(&places[..4], true).is_none());
         let out = (curve.polylines[9][3] - curve.page_from_plane.origin) / 20.0;
         curve.polylines[9][3] += out * 0.05;
-        let strays = curve.max_stray(&places, true).unwrap();
-        // All of it but what is allowed: 0.01 mm and hardly more on a circle.
-        assert!((0.035..=0.04).contains(&strays), "{strays}");
-        // The half has no way back from its last sample to its first, where the rest strays.
+        let stray = curve.max_stray(&places, true).unwrap();
+        // The whole detour except the tolerance, which on a circle is hardly more than 0.01 mm.
+        assert!((0.035..=0.04).contains(&stray), "{stray}");
+        // An open half circle does not continue from its last sample to its first, so the drawn rest is a detour.
         assert!(circle(72).max_stray(&places[..37], false).unwrap() > 10.0);
         assert_eq!(circle(36).max_stray(&places[..37], false), None);
     }

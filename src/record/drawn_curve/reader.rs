@@ -1,3 +1,5 @@
+//! Reads the coupler curves of an SVG page.
+
 use std::borrow::Cow;
 
 use quick_xml::XmlVersion;
@@ -8,15 +10,15 @@ use super::path::{self, PathError};
 use super::{DrawnCurve, DrawnCurveError};
 use coupler_curves::geometry::{Point, Similarity};
 
-/// The most points of a page's curves that are read; pages have some thousands.
+/// The most points of all curves of a page; pages have some thousands.
 const MAX_POINTS: usize = 2_000_000;
 
-/// The coupler curves of a page in SVG, in the order in which they are drawn.
+/// Reads the coupler curves of an SVG page, in the order in which they are drawn.
 ///
-/// It takes as much memory as their points, and time in proportion to the bytes.
+/// Memory is proportional to their points, and time to the bytes of the page.
 ///
 /// # Errors
-/// The first that is found; see [`DrawnCurveError`]. A page that is cut short anywhere before its last character is one.
+/// The first error found, see [`DrawnCurveError`]. A page truncated anywhere before its last character is an error.
 pub fn read_drawn_curves(svg: &[u8]) -> Result<Vec<DrawnCurve>, DrawnCurveError> {
     let text = std::str::from_utf8(svg).map_err(|_| DrawnCurveError::NotUtf8)?;
     let mut xml = Reader::from_str(text);
@@ -30,7 +32,7 @@ pub fn read_drawn_curves(svg: &[u8]) -> Result<Vec<DrawnCurve>, DrawnCurveError>
                 page.end_element();
             }
             Ok(Event::End(_)) => page.end_element(),
-            // It may define entities, and give any element any attribute.
+            // A document type may define entities, and give any element any attribute.
             Ok(Event::DocType(_)) => return Err(DrawnCurveError::UnsupportedPart { part: "document type" }),
             Ok(Event::Eof) => return page.finish(),
             Ok(_) => {}
@@ -39,24 +41,24 @@ pub fn read_drawn_curves(svg: &[u8]) -> Result<Vec<DrawnCurve>, DrawnCurveError>
     }
 }
 
-/// A page as far as it is read.
+/// The state of reading a page.
 #[derive(Default)]
 struct PageReader {
-    /// How many bytes are read.
+    /// The number of bytes read.
     position: u64,
-    /// How many elements are open.
+    /// The number of open elements.
     depth: usize,
     has_root: bool,
-    /// The depth of the outermost open element that no curve may be in, and why.
+    /// The depth of the outermost open element in which no curve may be, and why.
     barrier: Option<(usize, Barrier)>,
-    /// The depth of the curve that is open, the last of the curves.
+    /// The depth of the open curve, which is the last of `curves`.
     curve_depth: Option<usize>,
     curves: Vec<DrawnCurve>,
-    /// How many points may still be read.
+    /// The number of points that may still be read.
     points_left: usize,
 }
 
-/// Why no curve may be in an element.
+/// Why no curve may be inside an element.
 enum Barrier {
     /// It has this attribute.
     Attribute(&'static str),
@@ -88,7 +90,7 @@ impl PageReader {
         if class.as_deref() == Some("curve") { self.start_curve(element) } else { Ok(()) }
     }
 
-    /// The page itself.
+    /// Reads the root element.
     fn start_root(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
         if element.name().0 != "svg" || self.has_root {
             return Err(DrawnCurveError::NotSvg);
@@ -101,20 +103,21 @@ impl PageReader {
         if whole.is_none() || view.as_deref() != whole.as_deref() {
             return Err(DrawnCurveError::NotInMillimetres);
         }
-        // The style of a page is one of its lettering.
-        let is_style = style.is_some_and(|style| style.split(';').any(|part| !part.trim_start().starts_with("font-")));
-        if let Some(attribute) = moving_attribute(transform.is_some(), is_style) {
+        // The style of a page may only set its fonts.
+        let has_other_style =
+            style.is_some_and(|style| style.split(';').any(|part| !part.trim_start().starts_with("font-")));
+        if let Some(attribute) = moving_attribute(transform.is_some(), has_other_style) {
             self.set_barrier(Barrier::Attribute(attribute));
         }
         Ok(())
     }
 
-    /// Remembers that nothing in this element may be a curve, unless that is so already.
+    /// Marks the current element as one in which no curve may be, unless an outer element is marked already.
     fn set_barrier(&mut self, barrier: Barrier) {
         self.barrier.get_or_insert((self.depth, barrier));
     }
 
-    /// The group of a curve.
+    /// Reads the group of a curve.
     fn start_curve(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
         const NAMES: [&str; 7] =
             ["id", "data-cell", "data-trace", "data-circuit", "data-scale", "data-origin", "data-dash"];
@@ -131,15 +134,18 @@ impl PageReader {
             return Err(DrawnCurveError::MissingAttribute { curve, attribute: NAMES[k] });
         }
         let [id, cell, trace, circuit, scale, origin, dash] = values.map(Option::unwrap_or_default);
-        let fact = |k: usize, value: &str| CurveAttribute { curve_id: &curve, name: NAMES[k], value: value.to_owned() };
-        let scale = fact(4, &scale).parse_numbers("a positive number", |[scale]: &[f64; 1]| *scale > 0.0)?[0];
-        let [x, y] = fact(5, &origin).parse_numbers("two numbers", |_| true)?;
+        let curve_attribute =
+            |k: usize, value: &str| CurveAttribute { curve_id: &curve, name: NAMES[k], value: value.to_owned() };
+        let scale =
+            curve_attribute(4, &scale).parse_numbers("a positive number", |[scale]: &[f64; 1]| *scale > 0.0)?[0];
+        let [x, y] = curve_attribute(5, &origin).parse_numbers("two numbers", |_| true)?;
         let expected = "two positive numbers, the second not above the first";
-        let dash = fact(6, &dash).parse_numbers(expected, |[period, drawn]| 0.0 < *drawn && drawn <= period)?;
+        let dash =
+            curve_attribute(6, &dash).parse_numbers(expected, |[period, drawn]| 0.0 < *drawn && drawn <= period)?;
         self.curves.push(DrawnCurve {
-            cell: fact(1, &cell).parse_count()?,
-            trace: fact(2, &trace).parse_count()?,
-            circuit: fact(3, &circuit).parse_count()?,
+            cell: curve_attribute(1, &cell).parse_count()?,
+            trace: curve_attribute(2, &trace).parse_count()?,
+            circuit: curve_attribute(3, &circuit).parse_count()?,
             id: id.into_owned(),
             page_from_plane: Similarity { scale, flips_y: true, origin: Point::new(x, y) },
             dash,
@@ -149,7 +155,7 @@ impl PageReader {
         Ok(())
     }
 
-    /// An element in a curve: its title, its dashes and the dots of its limits.
+    /// Reads an element of a curve: its title, its dashes, or the dot of a limit.
     fn start_curve_child(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
         let Some(open) = self.curves.last() else { return Ok(()) };
         let curve = shorten(&open.id);
@@ -162,7 +168,7 @@ impl PageReader {
             return Err(DrawnCurveError::Transformed { curve, attribute });
         }
         if let Some(data) = data.filter(|_| name == "path") {
-            let lines = path::parse_polylines(&data, &mut self.points_left).map_err(|fault| match fault {
+            let lines = path::parse_polylines(&data, &mut self.points_left).map_err(|error| match error {
                 PathError::NotLines => DrawnCurveError::NotLines { curve },
                 PathError::TooManyPoints => DrawnCurveError::TooManyPoints { max_points: MAX_POINTS },
             })?;
@@ -180,7 +186,7 @@ impl PageReader {
         if self.barrier.as_ref().is_some_and(|(depth, _)| *depth == self.depth) {
             self.barrier = None;
         }
-        // The reader has found that what is closed was open.
+        // The XML reader has checked that the element was open.
         self.depth = self.depth.saturating_sub(1);
     }
 
@@ -192,8 +198,8 @@ impl PageReader {
         }
     }
 
-    /// The values of some attributes of an element. Only these are looked at twice, so that any number of others takes
-    /// no more time than it takes to pass over them.
+    /// The values of some attributes of an element. Only these are checked for repetition, so that the time is linear in
+    /// the number of attributes.
     fn read_attributes<'a, const N: usize>(
         &self,
         element: &'a BytesStart,
@@ -205,7 +211,7 @@ impl PageReader {
             let Some(k) = names.iter().position(|name| *name == attribute.key.0) else { continue };
             let value = attribute.normalized_value(XmlVersion::Explicit1_0).map_err(|error| self.xml_error(&error))?;
             if values[k].replace(value).is_some() {
-                return Err(self.xml_error(&"an attribute stands twice"));
+                return Err(self.xml_error(&"an attribute is repeated"));
             }
         }
         Ok(values)
@@ -216,12 +222,12 @@ impl PageReader {
     }
 }
 
-/// The attribute that moves an element, if any.
+/// The attribute that may move an element, if it has one.
 fn moving_attribute(transform: bool, style: bool) -> Option<&'static str> {
     if transform { Some("transform") } else { style.then_some("style") }
 }
 
-/// An attribute of a curve, and what is to be said if it is wrong.
+/// An attribute of a curve, with what its errors need.
 struct CurveAttribute<'a> {
     curve_id: &'a str,
     name: &'static str,
@@ -233,16 +239,16 @@ impl CurveAttribute<'_> {
         self.value.parse().map_err(|_| self.invalid_attribute("a whole number"))
     }
 
-    /// So many finite numbers with spaces between them.
+    /// Parses finite numbers separated by spaces.
     fn parse_numbers<const N: usize>(
         &self,
         expected: &'static str,
-        is_right: impl Fn(&[f64; N]) -> bool,
+        is_valid: impl Fn(&[f64; N]) -> bool,
     ) -> Result<[f64; N], DrawnCurveError> {
         let words = self.value.split_ascii_whitespace().take(N + 1);
         let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
         let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
-        numbers.filter(is_right).ok_or_else(|| self.invalid_attribute(expected))
+        numbers.filter(is_valid).ok_or_else(|| self.invalid_attribute(expected))
     }
 
     fn invalid_attribute(&self, expected: &'static str) -> DrawnCurveError {
@@ -251,7 +257,7 @@ impl CurveAttribute<'_> {
     }
 }
 
-/// A text, or as much of the beginning of it as a message has room for.
+/// Shortens a text for a message.
 fn shorten(text: &str) -> String {
     const MAX_CHARACTERS: usize = 80;
     let mut clipped: String = text.chars().take(MAX_CHARACTERS).collect();

@@ -6,7 +6,7 @@ use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, Volume};
-use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, Paper, PoseChoice};
+use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, Paper};
 use coupler_drawing::render::pdf::Book;
 use coupler_drawing::scene::{Item, PageNumber, Scene};
 
@@ -96,24 +96,15 @@ fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec<IndexEntry
 
 fn sheet<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [SolvedCell]) -> PanelPage<'p> {
     let planned = &plan.families[family];
-    let panel = |solved: &'p SolvedCell| Panel {
-        caption: caption(plan, family, solved),
-        note: String::new(),
-        facts: page::cell_facts(solved),
-        solved_cell: solved,
-        pose: PoseChoice::Clearest,
-        link_inks: Vec::new(),
+    let panel = |solved: &'p SolvedCell| {
+        Panel::new(solved).with_caption(caption(plan, family, solved)).with_facts(page::cell_facts(solved))
     };
     let (id, title, symbols) = (&planned.family.id, &planned.family.title, &planned.family.names);
-    let heading = Heading {
-        atlas_title: &plan.title,
-        family_id: id,
-        family_title: title,
-        source: String::new(),
-        symbols,
-        page,
-        page_count: 9,
-    };
+    let heading = Heading::new(title)
+        .with_family_id(id)
+        .with_atlas_title(&plan.title)
+        .with_symbols(symbols)
+        .with_page(page, 9);
     PanelPage { heading, layout: planned.layout, panels: group.iter().map(panel).collect() }
 }
 
@@ -296,7 +287,7 @@ fn an_atlas_of_many_cells_names_some_of_them_and_says_so() {
     assert!(front.len() < 9, "{}", front.len());
     let says: Vec<String> = front.iter().flat_map(says).collect();
     // The first of every second page.
-    assert!(says.iter().any(|line| line == "1000 of 30000 are named"));
+    assert!(says.iter().any(|line| line == "1000 of 30000 are listed"));
     let children = &book::outline(&atlas, &volume, [front.len(), 0])[2].children;
     assert_eq!(children.len(), 1000);
     assert_eq!((children[1].title.as_str(), children[1].page_index), ("p = 30", front.len() + 2));

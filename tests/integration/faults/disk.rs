@@ -85,7 +85,7 @@ fn a_full_disk_loses_nothing() {
             failed += 1;
             assert!(err.starts_with("error: cannot write out/"), "{err}");
             let remedy =
-                ": No space left on device (os error 28); make room, and run it again: what is finished is kept\n";
+                ": No space left on device (os error 28); free some space and run it again: finished files are kept\n";
             assert!(err.ends_with(remedy), "{err}");
         }
         assert!(code == 3 || code == 0, "{err}");
@@ -127,7 +127,7 @@ fn a_disk_that_cannot_be_written_is_left_as_it_is() {
     let (code, out, err) = atlas.run(&[]);
     assert_eq!((code, out.as_str()), (3, ""));
     let message = "error: cannot write out/.coupler-atlas.lock: Read-only file system (os error 30); \
-                   allow it to be written, or name another place for it\n";
+                   change its permissions, or name another path\n";
     assert_eq!(err, message);
     assert!(tree(&disk.0) == before);
     disk.allow_writing(true);

@@ -10,7 +10,7 @@ use crate::folder::{Atlas, tree};
 fn what_is_in_the_place_of_a_file_is_named_and_left() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
-    let remedy = "something else is in its place: move that away, or name another place\n";
+    let remedy = "something else has this path: move it away, or name another path\n";
     for name in ["evans/evans-003.svg", "evans/evans-003.png", "over/cells.csv", "run.json", "atlas.pdf"] {
         let atlas = Atlas::new(&old);
         complete(&atlas);
@@ -63,7 +63,7 @@ fn a_folder_without_permission_is_left_as_it_is() {
         atlas.edit(&new);
         let (code, _, err) = atlas.run(&[]);
         assert!(code == 3 && err.contains("cannot write out/evans/"), "{err}");
-        assert!(err.ends_with("; allow it to be written, or name another place for it\n"), "{err}");
+        assert!(err.ends_with("; change its permissions, or name another path\n"), "{err}");
         is_sound(&atlas.out(), &before, &undisturbed(&new));
     }
     allow(0o755);
@@ -92,7 +92,7 @@ fn what_vanishes_meanwhile_is_made_by_the_next_run() {
         }
         let output = child.wait_with_output().unwrap();
         let err = String::from_utf8(output.stderr).unwrap();
-        let told = err.starts_with("error: cannot write out") && err.ends_with("its folder is gone: run it again\n");
+        let told = err.starts_with("error: cannot write out") && err.ends_with("its folder no longer exists: run it again\n");
         assert!(output.status.success() || output.status.code() == Some(3) && told, "{name}: {err}");
         complete(&atlas);
         assert!(tree(&atlas.out()) == *expected, "{name}");

@@ -9,7 +9,7 @@ use coupler_atlas::gallery;
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::family::Family;
-use coupler_curves::linkage::{CircuitSelection, Continuation, Linkage};
+use coupler_curves::linkage::{CircuitSelection, Continuation, JointId, Linkage};
 use coupler_curves::measure::{self, COLUMNS, TracedCurve, Value as Measured, compute_columns};
 use coupler_curves::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
@@ -21,10 +21,10 @@ fn number(value: f64) -> Value {
 }
 
 fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
-    let rows = |of: &dyn Fn(usize) -> Vec<Value>| (0..linkage.joints.len()).map(of).collect::<Vec<_>>();
+    let rows = |of: &dyn Fn(JointId) -> Vec<Value>| linkage.joint_ids().map(of).collect::<Vec<_>>();
     let column = |values: &[f64]| values.iter().map(|value| json!(value)).collect::<Vec<_>>();
     let sides = |signs: coupler_curves::linkage::AssemblyMode| {
-        (0..linkage.dyad_count()).map(|dyad| signs.sign(dyad)).collect::<Vec<_>>()
+        linkage.dyad_ids().map(|dyad| signs.sign(dyad)).collect::<Vec<_>>()
     };
     let pass = |pass: &coupler_curves::motion::Pass| json!({ "from": pass.from.input.value, "to": pass.to.input.value, "signs": sides(pass.mode) });
     json!({
@@ -86,7 +86,7 @@ fn case(family: &Family, cell: usize, name: &str) -> Value {
         "sampling": gallery::sampling_json(family.sampling),
         "straight": gallery::straight_json(family.straight),
         "motion": {
-            "shortfall": motion.incomplete_reason,
+            "shortfall": motion.assembly_error.as_ref().map(ToString::to_string),
             "circuits": motion.circuits.iter().map(|c| circuit(&linkage, c)).collect::<Vec<_>>(),
         },
         "measures": measures(family, &linkage, &motion),

@@ -83,27 +83,32 @@ fn slips_are_found_by_both() {
 }
 
 /// How the reader speaks of what is wrong with a manifest's form, whatever its values mean.
-const FORM: [&str; 20] = [
-    " is wanted here, and this is ",
-    "values are wanted here, and there are ",
+const FORM: [&str; 25] = [
+    ", found a string",
+    ", found a number",
+    ", found a boolean",
+    ", found a date",
+    ", found a list",
+    ", found a table",
+    "expected two values, found ",
     " has no key `",
     " has no `",
     "the manifest has no ",
     " is not one of the words allowed here",
-    " will not do here",
+    "invalid value `",
     "does not say how it is placed",
     ", not both",
     "needs a step or a ",
     "asked for by one of",
-    " ranges over nothing",
+    " has no values",
     "there are no cases",
-    "there is nothing to draw",
-    "no format is named",
+    "`y` is empty",
+    "`formats` is empty",
     "no joint is traced",
-    "in no ink at all",
-    " is no colour",
+    "`curves` is empty",
+    " is not a colour",
     " is not a slug",
-    "`where` is a condition in quotes",
+    "`where` must be a condition in quotes",
 ];
 
 /// Every value of the manifest that has every key in turn is left out, replaced by others, or given a strange key.

@@ -1,102 +1,153 @@
 //! Everything that is known of a curve, for programs; docs/export.md describes it.
 
-use super::PointTable;
-use super::pretty_json::Json;
-use super::{SelectedCurve, sampling_fields};
-use crate::linkage::Linkage;
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+
+use super::pretty_json::to_pretty_string;
+use super::{PointTable, SelectedCurve, sampling_fields};
+use crate::linkage::{DyadId, Linkage};
 use crate::measure::{self, Value, compute_columns};
 use crate::motion::{Circuit, Pass, PassEnd};
 
 /// The version of the format.
 const FORMAT_VERSION: usize = 1;
 
-pub(super) fn document(chosen: &SelectedCurve) -> String {
-    let SelectedCurve { family, solved, .. } = chosen;
+/// The whole document; the fields are its members, in order.
+#[derive(Serialize)]
+struct Document<'a> {
+    format: usize,
+    curve: String,
+    family: &'a str,
+    linkage: &'a str,
+    cell: usize,
+    trace: usize,
+    circuit: usize,
+    joint: &'a str,
+    parameters: Members<'a, f64>,
+    helpers: Members<'a, f64>,
+    sampling: Members<'a, SamplingField>,
+    status: &'static str,
+    reason: Option<String>,
+    circuits: Vec<CircuitDocument<'a>>,
+    columns: Vec<String>,
+    points: Vec<Vec<f64>>,
+    measures: Members<'a, Option<MeasureValue>>,
+}
+
+/// An object whose members are known at run time only.
+struct Members<'a, V>(Vec<(&'a str, V)>);
+
+impl<V: Serialize> Serialize for Members<'_, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        self.0.iter().try_for_each(|(name, value)| map.serialize_entry(name, value))?;
+        map.end()
+    }
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum SamplingField {
+    Number(f64),
+    Spacing(&'static str),
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum MeasureValue {
+    Number(f64),
+    Word(&'static str),
+}
+
+#[derive(Serialize)]
+struct CircuitDocument<'a> {
+    closed: bool,
+    passes: Vec<PassDocument<'a>>,
+}
+
+#[derive(Serialize)]
+struct PassDocument<'a> {
+    from: EndDocument<'a>,
+    to: EndDocument<'a>,
+    /// The sides of all two-valued joints.
+    branches: Vec<f64>,
+    turns: bool,
+}
+
+#[derive(Serialize)]
+struct EndDocument<'a> {
+    input: f64,
+    /// The joints whose dyads lie flat there.
+    flat: Vec<&'a str>,
+}
+
+pub(super) fn document(selected: &SelectedCurve) -> String {
+    let SelectedCurve { family, solved, .. } = selected;
     let linkage = &solved.linkage;
-    let curve = chosen.curve();
-    let named = |names: &[String], values: &[f64]| {
-        Json::Object(names.iter().cloned().zip(values.iter().map(|value| Json::Number(*value))).collect())
+    let curve = selected.curve();
+    let [cell, trace, circuit] = selected.cell_trace_circuit();
+    let mut parameters: Vec<(&str, f64)> =
+        family.names.iter().map(String::as_str).zip(solved.cell.values.iter().copied()).collect();
+    let helpers = parameters.split_off(family.template.parameters.len());
+    let value = |value: &Value| match *value {
+        Value::Number(value) => Some(MeasureValue::Number(value)),
+        Value::Word(word) => Some(MeasureValue::Word(word)),
+        Value::Missing => None,
     };
-    let parameters = family.template.parameters.len();
-    let (names, values) = (&family.names, &solved.cell.values);
-    let (columns, points) = columns_and_points(chosen);
-    let [cell, trace, circuit] = chosen.cell_trace_circuit().map(Json::integer);
-    Json::object([
-        ("format", Json::integer(FORMAT_VERSION)),
-        ("curve", Json::text(chosen.name())),
-        ("family", Json::text(&family.id)),
-        ("linkage", Json::text(&family.template.id)),
-        ("cell", cell),
-        ("trace", trace),
-        ("circuit", circuit),
-        ("joint", Json::text(&linkage.joints[curve.joint].name)),
-        ("parameters", named(&names[..parameters], &values[..parameters])),
-        ("helpers", named(&names[parameters..], &values[parameters..])),
-        ("sampling", sampling(chosen)),
-        ("status", Json::text(solved.status().name())),
-        ("reason", solved.motion.incomplete_reason.as_ref().map_or(Json::Null, Json::text)),
-        (
-            "circuits",
-            Json::List(solved.motion.circuits.iter().map(|circuit| circuit_to_json(linkage, circuit)).collect()),
-        ),
-        ("columns", columns),
-        ("points", points),
-        ("measures", measures(&curve.values)),
-    ])
-    .to_pretty_string()
+    let document = Document {
+        format: FORMAT_VERSION,
+        curve: selected.name(),
+        family: &family.id,
+        linkage: &family.template.id,
+        cell,
+        trace,
+        circuit,
+        joint: &linkage.joints[curve.joint].name,
+        parameters: Members(parameters),
+        helpers: Members(helpers),
+        sampling: sampling(selected),
+        status: solved.status().name(),
+        reason: solved.motion.assembly_error.as_ref().map(ToString::to_string),
+        circuits: solved.motion.circuits.iter().map(|circuit| circuit_document(linkage, circuit)).collect(),
+        // The numbers of the curve are members of their own.
+        columns: PointTable::new(family).header().trim_end().split(',').skip(3).map(str::to_owned).collect(),
+        points: rows(selected),
+        measures: Members(measure::ALL.iter().zip(&curve.values).map(|(m, v)| (m.name, value(v))).collect()),
+    };
+    to_pretty_string(&document).expect("names are text and numbers are numbers")
 }
 
-fn sampling(chosen: &SelectedCurve) -> Json {
-    let (key, number, spacing) = sampling_fields(chosen.family.sampling);
-    let spacing = spacing.map(|spacing| ("spacing".to_owned(), Json::text(spacing)));
-    Json::Object([(key.to_owned(), Json::Number(number))].into_iter().chain(spacing).collect())
+fn sampling(selected: &SelectedCurve) -> Members<'static, SamplingField> {
+    let (key, number, spacing) = sampling_fields(selected.family.sampling);
+    let spacing = spacing.map(|spacing| ("spacing", SamplingField::Spacing(spacing)));
+    Members([(key, SamplingField::Number(number))].into_iter().chain(spacing).collect())
 }
 
-/// Of every pass its ends, with the joints whose dyads lie flat there, and the sides of all two-valued joints.
-fn circuit_to_json(linkage: &Linkage, circuit: &Circuit) -> Json {
+fn circuit_document<'a>(linkage: &'a Linkage, circuit: &Circuit) -> CircuitDocument<'a> {
     let end = |end: PassEnd| {
-        let flat = linkage
-            .joints
-            .iter()
-            .filter(|joint| joint.kind.dyad_index().is_some_and(|index| end.flat_dyads.contains(index)));
-        let flat = flat.map(|joint| Json::text(&joint.name)).collect();
-        Json::object([("input", Json::Number(end.input.value)), ("flat", Json::List(flat))])
+        let is_flat = |dyad| end.flat_dyads.contains(dyad);
+        let flat = linkage.joints.iter().filter(|joint| joint.kind.dyad().is_some_and(is_flat));
+        EndDocument { input: end.input.value, flat: flat.map(|joint| joint.name.as_str()).collect() }
     };
-    let pass = |(k, pass): (usize, &Pass)| {
-        let branches = (0..linkage.dyad_count()).map(|dyad| Json::Number(f64::from(pass.mode.sign(dyad))));
-        Json::object([
-            ("from", end(pass.from)),
-            ("to", end(pass.to)),
-            ("branches", Json::List(branches.collect())),
-            ("turns", Json::Bool(circuit.reverses_after(k))),
-        ])
+    let pass = |(k, pass): (usize, &Pass)| PassDocument {
+        from: end(pass.from),
+        to: end(pass.to),
+        branches: linkage.dyad_ids().map(|dyad| f64::from(pass.mode.sign(dyad))).collect(),
+        turns: circuit.reverses_after(k),
     };
-    let passes = circuit.passes.iter().enumerate().map(pass).collect();
-    Json::object([("closed", Json::Bool(circuit.is_closed)), ("passes", Json::List(passes))])
+    CircuitDocument { closed: circuit.is_closed, passes: circuit.passes.iter().enumerate().map(pass).collect() }
 }
 
-/// The columns of `points.csv` behind the numbers of the curve, and a row for each sample.
-fn columns_and_points(chosen: &SelectedCurve) -> (Json, Json) {
-    let (circuit, joint) = (chosen.circuit(), chosen.curve().joint);
-    let linkage = &chosen.solved.linkage;
-    let header = PointTable::new(chosen.family).header();
-    let columns = header.trim_end().split(',').skip(3).map(Json::text).collect();
+/// A row of `points.csv` for each sample, without the numbers of the curve.
+fn rows(selected: &SelectedCurve) -> Vec<Vec<f64>> {
+    let (circuit, joint) = (selected.circuit(), selected.curve().joint);
+    let linkage = &selected.solved.linkage;
     let row = |sample: usize| {
-        let signs = circuit.mode_at(sample);
-        let branches = (0..linkage.dyad_count().max(1)).map(|dyad| f64::from(signs.sign(dyad)));
-        let at = circuit.positions.point(joint, sample);
-        let further = compute_columns(&chosen.family.columns, linkage, (circuit, joint), sample);
-        let values = branches.chain([sample as f64, circuit.inputs[sample], at.x, at.y]).chain(further);
-        Json::List(values.map(Json::Number).collect())
+        let mode = circuit.mode_at(sample);
+        let branches = (0..linkage.dyad_count().max(1)).map(DyadId::new).map(|dyad| f64::from(mode.sign(dyad)));
+        let point = circuit.positions.point(joint, sample);
+        let further = compute_columns(&selected.family.columns, linkage, (circuit, joint), sample);
+        branches.chain([sample as f64, circuit.inputs[sample], point.x, point.y]).chain(further).collect()
     };
-    (Json::List(columns), Json::List((0..circuit.len()).map(row).collect()))
-}
-
-fn measures(values: &[Value]) -> Json {
-    let value = |value: &Value| match value {
-        Value::Number(value) => Json::Number(*value),
-        Value::Word(word) => Json::text(*word),
-        Value::Missing => Json::Null,
-    };
-    Json::Object(measure::ALL.iter().zip(values).map(|(m, v)| (m.name.to_owned(), value(v))).collect())
+    (0..circuit.len()).map(row).collect()
 }

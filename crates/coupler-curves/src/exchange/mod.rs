@@ -35,6 +35,11 @@ pub struct SelectedCurve<'a> {
 }
 
 impl<'a> SelectedCurve<'a> {
+    /// The one curve of a solved cell; `source` is printed under the title of its plate.
+    pub(crate) fn new(family: &'a Family, source: &'a str, solved: SolvedCell) -> SelectedCurve<'a> {
+        SelectedCurve { family, source, solved, overrides: &[] }
+    }
+
     /// Each curve of a solved cell by itself; `changed` are the parameters it has in place of those of the cell of its
     /// number.
     pub fn all_from_cell(
@@ -112,7 +117,7 @@ impl<'a> SelectedCurve<'a> {
     fn pose(&self) -> Vec<Point> {
         let circuit = self.circuit();
         let sample = circuit.len() / 3;
-        (0..self.solved.linkage.joints.len()).map(|joint| circuit.positions.point(joint, sample)).collect()
+        self.solved.linkage.joint_ids().map(|joint| circuit.positions.point(joint, sample)).collect()
     }
 }
 

@@ -1,132 +1,187 @@
-//! JSON that people can read: objects a line for each member, lists of plain values on one line.
+//! JSON that people can read: a line for each member of an object, lists of plain values on one line.
 
-use super::format_number;
+use std::io::{self, Write};
 
-/// A value.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Json {
-    Null,
-    Bool(bool),
-    /// Written in the fewest digits that read back to it; `null` where it is not finite.
-    Number(f64),
-    Text(String),
-    List(Vec<Json>),
-    /// Members in this order.
-    Object(Vec<(String, Json)>),
+use serde::Serialize;
+use serde_json::ser::Formatter;
+
+use super::append_number;
+
+/// A value as JSON text with a line break at its end. Numbers have the fewest digits that read back to them; one that is not
+/// finite is `null`.
+pub(super) fn to_pretty_string(value: &impl Serialize) -> serde_json::Result<String> {
+    let mut out = Vec::new();
+    value.serialize(&mut serde_json::Serializer::with_formatter(&mut out, Layout::default()))?;
+    out.push(b'\n');
+    String::from_utf8(out).map_err(|error| serde::ser::Error::custom(error))
 }
 
-impl Json {
-    pub fn text(text: impl Into<String>) -> Json {
-        Json::Text(text.into())
+/// Whether an item is the first of its list.
+type IsFirst = bool;
+
+/// Indents by two blanks. Whether a list takes one line is known when its first item begins: a list or an object takes a line of
+/// its own, so the separator before an item is written with the item.
+#[derive(Default)]
+struct Layout {
+    /// For each open list or object: whether its items are on lines of their own.
+    has_lines: Vec<bool>,
+    /// The list item whose separator is not yet written.
+    pending: Option<IsFirst>,
+}
+
+impl Layout {
+    fn break_line<W: ?Sized + Write>(&self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b"\n")?;
+        (0..self.has_lines.len()).try_for_each(|_| writer.write_all(b"  "))
     }
 
-    pub fn integer(number: usize) -> Json {
-        Json::Number(number as f64)
-    }
-
-    pub fn object<const N: usize>(members: [(&str, Json); N]) -> Json {
-        Json::Object(members.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
-    }
-
-    fn is_scalar(&self) -> bool {
-        !matches!(self, Json::List(_) | Json::Object(_))
-    }
-
-    /// As text, and the end of a line.
-    pub fn to_pretty_string(&self) -> String {
-        let mut out = String::new();
-        self.write(0, &mut out);
-        out.push('\n');
-        out
-    }
-
-    fn write(&self, depth: usize, out: &mut String) {
-        match self {
-            Json::Null => out.push_str("null"),
-            Json::Bool(truth) => out.push_str(if *truth { "true" } else { "false" }),
-            Json::Number(value) if value.is_finite() => out.push_str(&format_number(*value)),
-            Json::Number(_) => out.push_str("null"),
-            Json::Text(text) => out.push_str(&quoted(text)),
-            Json::List(items) => {
-                let lines = items.iter().any(|item| !item.is_scalar());
-                write_members(['[', ']'], lines, items.iter().map(|item| (None, item)), depth, out);
-            }
-            Json::Object(items) => {
-                write_members(
-                    ['{', '}'],
-                    true,
-                    items.iter().map(|(name, item)| (Some(name.as_str()), item)),
-                    depth,
-                    out,
-                );
-            }
+    /// The separator before a plain item.
+    fn plain<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        match self.pending.take() {
+            Some(false) => writer.write_all(b", "),
+            _ => Ok(()),
         }
     }
-}
 
-/// Members between brackets, each on a line of its own or all on one.
-fn write_members<'j>(
-    [open, close]: [char; 2],
-    lines: bool,
-    items: impl Iterator<Item = (Option<&'j str>, &'j Json)>,
-    depth: usize,
-    out: &mut String,
-) {
-    let mut is_empty = true;
-    out.push(open);
-    for (name, item) in items {
-        match (is_empty, lines) {
-            (true, true) => write_line_break(depth + 1, out),
-            (true, false) => {}
-            (false, true) => {
-                out.push(',');
-                write_line_break(depth + 1, out);
+    /// The separator before an item that is a list or an object, and its bracket.
+    fn open<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        if let Some(is_first) = self.pending.take() {
+            if !is_first {
+                writer.write_all(b",")?;
             }
-            (false, false) => out.push_str(", "),
+            if let Some(has_lines) = self.has_lines.last_mut() {
+                *has_lines = true;
+            }
+            self.break_line(writer)?;
         }
-        is_empty = false;
-        if let Some(name) = name {
-            out.push_str(&quoted(name));
-            out.push_str(": ");
+        self.has_lines.push(false);
+        writer.write_all(bracket)
+    }
+
+    fn close<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        if self.has_lines.pop() == Some(true) {
+            self.break_line(writer)?;
         }
-        item.write(depth + 1, out);
+        writer.write_all(bracket)
     }
-    if lines && !is_empty {
-        write_line_break(depth, out);
-    }
-    out.push(close);
 }
 
-fn write_line_break(depth: usize, out: &mut String) {
-    out.push('\n');
-    out.extend(std::iter::repeat_n("  ", depth));
-}
+impl Formatter for Layout {
+    fn write_null<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.plain(writer)?;
+        writer.write_all(b"null")
+    }
 
-fn quoted(text: &str) -> String {
-    // A text is always JSON.
-    serde_json::to_string(text).unwrap_or_default()
+    fn write_bool<W: ?Sized + Write>(&mut self, writer: &mut W, value: bool) -> io::Result<()> {
+        self.plain(writer)?;
+        writer.write_all(if value { b"true" } else { b"false" })
+    }
+
+    fn write_u64<W: ?Sized + Write>(&mut self, writer: &mut W, value: u64) -> io::Result<()> {
+        self.plain(writer)?;
+        write!(writer, "{value}")
+    }
+
+    fn write_f64<W: ?Sized + Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
+        self.plain(writer)?;
+        let mut digits = Vec::new();
+        append_number(value, &mut digits);
+        writer.write_all(&digits)
+    }
+
+    fn begin_string<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.plain(writer)?;
+        writer.write_all(b"\"")
+    }
+
+    fn begin_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.open(writer, b"[")
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, _: &mut W, is_first: bool) -> io::Result<()> {
+        self.pending = Some(is_first);
+        Ok(())
+    }
+
+    fn end_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"]")
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.open(writer, b"{")
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, writer: &mut W, is_first: bool) -> io::Result<()> {
+        if !is_first {
+            writer.write_all(b",")?;
+        }
+        if let Some(has_lines) = self.has_lines.last_mut() {
+            *has_lines = true;
+        }
+        self.break_line(writer)
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"}")
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    #[derive(Serialize)]
+    struct Example {
+        n: f64,
+        none: f64,
+        #[serde(rename = "\"q\"")]
+        quoted: &'static str,
+        empty: [f64; 0],
+        rows: Vec<(f64, f64, bool, Option<u64>)>,
+        objects: [Member; 2],
+    }
+
+    #[derive(Serialize)]
+    struct Member {
+        words: [&'static str; 2],
+    }
+
     #[test]
-    fn it_is_laid_out_by_lines_and_reads_back() {
-        let value = Json::object([
-            ("n", Json::Number(0.1)),
-            ("none", Json::Number(f64::INFINITY)),
-            ("\"q\"", Json::text("a\nb")),
-            ("empty", Json::List(Vec::new())),
-            ("rows", Json::List(vec![Json::List(vec![Json::Number(1.0), Json::Number(-0.0), Json::Bool(true)])])),
-        ]);
-        let text = value.to_pretty_string();
-        assert_eq!(
-            text,
-            "{\n  \"n\": 0.1,\n  \"none\": null,\n  \"\\\"q\\\"\": \"a\\nb\",\n  \"empty\": [],\n  \"rows\": [\n    \
-             [1, 0, true]\n  ]\n}\n"
-        );
+    fn lists_of_plain_values_take_one_line_and_the_text_reads_back() {
+        let value = Example {
+            n: 0.1,
+            none: f64::INFINITY,
+            quoted: "a\nb",
+            empty: [],
+            rows: vec![(1.0, -0.0, true, None), (1e300, 2.5, false, Some(7))],
+            objects: [Member { words: ["a", "b"] }, Member { words: ["c", "d"] }],
+        };
+        let text = to_pretty_string(&value).unwrap();
+        let expected = r#"{
+  "n": 0.1,
+  "none": null,
+  "\"q\"": "a\nb",
+  "empty": [],
+  "rows": [
+    [1, 0, true, null],
+    [1e300, 2.5, false, 7]
+  ],
+  "objects": [
+    {
+      "words": ["a", "b"]
+    },
+    {
+      "words": ["c", "d"]
+    }
+  ]
+}
+"#;
+        assert_eq!(text, expected);
         let read: serde_json::Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(read["rows"][0][0], 1);
+        assert_eq!(read["rows"][1][2], false);
     }
 }

@@ -1,6 +1,7 @@
 use super::append_number;
 use super::number::append_integer;
 use crate::family::{Column, Family};
+use crate::linkage::DyadId;
 use crate::measure::compute_columns;
 use crate::solve::SolvedCell;
 
@@ -44,7 +45,7 @@ impl<'a> PointTable<'a> {
             for sample in 0..circuit.len() {
                 out.extend_from_slice(&head);
                 let signs = circuit.mode_at(sample);
-                for dyad in 0..self.dyad_count.max(1) {
+                for dyad in (0..self.dyad_count.max(1)).map(DyadId::new) {
                     out.extend_from_slice(if signs.sign(dyad) > 0 { b"1," } else { b"-1," });
                 }
                 append_integer(sample, out);

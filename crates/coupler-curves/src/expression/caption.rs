@@ -1,9 +1,9 @@
 use super::{Error, Expression};
 
-/// A line of text with values in it: `p = {p:.2}, area {p * r}`.
+/// A line of text with expressions in braces: `p = {p:.2}, area {p * r}`.
 ///
-/// `{expression}` is a value in up to six significant digits, `{expression:.2}` one with two decimals, `{{` and `}}` are
-/// braces.
+/// `{expression}` is replaced by the value in up to six significant digits, `{expression:.2}` by the value with two
+/// decimals; `{{` and `}}` are literal braces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Caption {
     pieces: Vec<Piece>,
@@ -16,19 +16,19 @@ enum Piece {
 }
 
 impl Caption {
-    /// Reads a caption.
+    /// Parses a caption.
     ///
     /// # Errors
-    /// A brace without its partner, an expression or a number of decimals that cannot be read; spans are in the
-    /// caption's own text.
+    /// An unmatched brace, an expression or a number of decimals that cannot be parsed; spans are in the caption's own
+    /// text.
     pub fn parse(text: &str) -> Result<Caption, Error> {
         let mut pieces = Vec::new();
-        let mut plain = String::new();
+        let mut literal = String::new();
         let mut at = 0;
         while let Some(c) = text[at..].chars().next() {
             let rest = &text[at..];
             if rest.starts_with("{{") || rest.starts_with("}}") {
-                plain.push(c);
+                literal.push(c);
                 at += 2;
             } else if c == '{' {
                 let end = at
@@ -36,24 +36,24 @@ impl Caption {
                         Error::new(
                             at..at + 1,
                             "this brace is never closed",
-                            "close it with `}`, or write `{{` for a brace",
+                            "close it with `}`, or write `{{` for a literal brace",
                         )
                     })?;
-                pieces.push(Piece::Text(std::mem::take(&mut plain)));
+                pieces.push(Piece::Text(std::mem::take(&mut literal)));
                 pieces.push(parse_value(text, at + 1, end)?);
                 at = end + 1;
             } else if c == '}' {
-                return Err(Error::new(at..at + 1, "a closing brace without its partner", "write `}}` for a brace"));
+                return Err(Error::new(at..at + 1, "unmatched closing brace", "write `}}` for a literal brace"));
             } else {
-                plain.push(c);
+                literal.push(c);
                 at += c.len_utf8();
             }
         }
-        pieces.push(Piece::Text(plain));
+        pieces.push(Piece::Text(literal));
         Ok(Caption { pieces })
     }
 
-    /// The expressions in it, each with the place of its first byte in the caption.
+    /// The expressions in it, each with the index of its first byte in the caption.
     pub fn expressions(&self) -> impl Iterator<Item = (&Expression, usize)> {
         self.pieces.iter().filter_map(|piece| match piece {
             Piece::Value { expression, start, .. } => Some((expression, *start)),
@@ -61,13 +61,13 @@ impl Caption {
         })
     }
 
-    /// Whether one of its values rests on a name.
+    /// Whether one of its expressions uses a name.
     pub fn uses(&self, name: &str) -> bool {
         self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
     }
 
-    /// The text, where `load(name)` is the value of a name, and `word(name)` what stands for one that is a word; a dash for
-    /// a value that is none.
+    /// The text with values filled in: `load(name)` is the value of a name, and `word(name)` the text of a name that
+    /// is a word. A NaN is shown as a dash.
     pub fn format(&self, load: impl Fn(&str) -> f64, word: impl Fn(&str) -> Option<&'static str>) -> String {
         let mut out = String::new();
         for piece in &self.pieces {
@@ -105,10 +105,10 @@ fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let (source, decimals) = match inner.rfind(':') {
         None => (inner, None),
         Some(colon) => {
-            let bad = || Error::new(start + colon..end, "this is not a format", "two decimals are written `{x:.2}`");
-            let digits = inner[colon + 1..].strip_prefix('.').ok_or_else(bad)?;
-            // Seventeen decimals tell any two numbers near 1 apart.
-            let n = digits.parse().ok().filter(|&n: &usize| n <= 17).ok_or_else(bad)?;
+            let invalid = || Error::new(start + colon..end, "invalid number format", "write two decimals as `{x:.2}`");
+            let digits = inner[colon + 1..].strip_prefix('.').ok_or_else(invalid)?;
+            // Seventeen decimals distinguish any two numbers near 1.
+            let n = digits.parse().ok().filter(|&n: &usize| n <= 17).ok_or_else(invalid)?;
             (&inner[..colon], Some(n))
         }
     };
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_stand_where_their_names_stood() {
+    fn expressions_are_replaced_by_their_values() {
         let caption = Caption::parse("p = {p:.2}, {{2p}} = {2 * p}").unwrap();
         assert_eq!(caption.format(|_| 2.5, |_| None), "p = 2.50, {2p} = 5");
         assert_eq!(caption.expressions().count(), 2);
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn braces_and_formats_are_checked() {
+    fn invalid_braces_and_formats_are_errors() {
         for (text, at) in [("a {p", 2), ("a }", 2), ("{p:2}", 2), ("{p:.99}", 2), ("{p +}", 4), ("{}", 1)] {
             assert_eq!(Caption::parse(text).expect_err(text).span.start, at, "{text}");
         }

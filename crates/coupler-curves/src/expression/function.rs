@@ -15,13 +15,13 @@ pub enum Function {
     Asin,
     /// Arc cosine, in radians.
     Acos,
-    /// `atan2(y, x)`: the direction of the vector (x, y), in radians.
+    /// `atan2(y, x)`: the direction of the vector (x, y), in radians from -pi to pi.
     Atan2,
     /// Magnitude.
     Abs,
-    /// The least of one or more.
+    /// The least of one or more numbers.
     Min,
-    /// The greatest of one or more.
+    /// The greatest of one or more numbers.
     Max,
     /// `hypot(x, y)`: the length of the vector (x, y).
     Hypot,
@@ -49,7 +49,7 @@ impl Function {
         ("rad", Function::Rad),
     ];
 
-    /// The function of that name.
+    /// The function of a name.
     pub fn from_name(name: &str) -> Option<Function> {
         Function::ALL.iter().find(|(n, _)| *n == name).map(|&(_, f)| f)
     }
@@ -68,7 +68,7 @@ impl Function {
         }
     }
 
-    /// The value. Not a number where the function is not defined, or an argument is missing.
+    /// The value; NaN where the function is not defined, or an argument is missing.
     pub(super) fn call(self, arguments: &[f64]) -> f64 {
         let x = arguments[0];
         match self {
@@ -89,7 +89,7 @@ impl Function {
     }
 }
 
-/// The lesser of two; missing where either is (`f64::min` would pass over it).
+/// The lesser of two numbers; NaN if either is, unlike `f64::min`.
 fn min_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
 }

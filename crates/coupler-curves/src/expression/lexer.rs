@@ -25,7 +25,7 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// The tokens of a text with their places; the last is [`Token::End`].
+/// The tokens of a text with their spans; the last is [`Token::End`].
 pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
     let mut out = Vec::new();
     let mut at = 0;
@@ -38,15 +38,15 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
         let next = text[at..].chars().next();
         let token = match c {
             '0'..='9' | '.' => {
-                at = end_of_number(text, start);
+                at = number_end(text, start);
                 let digits = &text[start..at];
                 Token::Number(digits.parse().map_err(|_| {
                     Error::new(start..at, format!("`{digits}` is not a number"), "write it like 2, 2.5 or 1e-3")
                 })?)
             }
             'a'..='z' | 'A'..='Z' | '_' => {
-                let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-                at = start + text[start..].find(|c| !word(c)).unwrap_or(text.len() - start);
+                let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+                at = start + text[start..].find(|c| !is_word(c)).unwrap_or(text.len() - start);
                 match &text[start..at] {
                     "and" => Token::And,
                     "or" => Token::Or,
@@ -84,11 +84,11 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
                     '°' => "in an expression write `rad(30)`; in a quantity write `30 deg`",
                     _ => "an expression has numbers, names, + - * / ^, comparisons, and, or, not, and functions",
                 };
-                return Err(Error::new(start..at, format!("`{c}` has no meaning here"), help));
+                return Err(Error::new(start..at, format!("unexpected `{c}`"), help));
             }
         };
         if token == Token::Star && next == Some('*') {
-            return Err(Error::new(start..at + 1, "`**` has no meaning here", "a power is written with `^`"));
+            return Err(Error::new(start..at + 1, "unexpected `**`", "write a power with `^`"));
         }
         out.push((token, start..at));
     }
@@ -96,8 +96,8 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
     Ok(out)
 }
 
-/// Digits, a fraction and an exponent, as far as they go.
-fn end_of_number(text: &str, start: usize) -> usize {
+/// The end of the number that starts at `start`: its digits, fraction and exponent.
+fn number_end(text: &str, start: usize) -> usize {
     let bytes = text.as_bytes();
     let digits = |mut at: usize| {
         while bytes.get(at).is_some_and(u8::is_ascii_digit) {

@@ -1,12 +1,21 @@
-//! The arithmetic of manifests: parsed once, evaluated often.
+//! Expressions in manifests: parsed once, evaluated often.
+//!
+//! The operators, from loosest to tightest:
 //!
 //! ```text
-//! or  and  not  = the comparisons == != < <= > >=  + -  * /  unary minus  ^      from loosest to tightest
+//! or
+//! and
+//! not
+//! ==  !=  <  <=  >  >=
+//! +  -
+//! *  /
+//! unary -
+//! ^
 //! ```
 //!
-//! `^` is right-associative and binds tighter than unary minus: `-2^2` is -4 and `2^3^2` is 512. Angles are
-//! radians. A value that is missing is not a number: every comparison with it is false, and it spreads through
-//! arithmetic. Truths are 1 and 0. Nothing panics on any text, and nesting beyond [`MAX_DEPTH`] is an error.
+//! `^` is right-associative and binds tighter than unary minus: `-2^2` is -4 and `2^3^2` is 512. Angles are in
+//! radians. A missing value is NaN: it propagates through arithmetic, and every comparison with it is false. Booleans
+//! are 1 and 0. No text makes the parser panic, and nesting beyond [`MAX_DEPTH`] is an error.
 
 mod caption;
 mod function;
@@ -22,21 +31,21 @@ pub use quantity::{Dimension, Quantity, Unit};
 
 use crate::problem::{Problem, Span};
 
-/// How deep parentheses, function calls, powers and signs may be nested.
+/// The greatest depth to which parentheses, function calls, powers and signs may be nested.
 pub const MAX_DEPTH: usize = 100;
 
 /// The names that always have a value.
 pub const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
 
-/// What is wrong with an expression; the span is in bytes from the start of the expression's own text.
+/// An error in an expression; the span is in bytes from the start of the expression's own text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
     /// What is wrong.
     pub message: String,
-    /// Where.
+    /// The place of the error.
     pub span: Span,
-    /// The remedy; may be empty.
+    /// How to fix it; may be empty.
     pub help: String,
 }
 
@@ -45,8 +54,8 @@ impl Error {
         Error { message: message.into(), span, help: help.into() }
     }
 
-    /// The error as a problem of the text that `place` maps this expression's spans into.
-    pub fn into_problem(self, place: impl FnOnce(Span) -> Span) -> Problem {
-        Problem::error(place(self.span), self.message).with_help(self.help)
+    /// The error as a problem of a larger text; `to_outer_span` maps spans of the expression to spans of that text.
+    pub fn into_problem(self, to_outer_span: impl FnOnce(Span) -> Span) -> Problem {
+        Problem::error(to_outer_span(self.span), self.message).with_help(self.help)
     }
 }

@@ -3,17 +3,22 @@ use super::program::{Expression, Instruction, Operator};
 use super::{CONSTANTS, Error, Function, MAX_DEPTH};
 use crate::problem::{Span, nearest_word};
 
-/// Reads a whole text as an expression.
-pub(super) fn parse_expression(text: &str) -> Result<Expression, Error> {
-    let mut parser = Parser::new(text)?;
-    parser.parse_binary(0)?;
-    match parser.peek() {
-        (Token::End, _) => Ok(parser.expression),
-        (_, span) => Err(parser.unexpected(span)),
+impl Expression {
+    /// Parses an expression.
+    ///
+    /// # Errors
+    /// A syntax error, with its place in the text. Whether the names exist is checked by [`Expression::check`].
+    pub fn parse(text: &str) -> Result<Expression, Error> {
+        let mut parser = Parser::new(text)?;
+        parser.parse_binary(0)?;
+        match parser.peek() {
+            (Token::End, _) => Ok(parser.expression),
+            (_, span) => Err(parser.unexpected(span)),
+        }
     }
 }
 
-/// Reads an expression and the word after it, if any: `360/7 deg`.
+/// Parses an expression and the word after it, if any: `360/7 deg`.
 pub(super) fn parse_expression_and_word(text: &str) -> Result<(Expression, Option<(String, Span)>), Error> {
     let mut parser = Parser::new(text)?;
     parser.parse_binary(0)?;
@@ -40,10 +45,10 @@ struct Parser<'a> {
 
 impl<'a> Parser<'a> {
     fn new(text: &'a str) -> Result<Parser<'a>, Error> {
-        let out = Expression { program: Vec::new(), names: Vec::new() };
-        let parser = Parser { text, tokens: tokenize(text)?, position: 0, depth: 0, expression: out };
+        let expression = Expression { program: Vec::new(), names: Vec::new() };
+        let parser = Parser { text, tokens: tokenize(text)?, position: 0, depth: 0, expression };
         match parser.peek() {
-            (Token::End, span) => Err(Error::new(span, "an empty expression", "give a number or an expression")),
+            (Token::End, span) => Err(Error::new(span, "the expression is empty", "give a number or an expression")),
             _ => Ok(parser),
         }
     }
@@ -58,22 +63,22 @@ impl<'a> Parser<'a> {
 
     fn unexpected(&self, span: Span) -> Error {
         match &self.text[span.clone()] {
-            "" => Error::new(span, "the expression ends too soon", "something is wanted after the last sign"),
+            "" => Error::new(span, "unexpected end of the expression", "add a value after the last operator"),
             word => Error::new(
                 span,
-                format!("`{word}` was not expected here"),
-                "between two values there is an operator, as in `2 * a`",
+                format!("unexpected `{word}`"),
+                "between two values there must be an operator, as in `2 * a`",
             ),
         }
     }
 
-    /// Runs `inner` one level deeper.
+    /// Runs `inner` one nesting level deeper.
     fn nested(&mut self, span: Span, inner: impl FnOnce(&mut Self) -> Result<(), Error>) -> Result<(), Error> {
         if self.depth == MAX_DEPTH {
             return Err(Error::new(
                 span,
-                format!("nested deeper than {MAX_DEPTH}"),
-                "name its parts under `let` and put them together",
+                format!("the expression is nested more than {MAX_DEPTH} levels deep"),
+                "define parts of it under `let`",
             ));
         }
         self.depth += 1;
@@ -82,7 +87,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Operators at least as tight as `floor`; `not` stands between `and` and the comparisons.
+    /// Parses operators at least as tight as `floor`; `not` is between `and` and the comparisons.
     fn parse_binary(&mut self, floor: u8) -> Result<(), Error> {
         let (token, span) = self.peek();
         if token == Token::Not && floor <= 3 {
@@ -113,7 +118,8 @@ impl<'a> Parser<'a> {
                 return Ok(());
             }
             self.position += 1;
-            // One tighter on the right: all of these are left-associative. At most one level for each tightness.
+            // The right operand is one tighter, as all of these are left-associative. The recursion is at most one
+            // level for each tightness.
             self.parse_binary(tightness + 1)?;
             self.emit(Instruction::Binary(operator), span);
         }
@@ -139,7 +145,7 @@ impl<'a> Parser<'a> {
         self.parse_primary()?;
         if let (Token::Caret, span) = self.peek() {
             self.position += 1;
-            // The exponent may have a sign and its own power: both associate to the right.
+            // The exponent may have a sign and a power itself: both associate to the right.
             self.nested(span.clone(), Self::parse_unary)?;
             self.emit(Instruction::Binary(Operator::Power), span);
         }
@@ -202,14 +208,14 @@ impl<'a> Parser<'a> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the functions are {}", names.join(", ")),
             };
-            Error::new(span.clone(), format!("there is no function `{name}`"), help)
+            Error::new(span.clone(), format!("unknown function `{name}`"), help)
         })?;
         self.position += 1;
-        let mut given = 0;
+        let mut count = 0;
         if !matches!(self.peek().0, Token::Close) {
             loop {
                 self.nested(open.clone(), |p| p.parse_binary(0))?;
-                given += 1;
+                count += 1;
                 match self.peek() {
                     (Token::Comma, _) => self.position += 1,
                     _ => break,
@@ -218,13 +224,12 @@ impl<'a> Parser<'a> {
         }
         self.expect_close(open)?;
         let (least, most) = function.arity();
-        if given < least || given > most {
-            let wanted =
-                if most == usize::MAX { "one or more arguments".to_owned() } else { format!("{least} of them") };
-            let message = format!("`{name}` has {given} arguments");
-            return Err(Error::new(span, message, format!("it takes {wanted}, parted by commas")));
+        if count < least || count > most {
+            let expected = if most == usize::MAX { "one or more".to_owned() } else { least.to_string() };
+            let message = format!("wrong number of arguments of `{name}`: expected {expected}, found {count}");
+            return Err(Error::new(span, message, "separate arguments by commas"));
         }
-        self.emit(Instruction::Call(function, given), span);
+        self.emit(Instruction::Call(function, count), span);
         Ok(())
     }
 }
@@ -238,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn precedence_and_associativity_are_those_of_the_page() {
+    fn precedence_and_associativity_are_as_documented() {
         let cases = [
             ("-2^2", -4.0),
             ("2^3^2", 512.0),
@@ -275,25 +280,25 @@ mod tests {
             assert_eq!(value(text), 0.0, "{text}");
         }
         assert_eq!(value("not x < 1"), 1.0);
-        // A truth that is missing, the comparison of two of which is another, is not true.
+        // Neither side is true for a missing value.
         assert_eq!(value("x < 1 or x > 1"), 0.0);
     }
 
     #[test]
-    fn what_is_wrong_is_said_at_its_place() {
+    fn errors_have_the_span_of_their_cause() {
         let cases = [
-            ("", 0, "an empty expression"),
-            ("2 +", 3, "the expression ends too soon"),
-            ("2 a", 2, "`a` was not expected here"),
+            ("", 0, "the expression is empty"),
+            ("2 +", 3, "unexpected end of the expression"),
+            ("2 a", 2, "unexpected `a`"),
             ("(1", 0, "this parenthesis is never closed"),
-            ("sine(1)", 0, "there is no function `sine`"),
-            ("atan2(1)", 0, "`atan2` has 1 arguments"),
-            ("min()", 0, "`min` has 0 arguments"),
-            ("2 ** 3", 2, "`**` has no meaning here"),
-            ("a = 2", 2, "`=` has no meaning here"),
-            ("1..2", 2, "`.2` was not expected here"),
+            ("sine(1)", 0, "unknown function `sine`"),
+            ("atan2(1)", 0, "wrong number of arguments of `atan2`: expected 2, found 1"),
+            ("min()", 0, "wrong number of arguments of `min`: expected one or more, found 0"),
+            ("2 ** 3", 2, "unexpected `**`"),
+            ("a = 2", 2, "unexpected `=`"),
+            ("1..2", 2, "unexpected `.2`"),
             ("1e999", 0, "the number is too large"),
-            (")", 0, "`)` was not expected here"),
+            (")", 0, "unexpected `)`"),
         ];
         for (text, at, message) in cases {
             let error = Expression::parse(text).expect_err(text);
@@ -303,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn nesting_has_a_limit_and_length_has_none() {
+    fn nesting_is_limited_and_length_is_not() {
         let nested = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
         assert!(Expression::parse(&nested(100)).is_ok());
         assert!(Expression::parse(&nested(101)).is_err());
@@ -314,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_and_truths_do_not_mix() {
+    fn numbers_and_booleans_do_not_mix() {
         let kind = |text: &str| {
             let known = |name: &str| match name {
                 "a" => Some(super::super::Kind::Number),
@@ -325,8 +330,8 @@ mod tests {
         };
         assert_eq!(kind("a + 1").unwrap(), super::super::Kind::Number);
         assert_eq!(kind("is_open and a > 1").unwrap(), super::super::Kind::Boolean);
-        assert_eq!(kind("1 < a < 2").unwrap_err().message, "a truth where a number is wanted");
-        assert_eq!(kind("a and 1").unwrap_err().message, "a number where a truth is wanted");
+        assert_eq!(kind("1 < a < 2").unwrap_err().message, "expected a number, found a condition");
+        assert_eq!(kind("a and 1").unwrap_err().message, "expected a condition, found a numeric expression");
         assert_eq!(kind("b + 1").unwrap_err().help, "did you mean `a`?");
     }
 }

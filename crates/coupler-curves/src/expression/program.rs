@@ -1,8 +1,10 @@
-use super::{Error, Function, parser};
+//! Expressions as programs of a stack machine, their kinds and their evaluation.
+
+use super::{Error, Function};
 use crate::geometry::trig;
 use crate::problem::{Span, suggestion};
 
-/// What an expression's value is.
+/// The kind of an expression's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A number.
@@ -46,25 +48,17 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Reads an expression.
-    ///
-    /// # Errors
-    /// What is wrong with the text and where in it. Whether its names exist is asked by [`Expression::check`].
-    pub fn parse(text: &str) -> Result<Expression, Error> {
-        parser::parse_expression(text)
-    }
-
     /// The expression that is always `value`.
     pub fn constant(value: f64) -> Expression {
         Expression { program: vec![(Instruction::Push(value), 0..0)], names: Vec::new() }
     }
 
-    /// The names it asks for, each once, in the order met; constants such as `pi` are not among them.
+    /// The names it uses, each once, in order of first use; constants such as `pi` are not among them.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The name it is, if it is nothing but a name.
+    /// The name, if the expression is a single name.
     pub fn as_name(&self) -> Option<&str> {
         match (&self.program[..], &self.names[..]) {
             ([(Instruction::Load(0), _)], [name]) => Some(name),
@@ -72,10 +66,10 @@ impl Expression {
         }
     }
 
-    /// What its value is, given what each name stands for (`None`: there is no such name).
+    /// The kind of its value, where `kind_of` is the kind of each name, or `None` for an unknown name.
     ///
     /// # Errors
-    /// A name that does not exist, with the nearest of `known`; a number where a truth is wanted, or the reverse.
+    /// An unknown name, with the nearest of `known`; a number where a boolean is expected, or the reverse.
     pub fn check(&self, known: &[&str], kind_of: impl Fn(&str) -> Option<Kind>) -> Result<Kind, Error> {
         let mut stack: Vec<(Kind, Span)> = Vec::new();
         for (instruction, span) in &self.program {
@@ -86,13 +80,13 @@ impl Expression {
                 Instruction::Call(_, n) => *n,
             };
             let operands = stack.split_off(stack.len() - popped);
-            let (wanted, given) = match instruction {
+            let (operand_kind, result_kind) = match instruction {
                 Instruction::Load(name) => {
                     let name = &self.names[*name];
                     let unknown = || {
-                        let number = || "write a number: there are no names here".to_owned();
+                        let number = || "write a number; names cannot be used here".to_owned();
                         let help = if known.is_empty() { number() } else { suggestion(name, known) };
-                        Error::new(span.clone(), format!("there is no `{name}`"), help)
+                        Error::new(span.clone(), format!("unknown name `{name}`"), help)
                     };
                     (Kind::Number, kind_of(name).ok_or_else(unknown)?)
                 }
@@ -100,18 +94,16 @@ impl Expression {
                 Instruction::Not => (Kind::Boolean, Kind::Boolean),
                 Instruction::Binary(op) => op.signature(),
             };
-            if let Some((_, at)) = operands.iter().find(|(kind, _)| *kind != wanted) {
-                let (message, help) = match wanted {
-                    Kind::Number => {
-                        ("a truth where a number is wanted", "join comparisons with `and`: `1 < x and x < 2`")
-                    }
-                    Kind::Boolean => ("a number where a truth is wanted", "compare it: `x > 0`"),
+            if let Some((_, operand)) = operands.iter().find(|(kind, _)| *kind != operand_kind) {
+                let help = match operand_kind {
+                    Kind::Number => "join comparisons with `and`: `1 < x and x < 2`",
+                    Kind::Boolean => "compare it: `x > 0`",
                 };
-                return Err(Error::new(at.clone(), message, help));
+                return Err(Error::new(operand.clone(), operand_kind.mismatch_message(), help));
             }
             let start = operands.iter().map(|(_, s)| s.start).min().unwrap_or(span.start).min(span.start);
             let end = operands.iter().map(|(_, s)| s.end).max().unwrap_or(span.end).max(span.end);
-            stack.push((given, start..end));
+            stack.push((result_kind, start..end));
         }
         Ok(stack.pop().map_or(Kind::Number, |(kind, _)| kind))
     }
@@ -119,25 +111,26 @@ impl Expression {
     /// The expression with its names looked up in `scope`, ready to be evaluated often.
     ///
     /// # Errors
-    /// As [`Expression::check`], and a value that is not of the `wanted` kind.
-    pub fn compile(&self, scope: &[(&str, Kind)], wanted: Kind) -> Result<CompiledExpression, Error> {
+    /// As [`Expression::check`], and a value that is not of the `expected` kind.
+    pub fn compile(&self, scope: &[(&str, Kind)], expected: Kind) -> Result<CompiledExpression, Error> {
         let known: Vec<&str> = scope.iter().map(|(name, _)| *name).collect();
         let slot = |name: &str| known.iter().position(|n| *n == name);
-        let given = self.check(&known, |name| slot(name).map(|k| scope[k].1))?;
-        if given != wanted {
+        let kind = self.check(&known, |name| slot(name).map(|k| scope[k].1))?;
+        if kind != expected {
             let span = self.program.first().map_or(0, |p| p.1.start)..self.program.last().map_or(0, |p| p.1.end);
-            return Err(match wanted {
-                Kind::Number => Error::new(span, "a truth where a number is wanted", "give a number"),
-                Kind::Boolean => Error::new(span, "a number where a truth is wanted", "compare it: `x > 0`"),
-            });
+            let help = match expected {
+                Kind::Number => "give a number",
+                Kind::Boolean => "compare it: `x > 0`",
+            };
+            return Err(Error::new(span, expected.mismatch_message(), help));
         }
         let slots = self.names.iter().filter_map(|name| slot(name)).collect();
         Ok(CompiledExpression { expression: self.clone(), slots })
     }
 
-    /// The value, where `load(i)` is the value of the i-th of [`Expression::names`] (not a number where missing).
+    /// The value, where `load(i)` is the value of the i-th of [`Expression::names`], NaN if missing.
     ///
-    /// A truth is 1 or 0. Not a number where the value is not defined.
+    /// A boolean is 1 or 0. The value is NaN where it is not defined.
     pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
         let mut stack: Vec<f64> = Vec::with_capacity(8);
         for (instruction, _) in &self.program {
@@ -162,20 +155,20 @@ impl Expression {
     }
 }
 
-/// A step of an expression's program, as other programs may run it on a stack.
+/// A token of an expression in postfix notation, for evaluation by another stack machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PostfixToken {
-    /// A number is pushed.
+    /// Pushes a number.
     Number(f64),
-    /// The value of the name at a place of the scope is pushed.
+    /// Pushes the value of the name at an index of the scope.
     Name(usize),
-    /// An operator takes its operands: as it is written in expressions, but for `neg`, which is the sign before one.
+    /// Applies an operator, as written in expressions, except that unary minus is `neg`.
     Operator(&'static str),
-    /// A function, by its name, takes so many arguments.
+    /// Calls the function of a name with a number of arguments.
     Call(&'static str, usize),
 }
 
-/// An expression whose names are places in a scope.
+/// An expression whose names are resolved to indices in a scope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompiledExpression {
     expression: Expression,
@@ -188,12 +181,12 @@ impl CompiledExpression {
         CompiledExpression { expression: Expression::constant(value), slots: Vec::new() }
     }
 
-    /// The value, where `load(slot)` is the value of the name at a place of the scope.
+    /// The value, where `load(slot)` is the value of the name at an index of the scope.
     pub fn evaluate(&self, load: impl Fn(usize) -> f64) -> f64 {
         self.expression.evaluate(|name| load(self.slots[name]))
     }
 
-    /// The name or the number it is, if it is nothing else.
+    /// The name or the number, if the expression is a single one.
     pub fn name_or_number(&self) -> Option<String> {
         match (self.expression.as_name(), &self.expression.program[..]) {
             (Some(name), _) => Some(name.to_owned()),
@@ -202,7 +195,7 @@ impl CompiledExpression {
         }
     }
 
-    /// Its program, step by step.
+    /// The expression in postfix notation.
     pub fn postfix(&self) -> impl Iterator<Item = PostfixToken> {
         self.expression.program.iter().map(|(instruction, _)| match *instruction {
             Instruction::Push(value) => PostfixToken::Number(value),
@@ -214,19 +207,29 @@ impl CompiledExpression {
         })
     }
 
-    /// The places of the names it asks for.
+    /// The indices in the scope of the names it uses.
     pub fn slots(&self) -> &[usize] {
         &self.slots
     }
 }
 
-/// The parser leaves every operator its operands; a program that lost one would give what a missing value gives.
+/// Pops a value. The parser gives every operator its operands, so the stack is never empty here.
 fn pop_or_nan(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(f64::NAN)
 }
 
+impl Kind {
+    /// The message for a value of the other kind where this one is expected.
+    fn mismatch_message(self) -> &'static str {
+        match self {
+            Kind::Number => "expected a number, found a condition",
+            Kind::Boolean => "expected a condition, found a numeric expression",
+        }
+    }
+}
+
 impl Operator {
-    /// What it takes and what it gives.
+    /// The kinds of its operands and of its result.
     fn signature(self) -> (Kind, Kind) {
         use Operator::{Add, And, Divide, Multiply, Or, Power, Subtract};
         match self {
@@ -236,7 +239,7 @@ impl Operator {
         }
     }
 
-    /// How it is written.
+    /// Its symbol in expressions.
     fn symbol(self) -> &'static str {
         match self {
             Operator::Add => "+",
@@ -256,22 +259,22 @@ impl Operator {
     }
 
     fn apply(self, a: f64, b: f64) -> f64 {
-        let truth = |t: bool| f64::from(u8::from(t));
+        let number = |is_true: bool| f64::from(u8::from(is_true));
         match self {
             Operator::Add => a + b,
             Operator::Subtract => a - b,
             Operator::Multiply => a * b,
             Operator::Divide => a / b,
             Operator::Power => trig::pow(a, b),
-            Operator::Equal => truth(a == b),
-            // `a != b` alone is true of missing values.
-            Operator::NotEqual => truth(a != b && !a.is_nan() && !b.is_nan()),
-            Operator::Less => truth(a < b),
-            Operator::LessOrEqual => truth(a <= b),
-            Operator::Greater => truth(a > b),
-            Operator::GreaterOrEqual => truth(a >= b),
-            Operator::And => truth(a == 1.0 && b == 1.0),
-            Operator::Or => truth(a == 1.0 || b == 1.0),
+            Operator::Equal => number(a == b),
+            // `a != b` alone would be true for missing values.
+            Operator::NotEqual => number(a != b && !a.is_nan() && !b.is_nan()),
+            Operator::Less => number(a < b),
+            Operator::LessOrEqual => number(a <= b),
+            Operator::Greater => number(a > b),
+            Operator::GreaterOrEqual => number(a >= b),
+            Operator::And => number(a == 1.0 && b == 1.0),
+            Operator::Or => number(a == 1.0 || b == 1.0),
         }
     }
 }

@@ -16,17 +16,17 @@ pub enum Unit {
     Pt,
 }
 
-/// What a quantity measures.
+/// The dimension of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
-    /// An angle, evaluated in degrees: an angle in a manifest is a stated one, and 2 deg must stay 2.
+    /// An angle, evaluated in degrees, so that `2 deg` remains exactly 2.
     Angle,
     /// A length on paper, evaluated in millimetres.
     PaperLength,
 }
 
 impl Dimension {
-    /// The units it is given in.
+    /// The units it can be given in, with their names.
     pub fn units(self) -> &'static [(&'static str, Unit)] {
         match self {
             Dimension::Angle => &[("deg", Unit::Deg), ("rad", Unit::Rad)],
@@ -36,13 +36,13 @@ impl Dimension {
 
     fn example(self) -> &'static str {
         match self {
-            Dimension::Angle => "an angle is written like \"2 deg\" or \"pi / 90 rad\"",
-            Dimension::PaperLength => "a length on paper is written like \"432 mm\", \"17 in\" or \"1224 pt\"",
+            Dimension::Angle => "write an angle like \"2 deg\" or \"pi / 90 rad\"",
+            Dimension::PaperLength => "write a length on paper like \"432 mm\", \"17 in\" or \"1224 pt\"",
         }
     }
 }
 
-/// An expression and its unit.
+/// An expression and a unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
     /// The number of units.
@@ -52,10 +52,10 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Reads a quantity such as `360/7 deg`.
+    /// Parses a quantity such as `360/7 deg`.
     ///
     /// # Errors
-    /// What is wrong with the expression; a unit that is missing, or of another dimension.
+    /// An error in the expression; a unit that is missing, unknown or of another dimension.
     pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, Error> {
         let (expression, word) = parser::parse_expression_and_word(text)?;
         let Some((word, span)) = word else {
@@ -74,12 +74,12 @@ impl Quantity {
 }
 
 impl Unit {
-    /// A number of this unit in degrees or millimetres.
+    /// Converts a number of this unit to degrees or millimetres.
     pub fn to_base_unit(self, value: f64) -> f64 {
         match self {
             Unit::Deg | Unit::Mm => value,
             Unit::Rad => trig::degrees(value),
-            // 254 and 10 are exact, 25.4 is not.
+            // 254 and 10 are exact in binary, 25.4 is not.
             Unit::In => value * 254.0 / 10.0,
             Unit::Pt => value * 254.0 / 720.0,
         }
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_convert_and_strangers_are_refused() {
+    fn units_are_converted_and_unknown_ones_are_errors() {
         let value = |text, dimension| Quantity::parse(text, dimension).map(|q| q.evaluate(|_| f64::NAN));
         assert_eq!(value("2 deg", Dimension::Angle), Ok(2.0));
         assert_eq!(value("pi rad", Dimension::Angle), Ok(180.0));

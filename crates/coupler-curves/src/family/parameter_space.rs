@@ -1,29 +1,29 @@
-/// The most cells a family has without a `limit` of its own.
+/// The most cells of a family that sets no `limit`.
 pub const MAX_CELLS: usize = 100_000;
 
-/// The values one name takes.
+/// One axis of a grid: a name and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// The name's place in [`super::Family::names`].
+    /// The name's index in [`super::Family::names`].
     pub slot: usize,
     /// Its values, at least one.
     pub values: Vec<f64>,
 }
 
-/// What one case gives: names' places and their values.
+/// The values of one case: the indices of names, each with its value.
 pub type Case = Vec<(usize, f64)>;
 
 /// The parameter sets of a family.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParameterSpace {
-    /// Every combination, in the order written, the last axis fastest.
+    /// Every combination, in the order written; the last axis changes fastest.
     Grid(Vec<Axis>),
-    /// One after another.
+    /// A list of cases.
     Cases(Vec<Case>),
 }
 
 impl ParameterSpace {
-    /// How many there are; the greatest number where there are more than can be counted.
+    /// The number of parameter sets; saturates at [`usize::MAX`].
     pub fn count(&self) -> usize {
         match self {
             ParameterSpace::Grid(axes) => axes.iter().fold(1, |n: usize, axis| n.saturating_mul(axis.values.len())),
@@ -31,7 +31,7 @@ impl ParameterSpace {
         }
     }
 
-    /// Whether the `k`-th gives a value to a place.
+    /// Whether the `k`-th set, from 0, gives a value to the name at an index.
     pub fn assigns(&self, k: usize, slot: usize) -> bool {
         match self {
             ParameterSpace::Grid(axes) => axes.iter().any(|axis| axis.slot == slot),
@@ -39,7 +39,7 @@ impl ParameterSpace {
         }
     }
 
-    /// The places that are given a value in any of them, in order.
+    /// The indices of the names that any set gives a value to, in order.
     pub fn assigned_slots(&self) -> Vec<usize> {
         let mut slots: Vec<usize> = match self {
             ParameterSpace::Grid(axes) => axes.iter().map(|axis| axis.slot).collect(),
@@ -50,7 +50,7 @@ impl ParameterSpace {
         slots
     }
 
-    /// Writes the `k`-th, counted from 0, into its places.
+    /// Writes the values of the `k`-th set, from 0, to their indices.
     pub(super) fn fill(&self, k: usize, values: &mut [f64]) {
         match self {
             ParameterSpace::Grid(axes) => {
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_last_axis_is_fastest() {
+    fn the_last_axis_changes_fastest() {
         let axis = |slot, values: &[f64]| Axis { slot, values: values.to_vec() };
         let grid = ParameterSpace::Grid(vec![axis(1, &[1.0, 2.0]), axis(0, &[3.0, 4.0, 5.0])]);
         assert_eq!(grid.count(), 6);

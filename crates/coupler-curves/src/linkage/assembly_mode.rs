@@ -1,10 +1,24 @@
+//! The assembly mode: the sides of the dyads.
+
 use std::cmp::Ordering;
 
-use super::Side;
+use super::DyadId;
 
-/// The sides of all dyads at once: the assembly mode.
+/// The most dyads a linkage may have: [`AssemblyMode`] has a bit for each.
+pub const MAX_DYADS: usize = 16;
+
+/// A side of a directed line: left of A -> B is the side of the positive normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The side of the positive normal, +1.
+    Left,
+    /// The side of the negative normal, -1.
+    Right,
+}
+
+/// The assembly mode of a linkage: the sides of all its dyads.
 ///
-/// Modes are in the order of their first dyads' sides, left before right.
+/// Modes are ordered by the side of the first dyad, then the second and so on, left before right.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct AssemblyMode(u32);
 
@@ -22,73 +36,73 @@ impl PartialOrd for AssemblyMode {
 
 impl AssemblyMode {
     /// The sign of a dyad: 1 left, -1 right.
-    pub fn sign(self, dyad: usize) -> i8 {
-        if self.0 >> dyad & 1 == 0 { 1 } else { -1 }
+    pub fn sign(self, dyad: DyadId) -> i8 {
+        if self.0 >> dyad.index() & 1 == 0 { 1 } else { -1 }
     }
 
-    /// The same with another side of one dyad.
+    /// This mode with one dyad on a given side.
     #[must_use]
-    pub fn with_side(self, dyad: usize, side: Side) -> AssemblyMode {
+    pub fn with_side(self, dyad: DyadId, side: Side) -> AssemblyMode {
         match side {
-            Side::Left => AssemblyMode(self.0 & !(1 << dyad)),
-            Side::Right => AssemblyMode(self.0 | 1 << dyad),
+            Side::Left => AssemblyMode(self.0 & !(1 << dyad.index())),
+            Side::Right => AssemblyMode(self.0 | 1 << dyad.index()),
         }
     }
 
-    /// Those of the first `dyads` dyads; of the others, left.
+    /// The sides of the first `dyads` dyads, with all others left.
     #[must_use]
     pub fn truncated(self, dyads: usize) -> AssemblyMode {
         AssemblyMode(self.0 & !(u32::MAX << dyads))
     }
 
-    /// All assembly modes of that many dyads; the side of the last changes fastest, left first.
+    /// All assembly modes of `dyads` dyads; the side of the last changes fastest, left first.
     pub fn all(dyads: usize) -> impl Iterator<Item = AssemblyMode> {
         (0..1u32 << dyads).map(move |k| AssemblyMode(if dyads == 0 { 0 } else { k.reverse_bits() >> (32 - dyads) }))
     }
 
-    /// The same with some dyads on their other sides.
+    /// This mode with some dyads on their other sides.
     #[must_use]
     pub fn flipped(self, dyads: DyadSet) -> AssemblyMode {
         AssemblyMode(self.0 ^ dyads.0)
     }
 }
 
-/// Some of the dyads, by their places: those that lie flat somewhere.
+/// A set of dyads, by their indices; for instance those that are flat at one input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DyadSet(u32);
 
 impl DyadSet {
-    /// None of them.
+    /// The empty set.
     pub const EMPTY: DyadSet = DyadSet(0);
 
     /// One of them.
-    pub fn single(dyad: usize) -> DyadSet {
-        DyadSet(1 << dyad)
+    pub fn single(dyad: DyadId) -> DyadSet {
+        DyadSet(1 << dyad.index())
     }
 
-    /// Whether a dyad is among them.
-    pub fn contains(self, dyad: usize) -> bool {
-        self.0 >> dyad & 1 == 1
+    /// Whether a dyad is in the set.
+    pub fn contains(self, dyad: DyadId) -> bool {
+        self.0 >> dyad.index() & 1 == 1
     }
 
-    /// Whether there are none.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// The one that is placed before the others; none of none.
+    /// The dyad with the least index alone; empty for the empty set.
     #[must_use]
     pub fn first(self) -> DyadSet {
         DyadSet(self.0 & self.0.wrapping_neg())
     }
 
-    /// The one that is placed after the others; none of none.
+    /// The dyad with the greatest index alone; empty for the empty set.
     #[must_use]
     pub fn last(self) -> DyadSet {
         DyadSet(self.0.checked_ilog2().map_or(0, |bit| 1 << bit))
     }
 
-    /// These and those.
+    /// The dyads in either set.
     #[must_use]
     pub fn union(self, other: DyadSet) -> DyadSet {
         DyadSet(self.0 | other.0)

@@ -1,3 +1,5 @@
+use std::fmt;
+
 use super::{JointId, JointKind, Linkage};
 
 /// The lengths of a four-bar linkage, seen from its frame.
@@ -13,14 +15,14 @@ pub struct FourBar {
     pub rocker: f64,
 }
 
-/// Grashof's classes (Natesan, table 3.1), as seen from the frame.
+/// Grashof's classes (Natesan, table 3.1), in the frame of the fixed link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FourBarClass {
-    /// A side link is shortest, and turns fully.
+    /// The crank or the rocker is shortest, and turns fully.
     CrankRocker,
-    /// The frame is shortest, and both side links turn fully.
+    /// The frame is shortest, and crank and rocker turn fully.
     DragLink,
-    /// The coupler is shortest, and turns fully; both side links rock.
+    /// The coupler is shortest, and turns fully; crank and rocker rock.
     DoubleRocker,
     /// No link turns fully.
     TripleRocker,
@@ -38,7 +40,7 @@ impl FourBarClass {
         FourBarClass::ChangePoint,
     ];
 
-    /// Its name in captions and tables.
+    /// The name in captions and tables.
     pub fn name(self) -> &'static str {
         match self {
             FourBarClass::CrankRocker => "crank-rocker",
@@ -50,12 +52,18 @@ impl FourBarClass {
     }
 }
 
+impl fmt::Display for FourBarClass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 impl FourBar {
     /// The four-bar in a linkage, if its moving joints are a crank, one dyad on crank pin and frame, rigid points, and
-    /// parallelograms hung on them.
+    /// parallelograms on these.
     ///
-    /// Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and the
-    /// crank the link at the origin of the view.
+    /// In the frame of another link (`seen_from`), that link counts as the frame, the link opposite it as the
+    /// coupler, and the link at the origin of `seen_from` as the crank.
     pub fn from_linkage(linkage: &Linkage) -> Option<FourBar> {
         let [o, a, b, c] = FourBar::pins(linkage)?;
         let length = |from: JointId, to: JointId| {
@@ -66,11 +74,11 @@ impl FourBar {
         Some(FourBar { frame: length(o, c)?, crank: length(o, a)?, coupler: length(a, b)?, rocker: length(b, c)? })
     }
 
-    /// The pins of the four-bar in a linkage, as [`FourBar::from_linkage`] sees it: crank pivot, crank pin, rocker pin, rocker pivot.
+    /// The pins of the four-bar that [`FourBar::from_linkage`] finds: crank pivot, crank pin, rocker pin, rocker pivot.
     pub fn pins(linkage: &Linkage) -> Option<[JointId; 4]> {
         let mut crank = None;
         let mut dyad = None;
-        for (id, joint) in linkage.joints.iter().enumerate() {
+        for (id, joint) in linkage.joint_ids().zip(&linkage.joints) {
             match joint.kind {
                 JointKind::Crank { pivot, .. } if crank.is_none() => crank = Some((id, pivot)),
                 JointKind::Dyad { base, .. } if dyad.is_none() => dyad = Some((id, base)),
@@ -84,11 +92,11 @@ impl FourBar {
             _ => return None,
         };
         linkage.links[0].position(c)?;
-        let round = [o, a, b, c];
-        let Some([origin, end]) = linkage.seen_from else { return Some(round) };
-        // From the origin of the view round the loop, away from the joint on its x-axis.
-        let at = round.iter().position(|&pin| pin == origin)?;
-        let [next, opposite, last] = [1, 2, 3].map(|k| round[(at + k) % 4]);
+        let pins = [o, a, b, c];
+        let Some([origin, end]) = linkage.seen_from else { return Some(pins) };
+        // From the origin of `seen_from` around the loop, away from the joint on its x-axis.
+        let start = pins.iter().position(|&pin| pin == origin)?;
+        let [next, opposite, last] = [1, 2, 3].map(|k| pins[(start + k) % 4]);
         match end {
             end if end == last => Some([origin, next, opposite, last]),
             end if end == next => Some([origin, last, opposite, next]),
@@ -96,7 +104,7 @@ impl FourBar {
         }
     }
 
-    /// The pins of the four-bar in a linkage whose coupler a joint is on, as [`FourBar::pins`] has them.
+    /// The pins of the four-bar in a linkage, in the order of [`FourBar::pins`], if a joint is on its coupler.
     pub fn coupler_pins(linkage: &Linkage, joint: JointId) -> Option<[JointId; 4]> {
         let pins = FourBar::pins(linkage)?;
         let [_, a, b, _] = pins;
@@ -104,8 +112,8 @@ impl FourBar {
         linkage.links.iter().any(is_coupler).then_some(pins)
     }
 
-    /// McCarthy's type: by the signs of `g - a + h - b`, `g - a - h + b` and `h + b - g - a`, which say whether the limits
-    /// of input and output exist; of a rocker with one limit, whether its range is about 0 or about pi.
+    /// McCarthy's type, by the signs of `g - a + h - b`, `g - a - h + b` and `h + b - g - a`: whether the input and the
+    /// output have limits, and whether the range of a rocker with one limit is about 0 or about pi.
     ///
     /// # Source
     /// McCarthy and Soh, *Geometric Design of Linkages*, table 2.2.
@@ -128,8 +136,8 @@ impl FourBar {
         }
     }
 
-    /// Grashof's class. Lengths whose sums agree to within a few ulps make a change point: they are meant to be equal,
-    /// and decimals such as 0.1 + 0.2 are not.
+    /// Grashof's class. Lengths whose sums agree to within a few ulps count as equal and make a change-point linkage,
+    /// for sums of decimals such as 0.1 + 0.2 are rounded.
     pub fn class(self) -> FourBarClass {
         let FourBar { frame, crank, coupler, rocker } = self;
         let mut lengths = [frame, crank, coupler, rocker];
@@ -150,7 +158,7 @@ impl FourBar {
     }
 }
 
-/// Sums of lengths closer than this are equal: a few ulps of the sum of all four.
+/// The tolerance to which sums of lengths count as equal: a few ulps of the sum of all four.
 pub(crate) fn length_tolerance(sum: f64) -> f64 {
     4.0 * f64::EPSILON * sum
 }
@@ -160,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn classes_are_those_of_the_table() {
+    fn classes_match_the_thesis_table() {
         let class = |frame, crank, coupler, rocker| FourBar { frame, crank, coupler, rocker }.class();
         assert_eq!(class(2.0, 1.0, 2.59, 2.59), FourBarClass::CrankRocker, "Evans, figure 1");
         assert_eq!(class(2.0, 2.59, 1.0, 2.59), FourBarClass::DoubleRocker, "Chebyshev, figure 11");

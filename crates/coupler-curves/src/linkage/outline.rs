@@ -1,10 +1,10 @@
-//! The joints that a linkage's links are drawn through: bars, plates, and the pivots on the ground.
+//! The outlines of links for drawing, bars and plates, and the pivots on the ground.
 
-use super::{JointId, JointKind, Link, Linkage};
+use super::{JointId, JointKind, Link, LinkId, Linkage};
 use crate::geometry::{Bounds, Point, Vector, cross, trig};
 
 impl Linkage {
-    /// The joints of the ground that moving links are on, in the order of the ground's joints.
+    /// The joints that the ground shares with moving links, in the order of the ground's joints.
     pub fn pivots(&self) -> Vec<JointId> {
         let ground = self.ground();
         let is_pivot = |joint: JointId| {
@@ -16,8 +16,8 @@ impl Linkage {
     /// The outlines of the moving links that have two joints or more.
     pub fn link_outlines(&self) -> Vec<LinkOutline> {
         let ground = self.ground();
-        let moving = self.links.iter().enumerate().filter(|(_, link)| !std::ptr::eq(*link, ground));
-        let outlines = moving.map(|(index, link)| LinkOutline { link: index, joints: outline(self, link) });
+        let moving = (0..).map(LinkId::new).zip(&self.links).filter(|(_, link)| !std::ptr::eq(*link, ground));
+        let outlines = moving.map(|(id, link)| LinkOutline { link: id, joints: outline(self, link) });
         outlines.filter(|outline| outline.joints.len() > 1).collect()
     }
 }
@@ -26,26 +26,28 @@ impl Linkage {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkOutline {
     /// The link's index in [`Linkage::links`].
-    pub link: usize,
-    /// Its joints in the order of the outline: along a bar, counter-clockwise around a plate. Points of a grid are left out.
+    pub link: LinkId,
+    /// Its joints in the order of the outline: along a bar, counter-clockwise around a plate. Points of a grid are
+    /// excluded.
     pub joints: Vec<JointId>,
 }
 
-/// The joints of a link round its hull; the points of a grid are left out.
+/// The joints of a link in order around their centre, or along their line; the points of a grid are excluded.
 fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
-    // The points of a grid stand side by side, under one name.
-    let name = |joint: JointId| linkage.joints.get(joint).map(|joint| &joint.name);
+    // The points of a grid are consecutive joints with the same name.
+    let name = |index: usize| linkage.joints.get(index).map(|joint| &joint.name);
     let is_grid = |joint: JointId| {
+        let index = joint.index();
         matches!(linkage.joints[joint].kind, JointKind::Rigid { .. })
-            && (name(joint + 1) == name(joint) || joint.checked_sub(1).and_then(name) == name(joint))
+            && (name(index + 1) == name(index) || index.checked_sub(1).and_then(name) == name(index))
     };
-    let joints: Vec<(usize, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
+    let joints: Vec<(JointId, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
     let centre = joints.iter().map(|(_, place)| place).sum::<Vector>() / joints.len().max(1) as f64;
     let points: Vec<Point> = joints.iter().map(|(_, place)| Point::from(*place)).collect();
     let mut order: Vec<usize> = (0..joints.len()).collect();
     if is_flat(&points) {
-        let along = points.last().zip(points.first()).map_or(Vector::zeros(), |(b, a)| b - a);
-        order.sort_by(|&a, &b| along.dot(&points[a].coords).total_cmp(&along.dot(&points[b].coords)));
+        let direction = points.last().zip(points.first()).map_or(Vector::zeros(), |(b, a)| b - a);
+        order.sort_by(|&a, &b| direction.dot(&points[a].coords).total_cmp(&direction.dot(&points[b].coords)));
     } else {
         let angle = |k: usize| trig::atan2(joints[k].1.y - centre.y, joints[k].1.x - centre.x);
         order.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
@@ -53,7 +55,8 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
     order.into_iter().map(|k| joints[k].0).collect()
 }
 
-/// Whether a link with joints at these positions is a plate and not a bar: three joints or more that are not on one line.
+/// Whether a link with joints at these positions is drawn as a plate: it has three joints or more that are not on one
+/// line.
 pub fn is_plate(points: &[Point]) -> bool {
     points.len() > 2 && !is_flat(points)
 }

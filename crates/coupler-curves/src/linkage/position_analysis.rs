@@ -1,4 +1,4 @@
-//! McCarthy's position analysis, chapter 2.2 and 2.3, equation by equation: angles in radians.
+//! McCarthy's position analysis, sections 2.2 and 2.3, equation by equation; angles are in radians.
 
 use super::FourBar;
 use crate::geometry::trig::{acos, atan2, cos, sin};
@@ -24,30 +24,30 @@ impl InvertedSliderCrank {
         (square >= 0.0).then(|| square.sqrt())
     }
 
-    /// b = |CA| of a slide, McCarthy (2.40).
+    /// The distance b = |CA| at a slide, McCarthy (2.40).
     pub fn b(&self, s: f64) -> f64 {
         (s * s + self.e * self.e).sqrt()
     }
 
-    /// The angle beta from CB to CA of a slide, McCarthy (2.40): atan2(s, e).
+    /// The angle beta from CB to CA at a slide, McCarthy (2.40): atan2(s, e).
     pub fn beta(&self, s: f64) -> f64 {
         atan2(s, self.e)
     }
 
-    /// The crank angle in [0, pi] of a slide, McCarthy (2.43); the other is its negative. `None` where the actuator is
-    /// too long or too short.
+    /// The crank angle in [0, pi] at a slide, McCarthy (2.43); the other solution is its negative. `None` where the
+    /// actuator is too long or too short.
     pub fn theta(&self, s: f64) -> Option<f64> {
         let InvertedSliderCrank { g, r, e } = *self;
         clamped_acos(g * g + r * r - e * e - s * s, g * g + r * r + e * e + s * s, 2.0 * r * g)
     }
 
-    /// The angle psi of CB at a crank angle and its slide, McCarthy (2.45).
+    /// The angle psi of CB at a crank angle and the slide there, McCarthy (2.45).
     pub fn psi(&self, theta: f64, s: f64) -> f64 {
         atan2(self.r * sin(theta), self.r * cos(theta) - self.g) - self.beta(s)
     }
 
-    /// The least and the greatest crank angle in [0, pi] that can be assembled; the range is the same below the frame.
-    /// `None` where there is none.
+    /// The least and the greatest crank angle in [0, pi] that can be assembled; the range in [-pi, 0] is its mirror
+    /// image. `None` where the linkage cannot be assembled.
     pub fn crank_range(&self) -> Option<[f64; 2]> {
         let InvertedSliderCrank { g, r, e } = *self;
         let e = e.abs();
@@ -66,9 +66,9 @@ impl InvertedSliderCrank {
     }
 }
 
-/// The 4R linkage of McCarthy 2.3, driven by its crank: a is the crank, b the rocker, g the frame, h the coupler.
+/// McCarthy 2.3: the 4R linkage driven by its crank, where a is the crank, b the rocker, g the frame, h the coupler.
 impl FourBar {
-    /// What must not be negative for the linkage to be assembled at a crank angle, McCarthy (2.53).
+    /// A^2 + B^2 - C^2 at a crank angle, which is not negative where the linkage can be assembled, McCarthy (2.53).
     pub fn solvability(&self, theta: f64) -> f64 {
         let [a, b, c] = self.output_coefficients(theta);
         a * a + b * b - c * c
@@ -76,17 +76,17 @@ impl FourBar {
 
     /// The output angle psi about C on branch 1 and on branch -1, McCarthy (2.52).
     pub fn output_angles(&self, theta: f64) -> Option<[f64; 2]> {
-        // Left of A -> C is clockwise of the diagonal from C to A, which delta is the direction of.
+        // Left of A -> C is clockwise of the diagonal C -> A, whose direction is delta.
         solve_angle(self.output_coefficients(theta))
     }
 
-    /// The coupler angle phi, measured about A from OA, that goes with an output angle, McCarthy (2.57).
+    /// The coupler angle phi, measured about A from OA, at an input and an output angle, McCarthy (2.57).
     pub fn coupler_angle(&self, theta: f64, psi: f64) -> f64 {
         let FourBar { frame: g, crank: a, rocker: b, .. } = *self;
         atan2(b * sin(psi) - a * sin(theta), g + b * cos(psi) - a * cos(theta)) - theta
     }
 
-    /// The coupler angle phi on branch 1 and on branch -1 without the output angle, McCarthy (2.59) and (2.60).
+    /// The coupler angle phi on branch 1 and on branch -1, without the output angle, McCarthy (2.59) and (2.60).
     pub fn coupler_angles(&self, theta: f64) -> Option<[f64; 2]> {
         let FourBar { frame: g, crank: a, coupler: h, rocker: b } = *self;
         solve_angle([
@@ -114,14 +114,14 @@ impl FourBar {
     }
 }
 
-/// The angle in [0, pi] whose cosine is a quotient, where that is at most 1 but for the rounding of its dividend, a sum
-/// of terms of a given magnitude.
+/// The angle in [0, pi] whose cosine is a quotient; `None` where the quotient exceeds 1 in magnitude by more than the
+/// rounding of its dividend, a sum of terms of total magnitude `magnitude`.
 fn clamped_acos(dividend: f64, magnitude: f64, divisor: f64) -> Option<f64> {
-    let beyond = dividend.abs() - divisor;
-    (beyond <= 4.0 * f64::EPSILON * magnitude).then(|| acos((dividend / divisor).clamp(-1.0, 1.0)))
+    let excess = dividend.abs() - divisor;
+    (excess <= 4.0 * f64::EPSILON * magnitude).then(|| acos((dividend / divisor).clamp(-1.0, 1.0)))
 }
 
-/// The solutions of A cos x + B sin x = C, McCarthy (A.1): the diagonal's direction less and plus the arc cosine.
+/// The solutions of A cos x + B sin x = C, McCarthy (A.1): the direction of (A, B) less and plus the arc cosine.
 fn solve_angle([a, b, c]: [f64; 3]) -> Option<[f64; 2]> {
     let (delta, radius) = (atan2(b, a), (a * a + b * b).sqrt());
     let epsilon = clamped_acos(c, c.abs() + radius, radius)?;

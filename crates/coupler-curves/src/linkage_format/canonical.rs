@@ -4,8 +4,9 @@ use toml::de::DeValue;
 
 use super::TomlValue;
 
-/// A value in a form that does not tell how it was written: comments, spaces, the kind of quotes and of numbers are not
-/// in it. The order of keys is, for in some tables it counts. Of a table the keys in `leaving_out` are left out.
+/// A text of a value that is independent of how it was written: of comments, spaces, and the notation of strings and
+/// numbers. The order of keys is kept, for in some tables it matters. The keys in `leaving_out` are left out of a
+/// table.
 pub fn canonical_text(value: &TomlValue, leaving_out: &[&str]) -> String {
     let mut out = String::new();
     append_value(value, leaving_out, &mut out);
@@ -25,7 +26,7 @@ fn append_value(value: &TomlValue, leaving_out: &[&str], out: &mut String) {
             Ok(number) => write!(out, "{number}"),
             Err(_) => write!(out, "{x}"),
         },
-        DeValue::Boolean(truth) => write!(out, "{truth}"),
+        DeValue::Boolean(boolean) => write!(out, "{boolean}"),
         DeValue::Datetime(date) => write!(out, "{date}"),
         DeValue::Array(items) => {
             out.push('[');

@@ -1,4 +1,4 @@
-//! One joint: how it is placed, and its numbers.
+//! Parses a joint: how it is placed, and its numbers.
 
 use super::fields::Fields;
 use super::joint_kinds::{JOINT_KINDS, MAX_GRID_POINTS, RANGE, SIDES, SLIDE_SIDES};
@@ -8,46 +8,46 @@ use crate::expression::{CompiledExpression, Kind};
 use crate::problem::{Problem, suggestion};
 use crate::template::{Coordinate, InputValue, JointKindTemplate, Side};
 
-/// How a joint is placed; `names` are those of all joints, `scope` the parameters.
+/// Parses how a joint is placed; `names` are those of all joints, `scope` the parameters.
 pub(super) fn parse_joint<'t>(
     name: &str,
     value: &TomlValue<'t>,
     names: &[&str],
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<JointKindTemplate> {
-    let open = Fields::with_any_keys(value, "a joint", reader)?;
-    let given = |(kind, _): &&(&str, TableSchema)| open.get(kind).is_some();
-    let Some((kind, form)) = JOINT_KINDS.iter().find(given) else {
-        let problem = Problem::error(open.span.clone(), format!("the joint `{name}` does not say how it is placed"));
-        reader.report(problem.with_help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot`, `parallelogram` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+    let any_fields = Fields::with_any_keys(value, "a joint", parser)?;
+    let is_present = |(kind, _): &&(&str, TableSchema)| any_fields.get(kind).is_some();
+    let Some((kind, schema)) = JOINT_KINDS.iter().find(is_present) else {
+        let problem = Problem::error(any_fields.span.clone(), format!("the joint `{name}` does not say how it is placed"));
+        parser.report(problem.with_help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot`, `parallelogram` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
-    let fields = Fields::from_value(value, form, reader)?;
-    let two = |key: &str, reader: &mut TomlParser<'t>| {
-        let value = fields.required(key, &format!("{key} = [2, 3]"), reader)?;
-        let [a, b] = reader.pair(value)?;
-        let (a, b) = (reader.numeric_expression(a, scope), reader.numeric_expression(b, scope));
+    let fields = Fields::from_value(value, schema, parser)?;
+    let two = |key: &str, parser: &mut TomlParser<'t>| {
+        let value = fields.required(key, &format!("{key} = [2, 3]"), parser)?;
+        let [a, b] = parser.pair(value)?;
+        let (a, b) = (parser.numeric_expression(a, scope), parser.numeric_expression(b, scope));
         Some([a?, b?])
     };
     match *kind {
-        "fixed" => Some(JointKindTemplate::Fixed(two("fixed", reader)?)),
+        "fixed" => Some(JointKindTemplate::Fixed(two("fixed", parser)?)),
         "crank" => {
-            let pivot = fields.get("crank").and_then(|value| parse_joint_ref(value, names, reader));
-            let length = parse_length(&fields, scope, reader);
+            let pivot = fields.get("crank").and_then(|value| parse_joint_ref(value, names, parser));
+            let length = parse_length(&fields, scope, parser);
             Some(JointKindTemplate::Crank { pivot: pivot?, length: length? })
         }
         "gear" => {
-            let crank = fields.get("gear").and_then(|value| parse_joint_ref(value, names, reader));
+            let crank = fields.get("gear").and_then(|value| parse_joint_ref(value, names, parser));
             let pivot = fields
-                .required("about", "about = \"P\"", reader)
-                .and_then(|value| parse_joint_ref(value, names, reader));
-            let length = parse_length(&fields, scope, reader);
+                .required("about", "about = \"P\"", parser)
+                .and_then(|value| parse_joint_ref(value, names, parser));
+            let length = parse_length(&fields, scope, parser);
             let ratio =
-                fields.required("ratio", "ratio = [2, 3]", reader).and_then(|value| parse_ratio(value, scope, reader));
+                fields.required("ratio", "ratio = [2, 3]", parser).and_then(|value| parse_ratio(value, scope, parser));
             let phase = match fields.get("phase") {
                 None => Some(InputValue { value: CompiledExpression::constant(0.0), unit: None }),
-                Some(value) => reader.angle(value, scope),
+                Some(value) => parser.angle(value, scope),
             };
             Some(JointKindTemplate::Gear {
                 crank: crank?,
@@ -58,75 +58,75 @@ pub(super) fn parse_joint<'t>(
             })
         }
         "piston" => {
-            let base = fields.get("piston").and_then(|value| parse_joint_pair(value, names, reader));
-            let length = parse_length(&fields, scope, reader);
-            let (offset, side) = (parse_offset(&fields, scope, reader), parse_side(&fields, &SIDES, reader));
+            let base = fields.get("piston").and_then(|value| parse_joint_pair(value, names, parser));
+            let length = parse_length(&fields, scope, parser);
+            let (offset, side) = (parse_offset(&fields, scope, parser), parse_side(&fields, &SIDES, parser));
             Some(JointKindTemplate::Piston { base: base?, length: length?, offset: offset?, side: side? })
         }
         "dyad" => {
-            let base = fields.get("dyad").and_then(|value| parse_joint_pair(value, names, reader));
-            let lengths = two("lengths", reader);
+            let base = fields.get("dyad").and_then(|value| parse_joint_pair(value, names, parser));
+            let lengths = two("lengths", parser);
             if let Some(values) = fields.get("lengths").and_then(|value| value.get_ref().as_array()) {
-                lengths.iter().flatten().zip(values).for_each(|(length, value)| check_positive(length, value, reader));
+                lengths.iter().flatten().zip(values).for_each(|(length, value)| check_positive(length, value, parser));
             }
-            let side = parse_side(&fields, &SIDES, reader);
+            let side = parse_side(&fields, &SIDES, parser);
             Some(JointKindTemplate::Dyad { base: base?, lengths: lengths?, side: side? })
         }
         "slide" => {
-            let from = fields.get("slide").and_then(|value| parse_joint_ref(value, names, reader));
-            let length = parse_length(&fields, scope, reader);
+            let from = fields.get("slide").and_then(|value| parse_joint_ref(value, names, parser));
+            let length = parse_length(&fields, scope, parser);
             let line = fields
-                .required("line", "line = [\"P\", \"Q\"]", reader)
-                .and_then(|v| parse_joint_pair(v, names, reader));
-            let offset = parse_offset(&fields, scope, reader);
-            let side = parse_side(&fields, &SLIDE_SIDES, reader);
+                .required("line", "line = [\"P\", \"Q\"]", parser)
+                .and_then(|v| parse_joint_pair(v, names, parser));
+            let offset = parse_offset(&fields, scope, parser);
+            let side = parse_side(&fields, &SLIDE_SIDES, parser);
             Some(JointKindTemplate::Slide { from: from?, length: length?, line: line?, offset: offset?, side: side? })
         }
         "yoke" => {
-            let from = fields.get("yoke").and_then(|value| parse_joint_ref(value, names, reader));
+            let from = fields.get("yoke").and_then(|value| parse_joint_ref(value, names, parser));
             let line = fields
-                .required("line", "line = [\"P\", \"Q\"]", reader)
-                .and_then(|v| parse_joint_pair(v, names, reader));
-            let offset = parse_offset(&fields, scope, reader);
+                .required("line", "line = [\"P\", \"Q\"]", parser)
+                .and_then(|v| parse_joint_pair(v, names, parser));
+            let offset = parse_offset(&fields, scope, parser);
             let angle = match fields.get("angle") {
                 None => Some(InputValue { value: CompiledExpression::constant(90.0), unit: None }),
-                Some(value) => reader.angle(value, scope),
+                Some(value) => parser.angle(value, scope),
             };
             Some(JointKindTemplate::Yoke { from: from?, line: line?, offset: offset?, angle: angle? })
         }
         "slot" => {
-            let base = fields.get("slot").and_then(|value| parse_joint_pair(value, names, reader));
-            let offset = parse_offset(&fields, scope, reader);
-            // Without offset the line points from pivot to joint at the start, whatever the side.
-            let is_given = fields.get("offset").is_some() || fields.get("side").is_some();
-            let side = if is_given { parse_side(&fields, &SIDES, reader) } else { Some(Side::Right) };
+            let base = fields.get("slot").and_then(|value| parse_joint_pair(value, names, parser));
+            let offset = parse_offset(&fields, scope, parser);
+            // Without offset the line points from pivot to joint at the start, on either side.
+            let needs_side = fields.get("offset").is_some() || fields.get("side").is_some();
+            let side = if needs_side { parse_side(&fields, &SIDES, parser) } else { Some(Side::Right) };
             Some(JointKindTemplate::Slot { base: base?, offset: offset?, side: side? })
         }
         "parallelogram" => {
-            let corners = fields.get("parallelogram").and_then(|value| parse_corners(value, names, reader));
+            let corners = fields.get("parallelogram").and_then(|value| parse_corners(value, names, parser));
             Some(JointKindTemplate::Parallelogram { corners: corners? })
         }
         "distances" => {
             let base = fields
-                .required("point", "point = [\"A\", \"B\"]", reader)
-                .and_then(|v| parse_joint_pair(v, names, reader));
-            let distances = two("distances", reader);
-            let side = parse_side(&fields, &SIDES, reader);
+                .required("point", "point = [\"A\", \"B\"]", parser)
+                .and_then(|v| parse_joint_pair(v, names, parser));
+            let distances = two("distances", parser);
+            let side = parse_side(&fields, &SIDES, parser);
             Some(JointKindTemplate::Distances { base: base?, distances: distances?, side: side? })
         }
         _ => {
-            let base = fields.get("point").and_then(|value| parse_joint_pair(value, names, reader));
+            let base = fields.get("point").and_then(|value| parse_joint_pair(value, names, parser));
             let mut coordinate = |key: &str| match fields.get(key) {
                 None => Some(Coordinate::Single(
                     crate::expression::Expression::constant(0.0).compile(&[], Kind::Number).ok()?,
                 )),
-                Some(value) => parse_coordinate(value, scope, reader),
+                Some(value) => parse_coordinate(value, scope, parser),
             };
             let (along, across) = (coordinate("along"), coordinate("across"));
             let (along, across) = (along?, across?);
             if along.count().saturating_mul(across.count()) > MAX_GRID_POINTS {
                 let problem = Problem::error(fields.span.clone(), format!("the grid `{name}` has too many points"));
-                reader.report(problem.with_help(format!("{MAX_GRID_POINTS} is the most")));
+                parser.report(problem.with_help(format!("a grid may have at most {MAX_GRID_POINTS}")));
                 return None;
             }
             Some(JointKindTemplate::Point { base: base?, along, across })
@@ -137,123 +137,123 @@ pub(super) fn parse_joint<'t>(
 fn parse_coordinate<'t>(
     value: &TomlValue<'t>,
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<Coordinate> {
     if value.get_ref().as_table().is_none() {
-        return reader.numeric_expression(value, scope).map(Coordinate::Single);
+        return parser.numeric_expression(value, scope).map(Coordinate::Single);
     }
-    let fields = Fields::from_value(value, &RANGE, reader)?;
+    let fields = Fields::from_value(value, &RANGE, parser)?;
     let mut end = |key: &str| {
-        fields.required(key, &format!("{key} = 1"), reader).and_then(|v| reader.numeric_expression(v, scope))
+        fields.required(key, &format!("{key} = 1"), parser).and_then(|v| parser.numeric_expression(v, scope))
     };
     let (from, to) = (end("from"), end("to"));
-    let count = fields.required("count", "count = 5", reader).and_then(|v| reader.integer(v, 1, MAX_GRID_POINTS));
+    let count = fields.required("count", "count = 5", parser).and_then(|v| parser.integer(v, 1, MAX_GRID_POINTS));
     Some(Coordinate::Range { from: from?, to: to?, count: count? })
 }
 
-/// Two whole numbers that are not 0; those that come of parameters are checked with their values.
+/// Parses two whole numbers from 1 to 100 or their negatives; those that depend on parameters are checked in each cell.
 fn parse_ratio<'t>(
     value: &TomlValue<'t>,
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<[CompiledExpression; 2]> {
-    let [a, b] = reader.pair(value)?;
+    let [a, b] = parser.pair(value)?;
     let mut whole = |value: &TomlValue<'t>| {
-        let bound = reader.numeric_expression(value, scope)?;
-        let number = bound.evaluate(|_| f64::NAN);
+        let compiled = parser.numeric_expression(value, scope)?;
+        let number = compiled.evaluate(|_| f64::NAN);
         if number.is_nan() || number.fract() == 0.0 && (1.0..=100.0).contains(&number.abs()) {
-            return Some(bound);
+            return Some(compiled);
         }
-        let problem = Problem::error(value.span(), format!("{number} makes no gear ratio"));
-        reader.report(problem.with_help("give whole numbers from 1 to 100; a negative one turns the other way"));
+        let problem = Problem::error(value.span(), format!("a gear ratio cannot contain {number}"));
+        parser.report(problem.with_help("give whole numbers from 1 to 100; a negative one turns the other way"));
         None
     };
     let (a, b) = (whole(a), whole(b));
     Some([a?, b?])
 }
 
-fn parse_side<'t>(fields: &Fields<'_, 't>, words: &[(&str, Side)], reader: &mut TomlParser<'t>) -> Option<Side> {
-    let value = fields.required("side", &format!("side = \"{}\"", words[0].0), reader)?;
-    reader.word(value, words)
+fn parse_side<'t>(fields: &Fields<'_, 't>, words: &[(&str, Side)], parser: &mut TomlParser<'t>) -> Option<Side> {
+    let value = fields.required("side", &format!("side = \"{}\"", words[0].0), parser)?;
+    parser.word(value, words)
 }
 
-/// The length of a link.
+/// Parses the length of a link.
 fn parse_length<'t>(
     fields: &Fields<'_, 't>,
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<CompiledExpression> {
-    let value = fields.required("length", "length = 1", reader)?;
-    let length = reader.numeric_expression(value, scope)?;
-    check_positive(&length, value, reader);
+    let value = fields.required("length", "length = 1", parser)?;
+    let length = parser.numeric_expression(value, scope)?;
+    check_positive(&length, value, parser);
     Some(length)
 }
 
-/// A length that is the same in every cell is told of here, the others with their cells.
-fn check_positive<'t>(length: &CompiledExpression, value: &TomlValue<'t>, reader: &mut TomlParser<'t>) {
+/// Reports a length that is the same in every cell and not positive; the others are checked in each cell.
+fn check_positive<'t>(length: &CompiledExpression, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) {
     let number = length.evaluate(|_| f64::NAN);
     if number <= 0.0 {
-        let problem = Problem::error(value.span(), format!("a link of length {number} is none"));
-        reader.report(problem.with_help("give a length of more than 0"));
+        let problem = Problem::error(value.span(), format!("a length must be positive, found {number}"));
+        parser.report(problem.with_help("give a length greater than 0"));
     }
 }
 
-/// The offset of a line, 0 where none is given.
+/// Parses the offset of a line; 0 by default.
 fn parse_offset<'t>(
     fields: &Fields<'_, 't>,
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<CompiledExpression> {
     match fields.get("offset") {
         None => Some(CompiledExpression::constant(0.0)),
-        Some(value) => reader.numeric_expression(value, scope),
+        Some(value) => parser.numeric_expression(value, scope),
     }
 }
 
-/// A joint by its name.
-pub(super) fn parse_joint_ref<'t>(value: &TomlValue<'t>, names: &[&str], reader: &mut TomlParser<'t>) -> Option<usize> {
-    let name = reader.text(value)?;
-    let found = names.iter().position(|n| *n == name);
-    if found.is_none() {
-        let problem = Problem::error(value.span(), format!("there is no joint `{name}`"));
-        reader.report(problem.with_help(suggestion(&name, names)));
+/// The index of a joint by its name.
+pub(super) fn parse_joint_ref<'t>(value: &TomlValue<'t>, names: &[&str], parser: &mut TomlParser<'t>) -> Option<usize> {
+    let name = parser.text(value)?;
+    let index = names.iter().position(|n| *n == name);
+    if index.is_none() {
+        let problem = Problem::error(value.span(), format!("unknown joint `{name}`"));
+        parser.report(problem.with_help(suggestion(&name, names)));
     }
-    found
+    index
 }
 
-/// Three different joints by their names.
-fn parse_corners<'t>(value: &TomlValue<'t>, names: &[&str], reader: &mut TomlParser<'t>) -> Option<[usize; 3]> {
-    let list = reader.list(value)?;
+/// The indices of three different joints by their names.
+fn parse_corners<'t>(value: &TomlValue<'t>, names: &[&str], parser: &mut TomlParser<'t>) -> Option<[usize; 3]> {
+    let list = parser.list(value)?;
     let [a, b, c] = list else {
         let problem =
             Problem::error(value.span(), format!("a parallelogram is placed from 3 joints, not {}", list.len()));
-        reader
+        parser
             .report(problem.with_help("name its other corners in order, as in parallelogram = [\"C\", \"O\", \"A\"]"));
         return None;
     };
-    let [a, b, c] = [a, b, c].map(|value| parse_joint_ref(value, names, reader));
+    let [a, b, c] = [a, b, c].map(|value| parse_joint_ref(value, names, parser));
     let corners = [a?, b?, c?];
-    let twice = (0..3).find(|&k| corners[..k].contains(&corners[k]));
-    if let Some(k) = twice {
+    let repeated = (0..3).find(|&k| corners[..k].contains(&corners[k]));
+    if let Some(k) = repeated {
         let problem = Problem::error(list[k].span(), format!("`{}` is named twice", names[corners[k]]));
-        reader.report(problem.with_help("name three different joints"));
+        parser.report(problem.with_help("name three different joints"));
         return None;
     }
     Some(corners)
 }
 
-/// Two different joints by their names.
+/// The indices of two different joints by their names.
 pub(super) fn parse_joint_pair<'t>(
     value: &TomlValue<'t>,
     names: &[&str],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<[usize; 2]> {
-    let [a, b] = reader.pair(value)?;
-    let (a, b) = (parse_joint_ref(a, names, reader), parse_joint_ref(b, names, reader));
+    let [a, b] = parser.pair(value)?;
+    let (a, b) = (parse_joint_ref(a, names, parser), parse_joint_ref(b, names, parser));
     let (a, b) = (a?, b?);
     if a == b {
         let problem = Problem::error(value.span(), format!("`{}` is named twice", names[a]));
-        reader.report(problem.with_help("name two different joints"));
+        parser.report(problem.with_help("name two different joints"));
         return None;
     }
     Some([a, b])

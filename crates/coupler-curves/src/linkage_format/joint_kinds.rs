@@ -1,4 +1,4 @@
-//! The ways to place a joint, and the keys that go with each.
+//! The kinds of joints and the keys of each.
 
 use super::schema::{KeySchema, TableSchema, ValueSchema, words};
 use crate::expression::Dimension;
@@ -6,10 +6,10 @@ use crate::template::Side;
 
 /// The sides of a line.
 pub(super) const SIDES: [(&str, Side); 2] = [("left", Side::Left), ("right", Side::Right)];
-/// The ways along it.
+/// The positions along a line.
 pub(super) const SLIDE_SIDES: [(&str, Side); 2] = [("ahead", Side::Left), ("behind", Side::Right)];
 
-/// The most points a grid in one joint may have.
+/// The most points that a grid in one joint may have.
 pub(super) const MAX_GRID_POINTS: usize = 10_000;
 
 /// The name of a joint.
@@ -19,9 +19,9 @@ const TWO_JOINTS: ValueSchema = ValueSchema::Set(&JOINT_NAME, [2, 2]);
 /// Two numbers.
 const TWO_NUMBERS: ValueSchema = ValueSchema::List(&ValueSchema::Number, [2, 2]);
 const OFFSET: KeySchema =
-    KeySchema::new("offset", ValueSchema::Number, "How far to the left of the line.").with_default("0");
+    KeySchema::new("offset", ValueSchema::Number, "The distance to the left of the line.").with_default(|| "0".to_owned());
 const LINE_OFFSET: KeySchema =
-    KeySchema::new("offset", ValueSchema::Number, "The distance of the line from the first pivot.").with_default("0");
+    KeySchema::new("offset", ValueSchema::Number, "The distance of the line from the first pivot.").with_default(|| "0".to_owned());
 const LENGTH: KeySchema = KeySchema::required("length", ValueSchema::Positive, "The length of the link.");
 const LINE: KeySchema = KeySchema::required(
     "line",
@@ -34,7 +34,7 @@ const SIDE: KeySchema = KeySchema::required(
     "The side of the line from the first joint to the second.",
 );
 
-/// The ways to place a joint: each by the key it is known by.
+/// The kinds of joints, each with the key that identifies it.
 pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
     (
         "fixed",
@@ -51,7 +51,7 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required(
                     "crank",
                     JOINT_NAME,
-                    "The end of the crank that drives the linkage: the pivot it turns about.",
+                    "The pin of the crank that drives the linkage: the pivot it turns about.",
                 ),
                 LENGTH,
             ],
@@ -65,17 +65,17 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required(
                     "gear",
                     JOINT_NAME,
-                    "The end of a second crank, geared to the first: the first one's end.",
+                    "The pin of a second crank, geared to the first: the first one's pin.",
                 ),
                 KeySchema::required("about", JOINT_NAME, "The pivot it turns about."),
                 LENGTH,
                 KeySchema::required(
                     "ratio",
                     TWO_NUMBERS,
-                    "Its turns to those of the first crank: two whole numbers, negative the other way.",
+                    "Its turns to those of the first crank: two whole numbers, negative for the opposite direction.",
                 ),
-                KeySchema::new("phase", ValueSchema::Quantity(Dimension::Angle), "Its angle where the input is 0.")
-                    .with_default("\"0 deg\""),
+                KeySchema::new("phase", ValueSchema::Quantity(Dimension::Angle), "Its angle when the input is 0.")
+                    .with_default(|| "\"0 deg\"".to_owned()),
             ],
         ),
     ),
@@ -87,7 +87,7 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required(
                     "piston",
                     TWO_JOINTS,
-                    "The end of a crank that an actuator drives, the input: the actuator's pivot, the crank's.",
+                    "The pin of a crank driven by an actuator, the input: the actuator's pivot, the crank's.",
                 ),
                 LENGTH,
                 LINE_OFFSET,
@@ -100,7 +100,7 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
         TableSchema::new(
             "a joint with `dyad`",
             &[
-                KeySchema::required("dyad", TWO_JOINTS, "Where two links meet: the joints they come from."),
+                KeySchema::required("dyad", TWO_JOINTS, "The common pin of two links: the joints at their other ends."),
                 KeySchema::required(
                     "lengths",
                     ValueSchema::List(&ValueSchema::Positive, [2, 2]),
@@ -118,7 +118,7 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required(
                     "slide",
                     JOINT_NAME,
-                    "The end of a link that slides on a line: the joint the link comes from.",
+                    "The end of a link that slides on a line: the joint at its other end.",
                 ),
                 LENGTH,
                 LINE,
@@ -126,7 +126,7 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required(
                     "side",
                     ValueSchema::Word(|| words(&SLIDE_SIDES)),
-                    "Which way along the line, from the joint the link comes from.",
+                    "Ahead of or behind that joint along the line.",
                 ),
             ],
         ),
@@ -139,12 +139,12 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required(
                     "yoke",
                     JOINT_NAME,
-                    "A yoke that slides on a line: the joint that slides in its slot.",
+                    "A yoke that slides along a line: the joint that slides in its slot.",
                 ),
                 LINE,
                 OFFSET,
-                KeySchema::new("angle", ValueSchema::Quantity(Dimension::Angle), "That of the slot to the line.")
-                    .with_default("\"90 deg\""),
+                KeySchema::new("angle", ValueSchema::Quantity(Dimension::Angle), "The angle from the line to the slot.")
+                    .with_default(|| "\"90 deg\"".to_owned()),
             ],
         ),
     ),
@@ -181,7 +181,7 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
             "a joint with `distances`",
             &[
                 KeySchema::required("point", TWO_JOINTS, "A point of the link that carries these two joints."),
-                KeySchema::required("distances", TWO_NUMBERS, "How far it is from each of them."),
+                KeySchema::required("distances", TWO_NUMBERS, "Its distances from the two joints."),
                 SIDE,
             ],
         ),
@@ -192,21 +192,21 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
             "a joint with `point`",
             &[
                 KeySchema::required("point", TWO_JOINTS, "A point of the link that carries these two joints."),
-                KeySchema::new("along", COORDINATE, "How far along the line from the first to the second.")
-                    .with_default("0"),
-                KeySchema::new("across", COORDINATE, "How far to the left of it.").with_default("0"),
+                KeySchema::new("along", COORDINATE, "The distance along the line from the first to the second.")
+                    .with_default(|| "0".to_owned()),
+                KeySchema::new("across", COORDINATE, "The distance to the left of that line.").with_default(|| "0".to_owned()),
             ],
         ),
     ),
 ];
 
-/// A number, or as many as a grid has.
+/// A number, or a range that makes a grid of points.
 const COORDINATE: ValueSchema = ValueSchema::AnyOf(&[ValueSchema::Number, ValueSchema::Table(&RANGE)]);
 pub(super) static RANGE: TableSchema = TableSchema::new(
     "a range",
     &[
         KeySchema::required("from", ValueSchema::Number, "The first value."),
         KeySchema::required("to", ValueSchema::Number, "The last value."),
-        KeySchema::required("count", ValueSchema::Integer([1, MAX_GRID_POINTS]), "How many values."),
+        KeySchema::required("count", ValueSchema::Integer([1, MAX_GRID_POINTS]), "The number of values."),
     ],
 );

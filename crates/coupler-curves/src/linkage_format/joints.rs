@@ -1,4 +1,4 @@
-//! The `[linkage.joints]` table: read joint by joint, then put in an order in which each can be placed.
+//! Parses the `[linkage.joints]` table: joint by joint, then sorted so that each can be placed.
 
 use super::fields::Fields;
 use super::joint::{parse_joint, parse_joint_pair, parse_joint_ref};
@@ -12,7 +12,7 @@ pub(super) struct ParsedJoints {
     pub joints: Vec<JointTemplate>,
     pub traced: Vec<usize>,
     pub seen_from: Option<[usize; 2]>,
-    /// Each joint's name and place in the text.
+    /// Each joint's name and its span in the text.
     pub spans: Vec<(String, Span)>,
 }
 
@@ -20,100 +20,100 @@ pub(super) fn parse_joints<'t>(
     value: &TomlValue<'t>,
     linkage: &Fields<'_, 't>,
     scope: &[(&str, Kind)],
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<ParsedJoints> {
-    let table = Fields::with_any_keys(value, "`joints`", reader)?;
+    let table = Fields::with_any_keys(value, "`joints`", parser)?;
     let names = table.keys();
     let entries: Vec<(&str, Span, &TomlValue<'t>)> = table.entries().collect();
-    let read: Vec<Option<JointKindTemplate>> =
-        entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, reader)).collect();
-    let traced = parse_traced(linkage, &names, reader);
-    let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, reader));
-    check_inputs(&entries, &read, &table, reader);
-    let placings: Vec<JointKindTemplate> = read.into_iter().collect::<Option<_>>()?;
-    check_grids(&entries, &placings, reader);
-    let order = order_joints(&entries, &placings, reader)?;
+    let parsed: Vec<Option<JointKindTemplate>> =
+        entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
+    let traced = parse_traced(linkage, &names, parser);
+    let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, parser));
+    check_inputs(&entries, &parsed, &table, parser);
+    let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
+    check_grids(&entries, &placings, parser);
+    let order = order_joints(&entries, &placings, parser)?;
     let traced = traced?;
     let seen_from = match seen_from {
         None => None,
-        Some(found) => Some(found?),
+        Some(joints) => Some(joints?),
     };
-    check_unused(&entries, &placings, &traced, seen_from, reader);
+    check_unused(&entries, &placings, &traced, seen_from, parser);
     if seen_from.is_none() {
-        check_traced_joints_move(&entries, &placings, &order, &traced, reader);
+        check_traced_joints_move(&entries, &placings, &order, &traced, parser);
     }
-    let now = |joint: usize| order.iter().position(|&k| k == joint).unwrap_or(joint);
+    let new_index = |joint: usize| order.iter().position(|&k| k == joint).unwrap_or(joint);
     let joints = order
         .iter()
-        .map(|&k| JointTemplate { name: names[k].to_owned(), kind: placings[k].clone().map_joints(now) })
+        .map(|&k| JointTemplate { name: names[k].to_owned(), kind: placings[k].clone().map_joints(new_index) })
         .collect();
-    let places = entries.iter().map(|(name, span, _)| ((*name).to_owned(), span.clone())).collect();
+    let spans = entries.iter().map(|(name, span, _)| ((*name).to_owned(), span.clone())).collect();
     Some(ParsedJoints {
         joints,
-        traced: traced.into_iter().map(now).collect(),
-        seen_from: seen_from.map(|p| p.map(now)),
-        spans: places,
+        traced: traced.into_iter().map(new_index).collect(),
+        seen_from: seen_from.map(|joints| joints.map(new_index)),
+        spans,
     })
 }
 
-/// Whether a linkage's joints have a piston among them, which makes its input a length.
+/// Whether a linkage has a piston among its joints, which makes its input a length.
 pub(super) fn has_piston(linkage: &Fields) -> bool {
     let joints = linkage.get("joints").and_then(|value| value.get_ref().as_table());
     let is_piston = |joint: &TomlValue| joint.get_ref().as_table().is_some_and(|joint| joint.contains_key("piston"));
     joints.is_some_and(|joints| joints.values().any(is_piston))
 }
 
-fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &[&str], reader: &mut TomlParser<'t>) -> Option<Vec<usize>> {
-    let value = linkage.required("trace", "trace = [\"M\"]", reader)?;
-    let list = reader.list(value)?;
+fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &[&str], parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
+    let value = linkage.required("trace", "trace = [\"M\"]", parser)?;
+    let list = parser.list(value)?;
     if list.is_empty() {
-        reader.report(Problem::error(value.span(), "no joint is traced").with_help("name at least one, as in [\"M\"]"));
+        parser.report(Problem::error(value.span(), "no joint is traced").with_help("name at least one, as in [\"M\"]"));
         return None;
     }
-    let found: Vec<Option<usize>> = list.iter().map(|value| parse_joint_ref(value, names, reader)).collect();
-    let found: Vec<usize> = found.into_iter().collect::<Option<_>>()?;
-    for (k, joint) in found.iter().enumerate() {
-        if found[..k].contains(joint) {
+    let traced: Vec<Option<usize>> = list.iter().map(|value| parse_joint_ref(value, names, parser)).collect();
+    let traced: Vec<usize> = traced.into_iter().collect::<Option<_>>()?;
+    for (k, joint) in traced.iter().enumerate() {
+        if traced[..k].contains(joint) {
             let problem = Problem::error(list[k].span(), format!("`{}` is traced twice", names[*joint]));
-            reader.report(problem.with_help("name each joint once"));
+            parser.report(problem.with_help("name each joint once"));
         }
     }
-    Some(found)
+    Some(traced)
 }
 
-/// A linkage has one input, and its gears are geared to it.
+/// Checks that a linkage has one input, and that its gears are geared to it.
 fn check_inputs(
     entries: &[(&str, Span, &TomlValue)],
-    read: &[Option<JointKindTemplate>],
+    parsed: &[Option<JointKindTemplate>],
     table: &Fields,
-    reader: &mut TomlParser,
+    parser: &mut TomlParser,
 ) {
     let is_input =
-        |k: &usize| matches!(read[*k], Some(JointKindTemplate::Crank { .. } | JointKindTemplate::Piston { .. }));
-    let inputs: Vec<usize> = (0..read.len()).filter(is_input).collect();
-    // A joint that could not be read may be the input.
-    if inputs.is_empty() && read.iter().all(Option::is_some) {
+        |k: &usize| matches!(parsed[*k], Some(JointKindTemplate::Crank { .. } | JointKindTemplate::Piston { .. }));
+    let inputs: Vec<usize> = (0..parsed.len()).filter(is_input).collect();
+    // A joint that could not be parsed may be the input.
+    if inputs.is_empty() && parsed.iter().all(Option::is_some) {
         let problem = Problem::error(table.span.clone(), "the linkage has no input");
-        reader.report(problem.with_help("one joint is driven: { crank = \"O\", length = 1 }"));
+        parser.report(problem.with_help("add a crank, as in { crank = \"O\", length = 1 }"));
     }
     for &k in inputs.iter().skip(1) {
         let (first, second) = (entries[inputs[0]].0, entries[k].0);
-        let problem = Problem::error(entries[k].2.span(), format!("`{second}` is a second input beside `{first}`"));
-        let help = "a linkage of one degree of freedom has one input: place the other joints by dyads or gears";
-        reader.report(problem.with_help(help));
+        let problem = Problem::error(entries[k].2.span(), format!("`{second}` is a second input in addition to `{first}`"));
+        let help = "a linkage of one degree of freedom has one input; place the other joints by dyads or gears";
+        parser.report(problem.with_help(help));
     }
-    for (k, placing) in read.iter().enumerate() {
+    for (k, placing) in parsed.iter().enumerate() {
         let Some(JointKindTemplate::Gear { crank, .. }) = placing else { continue };
-        if !matches!(read[*crank], Some(JointKindTemplate::Crank { .. }) | None) {
-            let message = format!("`{}` is geared to `{}`, which is no crank", entries[k].0, entries[*crank].0);
+        if !matches!(parsed[*crank], Some(JointKindTemplate::Crank { .. }) | None) {
+            let message = format!("`{}` is geared to `{}`, which is not a crank", entries[k].0, entries[*crank].0);
             let problem = Problem::error(entries[k].2.span(), message);
-            reader.report(problem.with_help("name the pin of the crank that drives the linkage"));
+            parser.report(problem.with_help("name the pin of the crank that drives the linkage"));
         }
     }
 }
 
-/// A grid of points has no one place that another joint could hang on.
-fn check_grids(entries: &[(&str, Span, &TomlValue)], placings: &[JointKindTemplate], reader: &mut TomlParser) {
+/// Checks that no joint is placed from a grid of points, which has more than one position.
+fn check_grids(entries: &[(&str, Span, &TomlValue)], placings: &[JointKindTemplate], parser: &mut TomlParser) {
     let is_grid = |k: usize| match &placings[k] {
         JointKindTemplate::Point { along, across, .. } => {
             matches!(along, Coordinate::Range { .. }) || matches!(across, Coordinate::Range { .. })
@@ -124,14 +124,14 @@ fn check_grids(entries: &[(&str, Span, &TomlValue)], placings: &[JointKindTempla
         for base in placing.referenced_joints().into_iter().filter(|&base| is_grid(base)) {
             let (name, grid) = (entries[k].0, entries[base].0);
             let problem =
-                Problem::error(entries[k].2.span(), format!("`{name}` hangs on `{grid}`, which is a grid of points"));
-            reader.report(problem.with_help("a grid can only be traced: hang the joint on a single point"));
+                Problem::error(entries[k].2.span(), format!("`{name}` is placed from `{grid}`, a grid of points"));
+            parser.report(problem.with_help("a grid can only be traced; place the joint from a single point"));
         }
     }
 }
 
-/// The joints a joint is placed from: those it names, and, for a point of a link that carries a slot's line, the
-/// slot's foot, without which there is no such link; an actuator's and a slider's are named.
+/// The joints a joint is placed from: those it names, and, for a point of the link that carries a slot's line, the
+/// slot's foot, which the point does not name but which creates that link. Actuators and sliders are named.
 fn dependencies(placings: &[JointKindTemplate], k: usize) -> Vec<usize> {
     let mut bases = placings[k].referenced_joints();
     if let JointKindTemplate::Point { base, .. } | JointKindTemplate::Distances { base, .. } = &placings[k] {
@@ -142,42 +142,43 @@ fn dependencies(placings: &[JointKindTemplate], k: usize) -> Vec<usize> {
     bases
 }
 
-/// An order in which every joint comes after those it is placed from; as written, where that is one.
+/// An order in which every joint comes after those it is placed from; the order as written, if it is one.
 fn order_joints(
     entries: &[(&str, Span, &TomlValue)],
     placings: &[JointKindTemplate],
-    reader: &mut TomlParser,
+    parser: &mut TomlParser,
 ) -> Option<Vec<usize>> {
     match dependency_order(placings.len(), |k| dependencies(placings, k)) {
         Ok(order) => Some(order),
-        Err(DependencyCycle { cycle, unresolved: all }) => {
+        Err(DependencyCycle { cycle, unresolved }) => {
             let names = |joints: &[usize]| joints.iter().map(|&k| format!("`{}`", entries[k].0)).collect::<Vec<_>>();
-            let (round, open) = (names(&cycle), names(&all));
-            let problem =
-                Problem::error(entries[cycle[0]].2.span(), format!("the joint {} is placed from itself", round[0]));
+            let (cycle_names, unresolved) = (names(&cycle), names(&unresolved));
+            let first = &cycle_names[0];
+            let problem = Problem::error(entries[cycle[0]].2.span(), format!("the joint {first} is placed from itself"));
             let help = if cycle.len() <= 2 {
-                format!("{} needs its own place: place it from joints already placed", round[0])
+                format!("{first} needs its own position; place it from joints already placed")
             } else {
                 format!(
-                    "the cycle is {}: no chain of dyads solves this linkage, and {} stay open; \
+                    "the cycle is {}: no chain of dyads solves this linkage, and {} remain unsolved; \
                      place one of them from joints already placed",
-                    round.join(" -> "),
-                    open.join(", ")
+                    cycle_names.join(" -> "),
+                    unresolved.join(", ")
                 )
             };
-            reader.report(problem.with_help(help));
+            parser.report(problem.with_help(help));
             None
         }
     }
 }
 
-/// Every joint is traced, seen from, or carries another; a parallelogram may be there for its links.
+/// Checks that every joint is traced, is in `seen_from`, carries another joint, or has a link: a parallelogram may be
+/// there for its links alone.
 fn check_unused(
     entries: &[(&str, Span, &TomlValue)],
     placings: &[JointKindTemplate],
     traced: &[usize],
     seen_from: Option<[usize; 2]>,
-    reader: &mut TomlParser,
+    parser: &mut TomlParser,
 ) {
     for (k, (name, span, _)) in entries.iter().enumerate() {
         let carries = (0..placings.len()).any(|other| dependencies(placings, other).contains(&k));
@@ -190,18 +191,19 @@ fn check_unused(
         );
         if !carries && !is_seen && !has_links && !traced.contains(&k) {
             let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
-            reader.report(problem.with_help(format!("trace it, hang another joint on it, or take `{name}` away")));
+            parser.report(problem.with_help(format!("trace it, place another joint from it, or remove `{name}`")));
         }
     }
 }
 
-/// A traced joint hangs on the joint that is driven, or it stands still; seen from a link that moves, all others move.
+/// Checks that the traced joints depend on the driven one, without which they do not move. With `seen_from` this does
+/// not apply: relative to a moving link, fixed joints move.
 fn check_traced_joints_move(
     entries: &[(&str, Span, &TomlValue)],
     placings: &[JointKindTemplate],
     order: &[usize],
     traced: &[usize],
-    reader: &mut TomlParser,
+    parser: &mut TomlParser,
 ) {
     let mut moves = vec![false; placings.len()];
     for &k in order {
@@ -213,7 +215,7 @@ fn check_traced_joints_move(
     }
     for &k in traced.iter().filter(|&&k| !moves[k]) {
         let (name, span) = (entries[k].0, entries[k].1.clone());
-        let problem = Problem::error(span, format!("the traced joint `{name}` is not reached by the motion"));
-        reader.report(problem.with_help("trace a joint that hangs on the driven one"));
+        let problem = Problem::error(span, format!("the traced joint `{name}` does not move"));
+        parser.report(problem.with_help("trace a joint that depends on the driven one"));
     }
 }

@@ -1,3 +1,5 @@
+//! The schema of a `[[linkage]]` table and its parser.
+
 use super::fields::Fields;
 use super::joint_kinds::JOINT_KINDS;
 use super::joints;
@@ -14,36 +16,36 @@ const JOINT_NAME: ValueSchema = ValueSchema::Text;
 pub(super) static LINKAGE: TableSchema = TableSchema::new(
     "a [[linkage]]",
     &[
-        KeySchema::required("id", ValueSchema::Slug, "Its name, by which families call it; none of the catalogue's."),
-        KeySchema::new("source", ValueSchema::Text, "Where it comes from: a book, a paper.").with_default("\"\""),
-        KeySchema::new("legend", ValueSchema::Text, "What its parameters are, in a line under the title.")
-            .with_default("\"\""),
+        KeySchema::required("id", ValueSchema::Slug, "Its name, which families refer to; not one of the catalogue's."),
+        KeySchema::new("source", ValueSchema::Text, "Its source: a book or a paper.").with_default(|| "\"\"".to_owned()),
+        KeySchema::new("legend", ValueSchema::Text, "The meaning of its parameters, printed under the title.")
+            .with_default(|| "\"\"".to_owned()),
         KeySchema::new(
             "parameters",
             ValueSchema::IdentifierMap(&ValueSchema::Table(&PARAMETER)),
             "Its parameters, by their names.",
         )
-        .with_default("{}"),
+        .with_default(|| "{}".to_owned()),
         KeySchema::new("caption", ValueSchema::Text, "The line under a cell, with values in braces: \"p = {p:.2}\"."),
         KeySchema::new("note", ValueSchema::Text, "A second, smaller line, with values in braces."),
         KeySchema::required(
             "trace",
             ValueSchema::Set(&JOINT_NAME, [1, usize::MAX]),
-            "The joints whose curves are drawn.",
+            "The joints whose curves are traced.",
         ),
         KeySchema::required(
             "joints",
             ValueSchema::Map(&ValueSchema::Variants(&JOINT_KINDS)),
             "Its joints, by their names, in any order.",
         ),
-        CIRCUITS_KEY.with_default("\"start\""),
-        CONTINUATION_KEY.with_default("\"smooth\""),
-        COINCIDENT_KEY.with_default("\"together\""),
+        CIRCUITS_KEY.with_default(|| "\"start\"".to_owned()),
+        CONTINUATION_KEY.with_default(|| "\"smooth\"".to_owned()),
+        COINCIDENT_KEY.with_default(|| "\"together\"".to_owned()),
         KeySchema::new("start", ValueSchema::Input, "The value of the input at which the sides of the joints hold."),
         KeySchema::new(
             "input",
             ValueSchema::Table(&INPUT),
-            "How far the input goes; as far as the linkage lets it where left out.",
+            "The range of the input; the whole assemblable range by default.",
         ),
         KeySchema::new(
             "seen_from",
@@ -53,28 +55,28 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
         KeySchema::new(
             "arc",
             ValueSchema::Table(&ARC),
-            "The part of the curve that is drawn in full weight; all of it where left out.",
+            "The part of the curve that is drawn in full weight; all of it by default.",
         ),
     ],
 );
 
-/// Which circuits are drawn.
+/// The key of the circuits to solve.
 pub const CIRCUITS_KEY: KeySchema = KeySchema::new(
     "circuits",
     ValueSchema::Word(|| words(&CIRCUIT_SELECTIONS)),
-    "Which circuits are drawn: the one through the start pose, or all.",
+    "The circuits to draw: the one through the start pose, or all.",
 );
-/// How a circuit goes on at a change point.
+/// The key of how a circuit continues at a change point.
 pub const CONTINUATION_KEY: KeySchema = KeySchema::new(
     "continuation",
     ValueSchema::Word(|| words(&CONTINUATIONS)),
-    "How a circuit goes on at a change point: smoothly, or on its branch.",
+    "How a circuit continues at a change point: smoothly, or on the same branch.",
 );
-/// What dyads do that lie flat at one input.
+/// The key of which dyads change sides where several are flat at one input.
 pub const COINCIDENT_KEY: KeySchema = KeySchema::new(
     "coincident",
     ValueSchema::Word(|| words(&COINCIDENT_DYADS)),
-    "Which of the dyads that lie flat at one input change their sides there.",
+    "The dyads that change sides where several are flat at one input.",
 );
 
 static PARAMETER: TableSchema = TableSchema::new(
@@ -83,15 +85,15 @@ static PARAMETER: TableSchema = TableSchema::new(
         KeySchema::new(
             "default",
             ValueSchema::Number,
-            "Its value where a family gives none; it may use other parameters.",
+            "The value where a family gives none; it may use other parameters.",
         ),
-        KeySchema::new("min", ValueSchema::Number, "The least value; a least of 0 is itself too little."),
-        KeySchema::new("max", ValueSchema::Number, "The greatest value; a greatest of 0 is itself too great."),
+        KeySchema::new("min", ValueSchema::Number, "The least value; 0 itself is excluded."),
+        KeySchema::new("max", ValueSchema::Number, "The greatest value; 0 itself is excluded."),
     ],
 );
 
-const FROM: KeySchema = KeySchema::required("from", ValueSchema::Input, "Where it begins.");
-const TO: KeySchema = KeySchema::required("to", ValueSchema::Input, "Where it ends.");
+const FROM: KeySchema = KeySchema::required("from", ValueSchema::Input, "The input at which it begins.");
+const TO: KeySchema = KeySchema::required("to", ValueSchema::Input, "The input at which it ends.");
 static INPUT: TableSchema = TableSchema::new("an input", &[FROM, TO]);
 static ARC: TableSchema = TableSchema::new(
     "an arc",
@@ -99,7 +101,7 @@ static ARC: TableSchema = TableSchema::new(
         FROM,
         TO,
         KeySchema::new("branch", ValueSchema::InRange([-1.0, 1.0]), "The branch it is on: 1 is left, -1 right.")
-            .with_default("1"),
+            .with_default(|| "1".to_owned()),
     ],
 );
 
@@ -115,30 +117,30 @@ pub const CONTINUATIONS: [(&str, Continuation); 2] =
 pub const COINCIDENT_DYADS: [(&str, CoincidentDyads); 3] =
     [("together", CoincidentDyads::Together), ("first", CoincidentDyads::First), ("last", CoincidentDyads::Last)];
 
-/// The template a `[[linkage]]` table describes; `None` where a problem stands in the way of it.
-pub fn parse_template<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<Template> {
-    let before = reader.problem_count();
-    let fields = Fields::from_value(value, &LINKAGE, reader)?;
-    let id = fields.required("id", "id = \"my-linkage\"", reader).and_then(|value| parse_slug(value, reader));
-    let parameters = fields.get("parameters").map(|value| parse_parameters(value, reader)).unwrap_or_default();
+/// Parses a `[[linkage]]` table; `None` if it has a problem, which is reported.
+pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Template> {
+    let before = parser.problem_count();
+    let fields = Fields::from_value(value, &LINKAGE, parser)?;
+    let id = fields.required("id", "id = \"my-linkage\"", parser).and_then(|value| parse_slug(value, parser));
+    let parameters = fields.get("parameters").map(|value| parse_parameters(value, parser)).unwrap_or_default();
     let scope: Vec<(&str, Kind)> = parameters.iter().map(|p| (p.name.as_str(), Kind::Number)).collect();
-    let text = |key: &str, reader: &mut TomlParser<'t>| fields.get(key).and_then(|value| reader.text(value));
-    let source = text("source", reader).unwrap_or_default();
-    let legend = text("legend", reader).unwrap_or_default();
-    let caption = fields.get("caption").and_then(|value| reader.caption(value, &scope, &[]));
-    let note = fields.get("note").and_then(|value| reader.caption(value, &scope, &[]));
-    let circuits = fields.get("circuits").and_then(|value| reader.word(value, &CIRCUIT_SELECTIONS)).unwrap_or_default();
+    let text = |key: &str, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.text(value));
+    let source = text("source", parser).unwrap_or_default();
+    let legend = text("legend", parser).unwrap_or_default();
+    let caption = fields.get("caption").and_then(|value| parser.caption(value, &scope, &[]));
+    let note = fields.get("note").and_then(|value| parser.caption(value, &scope, &[]));
+    let circuits = fields.get("circuits").and_then(|value| parser.word(value, &CIRCUIT_SELECTIONS)).unwrap_or_default();
     let continuation =
-        fields.get("continuation").and_then(|value| reader.word(value, &CONTINUATIONS)).unwrap_or_default();
+        fields.get("continuation").and_then(|value| parser.word(value, &CONTINUATIONS)).unwrap_or_default();
     let coincident =
-        fields.get("coincident").and_then(|value| reader.word(value, &COINCIDENT_DYADS)).unwrap_or_default();
+        fields.get("coincident").and_then(|value| parser.word(value, &COINCIDENT_DYADS)).unwrap_or_default();
     let is_length = joints::has_piston(&fields);
-    let start = fields.get("start").and_then(|value| reader.input(value, is_length, &scope));
-    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, (is_length, &scope), reader));
-    let arc = fields.get("arc").and_then(|value| parse_arc(value, (is_length, &scope), reader));
+    let start = fields.get("start").and_then(|value| parser.input(value, is_length, &scope));
+    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, (is_length, &scope), parser));
+    let arc = fields.get("arc").and_then(|value| parse_arc(value, (is_length, &scope), parser));
     let joints = fields
-        .required("joints", "a table [linkage.joints]", reader)
-        .and_then(|value| joints::parse_joints(value, &fields, &scope, reader));
+        .required("joints", "a table [linkage.joints]", parser)
+        .and_then(|value| joints::parse_joints(value, &fields, &scope, parser));
     let (id, joints) = (id?, joints?);
     let template = Template {
         id,
@@ -159,24 +161,25 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) ->
         parameters,
     };
     if let Some(error) = template.structural_error() {
-        let place = joints.spans.iter().find(|(name, _)| name == error.joint()).map(|(_, span)| span.clone());
+        let joint_span = joints.spans.iter().find(|(name, _)| name == error.joint()).map(|(_, span)| span.clone());
         let span =
-            place.or_else(|| fields.get("seen_from").map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());
-        reader.report(Problem::error(span, error.to_string()).with_help(error.help()));
+            joint_span.or_else(|| fields.get("seen_from").map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());
+        parser.report(Problem::error(span, error.to_string()).with_help(error.help()));
     }
-    (reader.problem_count() == before).then_some(template)
+    (parser.problem_count() == before).then_some(template)
 }
 
-/// A name for folders and files: lower-case letters, digits and single hyphens, and no device of Windows.
-pub fn parse_slug<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Option<String> {
-    let text = reader.text(value)?;
+/// Parses a name for folders and files: at most 64 lower-case letters, digits and single hyphens, and not a device name
+/// of Windows.
+pub fn parse_slug<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<String> {
+    let text = parser.text(value)?;
     let parts_are_plain = text
         .split('-')
         .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()));
     if is_windows_device(&text) {
-        let problem =
-            Problem::error(value.span(), format!("Windows has no folder `{text}`, for it has a device of that name"));
-        reader.report(problem.with_help(format!("an id names folders and files: take another, as in \"{text}-1\"")));
+        let problem = Problem::error(value.span(), format!("the id `{text}` is a device name on Windows"));
+        let help = format!("an id names folders and files; choose another, as in \"{text}-1\"");
+        parser.report(problem.with_help(help));
         return None;
     }
     if parts_are_plain && text.len() <= 64 {
@@ -186,90 +189,90 @@ pub fn parse_slug<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Opt
     let words: Vec<&str> = lower.split(|c: char| !c.is_ascii_alphanumeric()).filter(|w| !w.is_empty()).collect();
     let suggestion = if words.is_empty() { "evans".to_owned() } else { words.join("-").chars().take(64).collect() };
     let problem = Problem::error(value.span(), format!("the id `{}` is not a slug", text.escape_debug()));
-    reader.report(problem.with_help(format!(
+    parser.report(problem.with_help(format!(
         "it names folders and files: lower-case letters, digits and hyphens, as in \"{suggestion}\""
     )));
     None
 }
 
-/// Whether Windows keeps a name for a device (Microsoft, *Naming files, paths, and namespaces*).
+/// Whether Windows reserves a name for a device (Microsoft, *Naming files, paths, and namespaces*).
 fn is_windows_device(name: &str) -> bool {
     let port = name.strip_prefix("com").or_else(|| name.strip_prefix("lpt"));
     let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|b| b.is_ascii_digit()));
     is_port || ["con", "prn", "aux", "nul"].contains(&name)
 }
 
-fn parse_parameters<'t>(value: &TomlValue<'t>, reader: &mut TomlParser<'t>) -> Vec<Parameter> {
-    let Some(table) = Fields::with_any_keys(value, "`parameters`", reader) else { return Vec::new() };
+fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Vec<Parameter> {
+    let Some(table) = Fields::with_any_keys(value, "`parameters`", parser) else { return Vec::new() };
     let names = table.keys();
     let scope: Vec<(&str, Kind)> = names.iter().map(|name| (*name, Kind::Number)).collect();
     let mut out = Vec::new();
     for (name, span, value) in table.entries() {
-        check_identifier(name, span, reader);
-        let Some(fields) = Fields::from_value(value, &PARAMETER, reader) else { continue };
+        check_identifier(name, span, parser);
+        let Some(fields) = Fields::from_value(value, &PARAMETER, parser) else { continue };
         let default = fields.get("default").and_then(|value| {
-            let expression = reader.expression(value)?;
-            let bound = expression.compile(&scope, Kind::Number);
-            reader.ok_or_report(value, bound).map(|_| expression)
+            let expression = parser.expression(value)?;
+            let compiled = expression.compile(&scope, Kind::Number);
+            parser.ok_or_report(value, compiled).map(|_| expression)
         });
-        let limit = |key, reader: &mut TomlParser<'t>| fields.get(key).and_then(|value| reader.constant(value));
-        let (min, max) = (limit("min", reader), limit("max", reader));
+        let limit = |key, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.constant(value));
+        let (min, max) = (limit("min", parser), limit("max", parser));
         if let (Some(min), Some(max)) = (min, max)
             && min > max
         {
             let problem =
                 Problem::error(fields.span.clone(), format!("the least value {min} is above the greatest {max}"));
-            reader.report(problem.with_help("exchange `min` and `max`"));
+            parser.report(problem.with_help("exchange `min` and `max`"));
         }
         out.push(Parameter { name: name.to_owned(), default, min, max });
     }
     out
 }
 
-/// Whether a parameter, helper or grid name can be used in an expression.
-pub fn check_identifier(name: &str, span: Span, reader: &mut TomlParser) {
+/// Reports a parameter, helper or grid name that cannot be used in an expression.
+pub fn check_identifier(name: &str, span: Span, parser: &mut TomlParser) {
     let first = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
     let is_word = first && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    let is_taken = ["and", "or", "not", "pi"].contains(&name);
-    if !is_word || is_taken {
-        let why = if is_taken { "has a meaning of its own" } else { "cannot be used in an expression" };
+    let is_reserved = ["and", "or", "not", "pi"].contains(&name);
+    if !is_word || is_reserved {
+        let why = if is_reserved { "is reserved" } else { "cannot be used in an expression" };
         let problem = Problem::error(span, format!("the name `{}` {why}", name.escape_debug()));
-        reader.report(problem.with_help("a name is a letter, then letters, digits and underscores"));
+        parser.report(problem.with_help("a name is a letter, then letters, digits and underscores"));
     }
 }
 
 fn parse_input_range<'t>(
     value: &TomlValue<'t>,
-    form: &'static TableSchema,
+    schema: &'static TableSchema,
     (is_length, scope): (bool, &[(&str, Kind)]),
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<[InputValue; 2]> {
-    let fields = Fields::from_value(value, form, reader)?;
-    let mut angle = |key| {
-        let value = fields.required(key, &format!("{key} = \"90 deg\""), reader)?;
-        reader.input(value, is_length, scope)
+    let fields = Fields::from_value(value, schema, parser)?;
+    let mut end = |key| {
+        let value = fields.required(key, &format!("{key} = \"90 deg\""), parser)?;
+        parser.input(value, is_length, scope)
     };
-    let (from, to) = (angle("from"), angle("to"));
+    let (from, to) = (end("from"), end("to"));
     Some([from?, to?])
 }
 
 fn parse_arc<'t>(
     value: &TomlValue<'t>,
     scope: (bool, &[(&str, Kind)]),
-    reader: &mut TomlParser<'t>,
+    parser: &mut TomlParser<'t>,
 ) -> Option<([InputValue; 2], i8)> {
-    let angles = parse_input_range(value, &ARC, scope, reader)?;
-    let fields = Fields::with_any_keys(value, "an arc", reader)?;
+    let range = parse_input_range(value, &ARC, scope, parser)?;
+    let fields = Fields::with_any_keys(value, "an arc", parser)?;
     let branch = match fields.get("branch") {
         None => 1,
-        Some(branch) => match reader.constant(branch)? {
+        Some(branch) => match parser.constant(branch)? {
             1.0 => 1,
             -1.0 => -1,
             _ => {
-                reader.report(Problem::error(branch.span(), "a branch is 1 or -1").with_help("1 is left, -1 right"));
+                parser.report(Problem::error(branch.span(), "a branch must be 1 or -1").with_help("1 is left, -1 right"));
                 return None;
             }
         },
     };
-    Some((angles, branch))
+    Some((range, branch))
 }

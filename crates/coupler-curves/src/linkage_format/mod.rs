@@ -1,4 +1,4 @@
-//! A template as written in TOML: the `[[linkage]]` tables of manifests and of the catalogue.
+//! The linkage format: templates as `[[linkage]]` tables in TOML, in manifests and in the catalogue.
 
 mod canonical;
 mod fields;
@@ -27,25 +27,25 @@ use crate::template::Template;
 pub const LINKAGES_KEY: KeySchema = KeySchema::new(
     "linkage",
     ValueSchema::List(&LINKAGE_SCHEMA, [0, usize::MAX]),
-    "Linkages of one's own, joint by joint.",
+    "Custom linkages, joint by joint.",
 );
 static LINKAGE_SCHEMA: ValueSchema = ValueSchema::Table(&LINKAGE);
 
 static FILE: TableSchema = TableSchema::new("the file", &[LINKAGES_KEY]);
 
-/// The templates of a text that has nothing but `[[linkage]]` tables.
+/// Parses a text that consists of `[[linkage]]` tables.
 ///
 /// # Errors
 /// Every problem of the text.
 pub fn parse_templates(text: &str) -> Result<Vec<Template>, Vec<Problem>> {
-    let mut reader = TomlParser::new(text);
-    let document = reader.parse_document();
-    let mut found = Vec::new();
-    if let Some(root) = Fields::from_value(&document, &FILE, &mut reader) {
-        for value in root.tables("linkage", &mut reader) {
-            found.extend(parse_template(value, &mut reader));
+    let mut parser = TomlParser::new(text);
+    let document = parser.parse_document();
+    let mut templates = Vec::new();
+    if let Some(root) = Fields::from_value(&document, &FILE, &mut parser) {
+        for value in root.tables("linkage", &mut parser) {
+            templates.extend(parse_template(value, &mut parser));
         }
     }
-    let problems = reader.into_problems();
-    if problems.is_empty() { Ok(found) } else { Err(problems) }
+    let problems = parser.into_problems();
+    if problems.is_empty() { Ok(templates) } else { Err(problems) }
 }

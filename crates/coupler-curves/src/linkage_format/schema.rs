@@ -1,20 +1,20 @@
-//! The form of a text: its tables, their keys, and what may stand at each key.
+//! The schema of a manifest: its tables, their keys, and the values allowed at each key.
 //!
-//! The reader knows no other keys than those of these tables, and the schema for editors is written from them, so that
-//! neither can forget one.
+//! The parser accepts the keys of these tables only, and the JSON schema for editors is generated from them, so that
+//! both have the same keys.
 
 use crate::expression::Dimension;
 
-/// A table whose keys are the program's own.
+/// A table with a fixed set of keys.
 #[derive(Debug)]
 pub struct TableSchema {
-    /// What it is, in the words of messages.
+    /// Its name in messages.
     pub display_name: &'static str,
     /// Its keys.
     pub keys: &'static [KeySchema],
-    /// Keys of which just one is given; none where empty.
+    /// Keys of which exactly one must be present; no restriction if empty.
     pub one_of: &'static [&'static str],
-    /// A key, and the one that must be there where it is.
+    /// A key, and another that is required if it is present.
     pub dependent_keys: Option<(&'static str, &'static str)>,
 }
 
@@ -23,73 +23,73 @@ pub struct TableSchema {
 pub struct KeySchema {
     /// Its name.
     pub name: &'static str,
-    /// What may stand there.
+    /// The values it may have.
     pub value: ValueSchema,
-    /// What it is for: a sentence.
+    /// Its purpose, in a sentence.
     pub description: &'static str,
-    /// Whether it must be there.
+    /// Whether it is required.
     pub is_required: bool,
-    /// What holds where it is left out, as JSON; empty where that is nothing, or not the same everywhere.
-    pub default: &'static str,
+    /// Computes the value of an absent key, as JSON; `None` if the key has no default, or one that depends on others.
+    pub default: Option<fn() -> String>,
 }
 
-/// What may stand at a key.
+/// The values that a key may have.
 #[derive(Debug)]
 pub enum ValueSchema {
-    /// Any text.
+    /// Any string.
     Text,
-    /// A name for folders and files, see [`slug`](super::parse_slug).
+    /// A name for folders and files, see [`parse_slug`](super::parse_slug).
     Slug,
     /// A colour: `#rrggbb` or `#rgb`.
     Color,
-    /// One of some words.
+    /// One of several words.
     Word(fn() -> Vec<&'static str>),
-    /// Something for which these are examples.
+    /// A value, with examples of it.
     WithExamples(&'static ValueSchema, fn() -> Vec<&'static str>),
-    /// True or false.
+    /// A boolean.
     Boolean,
-    /// A whole number, the least and the greatest.
+    /// A whole number from a least to a greatest value.
     Integer([usize; 2]),
     /// A number, or an expression in quotes.
     Number,
-    /// A number of more than 0, or an expression in quotes.
+    /// A number greater than 0, or an expression in quotes.
     Positive,
-    /// A number, the least and the greatest, or an expression in quotes.
+    /// A number from a least to a greatest value, or an expression in quotes.
     InRange([f64; 2]),
-    /// A number and its unit in quotes.
+    /// A number and its unit, in quotes.
     Quantity(Dimension),
-    /// A value of the input: an angle with its unit, or, where a piston drives, a length.
+    /// A value of the input: an angle with its unit, or a length if a piston drives the linkage.
     Input,
     /// A list, with the least and the greatest number of items.
     List(&'static ValueSchema, [usize; 2]),
-    /// A list in which nothing stands twice, with the least and the greatest number of items.
+    /// A list of distinct items, with the least and the greatest number of them.
     Set(&'static ValueSchema, [usize; 2]),
     /// A list with the least number of items, or one item without brackets.
     OneOrMore(&'static ValueSchema, usize),
-    /// A table with keys of the program's own.
+    /// A table with a fixed set of keys.
     Table(&'static TableSchema),
-    /// A table whose keys are names for expressions.
+    /// A table whose keys are names that expressions may use.
     IdentifierMap(&'static ValueSchema),
-    /// A table whose keys are the writer's own.
+    /// A table with any keys.
     Map(&'static ValueSchema),
-    /// A table of one of several kinds, the first whose key it has.
+    /// A table of one of several kinds: the first whose key is present.
     Variants(&'static [(&'static str, TableSchema)]),
-    /// One of several forms.
+    /// A value that any of several schemas allows.
     AnyOf(&'static [ValueSchema]),
 }
 
 impl TableSchema {
-    /// A table.
-    pub const fn new(what: &'static str, keys: &'static [KeySchema]) -> TableSchema {
-        TableSchema { display_name: what, keys, one_of: &[], dependent_keys: None }
+    /// A table with these keys.
+    pub const fn new(display_name: &'static str, keys: &'static [KeySchema]) -> TableSchema {
+        TableSchema { display_name, keys, one_of: &[], dependent_keys: None }
     }
 
-    /// The same; just one of these keys is given.
+    /// Requires exactly one of these keys.
     pub const fn with_one_of(self, one_of: &'static [&'static str]) -> TableSchema {
         TableSchema { one_of, ..self }
     }
 
-    /// The same; where the first key is, the second must be.
+    /// Requires the second key if the first is present.
     pub const fn with_dependent_keys(self, key: &'static str, other: &'static str) -> TableSchema {
         TableSchema { dependent_keys: Some((key, other)), ..self }
     }
@@ -101,19 +101,19 @@ impl TableSchema {
 }
 
 impl KeySchema {
-    /// A key that may be left out.
-    pub const fn new(name: &'static str, form: ValueSchema, about: &'static str) -> KeySchema {
-        KeySchema { name, value: form, description: about, is_required: false, default: "" }
+    /// An optional key.
+    pub const fn new(name: &'static str, value: ValueSchema, description: &'static str) -> KeySchema {
+        KeySchema { name, value, description, is_required: false, default: None }
     }
 
-    /// A key that must be there.
-    pub const fn required(name: &'static str, form: ValueSchema, about: &'static str) -> KeySchema {
-        KeySchema { is_required: true, ..KeySchema::new(name, form, about) }
+    /// A required key.
+    pub const fn required(name: &'static str, value: ValueSchema, description: &'static str) -> KeySchema {
+        KeySchema { is_required: true, ..KeySchema::new(name, value, description) }
     }
 
-    /// The same, with what holds where it is left out, as JSON.
-    pub const fn with_default(self, default: &'static str) -> KeySchema {
-        KeySchema { default, ..self }
+    /// Sets the default, as JSON; it is computed from the constant that the parser uses.
+    pub const fn with_default(self, default: fn() -> String) -> KeySchema {
+        KeySchema { default: Some(default), ..self }
     }
 }
 

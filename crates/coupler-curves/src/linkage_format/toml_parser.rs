@@ -1,3 +1,5 @@
+//! Reads typed values from TOML and collects the problems found.
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -5,84 +7,83 @@ use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression
 use crate::problem::{Problem, Span};
 use crate::template::InputValue;
 
-/// A TOML value and its place in the text.
+/// A TOML value and its span in the text.
 pub type TomlValue<'t> = Spanned<DeValue<'t>>;
 
-/// Reads a TOML text and gathers what is wrong with it.
+/// Parses a TOML text and collects its problems.
 pub struct TomlParser<'t> {
     text: &'t str,
     problems: Vec<Problem>,
 }
 
 impl<'t> TomlParser<'t> {
-    /// A reader of a text.
+    /// A parser of a text.
     pub fn new(text: &'t str) -> TomlParser<'t> {
         TomlParser { text, problems: Vec::new() }
     }
 
-    /// The text as TOML: what can be made of it where its syntax is wrong.
+    /// The document; after a syntax error, as much of it as can be recovered.
     pub fn parse_document(&mut self) -> TomlValue<'t> {
-        // A byte order mark is no part of the text, but a place in it counts from there.
+        // A byte order mark is not part of the document, but spans count from it.
         let (table, errors) = DeTable::parse_recoverable(self.text);
         for error in errors {
             let span = error.span().unwrap_or(0..0);
-            let problem = Problem::error(span, format!("this is not TOML: {}", error.message()));
+            let problem = Problem::error(span, format!("invalid TOML: {}", error.message()));
             self.report(problem.with_help("see https://toml.io for how tables, keys and values are written"));
         }
         let span = table.span();
         Spanned::new(span, DeValue::Table(table.into_inner()))
     }
 
-    /// Notes a problem and reads on.
+    /// Adds a problem; parsing continues.
     pub fn report(&mut self, problem: Problem) {
         self.problems.push(problem);
     }
 
-    /// How many problems were noted so far.
+    /// The number of problems reported so far.
     pub fn problem_count(&self) -> usize {
         self.problems.len()
     }
 
-    /// What was wrong.
+    /// The problems reported.
     pub fn into_problems(self) -> Vec<Problem> {
         self.problems
     }
 
-    pub(super) fn report_mismatch(&mut self, value: &TomlValue, wanted: &str, help: &str) {
+    /// Reports a value of another type than expected.
+    pub(super) fn report_mismatch(&mut self, value: &TomlValue, expected: &str, help: &str) {
         let found = match value.get_ref() {
-            DeValue::String(_) => "text",
+            DeValue::String(_) => "a string",
             DeValue::Integer(_) | DeValue::Float(_) => "a number",
-            DeValue::Boolean(_) => "true or false",
+            DeValue::Boolean(_) => "a boolean",
             DeValue::Datetime(_) => "a date",
             DeValue::Array(_) => "a list",
             DeValue::Table(_) => "a table",
         };
-        self.report(
-            Problem::error(value.span(), format!("{wanted} is wanted here, and this is {found}")).with_help(help),
-        );
+        self.report(Problem::error(value.span(), format!("expected {expected}, found {found}")).with_help(help));
     }
 
-    /// Text on one line: line breaks and tabs count as spaces. Other control characters, which could not be written to an
-    /// SVG, are a problem.
+    /// A string on one line: line breaks and tabs become spaces. Other control characters, which cannot be written to
+    /// an SVG, are a problem.
     pub fn text(&mut self, value: &TomlValue<'t>) -> Option<String> {
         let DeValue::String(text) = value.get_ref() else {
-            self.report_mismatch(value, "text", "put it in quotes");
+            self.report_mismatch(value, "a string", "put it in quotes");
             return None;
         };
-        let is_unreadable = |&(at, c): &(usize, char)| {
+        let is_forbidden = |&(at, c): &(usize, char)| {
             c.is_control() && !matches!(c, '\t' | '\n') && !text[at..].starts_with("\r\n")
                 || matches!(c, '\u{fffe}' | '\u{ffff}')
         };
-        if let Some((at, c)) = text.char_indices().find(is_unreadable) {
+        if let Some((at, c)) = text.char_indices().find(is_forbidden) {
             let span = self.span_in_string(value, at..at + c.len_utf8());
-            let problem = Problem::error(span, format!("a text cannot have the control character U+{:04X}", c as u32));
-            self.report(problem.with_help("leave it out; a line break or a tab counts as a space"));
+            let message = format!("a string cannot contain the control character U+{:04X}", c as u32);
+            self.report(Problem::error(span, message).with_help("remove it; a line break or a tab counts as a space"));
             return None;
         }
         Some(text.replace("\r\n", " ").replace(['\n', '\t'], " "))
     }
 
-    /// True or false, or one word of several.
+    /// The meaning of one of several words.
     pub fn word<T: Copy>(&mut self, value: &TomlValue<'t>, words: &[(&str, T)]) -> Option<T> {
         let text = self.text(value)?;
         if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == text) {
@@ -107,20 +108,19 @@ impl<'t> TomlParser<'t> {
         }
     }
 
-    /// A list of two.
+    /// A list of two values.
     pub fn pair<'v>(&mut self, value: &'v TomlValue<'t>) -> Option<[&'v TomlValue<'t>; 2]> {
         match self.list(value)? {
             [a, b] => Some([a, b]),
             list => {
-                let problem =
-                    Problem::error(value.span(), format!("two values are wanted here, and there are {}", list.len()));
+                let problem = Problem::error(value.span(), format!("expected two values, found {}", list.len()));
                 self.report(problem.with_help("write them like [1, 2]"));
                 None
             }
         }
     }
 
-    /// A whole number between two bounds.
+    /// A whole number from `least` to `most`.
     pub fn integer(&mut self, value: &TomlValue<'t>, least: usize, most: usize) -> Option<usize> {
         let help = format!("give a whole number from {least} to {most}");
         let number = match value.get_ref() {
@@ -134,13 +134,13 @@ impl<'t> TomlParser<'t> {
         };
         let count = number.and_then(|n| usize::try_from(n).ok()).filter(|n| (least..=most).contains(n));
         if count.is_none() {
-            let written = self.source_text(value).to_owned();
-            self.report(Problem::error(value.span(), format!("{written} will not do here")).with_help(help));
+            let problem = Problem::error(value.span(), format!("invalid value `{}`", self.source_text(value)));
+            self.report(problem.with_help(help));
         }
         count
     }
 
-    /// A number or an expression in quotes.
+    /// A number, or an expression in quotes.
     pub fn expression(&mut self, value: &TomlValue<'t>) -> Option<Expression> {
         match value.get_ref() {
             DeValue::Integer(_) | DeValue::Float(_) => self.literal(value).map(Expression::constant),
@@ -159,20 +159,20 @@ impl<'t> TomlParser<'t> {
         }
     }
 
-    /// A number or an expression over the names of `scope`, with a numeric value.
+    /// A number, or a numeric expression over the names of `scope`.
     pub fn numeric_expression(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<CompiledExpression> {
         let expression = self.expression(value)?;
-        let bound = expression.compile(scope, Kind::Number);
-        self.ok_or_report(value, bound)
+        let compiled = expression.compile(scope, Kind::Number);
+        self.ok_or_report(value, compiled)
     }
 
     /// A number, or an expression without names.
     pub fn constant(&mut self, value: &TomlValue<'t>) -> Option<f64> {
-        let bound = self.numeric_expression(value, &[])?;
-        self.require_finite(value, bound.evaluate(|_| f64::NAN))
+        let compiled = self.numeric_expression(value, &[])?;
+        self.require_finite(value, compiled.evaluate(|_| f64::NAN))
     }
 
-    /// A value of the input over the names of `scope`: an angle with its unit, or a length without.
+    /// A value of the input over the names of `scope`: an angle with its unit, or a length without a unit.
     pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &[(&str, Kind)]) -> Option<InputValue> {
         if is_length {
             return Some(InputValue { value: self.input_length(value, scope)?, unit: None });
@@ -184,8 +184,8 @@ impl<'t> TomlParser<'t> {
     pub fn input_length(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<CompiledExpression> {
         let is_angle = |text: &str| Quantity::parse(text, Dimension::Angle).is_ok();
         if value.get_ref().as_str().is_some_and(is_angle) {
-            let problem = Problem::error(value.span(), "the input is a length here, for an actuator drives");
-            self.report(problem.with_help("give a number in the unit of the other lengths"));
+            let problem = Problem::error(value.span(), "expected a length, found an angle");
+            self.report(problem.with_help("the input is an actuator's length: give a number without a unit"));
             return None;
         }
         self.numeric_expression(value, scope)
@@ -194,24 +194,24 @@ impl<'t> TomlParser<'t> {
     /// An angle over the names of `scope`.
     pub fn angle(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<InputValue> {
         let quantity = self.quantity(value, Dimension::Angle)?;
-        let bound = quantity.expression.compile(scope, Kind::Number);
-        Some(InputValue { value: self.ok_or_report(value, bound)?, unit: Some(quantity.unit) })
+        let compiled = quantity.expression.compile(scope, Kind::Number);
+        Some(InputValue { value: self.ok_or_report(value, compiled)?, unit: Some(quantity.unit) })
     }
 
-    /// Yes or no.
+    /// A boolean.
     pub fn boolean(&mut self, value: &TomlValue<'t>) -> Option<bool> {
-        let truth = value.get_ref().as_bool();
-        if truth.is_none() {
-            self.report_mismatch(value, "true or false", "write it without quotes");
+        let boolean = value.get_ref().as_bool();
+        if boolean.is_none() {
+            self.report_mismatch(value, "a boolean", "write `true` or `false` without quotes");
         }
-        truth
+        boolean
     }
 
     /// An angle in degrees, or a length on paper in millimetres, without names.
     pub fn constant_quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<f64> {
         let quantity = self.quantity(value, dimension)?;
-        let bound = quantity.expression.compile(&[], Kind::Number);
-        self.ok_or_report(value, bound)?;
+        let compiled = quantity.expression.compile(&[], Kind::Number);
+        self.ok_or_report(value, compiled)?;
         self.require_finite(value, quantity.evaluate(|_| f64::NAN))
     }
 
@@ -222,9 +222,9 @@ impl<'t> TomlParser<'t> {
                 self.ok_or_report(value, parsed)
             }
             DeValue::Integer(_) | DeValue::Float(_) => {
-                let written = self.source_text(value);
+                let number = self.source_text(value);
                 let unit = if dimension == Dimension::Angle { "deg" } else { "mm" };
-                let help = format!("write \"{written} {unit}\" with its quotes");
+                let help = format!("write \"{number} {unit}\" with the quotes");
                 self.report(Problem::error(value.span(), "the unit is missing").with_help(help));
                 None
             }
@@ -235,17 +235,17 @@ impl<'t> TomlParser<'t> {
         }
     }
 
-    /// A line of text with values of `scope` in it, and words that stand alone.
+    /// A caption with expressions over `scope`; each of `words` may be used as an expression by itself.
     pub fn caption(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)], words: &[&str]) -> Option<Caption> {
         let text = self.text(value)?;
-        let as_written = |error: expression::Error| expression::Error { span: unfold_span(value, error.span), ..error };
-        let parsed = Caption::parse(&text).map_err(as_written);
+        let unfold = |error: expression::Error| expression::Error { span: unfold_span(value, error.span), ..error };
+        let parsed = Caption::parse(&text).map_err(unfold);
         let caption = self.ok_or_report(value, parsed)?;
         for (expression, start) in caption.expressions() {
             let is_word = expression.as_name().is_some_and(|name| words.contains(&name));
             if let (Err(error), false) = (expression.compile(scope, Kind::Number), is_word) {
                 let span = start + error.span.start..start + error.span.end;
-                self.ok_or_report::<()>(value, Err(as_written(expression::Error { span, ..error })));
+                self.ok_or_report::<()>(value, Err(unfold(expression::Error { span, ..error })));
             }
         }
         Some(caption)
@@ -262,7 +262,7 @@ impl<'t> TomlParser<'t> {
         self.require_finite(value, number.unwrap_or(f64::NAN))
     }
 
-    /// The value if it is finite.
+    /// The number if it is finite, or else a problem at `value`.
     pub fn require_finite(&mut self, value: &TomlValue<'t>, number: f64) -> Option<f64> {
         if number.is_finite() {
             return Some(number);
@@ -272,7 +272,7 @@ impl<'t> TomlParser<'t> {
         None
     }
 
-    /// The decimal digits of a number, where it is written as one.
+    /// The decimal digits of a number as written; `None` for an expression.
     pub fn decimal_digits(&self, value: &TomlValue<'t>) -> Option<&str> {
         match value.get_ref() {
             DeValue::Integer(_) | DeValue::Float(_) => Some(self.source_text(value)),
@@ -283,15 +283,15 @@ impl<'t> TomlParser<'t> {
         }
     }
 
-    /// The value as it stands in the text.
+    /// The source text of a value.
     fn source_text(&self, value: &TomlValue<'t>) -> &'t str {
         self.text.get(value.span()).unwrap_or_default()
     }
 
-    /// The result, or its error noted at its place inside a string.
+    /// The result; an error is reported at its place inside the string `value`.
     pub fn ok_or_report<T>(&mut self, value: &TomlValue<'t>, result: Result<T, expression::Error>) -> Option<T> {
         match result {
-            Ok(found) => Some(found),
+            Ok(result) => Some(result),
             Err(error) => {
                 let problem = error.into_problem(|inner| self.span_in_string(value, inner));
                 self.report(problem);
@@ -300,14 +300,14 @@ impl<'t> TomlParser<'t> {
         }
     }
 
-    /// The place in the text of a part of a string; the whole string where it is written with escapes.
+    /// The span in the text of a part of a string; that of the whole string if it is written with escapes.
     fn span_in_string(&self, value: &TomlValue<'t>, inner: Span) -> Span {
         let whole = value.span();
         let DeValue::String(content) = value.get_ref() else { return whole };
-        let written = self.source_text(value);
-        let quotes = written.len().saturating_sub(content.len()) / 2;
-        let as_is = matches!(quotes, 1 | 3) && written.get(quotes..written.len() - quotes) == Some(content.as_ref());
-        if as_is {
+        let source = self.source_text(value);
+        let quotes = source.len().saturating_sub(content.len()) / 2;
+        let is_verbatim = matches!(quotes, 1 | 3) && source.get(quotes..source.len() - quotes) == Some(content.as_ref());
+        if is_verbatim {
             let start = whole.start + quotes;
             start + inner.start..start + inner.end.max(inner.start)
         } else {
@@ -316,12 +316,13 @@ impl<'t> TomlParser<'t> {
     }
 }
 
-/// A part of a text as it is in the string that [`TomlParser::text`] has made one line of: there a line end of two signs is one.
+/// Maps a span in the result of [`TomlParser::text`], where a line break of two characters is one, to a span in the
+/// string.
 fn unfold_span(value: &TomlValue, span: Span) -> Span {
     let DeValue::String(content) = value.get_ref() else { return span };
-    let written = |at: usize| {
+    let unfold = |at: usize| {
         let ends = content.match_indices("\r\n").zip(0..).take_while(|((end, _), before)| end - before < at);
         at + ends.count()
     };
-    written(span.start)..written(span.end)
+    unfold(span.start)..unfold(span.end)
 }

@@ -1,25 +1,27 @@
+//! The narrowest annulus of a row of points, by the exchange of points.
+
 use std::borrow::Cow;
 
 use super::remez::exchange_point;
 use super::strip::min_max;
 use crate::geometry::{Point, cross, left_normal};
 
-/// The golden section.
+/// The golden section, `(sqrt(5) - 1) / 2`.
 pub(super) const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
 
-/// The narrowest ring between two circles about one centre that holds a row of points, as far as it is known.
+/// The ring between two concentric circles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Annulus {
     /// The centre of both circles.
     pub centre: Point,
     /// The radius halfway between them.
     pub radius: f64,
-    /// How far they are apart.
+    /// The difference of the radii.
     pub width: f64,
 }
 
-/// The points that the circles of an annulus go through by turns: for another row much like the last they are a good
-/// guess.
+/// The indices of the points through which the circles of an annulus pass, alternating between outer and inner circle.
+/// They are a good initial guess for a similar row of points.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct AlternatingPoints {
     free: Option<[usize; 4]>,
@@ -27,11 +29,12 @@ pub(super) struct AlternatingPoints {
 }
 
 impl AlternatingPoints {
-    /// The narrowest annulus of a row of at least four points, which lie on an arc of a circle or nearly so.
+    /// The narrowest annulus that contains a row of at least four points near an arc of a circle.
     ///
-    /// Its circles go through four of the points by turns, outer and inner (de la Vallée Poussin): of any four the ring is
-    /// no wider than that of all, and four are exchanged for others until it is no narrower. Given up as soon as it must be
-    /// wider than `most`, and done as soon as it is known to be no wider. `None` where there is no such circle.
+    /// Its circles pass through four of the points, alternating between outer and inner circle (de la Vallée Poussin).
+    /// The annulus of any four points is no wider than that of all; points are exchanged until it is as wide. The
+    /// search fails as soon as the annulus is certain to be wider than `most`, and ends as soon as it is known to be no
+    /// wider. `None` also if there is no such circle.
     fn narrowest_annulus(&mut self, points: &[Point], most: f64) -> Option<Annulus> {
         if let Some(four) = &mut self.free
             && let Some(ring) = narrowest_by_exchange(points, four, most, Annulus::through_alternating)
@@ -49,31 +52,32 @@ impl AlternatingPoints {
         narrowest_by_exchange(points, four, most, Annulus::through_alternating)
     }
 
-    /// The narrowest annulus of a row of points whose radius is no more than `largest`; as [`AlternatingPoints::narrowest_annulus`] otherwise.
+    /// The narrowest annulus with a radius of at most `largest` that contains a row of points; otherwise like
+    /// [`AlternatingPoints::narrowest_annulus`].
     pub fn narrowest_annulus_within(&mut self, points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
         let free = self.narrowest_annulus(points, most)?;
         if free.radius <= largest {
             return Some(free);
         }
-        // The row is flatter than the largest circle, which touches it best somewhere between its ends. About a point in
-        // the middle the centre is turned to where the ring is narrowest: three points tell.
+        // The row is flatter than the largest circle. With the radius fixed, the centre is rotated about a point in the
+        // middle of the row to where the ring is narrowest: three points determine it.
         let middle = points[points.len() / 2];
         let points = &*sorted_along(points);
         let last = points.len() - 1;
         let is_left = cross(points[last] - points[0], free.centre - middle) >= 0.0;
         let through = |[a, b, c]: [Point; 3]| {
-            // As far from the middle as it may be, and as far from the first as from the third.
+            // The centre is at the largest radius from the middle, and equally far from the first and the third point.
             let along = (c - a).try_normalize(0.0)?;
             let normal = if is_left { left_normal(along) } else { -left_normal(along) };
-            let rest = along.dot(&(nalgebra::center(&a, &c) - middle));
-            let centre = middle + along * rest + normal * (largest * largest - rest * rest).max(0.0).sqrt();
+            let offset = along.dot(&(nalgebra::center(&a, &c) - middle));
+            let centre = middle + along * offset + normal * (largest * largest - offset * offset).max(0.0).sqrt();
             Some(Annulus::with_centre(centre, [a, b]))
         };
         narrowest_by_exchange(points, self.bounded.get_or_insert([0, last / 2, last]), most, through)
     }
 }
 
-/// The points of a nearly straight row in the order in which they lie along it, should it go there and back.
+/// The points of a nearly straight row, sorted along it in case it reverses.
 fn sorted_along(points: &[Point]) -> Cow<'_, [Point]> {
     let along = points[points.len() - 1] - points[0];
     let reach = along.norm_squared();
@@ -89,19 +93,19 @@ fn sorted_along(points: &[Point]) -> Cow<'_, [Point]> {
     row.into()
 }
 
-/// Four points of a row where those of a narrow annulus may be, and the one through them.
+/// An initial guess of the four alternating points of a row, and the annulus through them.
 fn initial_points(points: &[Point]) -> Option<([usize; 4], Annulus)> {
     let last = points.len().checked_sub(1)?;
-    // Where a polynomial of the third degree has its extremes: the first guess is good. Of a row that goes nearly round
-    // the ends are nearly one point, and tell the less.
+    // The extremes of a polynomial of the third degree are a good first guess. If the row is nearly a full circle, its
+    // ends are nearly one point, and inner points are better.
     let [near, far] = [last, last / 2].map(|k| (points[k] - points[0]).norm_squared());
     let four = if near < far / 4.0 { [1, 3, 5, 7].map(|k| k * last / 8) } else { [0, last / 4, last - last / 4, last] };
     let through = |four: [usize; 4]| Some((four, Annulus::through_alternating(four.map(|k| points[k]))?));
-    // A row that goes there and back on one arc has pairs of points in one place.
+    // If the row reverses on one arc, these may be pairs of coincident points; others are not.
     through(four).or_else(|| through([1, 6, 11, 17].map(|k| k * last / 20)))
 }
 
-/// Exchanges four points of a long row for better ones, of a few of its points only.
+/// Improves the guess of the four points of a long row by the exchange on a subset of it.
 fn improve_by_subset(points: &[Point], four: &mut [usize; 4], most: f64) {
     const FEW: usize = 16;
     let last = points.len() - 1;
@@ -109,50 +113,54 @@ fn improve_by_subset(points: &[Point], four: &mut [usize; 4], most: f64) {
         return;
     }
     let few: [Point; FEW + 1] = std::array::from_fn(|k| points[k * last / FEW]);
-    let mut among = four.map(|k| k * FEW / last);
-    narrowest_by_exchange(&few, &mut among, most, Annulus::through_alternating);
-    if Annulus::through_alternating(among.map(|k| few[k])).is_some() {
-        *four = among.map(|k| k * last / FEW);
+    let mut four_of_few = four.map(|k| k * FEW / last);
+    narrowest_by_exchange(&few, &mut four_of_few, most, Annulus::through_alternating);
+    if Annulus::through_alternating(four_of_few.map(|k| few[k])).is_some() {
+        *four = four_of_few.map(|k| k * last / FEW);
     }
 }
 
 impl Annulus {
     /// The circles through the first and third of four points, and through the second and fourth.
     fn through_alternating([a, b, c, d]: [Point; 4]) -> Option<Annulus> {
-        // The centre is as far from the one as from the other of each pair.
+        // The centre is equally far from both points of each pair.
         let [u, v] = [c - a, d - b];
-        let by = [(c - a).dot(&(c + a.coords).coords) / 2.0, (d - b).dot(&(d + b.coords).coords) / 2.0];
-        let turn = cross(u, v);
-        let centre = Point::new((by[0] * v.y - by[1] * u.y) / turn, (u.x * by[1] - v.x * by[0]) / turn);
+        let constants = [(c - a).dot(&(c + a.coords).coords) / 2.0, (d - b).dot(&(d + b.coords).coords) / 2.0];
+        let determinant = cross(u, v);
+        let centre = Point::new(
+            (constants[0] * v.y - constants[1] * u.y) / determinant,
+            (u.x * constants[1] - v.x * constants[0]) / determinant,
+        );
         let ring = Annulus::with_centre(centre, [a, b]);
         ring.radius.is_finite().then_some(ring)
     }
 
-    /// The circles about a centre that hold some points between them.
+    /// The narrowest annulus with a given centre that contains some points.
     pub fn enclosing(centre: Point, points: &[Point]) -> Annulus {
         let [low, high] = min_max(points, |p| (p - centre).norm_squared()).map(f64::sqrt);
         Annulus { centre, radius: (low + high) / 2.0, width: high - low }
     }
 
-    /// The circles about a centre through two points.
+    /// The annulus with a given centre whose circles pass through two points.
     fn with_centre(centre: Point, through: [Point; 2]) -> Annulus {
         let [a, b] = through.map(|p| (p - centre).norm());
         Annulus { centre, radius: (a + b) / 2.0, width: (a - b).abs() }
     }
 }
 
-/// The narrowest annulus of a row of points, by some of them that are by turns on its two circles, which go `through`
-/// those; given up and done with as [`AlternatingPoints::narrowest_annulus`] says. The points are those of the narrowest afterwards.
+/// The narrowest annulus of a row of points, by the exchange of the `alternating` points that its circles pass
+/// `through`; it fails and ends as described at [`AlternatingPoints::narrowest_annulus`]. Afterwards `alternating` are
+/// the points of the result.
 fn narrowest_by_exchange<const N: usize>(
     points: &[Point],
-    turns: &mut [usize; N],
+    alternating: &mut [usize; N],
     most: f64,
     through: impl Fn([Point; N]) -> Option<Annulus>,
 ) -> Option<Annulus> {
     const ROUNDS: usize = 24;
-    let of = |turns: [usize; N]| through(turns.map(|k| points[k]));
+    let ring_through = |alternating: [usize; N]| through(alternating.map(|k| points[k]));
     let mut best: Option<Annulus> = None;
-    let mut ring = of(*turns)?;
+    let mut ring = ring_through(*alternating)?;
     for _ in 0..ROUNDS {
         if ring.width > most {
             return None;
@@ -170,32 +178,33 @@ fn narrowest_by_exchange<const N: usize>(
         let is_inside = ring.radius - low > high - ring.radius;
         let outermost = squares[usize::from(!is_inside)];
         let Some(new) = points.iter().position(|p| square(p) == outermost) else { break };
-        if turns.contains(&new) {
+        if alternating.contains(&new) {
             break;
         }
-        let own = turns.map(|k| (points[k] - ring.centre).norm() < ring.radius);
-        let next = exchange_point(*turns, new, |k| own[k] == is_inside);
-        let wider = of(next).filter(|next| next.width > ring.width).map(|ring| (ring, next));
-        // On a long arc it may be another that goes: one that lies within the ring of the rest.
+        let is_own_inside = alternating.map(|k| (points[k] - ring.centre).norm() < ring.radius);
+        let next = exchange_point(*alternating, new, |k| is_own_inside[k] == is_inside);
+        let wider = ring_through(next).filter(|next| next.width > ring.width).map(|ring| (ring, next));
+        // On a long arc another point may have to be removed: one that lies within the ring of the others.
         let other = || {
-            let each = (0..N).filter_map(|gone| Some((of(with_replaced(*turns, gone, new))?, gone)));
+            let each =
+                (0..N).filter_map(|removed| Some((ring_through(with_replaced(*alternating, removed, new))?, removed)));
             let fits =
                 |ring: &Annulus, p: Point| ((p - ring.centre).norm() - ring.radius).abs() <= ring.width * (0.5 + 1e-9);
-            let fitting = each.filter(|(ring, gone)| fits(ring, points[turns[*gone]]));
-            let (ring, gone) = fitting.min_by(|a, b| a.0.width.total_cmp(&b.0.width))?;
-            Some((ring, with_replaced(*turns, gone, new)))
+            let fitting = each.filter(|(ring, removed)| fits(ring, points[alternating[*removed]]));
+            let (ring, removed) = fitting.min_by(|a, b| a.0.width.total_cmp(&b.0.width))?;
+            Some((ring, with_replaced(*alternating, removed, new)))
         };
         let Some(next) = wider.or_else(other) else { break };
-        (ring, *turns) = next;
+        (ring, *alternating) = next;
     }
     best.filter(|best| best.width <= most)
 }
 
-/// Places in order, with another for one of them.
-fn with_replaced<const N: usize>(mut turns: [usize; N], gone: usize, new: usize) -> [usize; N] {
-    turns[gone] = new;
-    turns.sort_unstable();
-    turns
+/// Sorted indices, with one of them replaced by another.
+fn with_replaced<const N: usize>(mut alternating: [usize; N], removed: usize, new: usize) -> [usize; N] {
+    alternating[removed] = new;
+    alternating.sort_unstable();
+    alternating
 }
 
 #[cfg(test)]
@@ -203,9 +212,9 @@ mod tests {
     use super::*;
     use crate::geometry::trig;
 
-    /// Points at radius 2 + 0.01 cos(3 t) over t from 0 to 3 / pi: the cosine has four extremes there, by turns.
+    /// Points at radius 2 + 0.01 cos(3 t) for t from 0 to pi: the cosine has four alternating extremes there.
     #[test]
-    fn a_wave_of_four_extremes_is_as_wide_as_its_waves() {
+    fn the_annulus_of_a_wave_is_as_wide_as_its_amplitudes() {
         let point = |k: i32| {
             let t = std::f64::consts::PI * f64::from(k) / 300.0;
             let r = 2.0 + 0.01 * trig::cos(3.0 * t);

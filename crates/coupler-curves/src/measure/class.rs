@@ -1,12 +1,12 @@
 use super::{Measure, TracedCurve, Value};
 use crate::linkage::FourBar;
 
-/// Grashof's class.
+/// The measure `class`.
 pub const CLASS: Measure = Measure {
     name: "class",
     unit: "",
     is_word: true,
-    definition: "Grashof's class of a four-bar, as seen from its frame (Natesan, table 3.1)",
+    definition: "Grashof's class of a four-bar with respect to its frame (Natesan, table 3.1)",
     compute: |subject: &TracedCurve| match FourBar::from_linkage(subject.linkage) {
         Some(four_bar) => Value::Word(four_bar.class().name()),
         None => Value::Missing,

@@ -1,4 +1,4 @@
-//! Quantities of a single sample: the further columns a family may ask of `points.csv`.
+//! Quantities of a single sample: the optional columns of `points.csv`.
 
 use crate::geometry::{Vector, cross, trig};
 use crate::linkage::{AssemblyMode, FourBar, JointId, JointKind, Linkage};
@@ -9,33 +9,33 @@ use crate::motion::{Circuit, InstantaneousMotion, JointDerivatives};
 pub struct Column {
     /// Its name.
     pub name: &'static str,
-    /// What it is, with its unit and its source.
+    /// Its definition, with its unit and its source.
     pub definition: &'static str,
     compute: fn(&Sample) -> f64,
 }
 
-/// A sample, and the joints of the linkage that have a part in McCarthy's formulas.
+/// A sample of a joint's curve.
 struct Sample<'a> {
     linkage: &'a Linkage,
     joint: JointId,
-    jets: JointDerivatives,
+    derivatives: JointDerivatives,
     input: f64,
     assembly_mode: AssemblyMode,
 }
 
-/// Every column there is. Rates are to a radian of input, or to a unit of its length; unbounded ones are infinite.
+/// All columns. Derivatives are per radian of input, or per unit of length; unbounded ones are infinite.
 pub const COLUMNS: [Column; 24] = [
     Column { name: "vx", definition: "velocity along x", compute: |s| s.velocity().x },
     Column { name: "vy", definition: "velocity along y", compute: |s| s.velocity().y },
     Column { name: "ax", definition: "acceleration along x", compute: |s| s.acceleration().x },
     Column { name: "ay", definition: "acceleration along y", compute: |s| s.acceleration().y },
-    Column { name: "jx", definition: "jerk along x", compute: |s| s.jets.jerk(s.joint).x },
-    Column { name: "jy", definition: "jerk along y", compute: |s| s.jets.jerk(s.joint).y },
+    Column { name: "jx", definition: "jerk along x", compute: |s| s.derivatives.jerk(s.joint).x },
+    Column { name: "jy", definition: "jerk along y", compute: |s| s.derivatives.jerk(s.joint).y },
     Column { name: "speed", definition: "magnitude of the velocity", compute: |s| s.velocity().norm() },
     Column { name: "curvature", definition: "curvature of the path, positive to the left", compute: |s| s.curvature() },
     Column {
         name: "curvature_rate",
-        definition: "derivative of the curvature by arc length",
+        definition: "derivative of the curvature with respect to arc length",
         compute: |s| s.curvature_rate(),
     },
     Column {
@@ -91,12 +91,12 @@ pub const COLUMNS: [Column; 24] = [
     Column { name: "beta_deg", definition: "angle from CB to CA, deg: McCarthy (2.40)", compute: |s| s.beta() },
 ];
 
-/// The column of that name.
+/// The column of a name.
 pub fn find_column(name: &str) -> Option<Column> {
     COLUMNS.into_iter().find(|column| column.name == name)
 }
 
-/// The columns' values at a sample of a joint's curve; not a number where one does not apply.
+/// The values of columns at a sample of a joint's curve; NaN where a column does not apply.
 pub fn compute_columns(
     columns: &[Column],
     linkage: &Linkage,
@@ -106,8 +106,9 @@ pub fn compute_columns(
     if columns.is_empty() {
         return Vec::new();
     }
-    let (jets, input, signs) = (circuit.derivatives(linkage, sample), circuit.inputs[sample], circuit.mode_at(sample));
-    let sample = Sample { linkage, joint, jets, input, assembly_mode: signs };
+    let (derivatives, input, assembly_mode) =
+        (circuit.derivatives(linkage, sample), circuit.inputs[sample], circuit.mode_at(sample));
+    let sample = Sample { linkage, joint, derivatives, input, assembly_mode };
     columns.iter().map(|column| (column.compute)(&sample)).collect()
 }
 
@@ -121,11 +122,11 @@ struct FourBarJoints {
 
 impl Sample<'_> {
     fn velocity(&self) -> Vector {
-        self.jets.velocity(self.joint)
+        self.derivatives.velocity(self.joint)
     }
 
     fn acceleration(&self) -> Vector {
-        self.jets.acceleration(self.joint)
+        self.derivatives.acceleration(self.joint)
     }
 
     fn curvature(&self) -> f64 {
@@ -135,64 +136,68 @@ impl Sample<'_> {
     }
 
     fn curvature_rate(&self) -> f64 {
-        let (v, a, j) = (self.velocity(), self.acceleration(), self.jets.jerk(self.joint));
+        let (v, a, j) = (self.velocity(), self.acceleration(), self.derivatives.jerk(self.joint));
         let v2 = v.norm_squared();
         (cross(v, j) * v2 - 3.0 * cross(v, a) * v.dot(&a)) / (v2 * v2 * v2)
     }
 
-    fn instant_value(&self, of: impl Fn(&InstantaneousMotion) -> f64) -> f64 {
-        InstantaneousMotion::from_joint(self.linkage, &self.jets, self.joint).map_or(f64::NAN, |instant| of(&instant))
+    fn instant_value(&self, value: impl Fn(&InstantaneousMotion) -> f64) -> f64 {
+        InstantaneousMotion::from_joint(self.linkage, &self.derivatives, self.joint)
+            .map_or(f64::NAN, |instant| value(&instant))
     }
 
-    /// From one joint to another; as the linkage's own frame has it, but for a turn.
+    /// The vector from one joint to another, in the frame of the linkage apart from a rotation.
     fn vector(&self, from: JointId, to: JointId) -> Vector {
-        self.without_mirroring(self.jets.position(to) - self.jets.position(from))
+        self.without_mirroring(self.derivatives.position(to) - self.derivatives.position(from))
     }
 
-    /// A linkage that is placed mirrored keeps its angles.
+    /// Undoes the mirroring of the linkage's placement, so that angles keep their signs.
     fn without_mirroring(&self, v: Vector) -> Vector {
         Vector::new(v.x, v.y * self.linkage.placement.handedness())
     }
 
-    /// How fast the line between two joints turns, to a radian of input.
+    /// The angular velocity of the line between two joints, per radian of input.
     fn angular_velocity_ratio(&self, from: JointId, to: JointId) -> f64 {
         let line = self.vector(from, to);
-        let velocity = self.without_mirroring(self.jets.velocity(to) - self.jets.velocity(from));
+        let velocity = self.without_mirroring(self.derivatives.velocity(to) - self.derivatives.velocity(from));
         let ratio = cross(line, velocity) / line.norm_squared();
         if ratio.is_finite() { ratio } else { f64::INFINITY }
     }
 
-    /// The crank's pivot and pin.
+    /// The pivot and the pin of the crank.
     fn crank_joints(&self) -> Option<(JointId, JointId)> {
-        self.linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.kind {
+        self.linkage.joint_ids().zip(&self.linkage.joints).find_map(|(id, joint)| match joint.kind {
             JointKind::Crank { pivot, .. } => Some((pivot, id)),
             _ => None,
         })
     }
 
-    /// The four-bar as it stands on its frame; none seen from another link, where other angles have these names.
+    /// The joints of a four-bar; `None` if it is seen from another link, because the angles of McCarthy's formulas are
+    /// measured from the frame.
     fn four_bar_joints(&self) -> Option<FourBarJoints> {
         FourBar::from_linkage(self.linkage).filter(|_| self.linkage.seen_from.is_none())?;
         let (o, a) = self.crank_joints()?;
-        self.linkage.joints.iter().enumerate().find_map(|(b, joint)| match joint.kind {
+        self.linkage.joint_ids().zip(&self.linkage.joints).find_map(|(b, joint)| match joint.kind {
             JointKind::Dyad { base: [p, q], .. } => Some(FourBarJoints { o, a, b, c: if p == a { q } else { p } }),
             _ => None,
         })
     }
 
-    /// The inverted slider-crank: a slot on the crank's pin, or the actuator that drives it.
+    /// An inverted slider-crank: a slot on the crank's pin, or an actuator that drives the crank.
     fn inverted_slider_crank(&self) -> Option<InvertedSliderCrank> {
         if self.linkage.seen_from.is_some() {
             return None;
         }
-        self.linkage.joints.iter().enumerate().find_map(|(id, joint)| match joint.kind {
-            JointKind::Slot { base: [c, a], offset, index } => {
+        self.linkage.joint_ids().zip(&self.linkage.joints).find_map(|(id, joint)| match joint.kind {
+            JointKind::Slot { base: [c, a], offset, dyad } => {
                 let (o, crank) = self.crank_joints()?;
                 // McCarthy draws the foot to the right of C -> A: there the slide is positive.
                 let arm = self.vector(c, a);
-                let side = -f64::from(self.assembly_mode.sign(index)) * if offset < 0.0 { -1.0 } else { 1.0 };
+                let side = -f64::from(self.assembly_mode.sign(dyad)) * if offset < 0.0 { -1.0 } else { 1.0 };
                 let slide = side * (arm.norm_squared() - offset * offset).max(0.0).sqrt();
-                let rate = arm.dot(&self.without_mirroring(self.jets.velocity(a) - self.jets.velocity(c))) / slide;
+                let rate = arm
+                    .dot(&self.without_mirroring(self.derivatives.velocity(a) - self.derivatives.velocity(c)))
+                    / slide;
                 (a == crank).then_some(InvertedSliderCrank { o, a, c, offset: offset.abs(), slide, slide_rate: rate })
             }
             JointKind::Piston { base: [c, o], offset, .. } => {
@@ -205,7 +210,7 @@ impl Sample<'_> {
     fn psi(&self) -> f64 {
         let of_slider = |s: InvertedSliderCrank| {
             let angle = signed_angle(self.vector(s.o, s.c), self.vector(s.c, s.a)) - s.beta();
-            // From -180 to 180, as the other angles are.
+            // From -180 to 180, like the other angles.
             angle - 360.0 * (angle / 360.0).round()
         };
         let of_rocker = |l: FourBarJoints| signed_angle(self.vector(l.o, l.c), self.vector(l.c, l.b));
@@ -224,7 +229,7 @@ impl Sample<'_> {
     }
 
     fn psi_ratio(&self) -> f64 {
-        // As psi is C-A's angle less beta, whose rate is e s' / b^2.
+        // psi is the angle of C-A minus beta, and the derivative of beta is e s' / b^2.
         let of_slider = |s: InvertedSliderCrank| {
             let ratio =
                 self.angular_velocity_ratio(s.c, s.a) - s.offset * s.slide_rate / self.vector(s.c, s.a).norm_squared();
@@ -262,14 +267,15 @@ impl Sample<'_> {
     }
 }
 
-/// McCarthy's inverted slider-crank: the crank's pivot and pin, the pivot of the slider's line, its offset and its slide.
+/// McCarthy's inverted slider-crank: the crank's pivot and pin, the pivot of the slider's line, its offset and its
+/// slide.
 struct InvertedSliderCrank {
     o: JointId,
     a: JointId,
     c: JointId,
     offset: f64,
     slide: f64,
-    /// The rate of the slide.
+    /// The derivative of the slide with respect to the input.
     slide_rate: f64,
 }
 

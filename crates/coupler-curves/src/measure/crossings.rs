@@ -1,10 +1,10 @@
-//! Where a curve crosses itself, by the chords between its samples.
+//! The crunodes of a curve, from the chords between its samples.
 
 use super::sampled_curve::SampledCurve;
 use crate::geometry::{Point, Vector, complex_product, cross, trig};
 
 impl SampledCurve {
-    /// The places where the curve crosses itself, in the order of the first time it goes there.
+    /// The points at which the curve crosses itself, in the order in which it first passes them.
     pub fn crunodes(&self) -> Vec<Point> {
         let n = self.interval_count();
         let end = |i: usize| self.points[self.neighbour(i, 1).unwrap_or(i)];
@@ -25,33 +25,33 @@ impl SampledCurve {
             }
         }
         found.sort_by_key(|(i, _)| *i);
-        let mut places: Vec<Point> = Vec::new();
+        let mut crunodes: Vec<Point> = Vec::new();
         let size = (0..n).map(|i| (end(i) - self.points[i]).norm()).fold(0.0, f64::max);
         for (_, at) in found {
-            // A sample that the curve goes through twice is the end of four chords.
-            if places.iter().all(|other| (other - at).norm() > 1e-9 * size) {
-                places.push(at);
+            // A sample that the curve passes twice is the end of four chords.
+            if crunodes.iter().all(|other| (other - at).norm() > 1e-9 * size) {
+                crunodes.push(at);
             }
         }
-        places
+        crunodes
     }
 
-    /// Whether the curve goes through the crossing of two chords in two directions. Where it goes there and back on one
-    /// path, as a rocker's pin does, chords of that path cross too.
+    /// Whether the curve passes the crossing of two chords in two directions. If it retraces its path in reverse, as a
+    /// rocker's pin does, chords cross without a crunode.
     fn is_crossing(&self, chords: [usize; 2], parts: [f64; 2]) -> bool {
         let [a, b] = [0, 1].map(|k| {
             let (i, next) = (chords[k], self.neighbour(chords[k], 1).unwrap_or(chords[k]));
             let chord = self.points[next] - self.points[i];
-            let turned = (self.curvatures[i] + self.curvatures[next]) / 2.0 * chord.norm() * (parts[k] - 0.5);
-            let (cos, sin) = (trig::cos(turned), trig::sin(turned));
+            let angle = (self.curvatures[i] + self.curvatures[next]) / 2.0 * chord.norm() * (parts[k] - 0.5);
+            let (cos, sin) = (trig::cos(angle), trig::sin(angle));
             complex_product(Vector::new(cos, sin), chord)
         });
         cross(a, b).abs() > 1e-3 * a.norm() * b.norm()
     }
 }
 
-/// Where two chords cross, and what part of each is before that. One that ends on the other counts as to its left, so
-/// that a crossing at a sample counts once.
+/// The point at which two chords cross, and the fraction of each chord before it. The end of a chord on the other is
+/// taken to be to its left, so that a crossing at a sample counts once.
 fn chord_crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<(Point, [f64; 2])> {
     let [ab, cd] = [b - a, d - c];
     let is_left = |from: Point, along: Vector, p: Point| cross(along, p - from) >= 0.0;

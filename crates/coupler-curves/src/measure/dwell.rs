@@ -1,9 +1,10 @@
-//! The best circular arc of a curve: where a link from the coupler point to the arc's centre would let its far end dwell.
+//! The best circular portion of a curve: a link from the coupler point to its centre dwells while the point traverses
+//! it.
 //!
-//! A portion is such an arc if it lies in an *annulus*, the ring between two circles about one centre, no wider than 0.001
-//! of the curve's greatest extent, about a circle of a radius no larger than the curve is long: a straight portion is none,
-//! or a little of it. Of all the one that spans the most input is the best. What fits an annulus fits with any part of it, so that it is found by moving both
-//! ends along the curve once, and then between samples.
+//! A portion is circular if it lies in an *annulus*, the ring between two concentric circles, no wider than 0.001 of
+//! the curve's greatest extent, and the mean radius is no greater than the length of the curve, which excludes straight
+//! portions. The best one spans the most input. Any part of a portion that fits an annulus fits it too, so the best is
+//! found by moving both ends along the curve once, and is then extended between samples.
 
 use std::cell::RefCell;
 
@@ -13,7 +14,7 @@ use super::strip::{convex_hull, diameter};
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::Point;
 
-/// How wide the annulus may be, by the curve's greatest extent.
+/// The greatest width of the annulus, relative to the curve's greatest extent.
 const TOLERANCE: f64 = 0.001;
 
 /// A circular portion.
@@ -27,18 +28,18 @@ pub struct Dwell {
     pub deviation: f64,
     /// The input at which it begins.
     pub start_input: f64,
-    /// How much input it spans, there and back over limits.
+    /// The input it spans, which is counted forward and backward at limits.
     pub input_span: f64,
-    /// Its points: the samples, and between them its ends.
+    /// Its points: the samples and its ends.
     pub points: Vec<Point>,
 }
 
-/// What is told of it.
+/// The measures of the dwell.
 pub const MEASURES: [Measure; 6] = [
     Measure::number(
         "dwell_input_deg",
         "deg",
-        "input that the best circular portion spans: the most within 0.0005 of the curve's greatest extent of a circle; of an actuator a length",
+        "greatest input span of a portion within 0.0005 of the curve's greatest extent of a circle; a length for an actuator",
         |subject| dwell_value(subject, |dwell| dwell.input_span),
     ),
     Measure::number(
@@ -53,7 +54,7 @@ pub const MEASURES: [Measure; 6] = [
     Measure::number(
         "dwell_start_deg",
         "deg",
-        "input at which the circular portion begins; of an actuator a length",
+        "input at which the circular portion begins; a length for an actuator",
         |subject| dwell_value(subject, |dwell| dwell.start_input),
     ),
     Measure::number("dwell_x", "", "x of the circle's centre", |subject| dwell_value(subject, |dwell| dwell.centre.x)),
@@ -64,54 +65,54 @@ fn dwell_value(subject: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {
     subject.dwell().map_or(Value::Missing, |dwell| Value::Number(value(dwell)))
 }
 
-/// The best circular portion of a curve; `None` of a point or a straight line.
-pub(super) fn find_dwell(course: &CurveSegment) -> Option<Dwell> {
-    let extent = diameter(&convex_hull(course.points[..=course.start_count].to_vec()));
+/// The best circular portion of a curve; `None` for a point or a straight line.
+pub(super) fn find_dwell(curve: &CurveSegment) -> Option<Dwell> {
+    let extent = diameter(&convex_hull(curve.points[..=curve.start_count].to_vec()));
     let search = DwellSearch {
-        segment: course,
+        segment: curve,
         max_width: TOLERANCE * extent,
-        max_radius: course.cumulative_length[course.start_count],
+        max_radius: curve.cumulative_length[curve.start_count],
         fitting_portions: RefCell::default(),
     };
     let ends = search.longest()?;
-    let points = course.portion_points(ends);
-    // On a long arc the exchange of points may end at a ring that is not the narrowest: then the portion has a better one,
-    // by which it was found to fit.
-    let anew = AlternatingPoints::default().narrowest_annulus_within(&points, f64::INFINITY, search.max_radius);
-    let found =
+    let points = curve.portion_points(ends);
+    // On a long arc the exchange of points may end at an annulus that is not the narrowest: then the one of the search,
+    // in which the portion was found to fit, is better.
+    let narrowest = AlternatingPoints::default().narrowest_annulus_within(&points, f64::INFINITY, search.max_radius);
+    let known_centre =
         search.fitting_portions.borrow().iter().rev().find(|(other, _)| *other == ends).map(|(_, centre)| *centre);
-    let rings = anew.into_iter().chain(found.map(|centre| Annulus::enclosing(centre, &points)));
+    let rings = narrowest.into_iter().chain(known_centre.map(|centre| Annulus::enclosing(centre, &points)));
     let Annulus { centre, radius, width } = rings.min_by(|a, b| a.width.total_cmp(&b.width))?;
-    let (start, input) = (course.input_at(ends[0]), course.input_span(ends));
+    let (start, input) = (curve.input_at(ends[0]), curve.input_span(ends));
     Some(Dwell { centre, radius, deviation: width / 2.0, start_input: start, input_span: input, points })
 }
 
-/// For the portion that spans the most input in an annulus of some width.
+/// The search for the portion that spans the most input in an annulus of at most a given width and radius.
 struct DwellSearch<'a> {
     segment: &'a CurveSegment,
     max_width: f64,
     max_radius: f64,
-    /// The ends and the centres of portions that were found to fit between points.
+    /// The ends and the annulus centres of portions that were found to fit when extended between points.
     fitting_portions: RefCell<Vec<([f64; 2], Point)>>,
 }
 
 impl DwellSearch<'_> {
     fn longest(&self) -> Option<[f64; 2]> {
         const MOVES: usize = 4;
-        let course = self.segment;
+        let curve = self.segment;
         let [from, to] = self.longest_between_points()?;
-        // All of a closed curve is a portion that ends where it begins.
-        if course.is_closed && to == course.last_end(from) {
-            return Some([0.0, course.start_count as f64]);
+        // The whole of a closed curve is a portion that ends where it begins.
+        if curve.is_closed && to == curve.last_end(from) {
+            return Some([0.0, curve.start_count as f64]);
         }
         let found = [from as f64, to as f64];
-        let longer = self.narrowest_longer(course.input_travel[to] - course.input_travel[from]);
+        let longer = self.narrowest_longer(curve.input_travel[to] - curve.input_travel[from]);
         let is_apart = longer.is_none_or(|longer| (longer[0] - found[0]).abs() > 1.0);
-        let drawn = longer.and_then(|ends| self.extend(ends));
-        let other = if is_apart || drawn.is_none() { self.extend(found) } else { None };
-        let mut best = drawn.into_iter().chain(other).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, found));
+        let extended = longer.and_then(|ends| self.extend(ends));
+        let other = if is_apart || extended.is_none() { self.extend(found) } else { None };
+        let mut best = extended.into_iter().chain(other).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, found));
         for _ in 0..MOVES {
-            // Drawn out from where it has come to it may go further the same way.
+            // It may be possible to extend the result further.
             match self.extend(best.1) {
                 Some(further) if further.0 > best.0 * (1.0 + 1e-6) => best = further,
                 _ => break,
@@ -120,50 +121,50 @@ impl DwellSearch<'_> {
         Some(best.1)
     }
 
-    /// How much input a portion spans, and its ends, drawn out between points.
+    /// The input span and the ends of a portion extended between points.
     fn extend(&self, ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
-        let course = self.segment;
-        let [from, to] = course.clamp(ends);
-        let core = course.portion_points([from + 1.0, to - 1.0]);
-        // What is passed on the way out is in the portion too.
-        let passed = |end: f64, inner: f64| [0.0, 0.5].map(|part| course.point_at(end + part * (inner - end)));
-        let beginning = |start: f64| {
+        let curve = self.segment;
+        let [from, to] = curve.clamp(ends);
+        let core = curve.portion_points([from + 1.0, to - 1.0]);
+        // The points between the core and the moved ends.
+        let outer = |end: f64, inner: f64| [0.0, 0.5].map(|part| curve.point_at(end + part * (inner - end)));
+        let fit_from = |start: f64| {
             let mut points = Vec::with_capacity(core.len() + 4);
-            points.extend(passed(start, from + 1.0));
+            points.extend(outer(start, from + 1.0));
             points.extend_from_slice(&core);
             let kept = points.len();
-            let (before, mut turns) = (course.input_span([start, from + 1.0]), AlternatingPoints::default());
+            let (before, mut alternating) = (curve.input_span([start, from + 1.0]), AlternatingPoints::default());
             move |end: f64| {
                 points.truncate(kept);
-                points.extend(passed(end, to - 1.0).into_iter().rev());
-                let ring = turns.narrowest_annulus_within(&points, f64::INFINITY, self.max_radius);
+                points.extend(outer(end, to - 1.0).into_iter().rev());
+                let ring = alternating.narrowest_annulus_within(&points, f64::INFINITY, self.max_radius);
                 let excess = ring.map_or(f64::INFINITY, |ring| ring.width) - self.max_width;
                 if let Some(ring) = ring.filter(|_| excess <= 0.0) {
                     self.fitting_portions.borrow_mut().push(([start, end], ring.centre));
                 }
-                PortionFit { size: before + course.input_span([from + 1.0, end]), excess }
+                PortionFit { size: before + curve.input_span([from + 1.0, end]), excess }
             }
         };
-        course.extend([from, to], beginning)
+        curve.extend([from, to], fit_from)
     }
 
-    /// The points at the ends of the portion that spans the most input.
+    /// The points at the ends of the portion that spans the most input, of those that begin and end at points.
     fn longest_between_points(&self) -> Option<[usize; 2]> {
-        let course = self.segment;
+        let curve = self.segment;
         let mut best: Option<(f64, [usize; 2])> = None;
-        for from in 0..course.start_count {
+        for from in 0..curve.start_count {
             let Some(beyond) = self.first_end_beyond(from, best.map_or(0.0, |(span, _)| span)) else { continue };
             if let Some(to) =
-                last_holding([beyond, course.last_end(from)], |to| self.annulus([from, to], self.max_width).is_some())
+                last_holding([beyond, curve.last_end(from)], |to| self.annulus([from, to], self.max_width).is_some())
             {
-                best = Some((course.input_travel[to] - course.input_travel[from], [from, to]));
+                best = Some((curve.input_travel[to] - curve.input_travel[from], [from, to]));
             }
         }
         best.map(|(_, ends)| ends)
     }
 
-    /// The ends, between points, of a portion that spans a little more than `span` and lies in the narrowest annulus of
-    /// those: as every portion from point to point that fits spans no more, this one comes nearest to it.
+    /// The ends, between points, of the portion in the narrowest annulus among those that span a little more than
+    /// `span`. No portion from point to point that spans more fits, and this one comes closest to it.
     fn narrowest_longer(&self, span: f64) -> Option<[f64; 2]> {
         let mut narrowest = f64::INFINITY;
         let mut found = None;
@@ -178,9 +179,9 @@ impl DwellSearch<'_> {
         found
     }
 
-    /// The first point that portions from another may end at which span more than some input.
+    /// The first point at which a portion from another point ends that spans more input than `span`.
     fn first_end_beyond(&self, from: usize, span: f64) -> Option<usize> {
-        /// Fewer points lie on a circle, or nearly so, whatever the curve does between them.
+        /// Fewer points are always close to a circle.
         const FEW: usize = 5;
         let travel = &self.segment.input_travel;
         let (first, last) = (from + FEW, self.segment.last_end(from));
@@ -193,12 +194,12 @@ impl DwellSearch<'_> {
     }
 }
 
-/// The furthest of some places up to which something holds; `None` where it does not at the first.
+/// The last index up to which a monotonic condition holds; `None` if it does not hold at the first.
 fn last_holding([first, last]: [usize; 2], holds: impl Fn(usize) -> bool) -> Option<usize> {
     if !holds(first) {
         return None;
     }
-    // In longer and longer steps, and then between the last two.
+    // Gallop, then bisect.
     let (mut low, mut step) = (first, 1);
     while low + step <= last && holds(low + step) {
         low += step;

@@ -1,10 +1,14 @@
+//! Extremes of a quantity over a circuit.
+
 use super::TracedCurve;
 use crate::geometry::Point;
+use crate::linkage::JointId;
 use crate::motion::{self, Pass};
 
-/// The least and the greatest value over a circuit of a quantity of the pose, of joints that something stands on, by its samples and then by parabolas between
-/// them. An extreme is as flat as it is smooth: what a parabola misses of its place is missed twice over in its value.
-pub(super) fn extremes(subject: &TracedCurve, quantity: impl Fn(&dyn Fn(usize) -> Point) -> f64) -> [f64; 2] {
+/// The least and the greatest value over a circuit of a quantity of the pose, from its samples and then from parabolas
+/// between them. `quantity` is called with the positions of the joints. The error of the value is of the second order
+/// in that of the input at the extreme.
+pub(super) fn extremes(subject: &TracedCurve, quantity: impl Fn(&dyn Fn(JointId) -> Point) -> f64) -> [f64; 2] {
     let circuit = subject.circuit;
     let values: Vec<f64> = (0..circuit.len()).map(|i| quantity(&|joint| circuit.positions.point(joint, i))).collect();
     let at = |pass: &Pass, input: f64| {
@@ -20,15 +24,15 @@ pub(super) fn extremes(subject: &TracedCurve, quantity: impl Fn(&dyn Fn(usize) -
         for pass in &circuit.passes {
             let [low, high] = pass.input_range();
             let middle = circuit.inputs[best];
-            // On a whole turn the first sample is between the last and the second.
+            // On a full turn the first sample is between the last and the second.
             let step = (high - low) / circuit.len().max(2) as f64;
             let turn = if middle > high { low - high } else { 0.0 };
             if pass.mode == circuit.mode_at(best) && (low - step..=high + step).contains(&(middle + turn)) {
-                let neighbours = [-1, 1].map(|way: isize| {
-                    let k = best as isize + way;
-                    let beside = usize::try_from(k).ok().and_then(|k| circuit.inputs.get(k));
-                    let off = beside.map_or(step, |input| (input - middle).abs());
-                    (middle + turn + way as f64 * off).clamp(low, high)
+                let neighbours = [-1, 1].map(|direction: isize| {
+                    let k = best as isize + direction;
+                    let neighbour = usize::try_from(k).ok().and_then(|k| circuit.inputs.get(k));
+                    let distance = neighbour.map_or(step, |input| (input - middle).abs());
+                    (middle + turn + direction as f64 * distance).clamp(low, high)
                 });
                 least = least.min(parabolic_minimum(
                     |input| sign * at(pass, input),
@@ -42,7 +46,7 @@ pub(super) fn extremes(subject: &TracedCurve, quantity: impl Fn(&dyn Fn(usize) -
     })
 }
 
-/// The least value of a function about a place where it is less than at both ends, by parabolas through three places.
+/// The minimum of a function around `b`, where it is less than at both ends, by parabolas through three points.
 fn parabolic_minimum(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64, mut c: f64) -> f64 {
     const ROUNDS: usize = 8;
     let (mut fa, mut fb, mut fc) = (f(a), f(b), f(c));

@@ -1,23 +1,23 @@
 use super::{Measure, TracedCurve, Value};
 use crate::linkage::FourBar;
 
-/// McCarthy's type.
+/// The measure `type`.
 pub const TYPE: Measure = Measure {
     name: "type",
     unit: "",
     is_word: true,
-    definition: "McCarthy's type of a four-bar (Geometric Design of Linkages, table 2.2): 0 and π say where a rocker's range lies",
+    definition: "McCarthy's type of a four-bar (Geometric Design of Linkages, table 2.2): 0 and π are the directions that a rocker swings through",
     compute: |subject: &TracedCurve| {
         FourBar::from_linkage(subject.linkage).map_or(Value::Missing, |bar| Value::Word(bar.mccarthy_type()))
     },
 };
 
-/// The shortest link.
+/// The measure `shortest`.
 pub const SHORTEST: Measure = Measure {
     name: "shortest",
     unit: "",
     is_word: true,
-    definition: "the shortest link of a four-bar, as seen from its frame; of equal ones the first of frame, crank, coupler, rocker",
+    definition: "shortest link of a four-bar with respect to its frame; if several are equal, the first of frame, crank, coupler, rocker",
     compute: |subject: &TracedCurve| {
         let Some(FourBar { frame, crank, coupler, rocker }) = FourBar::from_linkage(subject.linkage) else {
             return Value::Missing;

@@ -1,6 +1,6 @@
 use super::{Measure, TracedCurve, Value};
 
-/// The least input of the circuit.
+/// The measure `input_min_deg`.
 pub const INPUT_MIN: Measure = Measure {
     name: "input_min_deg",
     unit: "deg",
@@ -9,7 +9,7 @@ pub const INPUT_MIN: Measure = Measure {
     compute: |subject: &TracedCurve| extreme_input(subject, f64::INFINITY, f64::min),
 };
 
-/// The greatest input of the circuit.
+/// The measure `input_max_deg`.
 pub const INPUT_MAX: Measure = Measure {
     name: "input_max_deg",
     unit: "deg",
@@ -20,8 +20,8 @@ pub const INPUT_MAX: Measure = Measure {
 
 fn extreme_input(subject: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
     let passes = &subject.circuit.passes;
-    let turns_round = passes.iter().any(|pass| pass.input_direction() != passes[0].input_direction());
-    if subject.circuit.is_closed && !turns_round {
+    let reverses = passes.iter().any(|pass| pass.input_direction() != passes[0].input_direction());
+    if subject.circuit.is_closed && !reverses {
         return Value::Missing;
     }
     let ends = passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);

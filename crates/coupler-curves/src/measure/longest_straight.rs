@@ -1,39 +1,41 @@
 //! The longest portion of a curve that is straight to a tolerance.
 //!
-//! A portion that is too wide for its length asks for a length that goes with its width, and any that begins there and goes
-//! further is as wide at least: so from each sample the search leaps to where that length may be, and most samples are done
-//! with after a triangle or two. The longest by samples, and whatever might come to be longer than it, is then drawn out
-//! between them, a short one among many more points.
+//! A portion that begins at the same point and ends further on is at least as wide. So a portion that is too wide for
+//! its length rules out all ends closer than the length that its width requires: from each sample the search skips to
+//! the end at which that length may be reached, and most samples need only a triangle or two. The longest portion from
+//! sample to sample, and those that might become longer than it, are then extended between samples; short ones are
+//! resampled first.
 
 use super::curve_segment::{CurveSegment, PortionFit};
 use super::strip::{Strip, triangle_height};
 
-/// How often a portion of few points is looked for again among many: each time shows what is some thirty times as short.
+/// The greatest number of nested resamplings: each finds portions about thirty times as short.
 const MAX_DEPTH: usize = 4;
 
-/// The strip of so few points says little of the curve between them.
+/// The strip of fewer points than this says little about the curve between them.
 const FEW_POINTS: usize = 8;
 
-/// What fits only between two points is found by asking the points for a little less.
+/// The factor of the tolerance for portions between points, so that those which fit only with ends between points are
+/// found.
 const LOOSER_FACTOR: f64 = 1.02;
 
-/// The ends of the longest portion in a strip no wider than a part of its length.
-pub(super) fn longest(course: &CurveSegment, tolerance: f64) -> Option<[f64; 2]> {
-    StraightSearch { segment: course, tolerance, min_intervals: 1 }.longest()
+/// The ends of the longest portion in a strip no wider than `tolerance` times its length.
+pub(super) fn longest(segment: &CurveSegment, tolerance: f64) -> Option<[f64; 2]> {
+    StraightSearch { segment, tolerance, min_intervals: 1 }.longest()
 }
 
-/// For the longest portion in a strip no wider than a part of its length.
+/// The search for the longest portion in a strip no wider than `tolerance` times its length.
 struct StraightSearch<'a> {
     segment: &'a CurveSegment,
     tolerance: f64,
-    /// By points a portion goes at least so many points on: a single chord is always straight.
+    /// The least number of intervals in a portion between points: a single chord is always straight.
     min_intervals: usize,
 }
 
 impl StraightSearch<'_> {
-    /// The ends of the longest portion anywhere.
+    /// The ends of the longest portion of the segment.
     fn longest(&self) -> Option<[f64; 2]> {
-        /// So many portions are drawn out that might come to be the longest.
+        /// The number of other portions that are extended because they might become the longest.
         const RIVALS: usize = 2;
         let flattest = || {
             let each = self
@@ -47,19 +49,19 @@ impl StraightSearch<'_> {
         let Some((found, width)) = self.longest_with_tolerance_factor(LOOSER_FACTOR) else {
             return flattest().map(|(_, ends)| ends);
         };
-        // So few points say little: they may only be far apart. Likelier is a portion where the curve is flattest, or one of
-        // more points that is shorter than those seem.
+        // A portion of few points may be long only because they are far apart. Better candidates are portions where the
+        // curve is flattest, and those of more points.
         if found[1] - found[0] < FEW_POINTS {
-            let by_more = || {
+            let of_more_points = || {
                 StraightSearch { min_intervals: FEW_POINTS, ..*self }
                     .longest_with_tolerance_factor(LOOSER_FACTOR)
                     .and_then(|(ends, _)| self.refine(ends, MAX_DEPTH))
             };
-            let all = [flattest(), self.refine(found, MAX_DEPTH), by_more()].into_iter().flatten();
+            let all = [flattest(), self.refine(found, MAX_DEPTH), of_more_points()].into_iter().flatten();
             return all.reduce(longer).map(|(_, ends)| ends);
         }
         let longest = self.refine(found, MAX_DEPTH).or_else(|| self.longest_at_stricter_tolerance(MAX_DEPTH));
-        // Where nothing is straight between points, those are all that is known.
+        // If nothing is straight between points, the portion from point to point is the result.
         let mut best = longest.unwrap_or_else(|| (self.segment.distance(found), found.map(|k| k as f64)));
         for rival in self.rivals(width, best.0, found).into_iter().take(RIVALS) {
             let [from, to] = rival.map(|k| k as f64);
@@ -70,19 +72,19 @@ impl StraightSearch<'_> {
         Some(best.1)
     }
 
-    /// The longest portion by points, for a part of the tolerance.
-    fn longest_with_tolerance_factor(&self, part: f64) -> Option<([usize; 2], f64)> {
-        StraightSearch { tolerance: self.tolerance * part, ..*self }.longest_between_points()
+    /// The longest portion between points for a part of the tolerance, as [`StraightSearch::longest_between_points`].
+    fn longest_with_tolerance_factor(&self, factor: f64) -> Option<([usize; 2], f64)> {
+        StraightSearch { tolerance: self.tolerance * factor, ..*self }.longest_between_points()
     }
 
-    /// The length and the ends of a portion that leaves something of the tolerance to the curve between its points.
+    /// The length and the ends of the longest portion that leaves a part of the tolerance for the curve between points.
     fn longest_at_stricter_tolerance(&self, depth: usize) -> Option<(f64, [f64; 2])> {
         [1.0, 0.99, 0.95, 0.85, 0.7]
             .into_iter()
-            .find_map(|part| self.refine(self.longest_with_tolerance_factor(part)?.0, depth))
+            .find_map(|factor| self.refine(self.longest_with_tolerance_factor(factor)?.0, depth))
     }
 
-    /// The length and the ends of the longest portion about a point, as far as it goes.
+    /// The length and the ends of the longest portion around a point.
     fn longest_around(&self, point: f64) -> Option<(f64, [f64; 2])> {
         let mut found: Option<(f64, [f64; 2])> = None;
         let mut round = 1.0;
@@ -91,9 +93,9 @@ impl StraightSearch<'_> {
             let Some((length, ends)) = self.longest_resampled(window, MAX_DEPTH) else { break };
             found = found.into_iter().chain([(length, ends)]).reduce(longer);
             let [from, to] = self.segment.clamp(window);
-            // What fills the window may go on outside.
-            let near = 0.05 * round;
-            if ends[0] > from + near && ends[1] < to - near {
+            // A portion that fills the window may continue outside.
+            let margin = 0.05 * round;
+            if ends[0] > from + margin && ends[1] < to - margin {
                 break;
             }
             round *= 2.0;
@@ -101,18 +103,18 @@ impl StraightSearch<'_> {
         found
     }
 
-    /// The points at the ends of the longest portion, and the width no portion may have more of.
+    /// The points at the ends of the longest portion, and an upper bound for the width of any longer portion.
     fn longest_between_points(&self) -> Option<([usize; 2], f64)> {
-        /// The sooner something long is found, the less has to be looked at: first from points so far apart.
+        /// Points this far apart are tried first: the sooner a long portion is found, the more can be skipped.
         const STRIDE: usize = 16;
         let CurveSegment { points, start_count: starts, longest_chord, .. } = self.segment;
         let reach = points.iter().take(starts + 1).fold(0.0, |reach: f64, p| reach.max((p - points[0]).norm()));
         let widest = self.tolerance * 2.0 * reach;
-        let (mut best, mut found, mut on) = (0.0, None, self.min_intervals);
+        let (mut best, mut found, mut intervals) = (0.0, None, self.min_intervals);
         for from in (0..*starts).step_by(STRIDE).chain(0..*starts) {
-            // However straight, a portion is not as long before its way is.
-            let to = self.segment.first_point_beyond(from, best, from + on);
-            on = to - from;
+            // A portion is no longer than its polyline.
+            let to = self.segment.first_point_beyond(from, best, from + intervals);
+            intervals = to - from;
             if let Some((to, length)) =
                 self.longest_from_point([from, to.max(from + self.min_intervals)], |_| 0.0, widest, best)
             {
@@ -120,14 +122,14 @@ impl StraightSearch<'_> {
             }
         }
         let found = found?;
-        let own = Strip::enclosing(points[found[0]..=found[1]].to_vec());
-        // Between points it may be longer by the way to the next at either end.
-        Some((found, widest.min(self.tolerance * (own.length + 2.0 * longest_chord))))
+        let strip = Strip::enclosing(points[found[0]..=found[1]].to_vec());
+        // Extended between points it may be longer by a chord at either end.
+        Some((found, widest.min(self.tolerance * (strip.length + 2.0 * longest_chord))))
     }
 
-    /// The end and the length of the longest portion from a point, if it is longer than `best`; it ends no sooner than at
-    /// another point, and is not `widest` or wider. It is as wide as it may be if it goes `further` than the point at its
-    /// end by so much.
+    /// The end and the length of the longest portion from a point, if it is longer than `best`; it ends at `to` or
+    /// later, and is narrower than `widest`. `further` is the length by which the portion to a point may still be
+    /// extended, and which counts when its width is compared with its length.
     fn longest_from_point(
         &self,
         [from, mut to]: [usize; 2],
@@ -135,12 +137,12 @@ impl StraightSearch<'_> {
         widest: f64,
         mut best: f64,
     ) -> Option<(usize, f64)> {
-        let course = self.segment;
+        let segment = self.segment;
         let mut found = None;
-        while to <= course.last_end(from) {
-            let far = course.distance([from, to]);
+        while to <= segment.last_end(from) {
+            let far = segment.distance([from, to]);
             if far <= best {
-                to = course.first_point_beyond(to, best - far, to + 1);
+                to = segment.first_point_beyond(to, best - far, to + 1);
                 continue;
             }
             let further = further(to);
@@ -150,29 +152,29 @@ impl StraightSearch<'_> {
                     to += 1;
                 }
                 Err(width) if width >= widest => break,
-                // What goes further is as wide at least, and has to be as long as that asks for.
+                // A longer portion is at least as wide, and needs the length that this width requires.
                 Err(width) => {
-                    to = course.first_point_beyond(from, width / self.tolerance - further, to + 1).max(to + 1)
+                    to = segment.first_point_beyond(from, width / self.tolerance - further, to + 1).max(to + 1)
                 }
             }
         }
         found
     }
 
-    /// Portions that might come to be longer than `best` between points, the longest first, none upon another.
+    /// Portions that might become longer than `best` when extended between points, the longest first, without overlaps.
     fn rivals(&self, width: f64, best: f64, found: [usize; 2]) -> Vec<[usize; 2]> {
-        let course = self.segment;
-        let least = best - 2.0 * course.longest_chord;
-        // Drawn out it reaches no further than the next points, and is as much longer at most.
+        let segment = self.segment;
+        let least = best - 2.0 * segment.longest_chord;
+        // It is extended to the neighbouring points at most.
         let further = |from: usize, to: usize| {
-            let before = if from > 0 { course.distance([from - 1, from]) } else { course.longest_chord };
-            let after = if to + 1 < course.points.len() { course.distance([to, to + 1]) } else { 0.0 };
+            let before = if from > 0 { segment.distance([from - 1, from]) } else { segment.longest_chord };
+            let after = if to + 1 < segment.points.len() { segment.distance([to, to + 1]) } else { 0.0 };
             before + after
         };
-        let mut on = found[1] - found[0];
-        let from = (0..course.start_count).filter_map(|from| {
-            let to = course.first_point_beyond(from, least, from + on);
-            on = to - from;
+        let mut intervals = found[1] - found[0];
+        let from = (0..segment.start_count).filter_map(|from| {
+            let to = segment.first_point_beyond(from, least, from + intervals);
+            intervals = to - from;
             let first = to.max(from + self.min_intervals);
             let (to, length) = self.longest_from_point([from, first], |to| further(from, to), width, least)?;
             (length + further(from, to) > best).then_some((length, [from, to]))
@@ -180,22 +182,25 @@ impl StraightSearch<'_> {
         let mut all: Vec<(f64, [usize; 2])> = from.collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut kept = vec![found];
-        let round = course.start_count;
+        let round = segment.start_count;
         for (_, [from, to]) in all {
             let middle = |ends: &[usize; 2]| (ends[0] + ends[1]) / 2 % round;
             let half = ((to - from) / 2).max(1);
-            let is_upon = |other: &[usize; 2]| {
-                let apart = middle(&[from, to]).abs_diff(middle(other));
-                apart.min(round - apart) < half
+            let overlaps = |other: &[usize; 2]| {
+                let distance = middle(&[from, to]).abs_diff(middle(other));
+                distance.min(round - distance) < half
             };
-            if !kept.iter().any(is_upon) {
+            if !kept.iter().any(overlaps) {
                 kept.push([from, to]);
             }
         }
         kept.split_off(1)
     }
 
-    /// Whether a portion, by the points at its ends, may lie in a strip of some width; otherwise how wide it is at least.
+    /// Checks whether the portion between two points lies in a strip of a width of at most `most`.
+    ///
+    /// # Errors
+    /// A lower bound for its width, if it does not.
     fn check_width(&self, [from, to]: [usize; 2], most: f64) -> Result<(), f64> {
         let points = &self.segment.points[from..=to];
         let last = points.len() - 1;
@@ -204,7 +209,7 @@ impl StraightSearch<'_> {
             no_wider(self.segment.strip_width_bound([from, to]))?;
             return if last < 2 { Ok(()) } else { no_wider(Strip::enclosing(points.to_vec()).width) };
         }
-        // First by triangles: one in a strip is no higher, over its longest side, than the strip is wide.
+        // Triangles first: the least height of a triangle in a strip is no greater than the width of the strip.
         let quarters = [0, last / 4, last / 2, last - last / 4, last].map(|k| points[k]);
         for corners in [[0, 2, 4], [0, 1, 3], [1, 3, 4]] {
             no_wider(triangle_height(corners.map(|k| quarters[k])))?;
@@ -216,7 +221,7 @@ impl StraightSearch<'_> {
         Err(triangle_height(three.map(|k| points[k])).max(most))
     }
 
-    /// The length and the ends of a portion drawn out between points.
+    /// The length and the ends of a portion, refined between points.
     fn refine(&self, ends: [usize; 2], depth: usize) -> Option<(f64, [f64; 2])> {
         let whole = ends.map(|k| k as f64);
         if ends[1] - ends[0] >= FEW_POINTS || depth == 0 {
@@ -225,8 +230,8 @@ impl StraightSearch<'_> {
         self.longest_resampled([whole[0] - 1.0, whole[1] + 1.0], depth)
     }
 
-    /// The length and the ends of a portion drawn out, and again from where it has come to while an end of it has gone nearly
-    /// as far as it may.
+    /// The length and the ends of a portion, extended repeatedly while an end moves nearly as far as one extension
+    /// allows.
     fn extend_repeatedly(&self, mut ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
         const MOVES: usize = 4;
         const FAR: f64 = 0.95;
@@ -244,11 +249,11 @@ impl StraightSearch<'_> {
         Some(best)
     }
 
-    /// The length and the ends of the longest portion between two places, by many more points.
+    /// The length and the ends of the longest portion between two positions, with many more points.
     fn longest_resampled(&self, ends: [f64; 2], depth: usize) -> Option<(f64, [f64; 2])> {
         let [from, to] = self.segment.clamp(ends);
         let piece = self.segment.resample([from, to]);
-        let part = (to - from) / (piece.points.len() - 1) as f64;
+        let spacing = (to - from) / (piece.points.len() - 1) as f64;
         let depth = depth.checked_sub(1)?;
         let search = StraightSearch { segment: &piece, tolerance: self.tolerance, min_intervals: 1 };
         let (length, ends) = match search.longest_with_tolerance_factor(LOOSER_FACTOR) {
@@ -258,36 +263,36 @@ impl StraightSearch<'_> {
                 search.longest_resampled([k - 1.0, k + 1.0], depth)?
             }
         };
-        Some((length, ends.map(|place| from + place * part)))
+        Some((length, ends.map(|position| from + position * spacing)))
     }
 
-    /// The length and the ends of a portion whose ends are moved, by a point at most, as far as its own length allows.
+    /// The length and the ends of a portion whose ends are moved, by a point at most, as far as the tolerance allows.
     fn extend(&self, ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let [from, to] = self.segment.clamp(ends);
         let core = self.segment.portion_points([from + 1.0, to - 1.0]);
-        // What is passed on the way out is in the portion too.
-        let passed = |end: f64, inner: f64| {
-            [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|part| self.segment.point_at(end + part * (inner - end)))
+        // The points between the core and the moved ends.
+        let outer = |end: f64, inner: f64| {
+            [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|fraction| self.segment.point_at(end + fraction * (inner - end)))
         };
-        let beginning = |start: f64| {
+        let fit_from = |start: f64| {
             let mut points = Vec::with_capacity(core.len() + 6);
-            points.extend(passed(start, from + 1.0));
+            points.extend(outer(start, from + 1.0));
             points.extend_from_slice(&core);
             let kept = points.len();
             let mut three = [0, kept / 2, kept + 2];
             move |end: f64| {
                 points.truncate(kept);
-                points.extend(passed(end, to - 1.0).into_iter().rev());
+                points.extend(outer(end, to - 1.0).into_iter().rev());
                 let strip = Strip::by_exchange(&points, &mut three, f64::INFINITY);
                 let strip = strip.unwrap_or_else(|| Strip::enclosing(points.clone()));
                 PortionFit { size: strip.length, excess: strip.width - self.tolerance * strip.length }
             }
         };
-        self.segment.extend([from, to], beginning)
+        self.segment.extend([from, to], fit_from)
     }
 }
 
-/// The longer of two portions, by their lengths; the first of equals.
+/// The longer of two portions, given as lengths and ends; the first if they are equal.
 fn longer(one: (f64, [f64; 2]), other: (f64, [f64; 2])) -> (f64, [f64; 2]) {
     if other.0 > one.0 { other } else { one }
 }

@@ -1,4 +1,4 @@
-//! Numbers read off a motion, one measure a file; each is a column of `cells.csv` and a name in `where`.
+//! Measures of a curve; each is a column of `cells.csv` and a name in `where`.
 
 mod annulus;
 mod class;
@@ -10,6 +10,7 @@ mod extreme;
 mod four_bar_type;
 mod input_range;
 mod interpolation;
+mod local_polynomial;
 mod longest_straight;
 mod path;
 mod remez;
@@ -40,18 +41,18 @@ use crate::motion::{Circuit, Motion};
 use curve_segment::CurveSegment;
 use sampled_curve::SampledCurve;
 
-/// What a measure is taken of: a traced joint on a circuit.
+/// The curve of a traced joint on a circuit. Intermediate results are computed once for all measures.
 #[derive(Clone, Debug)]
 pub struct TracedCurve<'a> {
     /// The linkage.
     pub linkage: &'a Linkage,
-    /// All that it does.
+    /// The linkage's motion.
     pub motion: &'a Motion,
-    /// The circuit, by as many samples as tell of its curves: a measure is one of the curve, however few its samples are.
+    /// The circuit, refined so that measures do not depend on the requested samples.
     pub circuit: &'a Circuit,
     /// The traced joint.
     pub joint: JointId,
-    /// What is asked of its straight portion.
+    /// The criterion for the straight portion.
     pub straight_criterion: StraightCriterion,
     single_point_linkage: OnceCell<(Linkage, JointId)>,
     sampled_curve: OnceCell<Rc<SampledCurve>>,
@@ -64,33 +65,31 @@ pub struct TracedCurve<'a> {
 }
 
 impl<'a> TracedCurve<'a> {
-    /// A traced joint on a circuit of a linkage's motion.
+    /// The curve of a traced joint on a circuit of a linkage's motion.
     pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> TracedCurve<'a> {
-        let (alone, trail, course, straight, dwell, symmetry, transmission, cusps) = Default::default();
-        let (asked, circuit) = (StraightCriterion::default(), circuit.refined(linkage));
         TracedCurve {
             linkage,
             motion,
-            circuit,
+            circuit: circuit.refined(linkage),
             joint,
-            straight_criterion: asked,
-            single_point_linkage: alone,
-            sampled_curve: trail,
-            curve_segment: course,
-            straight,
-            dwell,
-            symmetry,
-            transmission_angles: transmission,
-            cusp_count: cusps,
+            straight_criterion: StraightCriterion::default(),
+            single_point_linkage: OnceCell::new(),
+            sampled_curve: OnceCell::new(),
+            curve_segment: OnceCell::new(),
+            straight: OnceCell::new(),
+            dwell: OnceCell::new(),
+            symmetry: OnceCell::new(),
+            transmission_angles: OnceCell::new(),
+            cusp_count: OnceCell::new(),
         }
     }
 
-    /// The same, of which another straight portion is wanted.
-    pub fn with_straight_criterion(self, asked: StraightCriterion) -> TracedCurve<'a> {
-        TracedCurve { straight_criterion: asked, straight: OnceCell::new(), ..self }
+    /// The same curve with another criterion for the straight portion.
+    pub fn with_straight_criterion(self, criterion: StraightCriterion) -> TracedCurve<'a> {
+        TracedCurve { straight_criterion: criterion, straight: OnceCell::new(), ..self }
     }
 
-    /// The straight portion asked for.
+    /// The straight portion that meets the criterion.
     pub fn straight(&self) -> Option<&StraightPortion> {
         self.straight.get_or_init(|| straight::find_portion(self.curve_segment()?, self.straight_criterion)).as_ref()
     }
@@ -100,23 +99,23 @@ impl<'a> TracedCurve<'a> {
         *self.transmission_angles.get_or_init(|| transmission::transmission_angles(self))
     }
 
-    /// The linkage without other traced points, and the joint in it: what is asked at many inputs is asked of this.
+    /// The linkage without other traced points, and the joint in it: poses of it are faster to compute.
     fn single_point_linkage(&self) -> (&Linkage, JointId) {
         let (linkage, joint) = self.single_point_linkage.get_or_init(|| self.linkage.with_one_point(self.joint));
         (linkage, *joint)
     }
 
-    /// How often the path stands still and turns back.
+    /// The number of cusps.
     fn cusp_count(&self) -> usize {
         *self.cusp_count.get_or_init(|| shape::count_cusps(self))
     }
 
-    /// What is marked on pages of what has been measured: its straight portion and its symmetry.
+    /// The straight portion and the symmetry, if they have been computed, to be marked on pages.
     pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>) {
         (self.straight.get().cloned().flatten(), self.symmetry.get().copied().flatten())
     }
 
-    /// Whether it is symmetrical, and about which line; `None` of a point.
+    /// The symmetry of the curve; `None` for a point.
     pub fn symmetry(&self) -> Option<&Symmetry> {
         self.symmetry.get_or_init(|| symmetry::find_symmetry(self)).as_ref()
     }
@@ -126,7 +125,7 @@ impl<'a> TracedCurve<'a> {
         self.dwell.get_or_init(|| dwell::find_dwell(self.curve_segment()?)).as_ref()
     }
 
-    /// The curve, made once for all measures.
+    /// The samples of the curve.
     fn sampled_curve(&self) -> &SampledCurve {
         self.sampled_curve.get_or_init(|| self.new_sampled_curve())
     }
@@ -135,11 +134,11 @@ impl<'a> TracedCurve<'a> {
         Rc::new(SampledCurve::from_circuit(self.circuit, self.joint, self.linkage.input()))
     }
 
-    /// The curve as a row of points, made once for all portions; `None` where it has no place at most of its samples.
+    /// The whole curve, for the search for portions; `None` if fewer than five of its samples have a defined position.
     fn curve_segment(&self) -> Option<&CurveSegment> {
-        const FEWEST: usize = 5;
-        let course = || CurveSegment::whole(self.sampled_curve.get_or_init(|| self.new_sampled_curve()).clone());
-        (self.sampled_curve().points.len() >= FEWEST).then(|| self.curve_segment.get_or_init(course))
+        const MIN_SAMPLES: usize = 5;
+        let whole = || CurveSegment::whole(self.sampled_curve.get_or_init(|| self.new_sampled_curve()).clone());
+        (self.sampled_curve().points.len() >= MIN_SAMPLES).then(|| self.curve_segment.get_or_init(whole))
     }
 }
 
@@ -150,22 +149,22 @@ pub enum Value {
     Number(f64),
     /// A word.
     Word(&'static str),
-    /// It does not apply.
+    /// The measure does not apply.
     Missing,
 }
 
 /// A measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
-    /// Its column.
+    /// Its name: a column of `cells.csv` and a variable in `where`.
     pub name: &'static str,
     /// Its unit; empty for a word or a pure number.
     pub unit: &'static str,
     /// Whether it is a word and not a number: a word cannot be compared in `where`.
     pub is_word: bool,
-    /// What it is.
+    /// Its definition, as printed by `list measures`.
     pub definition: &'static str,
-    /// How it is taken.
+    /// Computes it.
     pub compute: fn(&TracedCurve) -> Value,
 }
 
@@ -175,13 +174,13 @@ impl Measure {
         name: &'static str,
         unit: &'static str,
         definition: &'static str,
-        take: fn(&TracedCurve) -> Value,
+        compute: fn(&TracedCurve) -> Value,
     ) -> Measure {
-        Measure { name, unit, is_word: false, definition, compute: take }
+        Measure { name, unit, is_word: false, definition, compute }
     }
 }
 
-/// Every measure, in the order of the columns.
+/// All measures, in the order of the columns.
 pub const ALL: [Measure; 33] = [
     class::CLASS,
     four_bar_type::TYPE,
@@ -218,7 +217,7 @@ pub const ALL: [Measure; 33] = [
     dwell::MEASURES[5],
 ];
 
-/// A name that is true or false of a curve: `is_crank_rocker` and its like, by the word it asks for.
+/// The boolean names of `where`, each with the value of the measure `class` for which it is true.
 pub const BOOLEANS: [(&str, &str); 5] = [
     ("is_crank_rocker", "crank-rocker"),
     ("is_drag_link", "drag-link"),
@@ -227,12 +226,12 @@ pub const BOOLEANS: [(&str, &str); 5] = [
     ("is_change_point", "change-point"),
 ];
 
-/// Whether it is the measure, told by its place in [`ALL`], by which [`BOOLEANS`] are told.
+/// Whether the measure at an index of [`ALL`] is the one that defines the [`BOOLEANS`].
 pub fn defines_booleans(measure: usize) -> bool {
     ALL[measure].name == class::CLASS.name
 }
 
-/// Whether one of [`BOOLEANS`] holds, 1 or 0; not a number where there is no class.
+/// The value of one of the [`BOOLEANS`] as a number, 1 or 0; NaN if the curve has no class.
 pub fn bool_value(word: &str, values: &[Value]) -> f64 {
     match ALL.iter().zip(values).find(|(measure, _)| measure.name == class::CLASS.name) {
         Some((_, Value::Word(class))) => f64::from(u8::from(*class == word)),
@@ -240,15 +239,16 @@ pub fn bool_value(word: &str, values: &[Value]) -> f64 {
     }
 }
 
-/// Every measure of a subject, in the order of [`ALL`].
-pub fn compute_all(subject: &TracedCurve) -> Vec<Value> {
-    compute_selected(subject, |_| true)
+/// Computes all measures of a curve, in the order of [`ALL`].
+pub fn compute_all(curve: &TracedCurve) -> Vec<Value> {
+    compute_selected(curve, |_| true)
 }
 
-/// Some measures of a subject, told by their place in [`ALL`], in that order; the others are missing.
-pub fn compute_selected(subject: &TracedCurve, is_wanted: impl Fn(usize) -> bool) -> Vec<Value> {
-    let take = |(k, measure): (usize, &Measure)| if is_wanted(k) { (measure.compute)(subject) } else { Value::Missing };
-    ALL.iter().enumerate().map(take).collect()
+/// Computes the selected measures of a curve, in the order of [`ALL`]; the others are [`Value::Missing`]. `is_selected`
+/// is called with indices of [`ALL`].
+pub fn compute_selected(curve: &TracedCurve, is_selected: impl Fn(usize) -> bool) -> Vec<Value> {
+    let value = |(k, measure): (usize, &Measure)| if is_selected(k) { (measure.compute)(curve) } else { Value::Missing };
+    ALL.iter().enumerate().map(value).collect()
 }
 
 const _: () = assert!(BOOLEANS.len() == FourBarClass::ALL.len());
@@ -258,11 +258,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_class_has_its_truth() {
+    fn every_class_has_a_boolean() {
         for class in FourBarClass::ALL {
-            let truth =
+            let boolean =
                 BOOLEANS.iter().find(|(_, word)| *word == class.name()).unwrap_or_else(|| panic!("{}", class.name()));
-            assert_eq!(truth.0, format!("is_{}", class.name().replace('-', "_")));
+            assert_eq!(boolean.0, format!("is_{}", class.name().replace('-', "_")));
         }
     }
 }

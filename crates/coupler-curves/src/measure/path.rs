@@ -1,3 +1,5 @@
+//! Length, area and bounding box of the path.
+
 use super::annulus::GOLDEN_SECTION;
 use super::sampled_curve::SampledCurve;
 use super::{Measure, TracedCurve, Value};
@@ -5,7 +7,7 @@ use crate::geometry::Vector;
 use crate::linkage::{JointId, Linkage};
 use crate::motion::{self, Circuit, Pass};
 
-/// The length of the path.
+/// The measure `length`.
 pub const LENGTH: Measure = Measure {
     name: "length",
     unit: "",
@@ -14,16 +16,16 @@ pub const LENGTH: Measure = Measure {
     compute: |subject: &TracedCurve| Value::Number(subject.sampled_curve().arc_lengths().iter().sum()),
 };
 
-/// The area inside it.
+/// The measure `area`.
 pub const AREA: Measure = Measure {
     name: "area",
     unit: "",
     is_word: false,
-    definition: "area the path goes round, in the manifest's unit squared: positive counter-clockwise; empty where it does not close",
+    definition: "area enclosed by the path, in the manifest's unit squared: positive counter-clockwise; empty if it is not closed",
     compute: |subject: &TracedCurve| subject.sampled_curve().area().map_or(Value::Missing, Value::Number),
 };
 
-/// The box round it.
+/// The measures `bbox_x_min`, `bbox_x_max`, `bbox_y_min` and `bbox_y_max`.
 pub const BOUNDING_BOX: [Measure; 4] = [
     Measure {
         name: "bbox_x_min",
@@ -56,41 +58,42 @@ pub const BOUNDING_BOX: [Measure; 4] = [
 ];
 
 fn extent_measure(subject: &TracedCurve, direction: Vector) -> Value {
-    let trail = subject.sampled_curve();
-    let Some(top) = trail.furthest_sample(direction) else { return Value::Missing };
-    // About a limit samples lie far apart: there the linkage itself is asked.
+    let curve = subject.sampled_curve();
+    let Some(top) = curve.furthest_sample(direction) else { return Value::Missing };
+    // Around a limit samples are far apart: poses of the linkage are computed there.
     let reach = match is_near_limit(subject, top) {
-        true => direction.dot(&trail.points[top].coords).max(extent_by_poses(subject, direction, top)),
-        false => trail.max_extent(direction, top),
+        true => direction.dot(&curve.points[top].coords).max(extent_by_poses(subject, direction, top)),
+        false => curve.max_extent(direction, top),
     };
-    // The least is the furthest the other way.
+    // The least coordinate is the negative of the greatest in the opposite direction.
     Value::Number(if direction.x + direction.y < 0.0 { -reach } else { reach })
 }
 
-/// Whether a limit is no more than two samples away.
+/// Whether a limit is at most two samples away.
 fn is_near_limit(subject: &TracedCurve, i: usize) -> bool {
-    let trail = subject.sampled_curve();
+    let curve = subject.sampled_curve();
     let ends =
         || subject.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]).filter(|end| !end.flat_dyads.is_empty());
-    let is_limit =
-        |off: isize| trail.neighbour(i, off).is_some_and(|k| ends().any(|end| end.input.value == trail.inputs[k]));
+    let is_limit = |offset: isize| {
+        curve.neighbour(i, offset).is_some_and(|k| ends().any(|end| end.input.value == curve.inputs[k]))
+    };
     (-2..=2).any(is_limit)
 }
 
-/// The greatest extent in a direction between a sample and its neighbours, by the poses there.
+/// The greatest extent in a direction between a sample and its neighbours, from poses of the linkage.
 fn extent_by_poses(subject: &TracedCurve, direction: Vector, top: usize) -> f64 {
-    let (trail, circuit) = (subject.sampled_curve(), subject.circuit);
+    let (curve, circuit) = (subject.sampled_curve(), subject.circuit);
     let (linkage, joint) = subject.single_point_linkage();
     let mut most = f64::NEG_INFINITY;
-    for (from, to) in [(trail.neighbour(top, -1), Some(top)), (Some(top), trail.neighbour(top, 1))] {
+    for (from, to) in [(curve.neighbour(top, -1), Some(top)), (Some(top), curve.neighbour(top, 1))] {
         let (Some(from), Some(to)) = (from, to) else { continue };
-        // The way to a sample has the sides that it has itself, be it the end of a pass.
-        let (low, high) = (trail.inputs[from].min(trail.inputs[to]), trail.inputs[from].max(trail.inputs[to]));
-        let is_way = |pass: &&Pass| {
+        // The interval before a sample has the assembly mode of that sample, also if it is the end of a pass.
+        let (low, high) = (curve.inputs[from].min(curve.inputs[to]), curve.inputs[from].max(curve.inputs[to]));
+        let has_interval = |pass: &&Pass| {
             let [first, last] = pass.input_range();
-            pass.mode == circuit.mode_at(trail.sample_indices[to]) && first <= low && high <= last
+            pass.mode == circuit.mode_at(curve.sample_indices[to]) && first <= low && high <= last
         };
-        let Some(pass) = circuit.passes.iter().find(is_way) else { continue };
+        let Some(pass) = circuit.passes.iter().find(has_interval) else { continue };
         let height = |input: f64| {
             let at = motion::poses(linkage, pass, &[input]).point(joint, 0);
             direction.dot(&at.coords)
@@ -105,20 +108,20 @@ fn extent_by_poses(subject: &TracedCurve, direction: Vector, top: usize) -> f64 
     most
 }
 
-/// The length of a joint's path from its first sample to each sample, and, where it closes, to the first again at the
-/// end; not a number where the joint has no place. The last of them is the measure `length`.
+/// The length of a joint's path from its first sample to each sample and, if the path is closed, back to the first; NaN
+/// where the joint's position is undefined. The last value is the measure `length`.
 pub fn cumulative_lengths(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<f64> {
-    let [trail, fine] =
+    let [curve, fine] =
         [circuit, circuit.refined(linkage)].map(|circuit| SampledCurve::from_circuit(circuit, joint, linkage.input()));
-    let mut out = vec![f64::NAN; circuit.len() + usize::from(trail.is_closed)];
+    let mut out = vec![f64::NAN; circuit.len() + usize::from(curve.is_closed)];
     let mut lengths = vec![0.0];
     for length in fine.arc_lengths() {
         lengths.push(lengths[lengths.len() - 1] + length);
     }
-    for (k, &sample) in trail.sample_indices.iter().enumerate() {
-        out[sample] = fine.length_at(trail.points[k], trail.input_travel[k], &lengths);
+    for (k, &sample) in curve.sample_indices.iter().enumerate() {
+        out[sample] = fine.length_at(curve.points[k], curve.input_travel[k], &lengths);
     }
-    if let (true, Some(last)) = (trail.is_closed && !trail.sample_indices.is_empty(), out.last_mut()) {
+    if let (true, Some(last)) = (curve.is_closed && !curve.sample_indices.is_empty(), out.last_mut()) {
         *last = lengths[lengths.len() - 1];
     }
     out

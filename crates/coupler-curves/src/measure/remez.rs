@@ -1,30 +1,30 @@
-//! One point in for another, where the best line, strip or ring is known by a few points that it touches by turns
-//! (de la Vallée Poussin, Remez).
+//! The exchange step of a minimax fit by a line, strip or ring that touches a few points on alternating sides (de la
+//! Vallée Poussin, Remez).
 
-/// Points by turns on the one side and on the other, in order, with one of them exchanged for a new point that is
-/// further out than they: for a neighbour on the same side, or else for the one at the other end.
+/// Exchanges one of the `alternating` points, which are in order and on alternating sides, for a new point that is
+/// further out: a neighbour on the same side, or else the one at the other end.
 ///
-/// `is_like` tells whether one of them, by its place, is on the side of the new point.
+/// `is_like` returns whether the point at an index of `alternating` is on the side of the new point.
 pub(super) fn exchange_point<const N: usize>(
-    mut turns: [usize; N],
+    mut alternating: [usize; N],
     new: usize,
     is_like: impl Fn(usize) -> bool,
 ) -> [usize; N] {
-    match turns.iter().filter(|&&k| k < new).count() {
+    match alternating.iter().filter(|&&k| k < new).count() {
         0 if !is_like(0) => {
-            turns.rotate_right(1);
-            turns[0] = new;
+            alternating.rotate_right(1);
+            alternating[0] = new;
         }
         before if before == N && !is_like(N - 1) => {
-            turns.rotate_left(1);
-            turns[N - 1] = new;
+            alternating.rotate_left(1);
+            alternating[N - 1] = new;
         }
         before => {
             let neighbours = [before.saturating_sub(1), before.min(N - 1)];
-            turns[if is_like(neighbours[0]) { neighbours[0] } else { neighbours[1] }] = new;
+            alternating[if is_like(neighbours[0]) { neighbours[0] } else { neighbours[1] }] = new;
         }
     }
-    turns
+    alternating
 }
 
 #[cfg(test)]
@@ -32,12 +32,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sides_stay_in_turn() {
-        // Even places are below, odd ones above.
-        let with = |new: usize, above: bool| exchange_point([10, 20, 30], new, |k| (k % 2 == 1) == above);
-        assert_eq!([with(5, false), with(5, true)], [[5, 20, 30], [5, 10, 20]]);
-        assert_eq!([with(15, false), with(15, true)], [[15, 20, 30], [10, 15, 30]]);
-        assert_eq!([with(25, false), with(25, true)], [[10, 20, 25], [10, 25, 30]]);
-        assert_eq!([with(35, false), with(35, true)], [[10, 20, 35], [20, 30, 35]]);
+    fn sides_stay_alternating() {
+        // Points with even indices are below, those with odd ones above.
+        let exchanged = |new: usize, above: bool| exchange_point([10, 20, 30], new, |k| (k % 2 == 1) == above);
+        assert_eq!([exchanged(5, false), exchanged(5, true)], [[5, 20, 30], [5, 10, 20]]);
+        assert_eq!([exchanged(15, false), exchanged(15, true)], [[15, 20, 30], [10, 15, 30]]);
+        assert_eq!([exchanged(25, false), exchanged(25, true)], [[10, 20, 25], [10, 25, 30]]);
+        assert_eq!([exchanged(35, false), exchanged(35, true)], [[10, 20, 35], [20, 30, 35]]);
     }
 }

@@ -1,9 +1,11 @@
+//! Crunodes, inflections, cusps and the greatest curvature of the path.
+
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::{cross, trig};
 use crate::linkage::{DyadSet, Input};
 use crate::motion::{InputPosition, JointDerivatives, PassEnd};
 
-/// How often the path crosses itself.
+/// The measure `crunodes`.
 pub const CRUNODES: Measure = Measure {
     name: "crunodes",
     unit: "",
@@ -12,44 +14,44 @@ pub const CRUNODES: Measure = Measure {
     compute: |subject: &TracedCurve| Value::Number(subject.sampled_curve().crunodes().len() as f64),
 };
 
-/// How often it bends the other way.
+/// The measure `inflections`.
 pub const INFLECTIONS: Measure = Measure {
     name: "inflections",
     unit: "",
     is_word: false,
-    definition: "points at which the path begins to bend the other way",
+    definition: "points at which the curvature of the path changes its sign",
     compute: |subject: &TracedCurve| Value::Number(subject.sampled_curve().inflection_count() as f64),
 };
 
-/// How often it stops and turns back.
+/// The measure `cusps`.
 pub const CUSPS: Measure = Measure {
     name: "cusps",
     unit: "",
     is_word: false,
-    definition: "points at which the path stands still and turns back: slower than a millionth of its fastest",
+    definition: "points at which the path stops and reverses: slower than a millionth of its greatest speed",
     compute: |subject: &TracedCurve| Value::Number(subject.cusp_count() as f64),
 };
 
-/// Its sharpest bend.
+/// The measure `curvature_max`.
 pub const CURVATURE_MAX: Measure = Measure {
     name: "curvature_max",
     unit: "",
     is_word: false,
-    definition: "greatest curvature of the path but for corners at change points, 1 over the manifest's unit; inf at a cusp, and where the path turns back at a limit",
+    definition: "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp, or if the path reverses at a limit",
     compute: |subject: &TracedCurve| max_curvature(subject).map_or(Value::Missing, Value::Number),
 };
 
-/// Speed and curvature of the path at an input of the pass that a sample is on.
+/// The speed and the curvature of the path at an input of the pass of a sample.
 fn speed_and_curvature(subject: &TracedCurve, sample: usize, input: f64) -> [f64; 2] {
-    let stop = InputPosition::new(subject.linkage.input(), input);
+    let input = InputPosition::new(subject.linkage.input(), input);
     let (linkage, joint) = subject.single_point_linkage();
-    let jets = JointDerivatives::new(linkage, stop, subject.circuit.mode_at(sample), DyadSet::EMPTY);
+    let jets = JointDerivatives::new(linkage, input, subject.circuit.mode_at(sample), DyadSet::EMPTY);
     let (v, a) = (jets.velocity(joint), jets.acceleration(joint));
     let speed = v.norm();
     [speed, (cross(v, a) / (speed * speed * speed)).abs()]
 }
 
-/// The inputs beside a sample on its own pass.
+/// The inputs on the pass of a sample that are as far from it as the neighbouring samples.
 fn neighbour_inputs(subject: &TracedCurve, sample: usize) -> [f64; 2] {
     let input = |k: usize| subject.circuit.inputs.get(k).copied();
     let here = subject.circuit.inputs[sample];
@@ -58,17 +60,17 @@ fn neighbour_inputs(subject: &TracedCurve, sample: usize) -> [f64; 2] {
     [here - before.map_or(step, |b| (here - b).abs()), here + after.map_or(step, |a| (a - here).abs())]
 }
 
-/// How often a path stands still and turns back.
+/// The number of cusps of a path.
 pub(super) fn count_cusps(subject: &TracedCurve) -> usize {
-    let trail = subject.sampled_curve();
-    let turns: Vec<usize> = (0..trail.points.len()).filter(|&i| trail.turns_sharply(i)).collect();
-    if turns.is_empty() {
+    let curve = subject.sampled_curve();
+    let sharp_samples: Vec<usize> = (0..curve.points.len()).filter(|&i| curve.turns_sharply(i)).collect();
+    if sharp_samples.is_empty() {
         return 0;
     }
-    let longest = trail.arc_lengths().into_iter().fold(0.0, f64::max);
+    let longest = curve.arc_lengths().into_iter().fold(0.0, f64::max);
     let mut found: Vec<f64> = Vec::new();
-    for i in turns {
-        let sample = trail.sample_indices[i];
+    for i in sharp_samples {
+        let sample = curve.sample_indices[i];
         let [mut a, mut b] = neighbour_inputs(subject, sample);
         let step = (b - a).abs();
         for _ in 0..60 {
@@ -76,40 +78,41 @@ pub(super) fn count_cusps(subject: &TracedCurve) -> usize {
             let [sc, sd] = [c, d].map(|input| speed_and_curvature(subject, sample, input)[0]);
             if sc < sd { b = d } else { a = c }
         }
-        let still = speed_and_curvature(subject, sample, a)[0];
-        // The speed of the longest step, to a radian or a unit of length, for comparison.
+        let least_speed = speed_and_curvature(subject, sample, a)[0];
+        // The speed of the longest step per radian or unit of length, for comparison.
         let unit = if subject.linkage.input() == Input::Length { 1.0 } else { trig::degrees(1.0) };
         let fastest = longest / (step / 2.0) * unit;
         let is_new = found.iter().all(|other| (other - a).abs() > step / 4.0);
-        if still <= 1e-6 * fastest && is_new {
+        if least_speed <= 1e-6 * fastest && is_new {
             found.push(a);
         }
     }
     found.len()
 }
 
-/// The ends of passes at which a dyad lies flat.
+/// The ends of passes at which a dyad is flat.
 fn limit_ends<'a>(subject: &TracedCurve<'a>) -> impl Iterator<Item = &'a PassEnd> {
     let ends = subject.circuit.passes.iter().flat_map(|pass| [&pass.from, &pass.to]);
     ends.filter(|end| !end.flat_dyads.is_empty())
 }
 
+/// The greatest curvature of a path; infinite if it has a cusp or reverses at a limit.
 fn max_curvature(subject: &TracedCurve) -> Option<f64> {
-    let trail = subject.sampled_curve();
-    let sharpest = trail.sharpest_sample()?;
-    let is_limit = |i: &usize| limit_ends(subject).any(|end| end.input.value == trail.inputs[*i]);
-    if subject.cusp_count() > 0 || (0..trail.points.len()).filter(is_limit).any(|i| trail.doubles_back(i)) {
+    let curve = subject.sampled_curve();
+    let sharpest = curve.sharpest_sample()?;
+    let is_limit = |i: &usize| limit_ends(subject).any(|end| end.input.value == curve.inputs[*i]);
+    if subject.cusp_count() > 0 || (0..curve.points.len()).filter(is_limit).any(|i| curve.doubles_back(i)) {
         return Some(f64::INFINITY);
     }
-    let sample = trail.sample_indices[sharpest];
+    let sample = curve.sample_indices[sharpest];
     let [mut a, mut b] = neighbour_inputs(subject, sample);
     let is_end = |input: &f64| limit_ends(subject).any(|end| (end.input.value - input).abs() <= (b - a).abs());
-    // At a limit the path bends as it does elsewhere, but its rates do not tell.
+    // At a limit the curvature is finite, but the derivatives with respect to the input are not.
     if is_end(&subject.circuit.inputs[sample]) {
-        return Some(trail.max_curvature_near(sharpest));
+        return Some(curve.max_curvature_near(sharpest));
     }
     let at = |input: f64| speed_and_curvature(subject, sample, input)[1];
-    // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.
+    // To a thousandth of the distance between samples: the error of the maximum is of the second order in that.
     for _ in 0..18 {
         let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
         if at(c) > at(d) { b = d } else { a = c }

@@ -1,12 +1,12 @@
 //! The straightest portion of a curve.
 //!
-//! A portion lies in a *strip*: the narrowest band between two parallel lines that holds it, so that the line in the
+//! The *strip* of a portion is the narrowest band between two parallel lines that contains it, so that the line in the
 //! strip's middle is the minimax line of the portion. Its *length* is that of its projection on that line, and its
-//! *deviation* half the strip's width: no point of it is further from the line.
+//! *deviation* is half the strip's width: no point of it is further from the line.
 //!
-//! Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. Of an input span or
-//! a length the portion with the narrowest strip is wanted: of those that begin at samples, and then between them. A
-//! portion may go over sample 0 of a closed curve, and over limits.
+//! For a tolerance, the result is the longest portion whose strip is no wider than that part of its length. For an
+//! input span or a length, it is the portion with the narrowest strip: first among those that begin at samples, and
+//! then between them. A portion may extend across sample 0 of a closed curve, and across limits.
 
 use super::curve_segment::CurveSegment;
 use super::longest_straight::longest;
@@ -15,14 +15,14 @@ use super::strip::Strip;
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::Point;
 
-/// What is asked of the straight portion.
+/// The criterion by which the straight portion is selected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StraightCriterion {
-    /// The longest whose strip is no wider than this part of its length.
+    /// The longest portion whose strip is no wider than this part of its length.
     Tolerance(f64),
-    /// The straightest that spans this much input, in degrees or as a length.
+    /// The straightest portion that spans this much input, in degrees or as a length.
     Input(f64),
-    /// The straightest of this length.
+    /// The straightest portion of this length.
     Length(f64),
 }
 
@@ -41,18 +41,18 @@ pub struct StraightPortion {
     pub deviation: f64,
     /// The input at which it begins.
     pub start_input: f64,
-    /// How much input it spans, there and back over limits.
+    /// The input it spans, which is counted forward and backward at limits.
     pub input_span: f64,
-    /// Its points: the samples, and between them its ends.
+    /// Its points: the samples and its ends.
     pub points: Vec<Point>,
 }
 
-/// What is told of it.
+/// The measures of the straight portion.
 pub const MEASURES: [Measure; 4] = [
     Measure::number(
         "straight_length",
         "",
-        "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as the family's `straight` has it",
+        "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`",
         |subject| portion_value(subject, |portion| portion.length),
     ),
     Measure::number(
@@ -64,13 +64,13 @@ pub const MEASURES: [Measure; 4] = [
     Measure::number(
         "straight_start_deg",
         "deg",
-        "input at which the straightest portion begins; of an actuator a length",
+        "input at which the straightest portion begins; a length for an actuator",
         |subject| portion_value(subject, |portion| portion.start_input),
     ),
     Measure::number(
         "straight_input_deg",
         "deg",
-        "input the straightest portion spans; of an actuator a length",
+        "input that the straightest portion spans; a length for an actuator",
         |subject| portion_value(subject, |portion| portion.input_span),
     ),
 ];
@@ -79,15 +79,15 @@ fn portion_value(subject: &TracedCurve, value: fn(&StraightPortion) -> f64) -> V
     subject.straight().map_or(Value::Missing, |portion| Value::Number(value(portion)))
 }
 
-/// The portion asked for, of a curve; `None` where there is none so long.
-pub(super) fn find_portion(course: &CurveSegment, asked: StraightCriterion) -> Option<StraightPortion> {
-    let ends = match asked {
-        StraightCriterion::Tolerance(tolerance) => longest(course, tolerance)?,
-        StraightCriterion::Input(span) => straightest(course, |from| course.end_after_input(from, span))?,
-        StraightCriterion::Length(length) => straightest(course, |from| course.end_after_length(from, length))?,
+/// The portion of a curve that meets a criterion; `None` if the curve is too short.
+pub(super) fn find_portion(curve: &CurveSegment, criterion: StraightCriterion) -> Option<StraightPortion> {
+    let ends = match criterion {
+        StraightCriterion::Tolerance(tolerance) => longest(curve, tolerance)?,
+        StraightCriterion::Input(span) => straightest(curve, |from| curve.end_after_input(from, span))?,
+        StraightCriterion::Length(length) => straightest(curve, |from| curve.end_after_length(from, length))?,
     };
-    let points = course.portion_points(ends);
+    let points = curve.portion_points(ends);
     let Strip { width, length, .. } = Strip::enclosing(points.clone());
-    let (start, input) = (course.input_at(ends[0]), course.input_span(ends));
+    let (start, input) = (curve.input_at(ends[0]), curve.input_span(ends));
     Some(StraightPortion { length, deviation: width / 2.0, start_input: start, input_span: input, points })
 }

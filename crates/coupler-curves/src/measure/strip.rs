@@ -1,30 +1,33 @@
+//! Strips, convex hulls and diameters of points.
+
 use super::remez::exchange_point;
 use crate::geometry::{Point, Vector, cross};
 
-/// The narrowest band between two parallel lines that holds some points.
+/// The narrowest band between two parallel lines that contains some points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strip {
-    /// Across.
+    /// The distance of the two lines.
     pub width: f64,
-    /// How far the points reach along it.
+    /// The extent of the points along the lines.
     pub length: f64,
-    /// The direction it runs in.
+    /// The direction of the lines, of length 1.
     pub direction: Vector,
 }
 
 impl Strip {
-    /// Of at least one point.
+    /// The strip of at least one point.
     pub fn enclosing(points: Vec<Point>) -> Strip {
         Strip::from_hull(&convex_hull(points))
     }
 
-    /// Of a row of points that goes one way in the main; if it is wider than `most`, perhaps `None`.
+    /// The strip of a row of points along a nearly straight path; `None` if it is wider than `most`, and a wider strip
+    /// than the narrowest if that is enough.
     ///
-    /// One edge goes through two of three points, and the other through the one between: three are exchanged for others
-    /// until no point is outside. Begun with `three`, which are those of the strip afterwards.
+    /// One line passes through two of three points, and the other through the one between them; points are exchanged
+    /// until none is outside. `three` are the indices to begin with, and afterwards those of the strip.
     pub fn by_exchange(points: &[Point], three: &mut [usize; 3], most: f64) -> Option<Strip> {
         const ROUNDS: usize = 12;
-        /// Of wider strips, by their length, the narrowest may go through other points.
+        /// The greatest ratio of width to length for which the exchange is certain to find the narrowest strip.
         const THIN: f64 = 1.0 / 300.0;
         for _ in 0..ROUNDS {
             let corners = three.map(|k| points[k]);
@@ -45,7 +48,7 @@ impl Strip {
                 }
                 return Some(Strip { width, length: far - near, direction: along });
             }
-            // The one that is furthest outside.
+            // The point that is furthest outside.
             let own = area(&b);
             let outside = if high - own.max(0.0) > own.min(0.0) - low { high } else { low };
             let Some(new) = points.iter().position(|p| area(p) == outside) else { break };
@@ -54,7 +57,7 @@ impl Strip {
         Some(Strip::enclosing(points.to_vec())).filter(|strip| strip.width <= most)
     }
 
-    /// Of a convex polygon: one of its sides lies on an edge of the strip.
+    /// The strip of a convex polygon: one of its sides is on an edge of the strip.
     pub fn from_hull(corners: &[Point]) -> Strip {
         let n = corners.len();
         let first = corners.first().copied().unwrap_or_default();
@@ -78,7 +81,7 @@ impl Strip {
             }
             let length = side.norm();
             let width = height(far).max(0.0) / length;
-            // Sides of a hull have a length.
+            // Sides of a hull are longer than 0.
             if width < best.width {
                 best = Strip { width, direction: side / length, ..best };
             }
@@ -89,34 +92,33 @@ impl Strip {
     }
 }
 
-/// The least height of a triangle.
+/// The least height of a triangle; 0 if its corners coincide.
 pub(super) fn triangle_height([a, b, c]: [Point; 3]) -> f64 {
     let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
     let area = cross(b - a, c - a);
-    // A comparison with an infinite width is always lost.
     if longest > 0.0 { area.abs() / longest.sqrt() } else { 0.0 }
 }
 
-/// The least and the greatest value of some points.
-pub(super) fn min_max(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
-    // Four at a time, so that the compiler takes them by vectors.
+/// The least and the greatest value of a function of points.
+pub(super) fn min_max(points: &[Point], value_at: impl Fn(&Point) -> f64) -> [f64; 2] {
+    // Four at a time, so that the compiler vectorizes the loop.
     let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
     let (fours, rest) = points.as_chunks::<4>();
-    let mut take = |k: usize, value: f64| {
+    let mut update = |k: usize, value: f64| {
         low[k] = if value < low[k] { value } else { low[k] };
         high[k] = if value > high[k] { value } else { high[k] };
     };
     for four in fours {
-        let values = [of(&four[0]), of(&four[1]), of(&four[2]), of(&four[3])];
-        (0..4).for_each(|k| take(k, values[k]));
+        let values = [value_at(&four[0]), value_at(&four[1]), value_at(&four[2]), value_at(&four[3])];
+        (0..4).for_each(|k| update(k, values[k]));
     }
-    rest.iter().for_each(|p| take(0, of(p)));
+    rest.iter().for_each(|p| update(0, value_at(p)));
     [low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// The corners of the convex hull of some points, counter-clockwise.
 pub(super) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
-    // Points of a nearly straight portion are in order along x or y already, and sorting them again costs little.
+    // The points of a nearly straight portion are already in order along x or y, so that sorting is fast.
     let ends = points.last().zip(points.first()).map_or(Vector::zeros(), |(last, first)| last - first);
     if ends.x.abs() >= ends.y.abs() {
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -150,7 +152,7 @@ pub(super) fn diameter(corners: &[Point]) -> f64 {
     let mut most = 0.0f64;
     for k in 0..n {
         let (a, side) = (corners[k], corners[next(k)] - corners[k]);
-        // The corners that are furthest from a side are those that may be furthest from its ends.
+        // Only the corners that are furthest from a side can be furthest from its ends.
         for _ in 0..n {
             most = most.max((corners[far] - a).norm_squared()).max((corners[far] - a - side).norm_squared());
             if cross(side, corners[next(far)] - corners[far]) <= 0.0 {

@@ -3,12 +3,12 @@ use super::{Measure, TracedCurve, Value};
 use crate::geometry::{Vector, complex_product, cross, trig};
 use crate::linkage::FourBar;
 
-/// How far the output link swings.
+/// The measure `output_swing_deg`.
 pub const OUTPUT_SWING: Measure = Measure {
     name: "output_swing_deg",
     unit: "deg",
     is_word: false,
-    definition: "angle the output link of a four-bar swings through over the circuit; 360 where it turns round",
+    definition: "angle that the output link of a four-bar swings through over the circuit; 360 if it turns fully",
     compute: |subject: &TracedCurve| swing(subject).map_or(Value::Missing, Value::Number),
 };
 
@@ -17,7 +17,7 @@ fn swing(subject: &TracedCurve) -> Option<f64> {
     let circuit = subject.circuit;
     let arm = |i: usize| circuit.positions.point(b, i) - circuit.positions.point(c, i);
     let angle = |from: Vector, to: Vector| trig::degrees(trig::atan2(cross(from, to), from.dot(&to)));
-    // How far it has turned at each sample, from the first; and over the whole, back to where it began.
+    // The rotation from the first sample to each sample, and over the whole circuit.
     let mut turned = vec![0.0];
     for i in 1..circuit.len() {
         turned.push(turned[i - 1] + angle(arm(i - 1), arm(i)));
@@ -26,11 +26,12 @@ fn swing(subject: &TracedCurve) -> Option<f64> {
     if circuit.is_closed && (turned[last] + angle(arm(last), arm(0))).abs() > 180.0 {
         return Some(360.0);
     }
-    // Rocking, it never goes so far from the middle of its swing that its direction from there is in doubt.
+    // If it rocks, it is never more than 180 degrees from the middle of its swing, so that signed angles from there are
+    // unambiguous.
     let [low, high] = turned.iter().fold([0.0f64; 2], |[low, high], t| [low.min(*t), high.max(*t)]);
     let (cos, sin) = trig::cos_sin_deg((low + high) / 2.0);
     let first = arm(0);
     let middle = complex_product(Vector::new(cos, sin), first);
-    let [least, greatest] = extremes(subject, |place| angle(middle, place(b) - place(c)));
+    let [least, greatest] = extremes(subject, |position| angle(middle, position(b) - position(c)));
     Some(greatest - least)
 }

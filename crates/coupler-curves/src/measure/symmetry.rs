@@ -1,10 +1,11 @@
-//! Whether a curve is symmetrical, and about which line.
+//! Whether a curve is symmetrical, and about which axis.
 //!
-//! Two theorems of chapter 7 of Natesan's thesis tell of four-bars whose coupler curves are. *Theorem 1* (Berzak): crank
-//! and rocker are equal, and the coupler point is as far from the one pin as from the other; the axis is the perpendicular
-//! bisector of the frame. *Theorem 2* (Hartenberg and Denavit): coupler, rocker and the way from the rocker's pin to the
-//! coupler point are equal; the axis goes through the rocker's pivot, turned from the frame by half the angle at the
-//! rocker's pin (7.8). The same holds with crank and rocker exchanged. Of any other curve the axis is looked for.
+//! Two theorems of chapter 7 of Natesan's thesis describe four-bars with symmetrical coupler curves. *Theorem 1*
+//! (Berzak): crank and rocker are equal, and the coupler point is equally far from both pins; the axis is the
+//! perpendicular bisector of the frame. *Theorem 2* (Hartenberg and Denavit): coupler, rocker and the distance from the
+//! rocker's pin to the coupler point are equal; the axis passes through the rocker's pivot, rotated from the frame by
+//! half the angle at the rocker's pin (7.8). The same is true with crank and rocker exchanged. For any other curve the
+//! axis is searched for.
 
 use super::strip::{convex_hull, diameter};
 use super::symmetry_axis::{SymmetryAxis, axis_by_moments, refine_axis, rough_residual};
@@ -12,34 +13,34 @@ use super::{Measure, TracedCurve, Value};
 use crate::geometry::{Point, Vector, complex_product, cross};
 use crate::linkage::{FourBar, FourBarClass, PlacedFourBar, Sextic};
 
-/// What is said of a curve's symmetry.
+/// The symmetry of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Symmetry {
-    /// The line about which it is symmetrical, or most nearly so; none of a circle, to which all lines are alike.
+    /// The axis about which it is symmetrical, or most nearly so; `None` for a circle, which has infinitely many.
     pub axis: Option<SymmetryAxis>,
-    /// The greatest distance of its mirror image from it, by its greatest extent.
+    /// The greatest distance of its mirror image from it, relative to its greatest extent.
     pub residual: f64,
-    /// The theorem that says so.
+    /// The theorem by which it is symmetrical, if any.
     pub theorem: Option<&'static str>,
 }
 
 impl Symmetry {
-    /// A curve whose mirror image is nearer to it than this part of its extent is called symmetrical: much less than is
-    /// seen on paper, and more than its samples leave open.
+    /// The greatest residual of a curve that is reported as symmetrical: much less than is visible on paper, and more
+    /// than the error of its samples.
     pub const TOLERANCE: f64 = 1e-4;
 
-    /// The axis of a curve that is symmetrical.
+    /// The axis, if the curve is symmetrical.
     pub fn axis_if_symmetric(&self) -> Option<SymmetryAxis> {
         self.axis.filter(|_| self.residual <= Symmetry::TOLERANCE)
     }
 }
 
-/// By what theorem.
+/// The measure `symmetry`.
 pub const SYMMETRY: Measure = Measure {
     name: "symmetry",
     unit: "",
     is_word: true,
-    definition: "theorem 1 (crank = rocker, point on the coupler's bisector) or theorem 2 (coupler = rocker = pin to point, or coupler = crank) of Natesan's chapter 7; other: its mirror image is within 1e-4 of its extent all the same; empty of a curve without symmetry",
+    definition: "theorem 1 (crank = rocker, point on the coupler's bisector) or theorem 2 (coupler = rocker = pin to point, or coupler = crank) of Natesan's chapter 7; other: another curve whose mirror image is within 1e-4 of its extent; empty for a curve without symmetry",
     compute: |subject: &TracedCurve| match subject.symmetry() {
         Some(Symmetry { theorem: Some(theorem), .. }) => Value::Word(theorem),
         Some(symmetry) if symmetry.residual <= Symmetry::TOLERANCE => Value::Word("other"),
@@ -47,77 +48,77 @@ pub const SYMMETRY: Measure = Measure {
     },
 };
 
-/// Where its axis points.
+/// The measure `symmetry_deg`.
 pub const AXIS: Measure = Measure {
     name: "symmetry_deg",
     unit: "deg",
     is_word: false,
-    definition: "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty of a circle",
+    definition: "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty for a circle",
     compute: |subject: &TracedCurve| {
         subject.symmetry().and_then(|s| s.axis).map_or(Value::Missing, |axis| Value::Number(axis.direction_deg()))
     },
 };
 
-/// How nearly.
+/// The measure `symmetry_residual`.
 pub const RESIDUAL: Measure = Measure {
     name: "symmetry_residual",
     unit: "",
     is_word: false,
-    definition: "greatest distance of the curve's mirror image about that line from the curve, by its greatest extent",
+    definition: "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent",
     compute: |subject: &TracedCurve| subject.symmetry().map_or(Value::Missing, |s| Value::Number(s.residual)),
 };
 
-/// Of a curve that is no point.
+/// The symmetry of a curve; `None` for a point.
 pub(super) fn find_symmetry(subject: &TracedCurve) -> Option<Symmetry> {
-    /// A theorem's curve that is no nearer to its image than this, by its extent, is the image of another circuit's.
-    const APART: f64 = 0.1;
-    let trail = subject.sampled_curve();
-    let extent = diameter(&convex_hull(trail.points.clone()));
-    if trail.points.len() < 3 || extent <= 0.0 {
+    /// If the residual for a theorem's axis is greater than this, the mirror image is the curve of another circuit.
+    const MAX_ROUGH_RESIDUAL: f64 = 0.1;
+    let curve = subject.sampled_curve();
+    let extent = diameter(&convex_hull(curve.points.clone()));
+    if curve.points.len() < 3 || extent <= 0.0 {
         return None;
     }
-    // Of a linkage with two circuits each may be the mirror image of the other: not so where it is roughly its own.
+    // If a linkage has two circuits, their curves may be mirror images of each other, and not of themselves.
     if let Some((axis, theorem)) = axis_by_theorem(subject)
-        && (has_one_circuit(subject) || rough_residual(trail, axis) <= APART * extent)
+        && (has_one_circuit(subject) || rough_residual(curve, axis) <= MAX_ROUGH_RESIDUAL * extent)
     {
-        let residual = residual_by_sextic(subject, axis).unwrap_or_else(|| refine_axis(trail, axis, true).1) / extent;
+        let residual = residual_by_sextic(subject, axis).unwrap_or_else(|| refine_axis(curve, axis, true).1) / extent;
         return Some(Symmetry { axis: Some(axis), residual, theorem: Some(theorem) });
     }
-    let Some(axis) = axis_by_moments(trail) else { return Some(Symmetry { axis: None, residual: 0.0, theorem: None }) };
-    let rough = rough_residual(trail, axis);
-    // Nearer than that, the curve between its samples is looked at.
-    if rough > 4.0 * trail.max_sagitta() {
+    let Some(axis) = axis_by_moments(curve) else { return Some(Symmetry { axis: None, residual: 0.0, theorem: None }) };
+    let rough = rough_residual(curve, axis);
+    // If it is smaller than that, the curve is interpolated between its samples.
+    if rough > 4.0 * curve.max_sagitta() {
         return Some(Symmetry { axis: Some(axis), residual: rough / extent, theorem: None });
     }
-    let (axis, most) = refine_axis(trail, axis, false);
+    let (axis, most) = refine_axis(curve, axis, false);
     Some(Symmetry { axis: Some(axis), residual: most / extent, theorem: None })
 }
 
-/// Whether a four-bar has one circuit only, as those without a link that turns fully have.
+/// Whether a four-bar has only one circuit, as a triple-rocker has.
 fn has_one_circuit(subject: &TracedCurve) -> bool {
     FourBar::from_linkage(subject.linkage).is_some_and(|bar| bar.class() == FourBarClass::TripleRocker)
 }
 
-/// The greatest distance of the mirrored samples from the curve of a coupler point, by its own equation.
+/// The greatest distance of the mirrored samples from the curve of a coupler point, from its sextic.
 fn residual_by_sextic(subject: &TracedCurve, axis: SymmetryAxis) -> Option<f64> {
     let PlacedFourBar { pivots: [origin, end], lengths, coupler_point: point } =
         PlacedFourBar::from_linkage(subject.linkage, subject.joint).ok()?;
     let sextic = Sextic::from_four_bar(lengths, point)?;
     let frame = (end - origin).try_normalize(0.0)?;
     let distance = |point: &Point| {
-        let by = axis.mirror(*point) - origin;
-        let own = Point::new(frame.dot(&by), cross(frame, by));
-        // To the first order. At a double point both vanish, and what is left of the one is rounding.
-        let [value, terms] = sextic.evaluate(own);
-        let off = value.abs() / sextic.gradient(own).norm();
-        if value.abs() > 1e-13 * terms && off.is_finite() { off } else { 0.0 }
+        let offset = axis.mirror(*point) - origin;
+        let in_frame = Point::new(frame.dot(&offset), cross(frame, offset));
+        // The distance to the first order. At a double point value and gradient vanish, and the value is only rounding.
+        let [value, terms] = sextic.evaluate(in_frame);
+        let distance = value.abs() / sextic.gradient(in_frame).norm();
+        if value.abs() > 1e-13 * terms && distance.is_finite() { distance } else { 0.0 }
     };
     Some(subject.sampled_curve().points.iter().map(distance).fold(0.0, f64::max))
 }
 
-/// The axis that a theorem gives the curves of a coupler point, and which theorem it is.
+/// The axis of the curves of a coupler point by a theorem, and the name of the theorem.
 fn axis_by_theorem(subject: &TracedCurve) -> Option<(SymmetryAxis, &'static str)> {
-    /// Lengths that agree to within the rounding of the expressions they come from are meant to be equal.
+    /// The relative tolerance for equal lengths: the rounding of the expressions they come from.
     const EQUAL: f64 = 1e-12;
     let linkage = subject.linkage;
     let [o, a, b, c] = FourBar::coupler_pins(linkage, subject.joint)?;
@@ -127,10 +128,11 @@ fn axis_by_theorem(subject: &TracedCurve) -> Option<(SymmetryAxis, &'static str)
     let (from_crank, from_rocker) = (to_point(a)?, to_point(b)?);
     let is_equal = |x: f64, y: f64| (x - y).abs() <= EQUAL * (frame + crank + coupler + rocker);
     let circuit = subject.circuit;
-    let place = |joint, k| circuit.positions.point(joint, k);
-    let [origin, end] = [place(o, 0), place(c, 0)];
+    let position = |joint, k| circuit.positions.point(joint, k);
+    let [origin, end] = [position(o, 0), position(c, 0)];
     let first = is_equal(crank, rocker) && is_equal(from_crank, from_rocker);
-    // The pivot the axis goes through, the other one, and the pin on the link of the other.
+    // The pivots and the pins, first those of the arm that the axis belongs to; the length of the arm and the distance
+    // of its pin from the point.
     let second = [([end, origin], [b, a], rocker, from_rocker), ([origin, end], [a, b], crank, from_crank)]
         .into_iter()
         .find(|(_, _, arm, to_point)| is_equal(coupler, *arm) && is_equal(coupler, *to_point));
@@ -140,11 +142,12 @@ fn axis_by_theorem(subject: &TracedCurve) -> Option<(SymmetryAxis, &'static str)
         return Some((axis, if second.is_some() { "theorems 1 and 2" } else { "theorem 1" }));
     }
     let ([pivot, other], [_, pin], ..) = second?;
-    // The angle from the pin to the point about the pivot is the same in every pose: taken where both are far from it.
-    let seen = |k: usize| [place(pin, k) - pivot, place(subject.joint, k) - pivot];
-    let reach = |k: usize| seen(k).map(|by| by.norm()).into_iter().fold(f64::INFINITY, f64::min);
+    // The angle at the pivot from the pin to the point is the same in every pose; it is computed where both are far
+    // from it.
+    let arms = |k: usize| [position(pin, k) - pivot, position(subject.joint, k) - pivot];
+    let reach = |k: usize| arms(k).map(|by| by.norm()).into_iter().fold(f64::INFINITY, f64::min);
     let best = (0..circuit.len()).max_by(|&j, &k| reach(j).total_cmp(&reach(k)))?;
-    let [from, to] = seen(best);
+    let [from, to] = arms(best);
     let (cos, sin) = (from.dot(&to), cross(from, to));
     let frame = other - pivot;
     let direction = complex_product(Vector::new(cos, sin), frame);

@@ -1,17 +1,19 @@
+//! The axis about which a curve is most nearly symmetrical, and the distance of the curve from its mirror image.
+
 use super::sampled_curve::SampledCurve;
 use crate::geometry::{Point, Vector, complex_product, cross, trig};
 
-/// A line that a curve may be symmetrical about.
+/// A line about which a curve may be symmetrical.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetryAxis {
-    /// A point of it.
+    /// A point on it.
     pub point: Point,
     /// Its direction, of length 1.
     pub direction: Vector,
 }
 
 impl SymmetryAxis {
-    /// The line through a point in a direction; `None` where that is none.
+    /// The line through a point in a direction; `None` if the direction is zero or not finite.
     pub fn new(through: Point, direction: Vector) -> Option<SymmetryAxis> {
         let along = direction.try_normalize(0.0).filter(|along| along.x.is_finite() && along.y.is_finite())?;
         Some(SymmetryAxis { point: through, direction: along })
@@ -19,8 +21,8 @@ impl SymmetryAxis {
 
     /// The mirror image of a point.
     pub fn mirror(&self, point: Point) -> Point {
-        let by = point - self.point;
-        self.point + self.direction * (2.0 * self.direction.dot(&by)) - by
+        let offset = point - self.point;
+        self.point + self.direction * (2.0 * self.direction.dot(&offset)) - offset
     }
 
     /// Its direction from the x-axis, in degrees, from 0 up to 180.
@@ -30,20 +32,20 @@ impl SymmetryAxis {
     }
 }
 
-/// The axis that a curve is symmetrical about if it is about any, by the moments of its length; `None` where moments of
-/// up to the third order tell of none, as of a circle.
+/// The only line about which a curve can be symmetrical, from the moments of its length; `None` if its moments of up to
+/// the third order do not determine one, like those of a circle.
 ///
-/// An axis of symmetry is a principal axis of the second moments, and moments of an odd order across it vanish. Where the
-/// second moments are the same every way, those of the third order tell the axis.
-pub(super) fn axis_by_moments(trail: &SampledCurve) -> Option<SymmetryAxis> {
-    /// What is less than this part of what it might be is taken for nothing.
-    const NONE: f64 = 1e-3;
-    let weights = trail.sample_weights();
+/// An axis of symmetry is a principal axis of the second moments, and moments of an odd order across it vanish. If the
+/// second moments are isotropic, those of the third order determine the axis.
+pub(super) fn axis_by_moments(curve: &SampledCurve) -> Option<SymmetryAxis> {
+    /// A moment less than this part of the greatest possible one is negligible.
+    const NEGLIGIBLE: f64 = 1e-3;
+    let weights = curve.sample_weights();
     let total: f64 = weights.iter().sum();
-    let centre = trail.points.iter().zip(&weights).map(|(p, w)| p.coords * *w).sum::<Vector>() / total;
+    let centre = curve.points.iter().zip(&weights).map(|(p, w)| p.coords * *w).sum::<Vector>() / total;
     let (mut all, mut cubes) = (0.0, 0.0);
     let (mut second, mut third, mut threefold) = (Vector::zeros(), Vector::zeros(), Vector::zeros());
-    for (p, w) in trail.points.iter().zip(&weights) {
+    for (p, w) in curve.points.iter().zip(&weights) {
         let z = p.coords - centre;
         let (square, norm2) = (complex_product(z, z), z.norm_squared());
         all += w * norm2;
@@ -57,7 +59,7 @@ pub(super) fn axis_by_moments(trail: &SampledCurve) -> Option<SymmetryAxis> {
         SymmetryAxis::new(Point::from(centre), Vector::new(cos, sin))
     };
     let direction = |moment: Vector, fold: f64| trig::degrees(trig::atan2(moment.y, moment.x)) / fold;
-    // How far the odd moments are from vanishing across a line.
+    // The magnitude of the odd moments across a line.
     let oddness = |deg: f64| {
         let across = |moment: Vector, deg: f64| {
             let (cos, sin) = trig::cos_sin_deg(deg);
@@ -65,37 +67,37 @@ pub(super) fn axis_by_moments(trail: &SampledCurve) -> Option<SymmetryAxis> {
         };
         across(third, deg) + across(threefold, 3.0 * deg)
     };
-    if second.norm() > NONE * all {
+    if second.norm() > NEGLIGIBLE * all {
         let long = direction(second, 2.0);
         return axis(if oddness(long) <= oddness(long + 90.0) + 1e-9 * cubes { long } else { long + 90.0 });
     }
     match () {
-        () if third.norm() > NONE * cubes => axis(direction(third, 1.0)),
-        () if threefold.norm() > NONE * cubes => axis(direction(threefold, 3.0)),
+        () if third.norm() > NEGLIGIBLE * cubes => axis(direction(third, 1.0)),
+        () if threefold.norm() > NEGLIGIBLE * cubes => axis(direction(threefold, 3.0)),
         () => None,
     }
 }
 
-/// How far the mirror image of a curve is from it: the greatest distance of mirrored samples, no fewer than ninety of them
-/// where there are so many, from the lines between all.
-pub(super) fn rough_residual(trail: &SampledCurve, axis: SymmetryAxis) -> f64 {
-    const ENOUGH: usize = 90;
-    let stride = (trail.points.len() / ENOUGH).max(1);
-    let samples = SampleIndex::new(&trail.points);
+/// The greatest distance of mirrored samples, at least ninety of them if there are as many, from the chords of the
+/// curve.
+pub(super) fn rough_residual(curve: &SampledCurve, axis: SymmetryAxis) -> f64 {
+    const MIN_SAMPLES: usize = 90;
+    let stride = (curve.points.len() / MIN_SAMPLES).max(1);
+    let samples = SampleIndex::new(&curve.points);
     let mut near = 0;
     let mut most = 0.0f64;
-    for p in trail.points.iter().step_by(stride) {
+    for p in curve.points.iter().step_by(stride) {
         let image = axis.mirror(*p);
         near = samples.nearest(image, near);
-        // No line to a neighbour is further than the sample itself.
-        if (trail.points[near] - image).norm_squared() > most * most {
-            most = most.max(trail.distance_to_chords(image, near));
+        // The chords are no further away than the sample itself.
+        if (curve.points[near] - image).norm_squared() > most * most {
+            most = most.max(curve.distance_to_chords(image, near));
         }
     }
     most
 }
 
-/// Samples, with boxes round those that follow one another, by which it is seen that they are not the nearest.
+/// Samples with bounding boxes of consecutive ones, for the search for the nearest.
 struct SampleIndex<'a> {
     points: &'a [Point],
     boxes: Vec<[Point; 2]>,
@@ -109,21 +111,21 @@ impl SampleIndex<'_> {
         SampleIndex { points, boxes: points.chunks(Self::BOX_SIZE).map(corners).collect() }
     }
 
-    /// The sample that is nearest to a point, looked for beyond `guess`.
+    /// The sample nearest to a point, searched for from a `guess`.
     fn nearest(&self, point: Point, guess: usize) -> usize {
         let square = |k: usize| (self.points[k] - point).norm_squared();
         let (mut near, mut best) = (guess, square(guess));
-        // Along the curve to where it is nearer than at either side: most boxes are further than that.
-        for way in [1, self.points.len() - 1] {
-            while let next = (near + way) % self.points.len()
+        // Descend along the curve to a local minimum first: most boxes are further away than that.
+        for step in [1, self.points.len() - 1] {
+            while let next = (near + step) % self.points.len()
                 && square(next) < best
             {
                 (best, near) = (square(next), next);
             }
         }
         for (k, [low, high]) in self.boxes.iter().enumerate() {
-            let off = |low: f64, at: f64, high: f64| (low - at).max(at - high).max(0.0);
-            let (x, y) = (off(low.x, point.x, high.x), off(low.y, point.y, high.y));
+            let outside = |low: f64, at: f64, high: f64| (low - at).max(at - high).max(0.0);
+            let (x, y) = (outside(low.x, point.x, high.x), outside(low.y, point.y, high.y));
             if x * x + y * y < best {
                 let first = k * Self::BOX_SIZE;
                 for (j, q) in self.points[first..].iter().take(Self::BOX_SIZE).enumerate() {
@@ -138,32 +140,32 @@ impl SampleIndex<'_> {
     }
 }
 
-/// The axis about which a nearly symmetrical curve is most nearly so, in the mean of the squares, and how far the image is
-/// from the curve there at most; of a given axis only the latter.
-pub(super) fn refine_axis(trail: &SampledCurve, mut axis: SymmetryAxis, is_given: bool) -> (SymmetryAxis, f64) {
+/// Refines the axis of a nearly symmetrical curve by least squares, unless it `is_given`. Returns the axis and the
+/// greatest distance of the mirror image from the curve.
+pub(super) fn refine_axis(curve: &SampledCurve, mut axis: SymmetryAxis, is_given: bool) -> (SymmetryAxis, f64) {
     const ROUNDS: usize = 3;
-    /// Of so many samples one is enough to find the axis by.
+    /// Every fourth sample is enough to refine the axis.
     const STRIDE: usize = 4;
-    let samples = SampleIndex::new(&trail.points);
+    let samples = SampleIndex::new(&curve.points);
     let mut near = 0;
     for round in 0.. {
         let mut most = 0.0f64;
         let across = Vector::new(-axis.direction.y, axis.direction.x);
-        // The normal equations of an offset and a turn.
+        // The normal equations for a shift and a rotation of the axis.
         let (mut a, mut b, mut c, mut u, mut v) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let is_last = is_given || round == ROUNDS;
-        for p in trail.points.iter().step_by(if is_last { 1 } else { STRIDE }) {
+        for p in curve.points.iter().step_by(if is_last { 1 } else { STRIDE }) {
             let image = axis.mirror(*p);
             near = samples.nearest(image, near);
-            let Some((off, normal)) = trail.signed_distance(image, near) else { continue };
-            most = most.max(off.abs());
-            let by = image - axis.point;
-            let (shift, turn) = (2.0 * normal.dot(&across), 2.0 * cross(by, normal));
+            let Some((distance, normal)) = curve.signed_distance(image, near) else { continue };
+            most = most.max(distance.abs());
+            let offset = image - axis.point;
+            let (shift, turn) = (2.0 * normal.dot(&across), 2.0 * cross(offset, normal));
             a += shift * shift;
             b += shift * turn;
             c += turn * turn;
-            u += shift * off;
-            v += turn * off;
+            u += shift * distance;
+            v += turn * distance;
         }
         let det = a * c - b * b;
         if is_last {

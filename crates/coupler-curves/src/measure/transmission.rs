@@ -3,32 +3,32 @@ use super::{Measure, TracedCurve, Value};
 use crate::geometry::{cross, trig};
 use crate::linkage::{FourBar, JointId, JointKind, Linkage, length_tolerance};
 
-/// The least transmission angle.
+/// The measure `mu_min_deg`.
 pub const MU_MIN: Measure = Measure {
     name: "mu_min_deg",
     unit: "deg",
     is_word: false,
-    definition: "least transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins (McCarthy 2.3.3)",
+    definition: "least transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins (McCarthy 2.3.3)",
     compute: |subject: &TracedCurve| {
         subject.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least))
     },
 };
 
-/// The greatest transmission angle.
+/// The measure `mu_max_deg`.
 pub const MU_MAX: Measure = Measure {
     name: "mu_max_deg",
     unit: "deg",
     is_word: false,
-    definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; driven by the coupler, at both pins",
+    definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins",
     compute: |subject: &TracedCurve| {
         subject.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most))
     },
 };
 
-/// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 where it is flat.
+/// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 if the triangle is degenerate.
 fn opposite_angle(side: f64, [x, y]: [f64; 2]) -> f64 {
-    // Half the angle has sine and cosine by the factors of Heron's formula. At a limit they are zero but for the rounding
-    // of the places the side is taken from.
+    // Sine and cosine of half the angle, from the factors of Heron's formula. At a limit one of them is zero apart from
+    // the rounding of the positions that the side is computed from.
     let rounding = 4.0 * length_tolerance(side + x + y);
     let clear = |gap: f64| if gap.abs() <= rounding { 0.0 } else { gap };
     let sine = clear(side - (x - y).abs()) * (side + (x - y).abs());
@@ -36,19 +36,20 @@ fn opposite_angle(side: f64, [x, y]: [f64; 2]) -> f64 {
     2.0 * trig::degrees(trig::atan2(sine.max(0.0).sqrt(), cosine.max(0.0).sqrt()))
 }
 
-/// The least and the greatest over the circuit, in degrees.
+/// The least and the greatest transmission angle over the circuit, in degrees.
 pub(super) fn transmission_angles(subject: &TracedCurve) -> Option<[f64; 2]> {
     let linkage = subject.linkage;
     let FourBar { frame, crank, coupler, rocker } = FourBar::from_linkage(linkage)?;
     if linkage.seen_from.is_none() {
-        // By the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the frame line.
+        // From the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the
+        // frame line.
         let [o, a, _, c] = FourBar::pins(linkage)?;
         let [least, greatest] = pin_distance_range(subject, [o, a, c], [frame, crank]);
         return Some([least, greatest].map(|d| opposite_angle(d, [coupler, rocker])));
     }
     let [o, a, b, c] = FourBar::pins(linkage)?;
     let angle = |[from, to]: [JointId; 2], sides: [f64; 2]| {
-        extremes(subject, |place| (place(from) - place(to)).norm()).map(|side| opposite_angle(side, sides))
+        extremes(subject, |position| (position(from) - position(to)).norm()).map(|side| opposite_angle(side, sides))
     };
     let at_rocker = angle([a, c], [coupler, rocker]);
     if !is_driven(linkage, [a, b]) {
@@ -58,25 +59,25 @@ pub(super) fn transmission_angles(subject: &TracedCurve) -> Option<[f64; 2]> {
     Some([at_rocker[0].min(at_crank[0]), at_rocker[1].max(at_crank[1])])
 }
 
-/// Whether the link through two pins is the one that is driven: the crank of the linkage as it was assembled.
+/// Whether the link through two pins is the driven one: the crank of the linkage as it was built.
 fn is_driven(linkage: &Linkage, pins: [JointId; 2]) -> bool {
-    linkage.joints.iter().enumerate().any(|(id, joint)| match joint.kind {
+    linkage.joint_ids().zip(&linkage.joints).any(|(id, joint)| match joint.kind {
         JointKind::Crank { pivot, .. } => pins == [pivot, id] || pins == [id, pivot],
         _ => false,
     })
 }
 
-/// The least and the greatest distance of a crank's pin from another fixed pivot over a circuit.
+/// The least and the greatest distance of the crank's pin from the other fixed pivot over a circuit.
 fn pin_distance_range(subject: &TracedCurve, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2]) -> [f64; 2] {
     let circuit = subject.circuit;
     let at = |joint, i| circuit.positions.point(joint, i);
-    // The direction of the frame line, by the input at which the crank points along it.
+    // The input at which the crank points along the frame line.
     let along = at(c, 0) - at(o, 0);
     let arm = at(a, 0) - at(o, 0);
-    let turned = cross(arm, along) * subject.linkage.placement.handedness();
-    let turn = trig::degrees(trig::atan2(turned, arm.dot(&along)));
+    let angle_sine = cross(arm, along) * subject.linkage.placement.handedness();
+    let turn = trig::degrees(trig::atan2(angle_sine, arm.dot(&along)));
     let towards = circuit.inputs[0] + turn;
-    let reached = |deg: f64| {
+    let is_reached = |deg: f64| {
         circuit.passes.iter().any(|pass| {
             let [low, high] = pass.input_range();
             (deg - low + 1e-9).rem_euclid(360.0) <= high - low + 2e-9
@@ -85,10 +86,10 @@ fn pin_distance_range(subject: &TracedCurve, [o, a, c]: [JointId; 3], [frame, cr
     let samples = (0..circuit.len()).map(|i| (at(a, i) - at(c, i)).norm());
     let [mut least, mut greatest] =
         samples.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], d| [least.min(d), greatest.max(d)]);
-    if reached(towards) {
+    if is_reached(towards) {
         least = (frame - crank).abs();
     }
-    if reached(towards + 180.0) {
+    if is_reached(towards + 180.0) {
         greatest = frame + crank;
     }
     [least, greatest]

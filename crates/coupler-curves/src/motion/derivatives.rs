@@ -1,32 +1,34 @@
-//! Velocity, acceleration and jerk of every joint with respect to the input, by Taylor series to the third order.
+//! Velocity, acceleration and jerk of all joints with respect to the input, by Taylor series to the third order.
 
-use super::circuit::{InputPosition, Pass};
 use super::joint_series::{SeriesInput, place_as_series};
+use super::pass::{InputPosition, Pass};
 use super::series::{Series, VectorSeries};
 use crate::geometry::{Orientation, Point, Vector};
-use crate::linkage::{AssemblyMode, DyadSet, JointId, JointKind, Linkage};
+use crate::linkage::{AssemblyMode, DyadId, DyadSet, JointId, JointKind, Linkage};
 
-/// A joint's place and its first three rates.
+/// A joint's position and its first three Taylor coefficients.
 type JointSeries = VectorSeries<f64, 4>;
 
-/// Places and rates of all joints at one input, to a radian of it or to a unit of its length, in the frame the linkage is seen from.
+/// Positions of all joints at one input and their derivatives per radian, or unit of length, of the input, in the frame
+/// the linkage is seen from.
 ///
-/// At a limit the rates of the joints that turn round there are infinite, but across a line they keep to.
+/// At a limit the derivatives of the joints that reverse there are infinite, except across a line they are confined to.
 #[derive(Clone, Debug)]
 pub struct JointDerivatives(Vec<JointSeries>);
 
 impl JointDerivatives {
-    /// The rates at an input in an assembly; of the dyads in `flat`, which lie flat there, they are unbounded.
+    /// The derivatives at an input in an assembly mode; those of the dyads in `flat`, which are flat there, are
+    /// unbounded.
     ///
     /// # Source
     /// The constraints of each dyad, differentiated as series.
-    pub fn new(linkage: &Linkage, stop: InputPosition, signs: AssemblyMode, flat: DyadSet) -> JointDerivatives {
-        let JointDerivatives(at) = JointDerivatives::in_fixed_frame(linkage, stop, signs, flat);
+    pub fn new(linkage: &Linkage, input: InputPosition, mode: AssemblyMode, flat: DyadSet) -> JointDerivatives {
+        let JointDerivatives(at) = JointDerivatives::in_fixed_frame(linkage, input, mode, flat);
         JointDerivatives(to_view_frame(linkage, at))
     }
 
-    /// The rates at an input of a pass. At its ends they are those of the pass: at a limit unbounded, at a change point,
-    /// through which the motion goes on smoothly, as they are beside it.
+    /// The derivatives at an input of a pass. At its ends they are the one-sided ones: unbounded at a limit; finite at
+    /// a change point, through which the motion continues smoothly.
     pub fn on_pass(linkage: &Linkage, pass: &Pass, input: f64) -> JointDerivatives {
         for (end, inwards) in [(pass.to, -pass.input_direction()), (pass.from, pass.input_direction())] {
             if end.input.value == input && !end.flat_dyads.is_empty() {
@@ -42,34 +44,34 @@ impl JointDerivatives {
     /// The same as [`JointDerivatives::new`] in the frame of the fixed joints.
     pub(super) fn in_fixed_frame(
         linkage: &Linkage,
-        stop: InputPosition,
-        signs: AssemblyMode,
+        input: InputPosition,
+        mode: AssemblyMode,
         flat: DyadSet,
     ) -> JointDerivatives {
-        JointDerivatives(differentiate_joints::<4>(linkage, stop, signs, (flat, 0.0)))
+        JointDerivatives(differentiate_joints::<4>(linkage, input, mode, (flat, 0.0)))
     }
 
-    /// Where a joint is.
+    /// A joint's position.
     pub fn position(&self, joint: JointId) -> Point {
         Point::from(self.coefficient(joint, 0))
     }
 
-    /// A joint's velocity: the change of its place to a radian, or a unit, of input.
+    /// A joint's velocity: the derivative of its position with respect to the input, per radian or unit of length.
     pub fn velocity(&self, joint: JointId) -> Vector {
         self.rate(joint, 1)
     }
 
-    /// A joint's acceleration: the second derivative of its place by the input.
+    /// A joint's acceleration: the second derivative of its position with respect to the input.
     pub fn acceleration(&self, joint: JointId) -> Vector {
         self.rate(joint, 2) * 2.0
     }
 
-    /// A joint's jerk: the third derivative of its place by the input.
+    /// A joint's jerk: the third derivative of its position with respect to the input.
     pub fn jerk(&self, joint: JointId) -> Vector {
         self.rate(joint, 3) * 6.0
     }
 
-    /// Infinite where anything the rate depends on is.
+    /// A Taylor coefficient; infinite where it depends on an infinite one.
     fn rate(&self, joint: JointId, order: usize) -> Vector {
         self.coefficient(joint, order).map(|rate| if rate.is_nan() { f64::INFINITY } else { rate })
     }
@@ -79,51 +81,51 @@ impl JointDerivatives {
     }
 }
 
-/// Terms of a series at an end of a pass: each dyad that touches its flat pose there takes one of them.
+/// Terms of a series at an end of a pass: each dyad that touches its flat pose there uses up one of them.
 const END_TERMS: usize = 8;
 
-/// Places and rates in the frame of the fixed joints, by series of `N` terms; `inwards` is 1 where the motion is at greater
-/// inputs than this, -1 where it is at smaller ones, and 0 where that is not known.
+/// Positions and derivatives in the frame of the fixed joints, by series of `N` terms; `inwards` is 1 where the pass
+/// lies at greater inputs than this, -1 where it lies at smaller ones, and 0 where that is not known.
 fn differentiate_joints<const N: usize>(
     linkage: &Linkage,
-    stop: InputPosition,
-    signs: AssemblyMode,
+    input: InputPosition,
+    mode: AssemblyMode,
     (flat, inwards): (DyadSet, f64),
 ) -> Vec<JointSeries> {
-    let drive = SeriesInput { value: stop.value, direction: [stop.cos, stop.sin] };
-    let mode = |dyad: usize| if flat.contains(dyad) { 0.0 } else { f64::from(signs.sign(dyad)) };
-    let settle = |joint: JointId, place: VectorSeries<f64, N>, at: &[VectorSeries<f64, N>]| {
-        let step = linkage.joints[joint].kind;
-        let Some(index) = step.dyad_index().filter(|index| flat.contains(*index)) else { return place };
-        let Some(DyadHeight { direction, height_squared: height2, magnitude: size }) = dyad_height(step, at) else {
-            return place;
+    let input = SeriesInput { value: input.value, direction: [input.cos, input.sin] };
+    let sign = |dyad: DyadId| if flat.contains(dyad) { 0.0 } else { f64::from(mode.sign(dyad)) };
+    let adjust = |joint: JointId, position: VectorSeries<f64, N>, at: &[VectorSeries<f64, N>]| {
+        let kind = linkage.joints[joint].kind;
+        let Some(dyad) = kind.dyad().filter(|dyad| flat.contains(*dyad)) else { return position };
+        let Some(DyadHeight { direction, height_squared, magnitude }) = dyad_height(kind, at) else {
+            return position;
         };
-        let way = f64::from(signs.sign(index)) * inwards;
-        match height2.sqrt_at_touch(size).filter(|_| way != 0.0) {
-            Some(height) => place.moved(direction, height.scaled(way), Series::constant(0.0)),
-            None => with_unbounded_rates(place, direction),
+        let side = f64::from(mode.sign(dyad)) * inwards;
+        match height_squared.sqrt_at_touch(magnitude).filter(|_| side != 0.0) {
+            Some(height) => position.moved(direction, height.scaled(side), Series::constant(0.0)),
+            None => with_unbounded_derivatives(position, direction),
         }
     };
-    let all = place_as_series(linkage, linkage.joints.len(), drive, mode, settle);
-    let first = |place: Series<f64, N>| Series(std::array::from_fn(|n| place.0[n]));
-    all.into_iter().map(|at: VectorSeries<f64, N>| VectorSeries { x: first(at.x), y: first(at.y) }).collect()
+    let all = place_as_series(linkage, linkage.joints.len(), input, sign, adjust);
+    let truncated = |series: Series<f64, N>| Series(std::array::from_fn(|n| series.0[n]));
+    all.into_iter().map(|at: VectorSeries<f64, N>| VectorSeries { x: truncated(at.x), y: truncated(at.y) }).collect()
 }
 
-/// How a dyad's joint stands off from where it is when the dyad lies flat.
+/// The distance of a dyad's joint from its position in the flat dyad, as `sqrt(height_squared) * direction`.
 struct DyadHeight<const N: usize> {
-    /// Where to: along a slider's line, or square to a base, of any length.
+    /// Along a slider's line or perpendicular to a base; of any length.
     direction: VectorSeries<f64, N>,
-    /// The square of how far, in lengths of the direction.
+    /// The square of the distance, in lengths of the direction.
     height_squared: Series<f64, N>,
-    /// The size of the terms that the square is made of.
+    /// The magnitude of the terms that the square is the sum of.
     magnitude: f64,
 }
 
-fn dyad_height<const N: usize>(step: JointKind, at: &[VectorSeries<f64, N>]) -> Option<DyadHeight<N>> {
+fn dyad_height<const N: usize>(kind: JointKind, at: &[VectorSeries<f64, N>]) -> Option<DyadHeight<N>> {
     let between = |[p, q]: [JointId; 2]| at[q].minus(at[p]);
-    let square_to = |base: VectorSeries<f64, N>| VectorSeries { x: -base.y, y: base.x };
+    let left_normal = |base: VectorSeries<f64, N>| VectorSeries { x: -base.y, y: base.x };
     let number = |value: f64| Series::constant(value);
-    match step {
+    match kind {
         // The foot of a slot without offset is its pivot.
         JointKind::Slot { offset: 0.0, .. } => None,
         JointKind::Slot { base, offset, .. } => {
@@ -131,7 +133,7 @@ fn dyad_height<const N: usize>(step: JointKind, at: &[VectorSeries<f64, N>]) -> 
             let d2 = base.norm_squared();
             let height2 = ((d2 - number(offset * offset)) / d2.square()).scaled(offset * offset);
             // The foot is to the left of the base for a positive offset.
-            let direction = square_to(base);
+            let direction = left_normal(base);
             let sense = offset.signum();
             let direction = VectorSeries { x: direction.x.scaled(sense), y: direction.y.scaled(sense) };
             Some(DyadHeight { direction, height_squared: height2, magnitude: 1.0 })
@@ -149,37 +151,37 @@ fn dyad_height<const N: usize>(step: JointKind, at: &[VectorSeries<f64, N>]) -> 
             let d = d2.sqrt();
             let product = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
             Some(DyadHeight {
-                direction: square_to(base),
+                direction: left_normal(base),
                 height_squared: product.scaled(0.25) / d2.square(),
                 magnitude: 1.0,
             })
         }
         JointKind::Piston { base, .. } => {
-            let none = Series([f64::NAN; N]);
-            Some(DyadHeight { direction: square_to(between(base)), height_squared: none, magnitude: 1.0 })
+            let unknown = Series([f64::NAN; N]);
+            Some(DyadHeight { direction: left_normal(between(base)), height_squared: unknown, magnitude: 1.0 })
         }
         _ => None,
     }
 }
 
-/// The same place with rates that have no bound, but across the direction they have none in: there the velocity has one,
-/// and all rates where the direction stays.
-fn with_unbounded_rates<const N: usize>(
+/// The same position with derivatives that are unbounded along `direction`. Across it the velocity is bounded, and if
+/// the direction is constant, so are the higher derivatives.
+fn with_unbounded_derivatives<const N: usize>(
     at: VectorSeries<f64, N>,
     direction: VectorSeries<f64, N>,
 ) -> VectorSeries<f64, N> {
-    let rates = |place: Series<f64, N>, along: Series<f64, N>, across: Series<f64, N>| {
+    let unbounded = |position: Series<f64, N>, along: Series<f64, N>, across: Series<f64, N>| {
         let bounded = match along.0 {
             _ if along.0[0] != 0.0 || across.0[0] == 0.0 => 1,
             along if along.iter().any(|c| *c != 0.0) => 2,
             _ => N,
         };
-        Series(std::array::from_fn(|n| if n < bounded { place.0[n] } else { f64::INFINITY }))
+        Series(std::array::from_fn(|n| if n < bounded { position.0[n] } else { f64::INFINITY }))
     };
-    VectorSeries { x: rates(at.x, direction.x, direction.y), y: rates(at.y, direction.y, direction.x) }
+    VectorSeries { x: unbounded(at.x, direction.x, direction.y), y: unbounded(at.y, direction.y, direction.x) }
 }
 
-/// Places and rates in the plane they are reported in.
+/// Transforms positions and derivatives into the frame they are reported in.
 fn to_view_frame(linkage: &Linkage, mut at: Vec<JointSeries>) -> Vec<JointSeries> {
     if let Some([origin, end]) = linkage.seen_from {
         let (from, unit) = (at[origin], at[end].minus(at[origin]).unit());
@@ -187,7 +189,7 @@ fn to_view_frame(linkage: &Linkage, mut at: Vec<JointSeries>) -> Vec<JointSeries
             let v = place.minus(from);
             *place = VectorSeries { x: unit.dot(v), y: unit.cross(v) };
         }
-        // What is on the link seen from is at rest, but for rounding.
+        // The joints of the link the linkage is seen from are at rest; their computed derivatives are rounding.
         for (joint, _) in &linkage.ground().joints {
             let VectorSeries { x, y } = at[*joint];
             at[*joint] = VectorSeries { x: Series::constant(x.0[0]), y: Series::constant(y.0[0]) };

@@ -1,41 +1,43 @@
+//! Interval arithmetic.
+
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::series::Scalar;
 use crate::geometry::trig;
 
-/// All numbers from `low` to `high`: bounds on what a computation can give. Each operation is rounded outwards by the
-/// next floating-point number, so that the bounds hold for exact arithmetic. (The crates for this need processors
-/// beyond the baseline, or a system library.)
+/// All numbers from `low` to `high`: bounds on the result of a computation. Each operation is rounded outwards to the
+/// next floating-point number, so that the bounds hold for exact arithmetic. (The crates for interval arithmetic need
+/// processors beyond the baseline, or a system library.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Enclosure {
     pub low: f64,
     pub high: f64,
 }
 
-/// Nothing is known.
+/// All numbers.
 const ENTIRE: Enclosure = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
-/// How far a sine or cosine may be off, in absolute terms: libm's are within an ulp, and angles are turned to radians.
+/// The absolute error of a computed sine or cosine: libm's are within an ulp, and angles are converted to radians.
 const TRIG_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl Enclosure {
-    /// Both numbers and all between them.
+    /// Two numbers, in any order, and all between them.
     pub fn between(a: f64, b: f64) -> Enclosure {
         Enclosure { low: a.min(b), high: a.max(b) }
     }
 
-    /// The same, rounded outwards; everything where a bound is no number.
+    /// Bounds rounded outwards; all numbers if a bound is NaN.
     fn rounded_outwards(low: f64, high: f64) -> Enclosure {
         if low.is_nan() || high.is_nan() { ENTIRE } else { Enclosure { low: low.next_down(), high: high.next_up() } }
     }
 
-    /// What is in both; this one where rounding has parted them.
+    /// The intersection of both; this enclosure where rounding has made it empty.
     pub fn intersection(self, other: Enclosure) -> Enclosure {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         if low <= high { Enclosure { low, high } } else { self }
     }
 
-    /// Whether a number is in it.
+    /// Whether it contains a number.
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }
@@ -118,8 +120,8 @@ impl Scalar for Enclosure {
         [self.cos_deg(), (self - Enclosure::from(90.0)).cos_deg()]
     }
 
-    fn geared_angle(self, [turns, of]: [i64; 2], phase_deg: f64) -> Enclosure {
-        self * Enclosure::from(turns as f64) / Enclosure::from(of as f64) + Enclosure::from(phase_deg)
+    fn geared_angle(self, [turns, per]: [i64; 2], phase_deg: f64) -> Enclosure {
+        self * Enclosure::from(turns as f64) / Enclosure::from(per as f64) + Enclosure::from(phase_deg)
     }
 }
 
@@ -137,7 +139,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_comes_out_is_enclosed((a, x) in span(), (b, y) in span()) {
+        fn results_are_enclosed((a, x) in span(), (b, y) in span()) {
             prop_assert!((a + b).contains(x + y) && (a - b).contains(x - y) && (a * b).contains(x * y));
             prop_assert!((a / b).contains(x / y) && a.square().contains(x * x) && (-a).contains(-x));
             prop_assert!(a.sqrt().contains(x.max(0.0).sqrt()));

@@ -1,25 +1,17 @@
-//! Where a linkage can be assembled: for each assembly mode, the intervals of the input.
-//!
-//! The dyads are taken in the order they are placed. Each cuts the intervals left by those before it to where its
-//! base is within its reach; both of its sides then share what is left. So an end of an interval belongs to one
-//! dyad, and has one number by which the intervals that meet there are recognised.
+//! Intervals of the input on which a linkage can be assembled in an assembly mode, and how a motion continues at their
+//! ends.
 
-use std::collections::HashMap;
-
-use super::circuit::{InputPosition, Pass, PassEnd};
-use super::dyad_limits;
-use crate::linkage::{
-    AssemblyMode, CircuitSelection, CoincidentDyads, Continuation, DyadSet, Input, Linkage, MotionOptions,
-};
+use super::pass::{InputPosition, Pass, PassEnd};
+use crate::linkage::{AssemblyMode, CoincidentDyads, Continuation, DyadId, DyadSet, MotionOptions};
 
 /// Why an interval ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum EndCause {
-    /// A dyad is fully stretched or folded and cannot go on.
+    /// A dyad is fully stretched or folded and the input cannot continue.
     Limit,
-    /// A dyad is stretched or folded and can go on.
+    /// A dyad is fully stretched or folded and the input can continue.
     ChangePoint,
-    /// The range asked for ends.
+    /// The requested range ends.
     RangeEnd,
 }
 
@@ -28,21 +20,21 @@ pub(super) enum EndCause {
 pub(super) struct IntervalEnd {
     pub input: InputPosition,
     pub cause: EndCause,
-    /// The dyads that lie flat there.
+    /// The dyads that are flat there.
     pub flat_dyads: DyadSet,
-    /// Those of them that change their sides when the motion goes on smoothly.
+    /// The flat dyads that change their sides when the motion continues smoothly.
     pub flipping_dyads: DyadSet,
-    /// Those of them that can do nothing else, for their bases vanish.
+    /// The flat dyads that must change their sides because their bases vanish.
     pub vanishing_dyads: DyadSet,
-    /// Intervals that meet have ends of one number.
+    /// The same for the ends of all intervals that meet here.
     pub id: usize,
 }
 
 impl IntervalEnd {
-    /// An end of the range asked for.
-    pub fn range_end(stop: InputPosition, id: usize) -> IntervalEnd {
+    /// An end of the requested range.
+    pub fn range_end(input: InputPosition, id: usize) -> IntervalEnd {
         IntervalEnd {
-            input: stop,
+            input,
             cause: EndCause::RangeEnd,
             flat_dyads: DyadSet::EMPTY,
             flipping_dyads: DyadSet::EMPTY,
@@ -51,27 +43,27 @@ impl IntervalEnd {
         }
     }
 
-    /// An end where one dyad lies flat.
-    pub fn from_flat_dyad(stop: InputPosition, cause: EndCause, dyad: usize, id: usize) -> IntervalEnd {
+    /// An end where one dyad is flat.
+    pub fn from_flat_dyad(input: InputPosition, cause: EndCause, dyad: DyadId, id: usize) -> IntervalEnd {
         let dyad = DyadSet::single(dyad);
-        IntervalEnd { input: stop, cause, flat_dyads: dyad, flipping_dyads: dyad, vanishing_dyads: DyadSet::EMPTY, id }
+        IntervalEnd { input, cause, flat_dyads: dyad, flipping_dyads: dyad, vanishing_dyads: DyadSet::EMPTY, id }
     }
 
-    /// The same end where another dyad lies flat too; it changes its side together with the others.
+    /// The same end where another dyad is flat too; it changes its side together with the others.
     #[must_use]
-    pub fn with_flat_dyad(self, dyad: usize, vanishes: bool) -> IntervalEnd {
+    pub fn with_flat_dyad(self, dyad: DyadId, vanishes: bool) -> IntervalEnd {
         let dyad = DyadSet::single(dyad);
-        let bound = if vanishes { self.vanishing_dyads.union(dyad) } else { self.vanishing_dyads };
+        let vanishing = if vanishes { self.vanishing_dyads.union(dyad) } else { self.vanishing_dyads };
         IntervalEnd {
             flat_dyads: self.flat_dyads.union(dyad),
             flipping_dyads: self.flipping_dyads.union(dyad),
-            vanishing_dyads: bound,
+            vanishing_dyads: vanishing,
             ..self
         }
     }
 
-    /// This end and one at the same input. Where one of them is a limit the motion turns round, and the dyads that
-    /// would have gone on keep their sides.
+    /// This end combined with another one at the same input. If one of them is a limit, the input reverses, and the
+    /// dyads at a change point keep their sides.
     #[must_use]
     pub fn merged(self, other: IntervalEnd) -> IntervalEnd {
         let (cause, flips) = match (self.cause, other.cause) {
@@ -90,21 +82,21 @@ impl IntervalEnd {
         }
     }
 
-    /// The sides with which a motion goes on that comes here with a rising or falling input, and whether the input then
-    /// rises; none where it ends.
-    pub fn next_mode(&self, signs: AssemblyMode, rising: bool, travel: &MotionOptions) -> Option<(AssemblyMode, bool)> {
-        let flips = match travel.coincident {
+    /// The assembly mode in which a motion continues that arrives here with a rising or falling input, and whether the
+    /// input then rises; `None` if the motion ends.
+    pub fn next_mode(&self, mode: AssemblyMode, rising: bool, options: &MotionOptions) -> Option<(AssemblyMode, bool)> {
+        let flips = match options.coincident {
             CoincidentDyads::Together => self.flipping_dyads,
             CoincidentDyads::First => self.flipping_dyads.first().union(self.vanishing_dyads),
             CoincidentDyads::Last => self.flipping_dyads.last().union(self.vanishing_dyads),
         };
         match self.cause {
             EndCause::RangeEnd => None,
-            EndCause::Limit => Some((signs.flipped(flips), !rising)),
-            EndCause::ChangePoint if travel.continuation == Continuation::Branch => {
-                Some((signs.flipped(self.vanishing_dyads), rising))
+            EndCause::Limit => Some((mode.flipped(flips), !rising)),
+            EndCause::ChangePoint if options.continuation == Continuation::Branch => {
+                Some((mode.flipped(self.vanishing_dyads), rising))
             }
-            EndCause::ChangePoint => Some((signs.flipped(flips), rising)),
+            EndCause::ChangePoint => Some((mode.flipped(flips), rising)),
         }
     }
 
@@ -114,28 +106,28 @@ impl IntervalEnd {
     }
 }
 
-/// A stretch of the input.
+/// A connected part of the input range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Span {
-    /// The whole turn.
+    /// The full turn.
     FullTurn,
     /// From a lower end to an upper, at most a turn apart.
     Range { lower: IntervalEnd, upper: IntervalEnd },
 }
 
 impl Span {
-    /// The input that differs from `deg` by whole periods and lies in the span.
+    /// The input in the span that differs from `deg` by whole periods, if there is one.
     pub fn wrap(&self, deg: f64, period: f64) -> Option<f64> {
         let Span::Range { lower, upper } = self else { return Some(deg.rem_euclid(period)) };
-        let over = (deg - lower.input.value).rem_euclid(period);
+        let offset = (deg - lower.input.value).rem_euclid(period);
         let length = upper.input.value - lower.input.value;
-        // At a change point the start pose is that of the interval above.
-        let inside = over < length || (over == length && upper.cause != EndCause::ChangePoint);
-        inside.then_some(lower.input.value + over)
+        // A start pose at a change point belongs to the interval above it.
+        let is_inside = offset < length || (offset == length && upper.cause != EndCause::ChangePoint);
+        is_inside.then_some(lower.input.value + offset)
     }
 }
 
-/// A stretch of the input on which one assembly mode is possible.
+/// A span of the input on which the linkage can be assembled in an assembly mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
     pub span: Span,
@@ -143,7 +135,7 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// The end that a rising or falling input comes to; none on a full turn.
+    /// The end that a rising or falling input reaches; `None` on a full turn.
     pub fn end(&self, rising: bool) -> Option<IntervalEnd> {
         match self.span {
             Span::FullTurn => None,
@@ -156,86 +148,11 @@ impl Interval {
         let end = |end: IntervalEnd| PassEnd { input: end.input, flat_dyads: end.flat_dyads };
         let (from, to) = match self.span {
             Span::FullTurn => {
-                let seam = |at| PassEnd { input: InputPosition::from_degrees(at), flat_dyads: DyadSet::EMPTY };
-                (seam(0.0), seam(period))
+                let period_end = |at| PassEnd { input: InputPosition::from_degrees(at), flat_dyads: DyadSet::EMPTY };
+                (period_end(0.0), period_end(period))
             }
             Span::Range { lower, upper } => (end(lower), end(upper)),
         };
         if rising { Pass { from, to, mode: self.mode } } else { Pass { from: to, to: from, mode: self.mode } }
-    }
-}
-
-/// What [`find_intervals`] finds.
-pub(super) struct ReachableIntervals {
-    pub intervals: Vec<Interval>,
-    /// Why there are none of the mode asked for, where a dyad of it closes nowhere.
-    pub incomplete_reason: Option<String>,
-}
-
-/// The intervals within the range asked for: of all assembly modes, or, where only the circuit through the start pose
-/// is wanted, of those that can be reached from it.
-pub(super) fn find_intervals(linkage: &Linkage) -> ReachableIntervals {
-    let mut tree = SpanCache { linkage, spans_by_mode: HashMap::new(), next_id: 2, incomplete_reason: None };
-    let travel = &linkage.motion_options;
-    let mut modes = match travel.circuits {
-        CircuitSelection::Start => vec![travel.mode],
-        CircuitSelection::All => AssemblyMode::all(linkage.dyad_count()).collect(),
-    };
-    let mut intervals = Vec::new();
-    let mut done = 0;
-    while let Some(&signs) = modes.get(done) {
-        done += 1;
-        for span in tree.spans(linkage.dyad_count(), signs) {
-            let interval = Interval { span, mode: signs };
-            for rising in [true, false] {
-                let onward = interval.end(rising).and_then(|end| end.next_mode(signs, rising, travel));
-                modes.extend(onward.map(|(signs, _)| signs).filter(|signs| !modes.contains(signs)));
-            }
-            intervals.push(interval);
-        }
-    }
-    ReachableIntervals { intervals, incomplete_reason: tree.incomplete_reason }
-}
-
-/// The whole range of the input that is asked for.
-fn requested_span(linkage: &Linkage) -> Span {
-    let input = linkage.input();
-    let asked = |at: f64, id| IntervalEnd::range_end(InputPosition::new(input, at), id);
-    match linkage.motion_options.range {
-        Some([from, to]) if to - from < input.period() => Span::Range { lower: asked(from, 0), upper: asked(to, 1) },
-        _ if input == Input::Length => Span::Range { lower: asked(0.0, 0), upper: asked(f64::MAX / 16.0, 1) },
-        _ => Span::FullTurn,
-    }
-}
-
-/// The spans that the first few dyads leave, by their number and their sides: modes that share these share the spans,
-/// and the numbers of their ends.
-struct SpanCache<'a> {
-    linkage: &'a Linkage,
-    spans_by_mode: HashMap<(usize, AssemblyMode), Vec<Span>>,
-    next_id: usize,
-    incomplete_reason: Option<String>,
-}
-
-impl SpanCache<'_> {
-    /// The spans on which the first `dyads` dyads close, with the sides of all but the last of them given.
-    fn spans(&mut self, dyads: usize, signs: AssemblyMode) -> Vec<Span> {
-        let Some(last) = dyads.checked_sub(1) else { return vec![requested_span(self.linkage)] };
-        let before = signs.truncated(last);
-        if let Some(known) = self.spans_by_mode.get(&(dyads, before)) {
-            return known.clone();
-        }
-        let mut spans = Vec::new();
-        for span in self.spans(last, signs) {
-            match dyad_limits::closing_spans(self.linkage, last, span, before, &mut self.next_id) {
-                Ok(parts) => spans.extend(parts),
-                Err(reason) if before == self.linkage.motion_options.mode.truncated(last) => {
-                    self.incomplete_reason.get_or_insert(reason);
-                }
-                Err(_) => {}
-            }
-        }
-        self.spans_by_mode.insert((dyads, before), spans.clone());
-        spans
     }
 }

@@ -1,31 +1,36 @@
-//! Positions: where a linkage can go, and where its joints are on the way.
+//! The motion of a linkage: its circuits, and the positions and derivatives of its joints along them.
 //!
-//! [`Motion::solve`] finds the circuits of a linkage and samples them. A *circuit* is a maximal motion that keeps the
-//! assembly. It is a chain of [`Pass`]es: on a pass the input goes one way and no dyad changes its side. A pass ends
-//! at a *limit*, where a dyad lies flat and the input turns round while that dyad changes its side; at a *change
-//! point*, where a dyad lies flat and the input goes on; at the end of the range asked for; or, on a full turn, at
-//! input 0.
+//! [`Motion::solve`] finds the circuits of a linkage and samples them. A *circuit* is a maximal motion without
+//! disassembly. It is a chain of [`Pass`]es: on a pass the input is monotonic and the assembly mode is constant. A dyad
+//! is *flat* where it is fully stretched or folded. A pass ends at a *limit*, where a dyad is flat and the input
+//! reverses while that dyad changes its side; at a *change point*, where a dyad is flat and the input continues in its
+//! direction; at the end of the requested range; or, on a full turn, at input 0.
 //!
-//! Dyads that lie flat at one input change their sides together, or one of them alone, as the linkage's
-//! [`crate::linkage::CoincidentDyads`] has it. A dyad whose base vanishes takes its place by continuity; where there is none
-//! its joint has no place there, and is not a number.
+//! Of several dyads that are flat at one input, all change their sides or only one, as the linkage's
+//! [`crate::linkage::CoincidentDyads`] says. The joint of a dyad whose base vanishes is placed by continuity; where
+//! that gives no direction, its position is undefined, and its coordinates are NaN.
 //!
-//! Limits of dyads on crank and frame are in closed form. Of all others it is certain that none is missed, down to 1e-12
-//! of a turn, or of an actuator's stroke, by enclosures of the chain and of its rate; where a dyad misses by no more than
-//! rounding, 64 units in the last place of its lengths, it has a change point and no limit.
+//! Limits of dyads on crank and frame are computed in closed form. All others are searched for with enclosures of the
+//! dyad's extent and of its derivative, so that none is missed down to 1e-12 of a turn, or of an actuator's stroke; a
+//! dyad that misses by no more than rounding, 64 units in the last place of its lengths, has a change point and no
+//! limit.
 //!
-//! Positions come from kernels over columns (one joint, all samples). At the end of a pass the flat dyad's height is
-//! multiplied by exactly 0, and a limit of a dyad on crank and frame is carried as its cosine, not its angle. Rates come
-//! from Taylor series through the same chain.
+//! Positions are computed by kernels over columns (one joint, all samples). At the end of a pass the flat dyad's height
+//! is multiplied by exactly 0, and a limit of a dyad on crank and frame is represented by its cosine and sine, not by
+//! its angle. Derivatives are computed by Taylor series through the same chain.
 
+mod assembly_error;
 mod circuit;
 mod derivatives;
 mod dyad_limits;
 mod enclosure;
 mod instantaneous_motion;
 mod interval;
+mod interval_search;
 mod joint_series;
+mod pass;
 mod pass_ends;
+mod pass_positions;
 mod path;
 mod positions;
 mod refinement;
@@ -33,60 +38,58 @@ mod sampling;
 mod series;
 mod spacing;
 
-pub use circuit::{InputPosition, Pass, PassEnd};
+pub use assembly_error::AssemblyError;
 pub use derivatives::JointDerivatives;
 pub use instantaneous_motion::InstantaneousMotion;
+pub use pass::{InputPosition, Pass, PassEnd};
 pub use path::{Dash, DashPattern, JointPath, joint_paths};
 pub use positions::{DyadSigns, InputSlices, JointPositions, place_leading_joints};
 pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
 
 use crate::geometry::Point;
-use crate::linkage::{JointId, Linkage};
+use crate::linkage::Linkage;
 
-/// Why a linkage is not assembled whose places, or their squares, are beyond all numbers.
-const OUT_OF_RANGE_REASON: &str = "its lengths are too large or too small for double precision";
-
-/// All that a linkage does as its input travels.
+/// The circuits of a linkage, sampled.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// The circuits wanted: those that start on branch 1 first, then by least input. Empty where the linkage cannot
+    /// The requested circuits: those that start on branch 1 first, then by least input. Empty if the linkage cannot
     /// be assembled.
     pub circuits: Vec<Circuit>,
-    /// Why the linkage is not assembled at all, or not over the whole range asked for.
-    pub incomplete_reason: Option<String>,
+    /// Why the linkage cannot be assembled at all, or not over the whole input range requested.
+    pub assembly_error: Option<AssemblyError>,
 }
 
 impl Motion {
     /// Finds and samples the circuits of a linkage.
     pub fn solve(linkage: &Linkage, sampler: &Sampler) -> Motion {
         let found = circuit::find_circuits(linkage);
-        if let Some(reason) = found.circuits.iter().find_map(|route| sampler.excess_reason(route)) {
-            return Motion { circuits: Vec::new(), incomplete_reason: Some(reason) };
+        if let Some(error) = found.circuits.iter().find_map(|circuit| sampler.excess_error(circuit)) {
+            return Motion { circuits: Vec::new(), assembly_error: Some(error) };
         }
         let circuits: Vec<Circuit> =
-            found.circuits.into_iter().map(|route| sampler.sample_circuit(linkage, route)).collect();
-        let is_lost = |circuit: &Circuit| {
+            found.circuits.into_iter().map(|circuit| sampler.sample_circuit(linkage, circuit)).collect();
+        let is_undefined = |circuit: &Circuit| {
             linkage.traced.iter().any(|&joint| circuit.points(joint).all(|p| !p.x.is_finite() || !p.y.is_finite()))
         };
-        if circuits.iter().any(is_lost) {
-            return Motion { circuits: Vec::new(), incomplete_reason: Some(OUT_OF_RANGE_REASON.to_owned()) };
+        if circuits.iter().any(is_undefined) {
+            return Motion { circuits: Vec::new(), assembly_error: Some(AssemblyError::BeyondDoublePrecision) };
         }
-        Motion { circuits, incomplete_reason: found.incomplete_reason }
+        Motion { circuits, assembly_error: found.assembly_error }
     }
 
-    /// Whether there is any motion.
+    /// Whether there is at least one circuit.
     pub fn is_assembled(&self) -> bool {
         !self.circuits.is_empty()
     }
 }
 
-/// Where every joint is at inputs of a pass, as seen from the linkage's own view.
+/// The positions of all joints at inputs of a pass, in the frame the linkage is seen from.
 pub fn poses(linkage: &Linkage, pass: &Pass, inputs: &[f64]) -> JointPositions {
-    path::positions_at_inputs(linkage, pass, inputs)
+    pass_positions::positions_at_inputs(linkage, pass, inputs)
 }
 
-/// Where every joint is at one input of a pass, as seen from the linkage's own view.
+/// The positions of all joints at one input of a pass, in the frame the linkage is seen from.
 pub fn pose(linkage: &Linkage, pass: &Pass, input: f64) -> Vec<Point> {
-    let columns = path::positions_at_inputs(linkage, pass, &[input]);
-    (0..linkage.joints.len()).map(|joint: JointId| columns.point(joint, 0)).collect()
+    let columns = pass_positions::positions_at_inputs(linkage, pass, &[input]);
+    linkage.joint_ids().map(|joint| columns.point(joint, 0)).collect()
 }

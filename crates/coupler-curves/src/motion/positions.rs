@@ -1,8 +1,10 @@
+//! Positions of all joints by columns, and the kernels that place each kind of joint.
+
 use std::ops::Range;
 
-use super::circuit::InputPosition;
+use super::pass::InputPosition;
 use crate::geometry::{Orientation, Point, cross, trig};
-use crate::linkage::{AssemblyMode, DyadSet, JointId, JointKind, LineDirection, Linkage, MAX_DYADS};
+use crate::linkage::{AssemblyMode, DyadId, DyadSet, JointId, JointKind, LineDirection, Linkage, MAX_DYADS};
 
 /// Positions of all joints at all samples, joint by joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,7 +15,7 @@ pub struct JointPositions {
 }
 
 impl JointPositions {
-    /// Room for `joints` columns of `len` samples.
+    /// Zeros for `joints` joints and `len` samples.
     pub fn new(joints: usize, len: usize) -> JointPositions {
         JointPositions { len, x: vec![0.0; joints * len], y: vec![0.0; joints * len] }
     }
@@ -28,54 +30,54 @@ impl JointPositions {
         self.len == 0
     }
 
-    /// The abscissas of a joint.
+    /// The x coordinates of a joint, sample by sample.
     pub fn x(&self, joint: JointId) -> &[f64] {
-        &self.x[joint * self.len..][..self.len]
+        &self.x[joint.index() * self.len..][..self.len]
     }
 
-    /// The ordinates of a joint.
+    /// The y coordinates of a joint, sample by sample.
     pub fn y(&self, joint: JointId) -> &[f64] {
-        &self.y[joint * self.len..][..self.len]
+        &self.y[joint.index() * self.len..][..self.len]
     }
 
-    /// Where a joint is at a sample; not a number where the pose is undefined.
+    /// The position of a joint at a sample; NaN where it is undefined.
     pub fn point(&self, joint: JointId, sample: usize) -> Point {
         Point::new(self.x(joint)[sample], self.y(joint)[sample])
     }
 
     pub(super) fn set_point(&mut self, joint: JointId, sample: usize, at: Point) {
-        self.x[joint * self.len + sample] = at.x;
-        self.y[joint * self.len + sample] = at.y;
+        self.x[joint.index() * self.len + sample] = at.x;
+        self.y[joint.index() * self.len + sample] = at.y;
     }
 }
 
-/// What each dyad's height is multiplied by: 1 to the left of its base, -1 to the right, 0 where it lies flat.
+/// The factor of each dyad's height: 1 to the left of its base, -1 to the right, 0 where it is flat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DyadSigns([f64; MAX_DYADS]);
 
 impl DyadSigns {
-    /// The modes of an assembly, with some of its dyads flat.
-    pub fn new(signs: AssemblyMode, flat: DyadSet) -> DyadSigns {
-        let mut modes = [0.0; MAX_DYADS];
-        for (dyad, mode) in modes.iter_mut().enumerate() {
-            *mode = if flat.contains(dyad) { 0.0 } else { f64::from(signs.sign(dyad)) };
+    /// The signs of an assembly mode in which the dyads in `flat` are flat.
+    pub fn new(mode: AssemblyMode, flat: DyadSet) -> DyadSigns {
+        let mut signs = [0.0; MAX_DYADS];
+        for (dyad, sign) in (0..).map(DyadId::new).zip(&mut signs) {
+            *sign = if flat.contains(dyad) { 0.0 } else { f64::from(mode.sign(dyad)) };
         }
-        DyadSigns(modes)
+        DyadSigns(signs)
     }
 }
 
-/// Values of the input, in columns.
+/// Values of the input, in borrowed columns.
 #[derive(Clone, Copy, Debug)]
 pub struct InputSlices<'a> {
     /// The angles in degrees, or the lengths.
     pub values: &'a [f64],
-    /// Their cosines; of lengths, nothing.
+    /// The cosines of the angles; not used for lengths.
     pub cos: &'a [f64],
-    /// Their sines; of lengths, nothing.
+    /// The sines of the angles; not used for lengths.
     pub sin: &'a [f64],
 }
 
-/// Values of the input, by columns that are their own.
+/// Values of the input, in owned columns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct InputColumns {
     values: Vec<f64>,
@@ -84,11 +86,11 @@ pub(super) struct InputColumns {
 }
 
 impl InputColumns {
-    pub fn new(stops: &[InputPosition]) -> InputColumns {
+    pub fn new(inputs: &[InputPosition]) -> InputColumns {
         InputColumns {
-            values: stops.iter().map(|stop| stop.value).collect(),
-            cos: stops.iter().map(|stop| stop.cos).collect(),
-            sin: stops.iter().map(|stop| stop.sin).collect(),
+            values: inputs.iter().map(|input| input.value).collect(),
+            cos: inputs.iter().map(|input| input.cos).collect(),
+            sin: inputs.iter().map(|input| input.sin).collect(),
         }
     }
 
@@ -103,25 +105,25 @@ impl InputColumns {
 
 /// Places the first `joints` joints at the samples of `range`, in the frame of the fixed joints.
 ///
-/// `inputs` are those of the samples of `range` alone. A dyad whose base is longer
-/// or shorter than it can reach is laid flat; one whose base has no length is not a number.
+/// `inputs` has one value for each sample of `range`. A dyad whose base is longer or shorter than it can span is placed
+/// flat; one whose base has no length is placed at NaN.
 pub fn place_leading_joints(
     linkage: &Linkage,
     joints: usize,
     inputs: InputSlices,
-    modes: &DyadSigns,
+    signs: &DyadSigns,
     out: &mut JointPositions,
     range: Range<usize>,
 ) {
-    place_joints(linkage, 0..joints, inputs, modes, out, range);
+    place_joints(linkage, 0..joints, inputs, signs, out, range);
 }
 
-/// Places some of the joints from those before them, as [`place_leading_joints`] does.
+/// Places a range of joints from those before them, as [`place_leading_joints`] does.
 pub(super) fn place_joints(
     linkage: &Linkage,
-    joints: Range<JointId>,
+    joints: Range<usize>,
     inputs: InputSlices,
-    modes: &DyadSigns,
+    signs: &DyadSigns,
     out: &mut JointPositions,
     range: Range<usize>,
 ) {
@@ -131,54 +133,65 @@ pub(super) fn place_joints(
         let (x_before, x_after) = out.x.split_at_mut(id * len);
         let (y_before, y_after) = out.y.split_at_mut(id * len);
         let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
-        let of = |j: JointId| (&x_before[j * len..][range.clone()], &y_before[j * len..][range.clone()]);
+        let columns =
+            |j: JointId| (&x_before[j.index() * len..][range.clone()], &y_before[j.index() * len..][range.clone()]);
         match joint.kind {
             JointKind::Fixed(at) => {
                 x.fill(at.x);
                 y.fill(at.y);
             }
-            JointKind::Crank { pivot, length } => place_crank(of(pivot), length, (inputs.cos, inputs.sin), x, y),
+            JointKind::Crank { pivot, length } => place_crank(columns(pivot), length, (inputs.cos, inputs.sin), x, y),
             JointKind::Gear { pivot, length, ratio, phase_deg } => {
                 let angle = |at: &f64| trig::cos_sin_deg(geared_angle(*at, ratio, phase_deg));
                 let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.values.iter().map(angle).unzip();
-                place_crank(of(pivot), length, (&cos, &sin), x, y);
+                place_crank(columns(pivot), length, (&cos, &sin), x, y);
             }
-            JointKind::Piston { base, length, offset, index } => {
-                place_piston((of(base[0]), of(base[1])), (inputs.values, length, offset), modes.0[index], x, y);
+            JointKind::Piston { base, length, offset, dyad } => {
+                place_piston(
+                    (columns(base[0]), columns(base[1])),
+                    (inputs.values, length, offset),
+                    signs.0[dyad],
+                    x,
+                    y,
+                );
             }
-            JointKind::Dyad { base, lengths, index } => {
-                place_dyad(of(base[0]), of(base[1]), lengths, modes.0[index], x, y)
+            JointKind::Dyad { base, lengths, dyad } => {
+                place_dyad(columns(base[0]), columns(base[1]), lengths, signs.0[dyad], x, y)
             }
-            JointKind::Slide { from, length, line, offset, index } => {
-                let line = (of(line[0]), of(line[1]));
-                place_slide(of(from), length, line, offset, modes.0[index], x, y);
+            JointKind::Slide { from, length, line, offset, dyad } => {
+                let line = (columns(line[0]), columns(line[1]));
+                place_slide(columns(from), length, line, offset, signs.0[dyad], x, y);
             }
             JointKind::Slot { base, offset: 0.0, .. } => {
-                let (px, py) = of(base[0]);
+                let (px, py) = columns(base[0]);
                 x.copy_from_slice(px);
                 y.copy_from_slice(py);
             }
-            JointKind::Slot { base, offset, index } => {
-                place_slot(of(base[0]), of(base[1]), offset, modes.0[index], x, y)
+            JointKind::Slot { base, offset, dyad } => {
+                place_slot(columns(base[0]), columns(base[1]), offset, signs.0[dyad], x, y)
             }
-            JointKind::Rigid { base, along, across } => place_rigid(of(base[0]), of(base[1]), along, across, x, y),
-            JointKind::Parallelogram { corners: [p, q, r] } => place_parallelogram(of(p), of(q), of(r), x, y),
+            JointKind::Rigid { base, along, across } => {
+                place_rigid(columns(base[0]), columns(base[1]), along, across, x, y)
+            }
+            JointKind::Parallelogram { corners: [p, q, r] } => {
+                place_parallelogram(columns(p), columns(q), columns(r), x, y)
+            }
             JointKind::Yoke { from, line, offset, slot_direction: slot } => {
-                place_yoke(of(from), (of(line[0]), of(line[1])), offset, slot.x / slot.y, x, y);
+                place_yoke(columns(from), (columns(line[0]), columns(line[1])), offset, slot.x / slot.y, x, y);
             }
             JointKind::Aligned { from, line, offset, direction: line_is, along, across } => {
-                let line = (of(line[0]), of(line[1]));
+                let line = (columns(line[0]), columns(line[1]));
                 match line_is {
-                    LineDirection::Towards => place_aligned(of(from), line, (offset, None), [along, across], x, y),
+                    LineDirection::Towards => place_aligned(columns(from), line, (offset, None), [along, across], x, y),
                     LineDirection::Actuator => {
-                        place_aligned(of(from), line, (offset, Some(inputs.values)), [along, across], x, y)
+                        place_aligned(columns(from), line, (offset, Some(inputs.values)), [along, across], x, y)
                     }
-                    LineDirection::BySide(index) => {
+                    LineDirection::BySide(dyad) => {
                         place_aligned(
-                            of(from),
+                            columns(from),
                             line,
                             (offset, None),
-                            [along, across].map(|c| c * -modes.0[index]),
+                            [along, across].map(|c| c * -signs.0[dyad]),
                             x,
                             y,
                         );
@@ -204,12 +217,12 @@ fn place_crank((ox, oy): PointColumn, length: f64, (cos, sin): PointColumn, x: &
 
 /// The RRR dyad: with d the length of the base, the foot of its height is `(d^2 + l0^2 - l1^2) / 2d` along it, and
 /// the height `sqrt((l0+l1+d)(l0+l1-d)(d+l0-l1)(d-l0+l1)) / 2d` (Natesan 5.7-5.10, with the root factored: the
-/// factors lose no digits where the dyad is nearly flat, and keep a short link's length beside a long base).
+/// factors lose no digits where the dyad is nearly flat, and keep a short link's length on a long base).
 fn place_dyad(
     (px, py): PointColumn,
     (qx, qy): PointColumn,
     [l0, l1]: [f64; 2],
-    mode: f64,
+    sign: f64,
     x: &mut [f64],
     y: &mut [f64],
 ) {
@@ -223,20 +236,20 @@ fn place_dyad(
         let discriminant = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
         let half = 0.5 / d2;
         let along = (d2 + sum * difference) * half;
-        let across = mode * (discriminant.max(0.0).sqrt() * half);
+        let across = sign * (discriminant.max(0.0).sqrt() * half);
         x[i] = px[i] + along * dx - across * dy;
         y[i] = py[i] + along * dy + across * dx;
     }
 }
 
-/// The RRP dyad: the end of a link of length l is as far off the line as the line's distance h from the joint it
-/// hangs on, and `sqrt((l - h)(l + h))` along it.
+/// The RRP dyad: with h the distance of the line from the joint that a link of length l starts at, the end of the link
+/// is h across and `sqrt((l - h)(l + h))` along the line from that joint.
 fn place_slide(
     (ax, ay): PointColumn,
     length: f64,
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
     offset: f64,
-    mode: f64,
+    sign: f64,
     x: &mut [f64],
     y: &mut [f64],
 ) {
@@ -247,23 +260,23 @@ fn place_slide(
         let d = (dx * dx + dy * dy).sqrt();
         let (ux, uy) = (dx / d, dy / d);
         let h = offset - (ux * (ay[i] - py[i]) - uy * (ax[i] - px[i]));
-        let along = mode * ((length - h) * (length + h)).max(0.0).sqrt();
+        let along = sign * ((length - h) * (length + h)).max(0.0).sqrt();
         x[i] = ax[i] + along * ux - h * uy;
         y[i] = ay[i] + along * uy + h * ux;
     }
 }
 
 /// The angle in degrees of a crank geared to the input.
-pub(super) fn geared_angle(input_deg: f64, [turns, of]: [i64; 2], phase_deg: f64) -> f64 {
-    // Whole periods are taken off first: the ratio of what is left is the more exact.
-    input_deg % (360.0 * of as f64) * turns as f64 / of as f64 + phase_deg
+pub(super) fn geared_angle(input_deg: f64, [turns, per]: [i64; 2], phase_deg: f64) -> f64 {
+    // Whole periods are removed first: the product of the remainder and the ratio is more accurate.
+    input_deg % (360.0 * per as f64) * turns as f64 / per as f64 + phase_deg
 }
 
 /// A crank driven by a linear actuator: an RRR dyad whose first link is `b = sqrt(s^2 + e^2)` long (McCarthy 2.40).
 fn place_piston(
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
     (s, length, offset): (&[f64], f64, f64),
-    mode: f64,
+    sign: f64,
     x: &mut [f64],
     y: &mut [f64],
 ) {
@@ -271,12 +284,12 @@ fn place_piston(
         let b = (s * s + offset * offset).sqrt();
         let one = i..i + 1;
         let base = ((&px[one.clone()], &py[one.clone()]), (&qx[one.clone()], &qy[one.clone()]));
-        place_dyad(base.0, base.1, [b, length], mode, &mut x[one.clone()], &mut y[one]);
+        place_dyad(base.0, base.1, [b, length], sign, &mut x[one.clone()], &mut y[one]);
     }
 }
 
 /// The RPR dyad: pivot, foot and joint are a right triangle with the base for hypotenuse (McCarthy 2.40-2.42).
-fn place_slot((px, py): PointColumn, (qx, qy): PointColumn, offset: f64, mode: f64, x: &mut [f64], y: &mut [f64]) {
+fn place_slot((px, py): PointColumn, (qx, qy): PointColumn, offset: f64, sign: f64, x: &mut [f64], y: &mut [f64]) {
     let n = x.len();
     let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
     for i in 0..n {
@@ -284,13 +297,13 @@ fn place_slot((px, py): PointColumn, (qx, qy): PointColumn, offset: f64, mode: f
         let d2 = dx * dx + dy * dy;
         let d = d2.sqrt();
         let along = offset * offset / d2;
-        let across = mode * (offset * ((d - offset) * (d + offset)).max(0.0).sqrt() / d2);
+        let across = sign * (offset * ((d - offset) * (d + offset)).max(0.0).sqrt() / d2);
         x[i] = px[i] + along * dx - across * dy;
         y[i] = py[i] + along * dy + across * dx;
     }
 }
 
-/// The RPP dyad: as far along the guide as the joint in the slot, less what the slot leans over up to there.
+/// The RPP dyad: as far along the guide as the joint in the slot, less what the slot's lean contributes up to there.
 fn place_yoke(
     (ax, ay): PointColumn,
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
@@ -312,8 +325,9 @@ fn place_yoke(
     }
 }
 
-/// A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is that from p
-/// to q, turned to the right by the angle whose sine is offset / d. How far along it q is may be known.
+/// A point of a body that is aligned with a line. The line passes through q and at the distance `offset` from p: its
+/// direction is that from p to q, rotated clockwise by the angle whose sine is offset / d. `known` is the distance of q
+/// along the line, if that is known.
 fn place_aligned(
     (ax, ay): PointColumn,
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
@@ -360,11 +374,11 @@ fn place_rigid((px, py): PointColumn, (qx, qy): PointColumn, along: f64, across:
     }
 }
 
-/// Puts the poses into the plane they are reported in: that of the link the linkage is seen from, with its origin at a
-/// joint and x towards another, and laid as the linkage is placed.
+/// Transforms positions into the frame they are reported in: that of the link the linkage is seen from, with its origin
+/// at one joint and x towards another, rotated or reflected as the linkage is placed.
 pub(super) fn convert_to_view_frame(linkage: &Linkage, out: &mut JointPositions) {
     if let Some([origin, end]) = linkage.seen_from {
-        // The link is rigid: its length is known, and dividing by it keeps every other length too.
+        // The link is rigid: division by its known length keeps all other lengths exact as well.
         let ground = linkage.ground();
         let length = match (ground.position(origin), ground.position(end)) {
             (Some(from), Some(to)) => (to - from).norm(),
@@ -373,7 +387,7 @@ pub(super) fn convert_to_view_frame(linkage: &Linkage, out: &mut JointPositions)
         for i in 0..out.len {
             let (o, e) = (out.point(origin, i), out.point(end, i));
             let axis = (e - o) / length;
-            for joint in 0..linkage.joints.len() {
+            for joint in linkage.joint_ids() {
                 let v = out.point(joint, i) - o;
                 out.set_point(joint, i, Point::new(axis.dot(&v), cross(axis, v)));
             }

@@ -1,4 +1,4 @@
-//! Circuits by enough samples for their curves to be known between them.
+//! Circuits with enough samples for their curves to be interpolated between them.
 
 use std::sync::LazyLock;
 
@@ -6,15 +6,16 @@ use super::circuit::UnsampledCircuit;
 use super::sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
 use crate::linkage::{Input, Linkage};
 
-/// So many samples to a turn, or to a whole circuit that rocks: a polynomial through five of them is off by some hundred
-/// thousandth of the way from one to the next where the curve is smooth.
+/// Samples per turn, or per circuit that rocks: a polynomial through five of them is off by about a hundred thousandth
+/// of the distance between neighbours where the curve is smooth.
 const FINE_SAMPLES: usize = 360;
 
-/// The sines and cosines of a turn so finely sampled.
+/// The sampler with [`FINE_SAMPLES`] samples, and its table of sines and cosines.
 static FINE_SAMPLER: LazyLock<Sampler> = LazyLock::new(|| Sampler::new(Sampling::DenseAtLimits(FINE_SAMPLES)));
 
 impl Circuit {
-    /// The same circuit by as many samples as tell of its curves between them, dense towards limits; itself, if it has them.
+    /// The same circuit with enough samples for its curves to be interpolated, denser towards limits; this circuit, if
+    /// it has as many.
     pub fn refined(&self, linkage: &Linkage) -> &Circuit {
         let turns = match linkage.input() {
             Input::Angle { turns } => turns as usize,
@@ -25,10 +26,10 @@ impl Circuit {
             return self;
         }
         self.refined.get_or_init(|| {
-            let route = UnsampledCircuit { passes: self.passes.clone(), is_closed: self.is_closed };
+            let circuit = UnsampledCircuit { passes: self.passes.clone(), is_closed: self.is_closed };
             Box::new(match samples {
-                FINE_SAMPLES => FINE_SAMPLER.sample_circuit(linkage, route),
-                _ => Sampler::new(Sampling::DenseAtLimits(samples)).sample_circuit(linkage, route),
+                FINE_SAMPLES => FINE_SAMPLER.sample_circuit(linkage, circuit),
+                _ => Sampler::new(Sampling::DenseAtLimits(samples)).sample_circuit(linkage, circuit),
             })
         })
     }

@@ -1,31 +1,35 @@
+//! Sampling of circuits: by a step of the input, by a number of samples, or evenly along a path.
+
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use super::circuit::{InputPosition, Pass, UnsampledCircuit};
+use super::AssemblyError;
+use super::circuit::UnsampledCircuit;
 use super::derivatives::JointDerivatives;
+use super::pass::{InputPosition, Pass};
 use super::pass_ends::place_at_end;
 use super::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
 use super::spacing::{self, CumulativeLength};
 use crate::geometry::Point;
 use crate::linkage::{AssemblyMode, DyadSet, Input, JointId, Linkage};
 
-/// How densely a circuit is sampled.
+/// How a circuit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sampling {
-    /// Every whole multiple of a step, in degrees or in units of length, and the ends of the passes.
+    /// At all whole multiples of a step, in degrees or in units of length, and at the ends of the passes.
     Step(f64),
-    /// That many samples in the whole circuit, evenly over each pass.
+    /// A number of samples in the whole circuit, evenly spaced in the input on each pass.
     Samples(usize),
-    /// That many, dense towards the limits.
+    /// A number of samples, denser towards the limits.
     DenseAtLimits(usize),
-    /// That many, evenly along the path of the first traced joint, to a part in ten thousand.
+    /// A number of samples, evenly spaced along the path of the first traced joint, to a part in ten thousand.
     ArcLength(usize),
 }
 
 /// The most samples a circuit may have.
 pub const MAX_SAMPLES: usize = 100_000;
 
-/// Samples circuits; holds the sines and cosines of a full turn, made once for all cells.
+/// Samples circuits. Contains the sines and cosines of a full turn, computed once for all cells.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     sampling: Sampling,
@@ -36,17 +40,17 @@ pub struct Sampler {
 /// A sampled circuit.
 #[derive(Clone, Debug)]
 pub struct Circuit {
-    /// Whether it comes back to where it began.
+    /// Whether it ends where it begins.
     pub is_closed: bool,
     /// Its passes, in order.
     pub passes: Vec<Pass>,
     /// The input of each sample: degrees, continuous and never wrapped, or lengths.
     pub inputs: Vec<f64>,
-    /// Where each joint is at each sample, in the frame the linkage is seen from.
+    /// The positions of all joints at each sample, in the frame the linkage is seen from.
     pub positions: JointPositions,
-    /// The pass each sample is on; at the end of one, the pass it ends.
+    /// The index of the pass of each sample; at the end of a pass, the pass that ends there.
     sample_passes: Vec<usize>,
-    /// The same by more samples, once they are asked for.
+    /// The same circuit with more samples; computed on first use.
     pub(super) refined: OnceLock<Box<Circuit>>,
 }
 
@@ -61,19 +65,20 @@ impl Circuit {
         self.inputs.is_empty()
     }
 
-    /// The sides of the dyads at a sample; at the end of a pass, those of the pass it ends.
+    /// The assembly mode at a sample; at the end of a pass, that of the pass that ends there.
     pub fn mode_at(&self, sample: usize) -> AssemblyMode {
         self.passes[self.sample_passes[sample]].mode
     }
 
-    /// Whether the input turns round at the end of a pass, for a dyad lies flat there.
+    /// Whether the input reverses at the end of a pass, because a dyad is flat there.
     pub fn reverses_after(&self, pass: usize) -> bool {
         let last = pass + 1 == self.passes.len();
         let next = &self.passes[(pass + 1) % self.passes.len()];
         (!last || self.is_closed) && self.passes[pass].input_direction() != next.input_direction()
     }
 
-    /// Whether paths may have a corner at a sample: where the input goes on over a change point, and the branch stays.
+    /// Whether paths may have a corner at a sample: at a change point where the motion continues in the same assembly
+    /// mode.
     pub fn is_corner(&self, sample: usize) -> bool {
         let k = self.sample_passes[sample];
         let (pass, next) = (&self.passes[k], &self.passes[(k + 1) % self.passes.len()]);
@@ -81,10 +86,10 @@ impl Circuit {
         is_end && !pass.to.flat_dyads.is_empty() && !self.reverses_after(k) && pass.mode == next.mode
     }
 
-    /// Places and rates of all joints at a sample.
+    /// The positions and derivatives of all joints at a sample.
     pub fn derivatives(&self, linkage: &Linkage, sample: usize) -> JointDerivatives {
         let pass = &self.passes[self.sample_passes[sample]];
-        // A closed circuit begins where its last pass ends, perhaps a few turns on.
+        // A closed circuit begins where its last pass ends, apart from whole turns.
         let begins_at_an_end = sample == 0 && self.is_closed && !pass.to.flat_dyads.is_empty();
         JointDerivatives::on_pass(
             linkage,
@@ -93,22 +98,22 @@ impl Circuit {
         )
     }
 
-    /// A joint's places, sample by sample.
+    /// A joint's positions, sample by sample.
     pub fn points(&self, joint: JointId) -> impl Iterator<Item = Point> {
         self.positions.x(joint).iter().zip(self.positions.y(joint)).map(|(&x, &y)| Point::new(x, y))
     }
 }
 
 impl Sampler {
-    /// A sampler.
+    /// Creates a sampler.
     ///
     /// # Panics
-    /// If a step is not positive or there are to be more than [`MAX_SAMPLES`] samples.
+    /// If a step is not positive or the number of samples is greater than [`MAX_SAMPLES`].
     pub fn new(sampling: Sampling) -> Sampler {
         let turn = match sampling {
             Sampling::Step(step) => {
                 assert!(step > 0.0, "a step of {step}");
-                // A step of a length may be short; there is no turn then.
+                // The step may be one of a length and very short; the table is not used then.
                 multiples(step, 0.0, 360.0).take(MAX_SAMPLES).map(InputPosition::from_degrees).collect()
             }
             Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => {
@@ -119,72 +124,71 @@ impl Sampler {
         Sampler { sampling, full_turn: turn }
     }
 
-    /// The samples of a whole turn from input 0: the table of sines and cosines.
+    /// The samples of a full turn from input 0: the table of sines and cosines.
     pub fn full_turn(&self) -> &[InputPosition] {
         &self.full_turn
     }
 
-    /// Why a route is not sampled by so short a step.
-    pub(super) fn excess_reason(&self, route: &UnsampledCircuit) -> Option<String> {
+    /// The error of a step that is too short for a circuit, if it is.
+    pub(super) fn excess_error(&self, circuit: &UnsampledCircuit) -> Option<AssemblyError> {
         let Sampling::Step(step) = self.sampling else { return None };
-        // A full turn may have them all, and rounding one more.
+        // A full turn may have `MAX_SAMPLES` samples, and one more by rounding.
         let is_long = |pass: &Pass| pass.input_length() / step > MAX_SAMPLES as f64 + 1.0;
-        let reason = || format!("a step of {step} makes more than {MAX_SAMPLES} samples from one end to the other");
-        route.passes.iter().any(is_long).then(reason)
+        circuit.passes.iter().any(is_long).then_some(AssemblyError::TooManySamples { step })
     }
 
-    pub(super) fn sample_circuit(&self, linkage: &Linkage, route: UnsampledCircuit) -> Circuit {
-        let mut plan = self.plan_samples(&route, linkage);
-        let mut places = JointPositions::new(linkage.joints.len(), plan.inputs.len());
+    /// Samples a circuit.
+    pub(super) fn sample_circuit(&self, linkage: &Linkage, circuit: UnsampledCircuit) -> Circuit {
+        let mut plan = self.plan_samples(&circuit, linkage);
+        let mut positions = JointPositions::new(linkage.joints.len(), plan.inputs.len());
         let inputs = InputColumns::new(&plan.inputs);
         let all = linkage.joints.len();
-        for (run, pass) in plan.pass_ranges.iter().zip(&route.passes) {
-            let modes = DyadSigns::new(pass.mode, DyadSet::EMPTY);
-            place_leading_joints(linkage, all, inputs.slice(run.clone()), &modes, &mut places, run.clone());
+        for (run, pass) in plan.pass_ranges.iter().zip(&circuit.passes) {
+            let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
+            place_leading_joints(linkage, all, inputs.slice(run.clone()), &signs, &mut positions, run.clone());
         }
-        for &(sample, on, is_first) in &plan.pass_ends {
-            let pass = &route.passes[on];
-            place_at_end(linkage, pass, is_first, &mut places, sample);
-            plan.sample_passes[sample] = on;
+        for &(sample, pass, is_first) in &plan.pass_ends {
+            place_at_end(linkage, &circuit.passes[pass], is_first, &mut positions, sample);
+            plan.sample_passes[sample] = pass;
         }
-        convert_to_view_frame(linkage, &mut places);
+        convert_to_view_frame(linkage, &mut positions);
         let input = plan.inputs.iter().map(|stop| stop.value).collect();
         Circuit {
-            is_closed: route.is_closed,
-            passes: route.passes,
+            is_closed: circuit.is_closed,
+            passes: circuit.passes,
             inputs: input,
-            positions: places,
+            positions,
             sample_passes: plan.sample_passes,
             refined: OnceLock::new(),
         }
     }
 
-    /// Where the samples of a route are: pass after pass, each up to and with its end; before them the start, which
-    /// of a closed circuit is the end of its last pass.
-    fn plan_samples(&self, route: &UnsampledCircuit, linkage: &Linkage) -> SamplePlan {
+    /// The inputs of a circuit's samples: the start, which in a closed circuit is the end of its last pass, then pass
+    /// after pass, each including its end.
+    fn plan_samples(&self, circuit: &UnsampledCircuit, linkage: &Linkage) -> SamplePlan {
         let input = linkage.input();
         let mut plan = SamplePlan::default();
-        if let [pass] = route.passes[..]
-            && route.is_closed
+        if let [pass] = circuit.passes[..]
+            && circuit.is_closed
             && pass.from.flat_dyads.is_empty()
             && !matches!(self.sampling, Sampling::ArcLength(_))
         {
-            // A full turn on one branch: the table as it is, and again for every further turn.
+            // A full turn in one assembly mode: the table, repeated for every further turn.
             plan.inputs = self.full_period(input);
             plan.sample_passes = vec![0; plan.inputs.len()];
             plan.pass_ranges.push(0..plan.inputs.len());
             return plan;
         }
-        let last = route.passes.len() - 1;
-        plan.pass_ends.push(if route.is_closed { (0, last, false) } else { (0, 0, true) });
-        plan.inputs.push(route.passes[0].from.input);
+        let last = circuit.passes.len() - 1;
+        plan.pass_ends.push(if circuit.is_closed { (0, last, false) } else { (0, 0, true) });
+        plan.inputs.push(circuit.passes[0].from.input);
         plan.sample_passes.push(0);
-        let mileages = self.cumulative_lengths(route, linkage);
-        let intervals = self.interval_counts(route, &mileages);
-        for (k, pass) in route.passes.iter().enumerate() {
+        let lengths = self.cumulative_lengths(circuit, linkage);
+        let intervals = self.interval_counts(circuit, &lengths);
+        for (k, pass) in circuit.passes.iter().enumerate() {
             let begin = plan.inputs.len();
-            self.push_inner_samples(pass, (intervals[k], input), mileages.get(k), &mut plan.inputs);
-            if k < last || !route.is_closed {
+            self.push_inner_samples(pass, (intervals[k], input), lengths.get(k), &mut plan.inputs);
+            if k < last || !circuit.is_closed {
                 plan.pass_ends.push((plan.inputs.len(), k, false));
                 plan.inputs.push(pass.to.input);
             }
@@ -199,7 +203,7 @@ impl Sampler {
         &self,
         pass: &Pass,
         (intervals, input): (usize, Input),
-        mileage: Option<&CumulativeLength>,
+        cumulative_length: Option<&CumulativeLength>,
         out: &mut Vec<InputPosition>,
     ) {
         let (from, to) = (pass.from.input.value, pass.to.input.value);
@@ -208,18 +212,21 @@ impl Sampler {
             Sampling::DenseAtLimits(_) | Sampling::ArcLength(_) => out.extend(shares.map(|share| {
                 InputPosition::new(
                     input,
-                    spacing::eased_input(pass, mileage.map_or(share, |mileage| mileage.pass_fraction(share))),
+                    spacing::eased_input(
+                        pass,
+                        cumulative_length.map_or(share, |cumulative_length| cumulative_length.pass_fraction(share)),
+                    ),
                 )
             })),
             Sampling::Samples(_) => out.extend(shares.map(|t| {
-                // From both ends, so that equal passes there and back have equal samples.
+                // From the lower end in both directions, so that a forward and a backward pass have the same samples.
                 InputPosition::new(input, if from < to { from + (to - from) * t } else { to + (from - to) * (1.0 - t) })
             })),
             Sampling::Step(step) => {
                 let begin = out.len();
-                let apart = |at: &f64| (at - from).abs() > 1e-9 * step && (at - to).abs() > 1e-9 * step;
-                let inside = multiples(step, from.min(to), from.max(to)).filter(apart).take(MAX_SAMPLES);
-                out.extend(inside.map(|at| self.input_at_multiple(input, at, step)));
+                let is_inside = |value: &f64| (value - from).abs() > 1e-9 * step && (value - to).abs() > 1e-9 * step;
+                let inside = multiples(step, from.min(to), from.max(to)).filter(is_inside).take(MAX_SAMPLES);
+                out.extend(inside.map(|value| self.input_at_multiple(input, value, step)));
                 if from > to {
                     out[begin..].reverse();
                 }
@@ -228,22 +235,22 @@ impl Sampler {
     }
 
     /// The input at a multiple of the step, from the table where the step divides the turn.
-    fn input_at_multiple(&self, input: Input, at: f64, step: f64) -> InputPosition {
+    fn input_at_multiple(&self, input: Input, value: f64, step: f64) -> InputPosition {
         let n = self.full_turn.len();
         if n as f64 * step == 360.0 && input != Input::Length {
-            let index = ((at / step).round() as i64).rem_euclid(n as i64) as usize;
-            return InputPosition { value: at, ..self.full_turn[index] };
+            let index = ((value / step).round() as i64).rem_euclid(n as i64) as usize;
+            return InputPosition { value, ..self.full_turn[index] };
         }
-        InputPosition::new(input, at)
+        InputPosition::new(input, value)
     }
 
-    /// The samples of a whole period from input 0.
+    /// The samples of a full period from input 0.
     fn full_period(&self, input: Input) -> Vec<InputPosition> {
         let period = input.period();
         match self.sampling {
             _ if period == 360.0 => self.full_turn.clone(),
             Sampling::Step(step) => {
-                multiples(step, 0.0, period).map(|at| self.input_at_multiple(input, at, step)).collect()
+                multiples(step, 0.0, period).map(|value| self.input_at_multiple(input, value, step)).collect()
             }
             Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => {
                 (0..n).map(|i| InputPosition::from_degrees(period * i as f64 / n as f64)).collect()
@@ -251,35 +258,36 @@ impl Sampler {
         }
     }
 
-    /// The paths of the first traced joint, pass by pass, where samples are to be even along them.
-    fn cumulative_lengths(&self, route: &UnsampledCircuit, linkage: &Linkage) -> Vec<CumulativeLength> {
+    /// The cumulative lengths of the first traced joint's path on each pass, for samples evenly spaced along it; empty
+    /// if they are not needed.
+    fn cumulative_lengths(&self, circuit: &UnsampledCircuit, linkage: &Linkage) -> Vec<CumulativeLength> {
         match (self.sampling, linkage.traced.first()) {
             (Sampling::ArcLength(_), Some(&joint)) => {
-                let mileages: Vec<CumulativeLength> =
-                    route.passes.iter().map(|pass| CumulativeLength::measure(linkage, pass, joint)).collect();
-                // A joint that does not move tells nothing: the input is as good then.
-                if mileages.iter().all(|mileage| mileage.total() > 0.0) { mileages } else { Vec::new() }
+                let lengths: Vec<CumulativeLength> =
+                    circuit.passes.iter().map(|pass| CumulativeLength::measure(linkage, pass, joint)).collect();
+                // If the joint does not move on a pass, samples are evenly spaced in the input instead.
+                if lengths.iter().all(|length| length.total() > 0.0) { lengths } else { Vec::new() }
             }
             _ => Vec::new(),
         }
     }
 
-    /// How many intervals each pass gets: in proportion to its length, at least one, by largest remainder.
-    fn interval_counts(&self, route: &UnsampledCircuit, mileages: &[CumulativeLength]) -> Vec<usize> {
+    /// The number of intervals of each pass: in proportion to its length, at least one, by the largest remainders.
+    fn interval_counts(&self, circuit: &UnsampledCircuit, lengths: &[CumulativeLength]) -> Vec<usize> {
         let samples = match self.sampling {
-            Sampling::Step(_) => return vec![0; route.passes.len()],
+            Sampling::Step(_) => return vec![0; circuit.passes.len()],
             Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => n,
         };
-        let wanted = if route.is_closed { samples } else { samples.saturating_sub(1) };
-        let length = |k: usize| mileages.get(k).map_or(route.passes[k].input_length(), CumulativeLength::total);
-        let total: f64 = (0..route.passes.len()).map(length).sum();
-        let exact: Vec<f64> = (0..route.passes.len()).map(|k| wanted as f64 * length(k) / total).collect();
-        // A share a rounding error below a whole number is that number.
+        let intervals = if circuit.is_closed { samples } else { samples.saturating_sub(1) };
+        let length = |k: usize| lengths.get(k).map_or(circuit.passes[k].input_length(), CumulativeLength::total);
+        let total: f64 = (0..circuit.passes.len()).map(length).sum();
+        let exact: Vec<f64> = (0..circuit.passes.len()).map(|k| intervals as f64 * length(k) / total).collect();
+        // A share that is a rounding error below a whole number is rounded up to it.
         let mut shares: Vec<usize> = exact.iter().map(|e| ((e + 1e-9).floor() as usize).max(1)).collect();
         let mut order: Vec<usize> = (0..shares.len()).collect();
         order.sort_by(|&a, &b| (exact[b] - shares[b] as f64).total_cmp(&(exact[a] - shares[a] as f64)));
         for k in order.into_iter().cycle() {
-            if shares.iter().sum::<usize>() >= wanted {
+            if shares.iter().sum::<usize>() >= intervals {
                 break;
             }
             shares[k] += 1;
@@ -288,6 +296,7 @@ impl Sampler {
     }
 }
 
+/// The inputs of a circuit's samples and the passes they are on.
 #[derive(Default)]
 struct SamplePlan {
     inputs: Vec<InputPosition>,
@@ -295,13 +304,13 @@ struct SamplePlan {
     sample_passes: Vec<usize>,
     /// The samples of each pass.
     pass_ranges: Vec<Range<usize>>,
-    /// The samples at the ends of passes: sample, pass, and whether it is where the pass begins.
+    /// The samples at the ends of passes: sample, pass, and whether the pass begins there.
     pass_ends: Vec<(usize, usize, bool)>,
 }
 
-/// The whole multiples of `step` in `[from, to)`, as the decimals say: the third multiple of 0.1 is 0.3.
+/// The whole multiples of `step` in `[from, to)`, rounded as decimals: the third multiple of 0.1 is 0.3.
 fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
-    // Where the step is a decimal of up to nine places, the multiple is one division and so correctly rounded.
+    // If the step is a decimal of up to nine places, the multiple is a single division and so correctly rounded.
     let whole = (0..=9).map(|d| 10u64.pow(d) as f64).find_map(|scale| {
         let units = (step * scale).round();
         (units / scale == step).then_some((units, scale))
@@ -319,12 +328,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn multiples_are_what_the_decimals_say() {
-        let of = |step, from, to| multiples(step, from, to).collect::<Vec<f64>>();
-        assert_eq!(of(0.1, 0.0, 0.45), [0.0, 0.1, 0.2, 0.3, 0.4]);
-        assert_eq!(of(2.0, -3.0, 3.0), [-2.0, 0.0, 2.0]);
-        assert_eq!(of(360.0 / 7.0, 0.0, 360.0).len(), 7);
-        assert_eq!(of(2.0, 0.0, 360.0).len(), 180);
-        assert_eq!(of(0.1, 0.0, 360.0).len(), 3600);
+    fn multiples_of_a_decimal_step_are_correctly_rounded() {
+        let multiples_between = |step, from, to| multiples(step, from, to).collect::<Vec<f64>>();
+        assert_eq!(multiples_between(0.1, 0.0, 0.45), [0.0, 0.1, 0.2, 0.3, 0.4]);
+        assert_eq!(multiples_between(2.0, -3.0, 3.0), [-2.0, 0.0, 2.0]);
+        assert_eq!(multiples_between(360.0 / 7.0, 0.0, 360.0).len(), 7);
+        assert_eq!(multiples_between(2.0, 0.0, 360.0).len(), 180);
+        assert_eq!(multiples_between(0.1, 0.0, 360.0).len(), 3600);
     }
 }

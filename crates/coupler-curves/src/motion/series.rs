@@ -1,7 +1,7 @@
-//! The beginnings of Taylor series in the input, over numbers or over enclosures of numbers.
+//! Truncated Taylor series in the input, over numbers or over enclosures of numbers.
 //!
-//! Sums, products, quotients and roots of series are exact to their order, so that what comes out are derivatives in
-//! closed form and not differences; over [`super::enclosure::Enclosure`]s they are bounds on those derivatives.
+//! Sums, products, quotients and roots of series are exact to their order, so that their coefficients are derivatives
+//! in closed form and not differences; over [`super::enclosure::Enclosure`]s they are bounds on those derivatives.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -9,7 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::positions::geared_angle;
 use crate::geometry::{Vector, trig};
 
-/// What the coefficients of a series may be.
+/// The operations on the coefficients of a series.
 pub(super) trait Scalar:
     Copy
     + From<f64>
@@ -19,10 +19,10 @@ pub(super) trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Its product with itself.
+    /// The square.
     fn square(self) -> Self;
 
-    /// Its root; of what rounding makes negative, 0.
+    /// The square root; 0 for a number that is negative by rounding.
     fn sqrt(self) -> Self;
 
     /// The cosine and the sine of an angle in degrees.
@@ -60,7 +60,7 @@ impl<T: Scalar, const N: usize> Series<T, N> {
         Series(from_fn(|n| if n == 0 { value } else { T::from(0.0) }))
     }
 
-    /// The variable itself where it has this value.
+    /// The variable at this value.
     pub fn variable(value: T) -> Self {
         Series(from_fn(|n| if n == 0 { value } else { T::from(if n == 1 { 1.0 } else { 0.0 }) }))
     }
@@ -80,14 +80,14 @@ impl<T: Scalar, const N: usize> Series<T, N> {
     pub fn sqrt(self) -> Self {
         let mut root = [self.0[0].sqrt(); N];
         for n in 1..N {
-            let carried = (1..n).fold(self.0[n], |left, k| left - root[k] * root[n - k]);
-            root[n] = carried / (T::from(2.0) * root[0]);
+            let remainder = (1..n).fold(self.0[n], |sum, k| sum - root[k] * root[n - k]);
+            root[n] = remainder / (T::from(2.0) * root[0]);
         }
         Series(root)
     }
 
-    pub fn scaled(self, by: f64) -> Self {
-        Series(self.0.map(|c| c * T::from(by)))
+    pub fn scaled(self, factor: f64) -> Self {
+        Series(self.0.map(|c| c * T::from(factor)))
     }
 }
 
@@ -124,19 +124,19 @@ impl<T: Scalar, const N: usize> Div for Series<T, N> {
     fn div(self, divisor: Self) -> Self {
         let mut quotient = [self.0[0] / divisor.0[0]; N];
         for n in 1..N {
-            let carried = (1..=n).fold(self.0[n], |left, k| left - divisor.0[k] * quotient[n - k]);
-            quotient[n] = carried / divisor.0[0];
+            let remainder = (1..=n).fold(self.0[n], |sum, k| sum - divisor.0[k] * quotient[n - k]);
+            quotient[n] = remainder / divisor.0[0];
         }
         Series(quotient)
     }
 }
 
 impl<const N: usize> Series<f64, N> {
-    /// The root of a square that touches zero where the series begins, with the sign it has beyond; `None` where it goes
-    /// through zero. One term fewer is known of it than of the square: that one is not a number.
-    pub fn sqrt_at_touch(self, size: f64) -> Option<Self> {
-        // A touch has no first term but rounding; at a limit that is as near one as 1e-12 it is 1e-6.
-        if !(self.0[1].abs() <= 1e-9 * size && self.0[2] > 0.0) {
+    /// The root of a square that touches zero at the origin of the series, positive beyond it; `None` if the square
+    /// crosses zero. Its last term is not known and is NaN.
+    pub fn sqrt_at_touch(self, magnitude: f64) -> Option<Self> {
+        // At a touch the linear term is only rounding; at a limit that misses a touch by 1e-12 it is 1e-6.
+        if !(self.0[1].abs() <= 1e-9 * magnitude && self.0[2] > 0.0) {
             return None;
         }
         let root: Series<f64, N> = Series(from_fn(|n| self.0.get(n + 2).copied().unwrap_or(f64::NAN))).sqrt();
@@ -144,7 +144,7 @@ impl<const N: usize> Series<f64, N> {
     }
 }
 
-/// A place, or a difference of places, as it changes with the input.
+/// A position, or a difference of positions, as a series in the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct VectorSeries<T, const N: usize> {
     pub x: Series<T, N>,
@@ -156,11 +156,11 @@ impl<T: Scalar, const N: usize> VectorSeries<T, N> {
         VectorSeries { x: Series::constant(v.x), y: Series::constant(v.y) }
     }
 
-    /// A direction that turns `by` radians to a radian of input.
-    pub fn rotating_unit([cos, sin]: [T; 2], by: f64) -> Self {
+    /// A unit vector that rotates by `ratio` radians per radian of input.
+    pub fn rotating_unit([cos, sin]: [T; 2], ratio: f64) -> Self {
         let (mut x, mut y) = ([cos; N], [sin; N]);
         for n in 1..N {
-            let rate = T::from(by) / T::from(n as f64);
+            let rate = T::from(ratio) / T::from(n as f64);
             (x[n], y[n]) = (-(rate * y[n - 1]), rate * x[n - 1]);
         }
         VectorSeries { x: Series(x), y: Series(y) }
@@ -170,9 +170,9 @@ impl<T: Scalar, const N: usize> VectorSeries<T, N> {
         VectorSeries { x: self.x - other.x, y: self.y - other.y }
     }
 
-    /// This place, moved `along` times a vector and `across` times its left normal.
-    pub fn moved(self, by: Self, along: Series<T, N>, across: Series<T, N>) -> Self {
-        VectorSeries { x: self.x + along * by.x - across * by.y, y: self.y + along * by.y + across * by.x }
+    /// This position, moved by `along` times a vector and by `across` times its left normal.
+    pub fn moved(self, v: Self, along: Series<T, N>, across: Series<T, N>) -> Self {
+        VectorSeries { x: self.x + along * v.x - across * v.y, y: self.y + along * v.y + across * v.x }
     }
 
     pub fn dot(self, other: Self) -> Series<T, N> {
@@ -183,12 +183,12 @@ impl<T: Scalar, const N: usize> VectorSeries<T, N> {
         self.x * other.y - self.y * other.x
     }
 
-    /// The square of its length.
+    /// The square of the length.
     pub fn norm_squared(self) -> Series<T, N> {
         self.x.square() + self.y.square()
     }
 
-    /// It and its length as one: the direction.
+    /// The unit vector in this direction.
     pub fn unit(self) -> Self {
         let length = self.norm_squared().sqrt();
         VectorSeries { x: self.x / length, y: self.y / length }

@@ -1,4 +1,4 @@
-//! One cell of a family through linkage, motion and measure.
+//! Solves one cell of a family: its linkage, motion and measures.
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};
@@ -8,19 +8,19 @@ use crate::motion::{Circuit, Motion, Sampler};
 /// A solved and measured cell.
 #[derive(Clone, Debug)]
 pub struct SolvedCell {
-    /// The parameter set.
+    /// Its parameter set.
     pub cell: Cell,
     /// Its linkage.
     pub linkage: Linkage,
-    /// What the linkage does.
+    /// The motion of the linkage.
     pub motion: Motion,
     /// The curves that `where` keeps, in order of trace and circuit.
     pub curves: Vec<MeasuredCurve>,
-    /// How many curves `where` left out.
+    /// The number of curves that `where` excludes.
     pub left_out_count: usize,
 }
 
-/// A traced joint on a circuit, and what was measured of it.
+/// The curve of a traced joint on a circuit, and its measures.
 #[derive(Clone, Debug)]
 pub struct MeasuredCurve {
     /// The number of the traced joint, from 1.
@@ -38,21 +38,21 @@ pub struct MeasuredCurve {
 }
 
 impl MeasuredCurve {
-    /// What was measured of it under a name.
+    /// The value of a measure by its name; missing for an unknown name.
     pub fn value(&self, name: &str) -> Value {
-        let at = measure::ALL.iter().position(|measure| measure.name == name);
-        at.and_then(|at| self.values.get(at)).copied().unwrap_or(Value::Missing)
+        let index = measure::ALL.iter().position(|measure| measure.name == name);
+        index.and_then(|index| self.values.get(index)).copied().unwrap_or(Value::Missing)
     }
 }
 
-/// How far a cell was assembled.
+/// Whether a cell could be assembled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Over all that was asked for.
+    /// Over the whole requested range.
     Ok,
-    /// Over a part of the range asked for.
+    /// Over a part of the requested range.
     Partial,
-    /// Nowhere.
+    /// At no input.
     None,
 }
 
@@ -68,13 +68,18 @@ impl Status {
 }
 
 impl SolvedCell {
-    /// How far the cell was assembled.
+    /// Whether the cell could be assembled.
     pub fn status(&self) -> Status {
-        match (&self.motion.incomplete_reason, self.motion.is_assembled()) {
+        match (&self.motion.assembly_error, self.motion.is_assembled()) {
             (_, false) => Status::None,
             (Some(_), true) => Status::Partial,
             (None, true) => Status::Ok,
         }
+    }
+
+    /// The column `reason` of `cells.csv`: the message of the assembly error, empty without one.
+    pub fn reason(&self) -> String {
+        self.motion.assembly_error.as_ref().map(ToString::to_string).unwrap_or_default()
     }
 
     /// The circuit of a curve.
@@ -82,54 +87,54 @@ impl SolvedCell {
         &self.motion.circuits[curve.circuit - 1]
     }
 
-    /// The curves by traced points, in order, so many points together: what stands on one page after the other.
-    pub fn curves_by_traces(&self, together: usize) -> Vec<Vec<usize>> {
+    /// The indices of the curves in groups of `trace_count` traced points, in order: one group for each page.
+    pub fn curves_by_traces(&self, trace_count: usize) -> Vec<Vec<usize>> {
         let mut traces: Vec<usize> = self.curves.iter().map(|curve| curve.trace).collect();
         traces.dedup();
-        let of =
+        let curves_of =
             |traces: &[usize]| (0..self.curves.len()).filter(|&k| traces.contains(&self.curves[k].trace)).collect();
-        traces.chunks(together).map(of).collect()
+        traces.chunks(trace_count).map(curves_of).collect()
     }
 
-    /// What was measured of the first curve; nothing where there is none.
+    /// The values of the first curve; empty where there is no curve.
     pub fn first_curve_values(&self) -> &[Value] {
         self.curves.first().map_or(&[], |curve| &curve.values)
     }
 
-    /// Whether nothing of the cell is kept.
+    /// Whether `where` excludes the whole cell.
     pub fn is_left_out(&self) -> bool {
         self.curves.is_empty() && self.left_out_count > 0
     }
 }
 
-/// Solves and measures the `k`-th cell of a family.
+/// Solves the `k`-th cell of a family, from 0, and computes the family's measures.
 pub fn solve_cell(family: &Family, sampler: &Sampler, k: usize) -> Option<SolvedCell> {
     solve_measuring(family, sampler, k, &family.is_computed)
 }
 
-/// Solves the `k`-th cell of a family and computes the measures requested, by their indices in [`measure::ALL`]; those that
-/// `where` uses must be among them.
+/// Solves the `k`-th cell of a family, from 0, and computes the requested measures, by their indices in
+/// [`measure::ALL`]; those that `where` uses must be among them.
 pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: &[bool]) -> Option<SolvedCell> {
     let cell = family.cell(k);
-    // A family is validated cell by cell before it is swept, so every cell makes a linkage.
+    // A family is validated cell by cell before it is swept, so every cell has a linkage.
     let linkage = family.linkage(&cell).ok()?;
     let motion = Motion::solve(&linkage, sampler);
     let mut solved = SolvedCell { cell, linkage, motion, curves: Vec::new(), left_out_count: 0 };
     let mut curves = Vec::new();
     for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
         for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-            let subject = TracedCurve::new(&solved.linkage, &solved.motion, circuit, joint)
+            let curve = TracedCurve::new(&solved.linkage, &solved.motion, circuit, joint)
                 .with_straight_criterion(family.straight);
-            let measures = measure::compute_selected(&subject, |measure| requested[measure]);
+            let measures = measure::compute_selected(&curve, |measure| requested[measure]);
             if family.keeps(&solved.cell, &measures) {
-                let (straight, symmetry) = subject.computed_marks();
+                let (straight, symmetry) = curve.computed_marks();
                 curves.push(MeasuredCurve { trace, circuit: number, joint, values: measures, straight, symmetry });
             } else {
                 solved.left_out_count += 1;
             }
         }
     }
-    // A cell without any motion is one row, of which only its own values can be asked.
+    // A cell without motion is one row, and `where` sees only its parameter values.
     if !solved.motion.is_assembled() && !family.keeps(&solved.cell, &[]) {
         solved.left_out_count += 1;
     }

@@ -132,6 +132,12 @@ pub enum Error {
 }
 
 impl Template {
+    /// Its source and its legend in one line, as printed under the title of a page.
+    pub fn source_line(&self) -> String {
+        let parts = [&self.source, &self.legend].map(String::as_str);
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
+    }
+
     /// Whether its input is the length of an actuator, and not an angle.
     pub fn is_driven_by_length(&self) -> bool {
         self.joints.iter().any(|joint| matches!(joint.kind, JointKindTemplate::Piston { .. }))

@@ -1,7 +1,7 @@
 //! Each linkage of the catalogue with its published proportions, and the property it is known for.
 
 use coupler_curves::geometry::{Point, Vector, trig};
-use coupler_curves::linkage::{CircuitSelection, Linkage, MotionOptions};
+use coupler_curves::linkage::{CircuitSelection, JointId, Linkage, MotionOptions};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 
 use crate::linkages::{check_motion, third_corner};
@@ -26,8 +26,8 @@ fn circuit(linkage: &Linkage, samples: usize) -> Circuit {
     Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples))).circuits.remove(0)
 }
 
-fn joint(linkage: &Linkage, name: &str) -> usize {
-    linkage.joints.iter().position(|joint| joint.name == name).unwrap()
+fn joint(linkage: &Linkage, name: &str) -> JointId {
+    linkage.find_joint(name).unwrap()
 }
 
 /// The least and the greatest of some numbers.
@@ -205,10 +205,10 @@ fn every_linkage_of_the_catalogue_moves_with_its_defaults() {
         let linkage = defaults(&template.id);
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
         assert!(
-            motion.is_assembled() && motion.incomplete_reason.is_none(),
+            motion.is_assembled() && motion.assembly_error.is_none(),
             "{}: {:?}",
             template.id,
-            motion.incomplete_reason
+            motion.assembly_error
         );
         check_motion(&linkage, &motion).unwrap();
     }

@@ -1,7 +1,9 @@
 //! Circuits of four-bars of every class: how many, how far they go, and that nothing jumps.
 
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{CircuitSelection, Continuation, FourBar, Linkage, LinkageBuilder, MotionOptions, Side};
+use coupler_curves::linkage::{
+    CircuitSelection, Continuation, DyadId, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, Side,
+};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
@@ -28,7 +30,9 @@ fn motion(lengths: [f64; 4], travel: MotionOptions, sampling: Sampling) -> Motio
 fn passes(lengths: [f64; 4], travel: MotionOptions) -> Vec<Vec<(i64, i64, i8)>> {
     let milli = |deg: f64| (deg * 1000.0).round() as i64;
     let motion = motion(lengths, travel, Sampling::Samples(12));
-    let pass = |p: &coupler_curves::motion::Pass| (milli(p.from.input.value), milli(p.to.input.value), p.mode.sign(0));
+    let pass = |p: &coupler_curves::motion::Pass| {
+        (milli(p.from.input.value), milli(p.to.input.value), p.mode.sign(DyadId::FIRST))
+    };
     motion.circuits.iter().map(|c| c.passes.iter().map(pass).collect()).collect()
 }
 
@@ -106,7 +110,12 @@ fn samples_can_be_dense_at_limits_or_even_along_the_path() {
     let steps = |sampling| -> Vec<f64> {
         let circuit = motion(lengths, all(), sampling).circuits.remove(0);
         let n = circuit.len();
-        (0..n).map(|i| (circuit.positions.point(4, (i + 1) % n) - circuit.positions.point(4, i)).norm()).collect()
+        (0..n)
+            .map(|i| {
+                (circuit.positions.point(JointId::new(4), (i + 1) % n) - circuit.positions.point(JointId::new(4), i))
+                    .norm()
+            })
+            .collect()
     };
     let ratio = |steps: Vec<f64>| {
         steps.iter().copied().fold(0.0, f64::max) / steps.iter().copied().fold(f64::INFINITY, f64::min)
@@ -131,7 +140,8 @@ fn bases_that_vanish_but_for_rounding_are_kites_too() {
         let motion = motion(lengths, all(), Sampling::Step(1.0));
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let length = (circuit.positions.point(3, i) - circuit.positions.point(2, i)).norm();
+                let length =
+                    (circuit.positions.point(JointId::new(3), i) - circuit.positions.point(JointId::new(2), i)).norm();
                 assert!((length - lengths[2]).abs() < 1e-12, "{lengths:?} at {}: {length}", circuit.inputs[i]);
             }
         }
@@ -145,8 +155,10 @@ fn limits_keep_short_links_beside_long_ones() {
         let motion = motion([scale, scale, 1.0, 1.5], all(), Sampling::Samples(40));
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let coupler = (circuit.positions.point(3, i) - circuit.positions.point(2, i)).norm();
-                let rocker = (circuit.positions.point(3, i) - circuit.positions.point(1, i)).norm();
+                let coupler =
+                    (circuit.positions.point(JointId::new(3), i) - circuit.positions.point(JointId::new(2), i)).norm();
+                let rocker =
+                    (circuit.positions.point(JointId::new(3), i) - circuit.positions.point(JointId::new(1), i)).norm();
                 // Places of the size of the scale are rounded to this.
                 let rounding = 4.0 * f64::EPSILON * scale;
                 assert!((coupler - 1.0).abs() <= rounding && (rocker - 1.5).abs() <= rounding, "{coupler} {rocker}");
@@ -159,7 +171,7 @@ fn limits_keep_short_links_beside_long_ones() {
 fn places_beyond_all_numbers_are_reported() {
     for scale in [1e160, 1e-170] {
         let motion = motion([4.0, 1.0, 3.0, 3.5].map(|l| l * scale), all(), Sampling::Step(10.0));
-        let shortfall = motion.incomplete_reason.unwrap_or_default();
+        let shortfall = motion.assembly_error.map(|error| error.to_string()).unwrap_or_default();
         assert!(shortfall.contains("double precision"), "{scale}: {shortfall}");
         assert!(motion.circuits.is_empty());
     }
@@ -170,12 +182,12 @@ fn a_linkage_that_cannot_close_says_why() {
     let far = motion([9.0, 1.0, 2.0, 3.0], all(), Sampling::Step(2.0));
     assert!(!far.is_assembled());
     assert_eq!(
-        far.incomplete_reason.unwrap(),
+        far.assembly_error.unwrap().to_string(),
         "B cannot be placed: A and C are 8 or more apart, links of 2 and 3 reach 5"
     );
     let near = motion([1.0, 1.0, 9.0, 3.0], all(), Sampling::Step(2.0));
     assert_eq!(
-        near.incomplete_reason.unwrap(),
+        near.assembly_error.unwrap().to_string(),
         "B cannot be placed: A and C are 2 or less apart, links of 9 and 3 need 6"
     );
 }
@@ -184,14 +196,14 @@ fn a_linkage_that_cannot_close_says_why() {
 fn a_range_that_is_not_reached_is_reported() {
     let travel = |range| MotionOptions { range: Some(range), ..MotionOptions::default() };
     let whole = motion([4.0, 1.0, 3.0, 3.5], travel([30.0, 120.0]), Sampling::Step(10.0));
-    assert_eq!(whole.incomplete_reason, None);
+    assert_eq!(whole.assembly_error, None);
     assert_eq!(whole.circuits[0].inputs, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
     assert!(!whole.circuits[0].is_closed);
     let part = motion([4.0, 2.0, 2.0, 2.0], travel([0.0, 120.0]), Sampling::Step(10.0));
-    assert!(part.incomplete_reason.unwrap().starts_with("the input goes from 0 to 75.5225 deg only"));
+    assert!(part.assembly_error.unwrap().to_string().starts_with("the input goes from 0 to 75.5225 deg only"));
     assert_eq!(part.circuits[0].passes.len(), 2, "out on one branch and back on the other");
     let none = motion([4.0, 2.0, 2.0, 2.0], travel([100.0, 120.0]), Sampling::Step(10.0));
-    assert!(!none.is_assembled() && none.incomplete_reason.is_some());
+    assert!(!none.is_assembled() && none.assembly_error.is_some());
     // From the upper end down to a limit and back.
     let down = motion([2.0, 3.0, 1.0, 4.5], travel([0.0, 180.0]), Sampling::Step(10.0));
     assert_eq!((down.circuits[0].inputs[0], down.circuits[0].passes.len()), (180.0, 2));
@@ -203,7 +215,7 @@ fn no_jumps(motion: &Motion, size: f64, step_deg: f64) {
         let n = circuit.len();
         let allowed = 12.0 * size * trig::radians(step_deg).sqrt();
         for i in 0..(if circuit.is_closed { n } else { n - 1 }) {
-            for joint in 0..5 {
+            for joint in (0..5).map(JointId::new) {
                 let moved = circuit.positions.point(joint, (i + 1) % n) - circuit.positions.point(joint, i);
                 assert!(moved.norm() <= allowed, "{} to {}: {moved}", circuit.inputs[i], circuit.inputs[(i + 1) % n]);
             }
@@ -232,7 +244,7 @@ proptest! {
         let [frame, crank, coupler, rocker] = lengths;
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
-                let p = |j| circuit.positions.point(j, i);
+                let p = |j| circuit.positions.point(JointId::new(j), i);
                 // A length beside a longer base keeps as many digits fewer as it is shorter.
                 let scale = frame + crank;
                 prop_assert!(((p(3) - p(2)).norm() - coupler).abs() <= 1e-12 * coupler.max(1e-2 * scale));

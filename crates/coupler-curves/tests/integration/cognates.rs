@@ -3,8 +3,8 @@
 use coupler_curves::catalogue;
 use coupler_curves::geometry::{Orientation, Point, Vector, cross, distance_to_segment, trig};
 use coupler_curves::linkage::{
-    CircuitSelection, CognateError, Cognates, FourBar, FourBarClass, Linkage, MotionOptions, MovingLink, PlacedFourBar,
-    Sextic, Side,
+    CircuitSelection, CognateError, Cognates, FourBar, FourBarClass, JointId, Linkage, MotionOptions, MovingLink,
+    PlacedFourBar, Sextic, Side,
 };
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -125,7 +125,7 @@ proptest! {
         let motion = Motion::solve(&hung, &Sampler::new(Sampling::Samples(24)));
         check_motion(&hung, &motion)?;
         prop_assert_eq!(links.concat().len(), 6);
-        let joint = |name: &str| hung.joints.iter().position(|joint| joint.name == name).unwrap();
+        let joint = |name: &str| hung.find_joint(name).unwrap();
         let [o, c, q] = ["O", "C", "Q"].map(joint);
         let pins = FourBar::pins(&linkage).unwrap();
         for circuit in &motion.circuits {
@@ -214,7 +214,7 @@ fn cayleys_diagram_closes() {
             ..linkage
         };
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(90)));
-        let joint = |name: &str| linkage.joints.iter().position(|joint| joint.name == name).unwrap();
+        let joint = |name: &str| linkage.find_joint(name).unwrap();
         let pairs = [["H", "E"], ["I", "G"]].map(|pair| pair.map(joint));
         assert!(motion.is_assembled());
         for circuit in &motion.circuits {
@@ -274,9 +274,12 @@ fn what_has_no_cognates_says_why() {
     assert_eq!(Cognates::from_four_bar(bars(0.0, 0.0)), Err(CognateError::CouplerPointOnPin { pin: "crank" }));
     assert_eq!(Cognates::from_four_bar(bars(3.0, 1e-14)), Err(CognateError::CouplerPointOnPin { pin: "rocker" }));
     let linkage = bars(1.0, 1.0).to_linkage(Side::Left, all()).unwrap();
-    let pin = |joint: usize| PlacedFourBar::from_linkage(&linkage, joint);
-    assert_eq!(pin(0), Err(CognateError::NotOnCoupler { joint: "O".to_owned() }));
-    assert_eq!(Cognates::assemble(&linkage, 2).unwrap_err(), CognateError::CouplerPointOnPin { pin: "crank" });
+    let pin = |joint: JointId| PlacedFourBar::from_linkage(&linkage, joint);
+    assert_eq!(pin(JointId::new(0)), Err(CognateError::NotOnCoupler { joint: "O".to_owned() }));
+    assert_eq!(
+        Cognates::assemble(&linkage, JointId::new(2)).unwrap_err(),
+        CognateError::CouplerPointOnPin { pin: "crank" }
+    );
     let klann = crate::catalogue::defaults("klann");
     assert_eq!(PlacedFourBar::from_linkage(&klann, klann.traced[0]), Err(CognateError::NotFourBar));
 }

@@ -1,7 +1,7 @@
 //! The geometry of a coupler's motion at an instant, against what is known of it in closed form.
 
 use coupler_curves::geometry::{Point, Vector, cross, trig};
-use coupler_curves::linkage::{CircuitSelection, Linkage, LinkageBuilder, MotionOptions, Side};
+use coupler_curves::linkage::{CircuitSelection, JointId, Linkage, LinkageBuilder, MotionOptions, Side};
 use coupler_curves::measure::{compute_columns, find_column};
 use coupler_curves::motion::{Circuit, InstantaneousMotion, Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -18,11 +18,11 @@ fn four_bar([frame, crank, coupler, rocker]: [f64; 4], along: f64, across: f64) 
     assembly.build(vec![m], None, travel).unwrap()
 }
 
-const O: usize = 0;
-const C: usize = 1;
-const A: usize = 2;
-const B: usize = 3;
-const M: usize = 4;
+const O: JointId = JointId::new(0);
+const C: JointId = JointId::new(1);
+const A: JointId = JointId::new(2);
+const B: JointId = JointId::new(3);
+const M: JointId = JointId::new(4);
 
 fn motion(linkage: &Linkage, samples: usize) -> Motion {
     Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)))
@@ -64,7 +64,7 @@ proptest! {
                     prop_assert!(near(instant.curvature_rate(point), by_rates.curvature_rate(point), 1.0));
                 }
                 // Pins go on circles, whose curvature does not change.
-                let radius = |pin: usize, pivot: usize| (p(pin) - p(pivot)).norm();
+                let radius = |pin: JointId, pivot: JointId| (p(pin) - p(pivot)).norm();
                 for (pin, radius) in [(A, radius(A, O)), (B, radius(B, C))] {
                     if (p(pin) - instant.pole).norm() > 0.1 {
                         prop_assert!(near(instant.curvature(p(pin)).abs(), 1.0 / radius, 0.0));

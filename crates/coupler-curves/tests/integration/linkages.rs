@@ -2,7 +2,7 @@
 
 use coupler_curves::geometry::{Point, Vector, trig};
 use coupler_curves::linkage::{
-    CircuitSelection, CoincidentDyads, JointKind, Linkage, LinkageBuilder, MotionOptions, Side,
+    CircuitSelection, CoincidentDyads, DyadId, JointKind, Linkage, LinkageBuilder, MotionOptions, Side,
 };
 use coupler_curves::motion::{Motion, Pass, Sampler, Sampling};
 use proptest::prelude::*;
@@ -92,7 +92,7 @@ proptest! {
             }
             let is_here = |pass: &Pass| {
                 let low = pass.from.input.value.min(pass.to.input.value);
-                (pass.mode.sign(0), pass.mode.sign(1)) == signs && (deg - low).rem_euclid(360.0) <= pass.input_length()
+                (pass.mode.sign(DyadId::FIRST), pass.mode.sign(DyadId::new(1))) == signs && (deg - low).rem_euclid(360.0) <= pass.input_length()
             };
             let found = motion.circuits.iter().flat_map(|circuit| &circuit.passes).filter(|pass| is_here(pass)).count();
             prop_assert_eq!(found, usize::from(room > 0.0), "at {} with {:?}: {}", deg, signs, room);
@@ -133,8 +133,8 @@ fn limits_between_samples_are_found_to_the_last_bits() {
         assert!((reached - limit).abs() < 1e-12, "{reached} {limit}");
         assert!(circuit.is_closed && circuit.passes.len() == 2);
         // The second dyad changes its side at the limit, the first keeps it.
-        assert_eq!(circuit.passes[0].mode.sign(0), circuit.passes[1].mode.sign(0));
-        assert_ne!(circuit.passes[0].mode.sign(1), circuit.passes[1].mode.sign(1));
+        assert_eq!(circuit.passes[0].mode.sign(DyadId::FIRST), circuit.passes[1].mode.sign(DyadId::FIRST));
+        assert_ne!(circuit.passes[0].mode.sign(DyadId::new(1)), circuit.passes[1].mode.sign(DyadId::new(1)));
     }
 }
 
@@ -255,7 +255,7 @@ fn which_of_coincident_dyads_change_sides_can_be_said() {
         check_motion(&linkage, &motion).unwrap();
         let circuit = &motion.circuits[0];
         assert!(circuit.is_closed);
-        circuit.passes.iter().map(|pass| [pass.mode.sign(0), pass.mode.sign(1)]).collect()
+        circuit.passes.iter().map(|pass| [pass.mode.sign(DyadId::FIRST), pass.mode.sign(DyadId::new(1))]).collect()
     };
     assert_eq!(modes(CoincidentDyads::Together), [[1, -1], [-1, 1]]);
     assert_eq!(modes(CoincidentDyads::First), [[1, -1], [-1, -1]]);
@@ -367,7 +367,7 @@ fn a_slot_without_offset_goes_on_through_its_pivot() {
     let circuit = &motion.circuits[0];
     assert!(circuit.is_closed && circuit.len() == 72, "{}", circuit.len());
     // At the start, half a turn round, it points from C to A. Circuits begin on branch 1, and so a turn before that.
-    let at_start = |k: &usize| circuit.inputs[*k] == 540.0 && circuit.mode_at(*k).sign(0) == -1;
+    let at_start = |k: &usize| circuit.inputs[*k] == 540.0 && circuit.mode_at(*k).sign(DyadId::FIRST) == -1;
     let start = (0..circuit.len()).find(at_start).unwrap();
     for i in 0..circuit.len() {
         let (cos, sin) = trig::cos_sin_deg(180.0 + (circuit.inputs[i] - circuit.inputs[start]) / 2.0);

@@ -2,7 +2,8 @@
 
 use coupler_curves::geometry::{Point, Vector, trig};
 use coupler_curves::linkage::{
-    CircuitSelection, DyadSet, FourBar, InvertedSliderCrank, JointId, Linkage, LinkageBuilder, MotionOptions, Side,
+    CircuitSelection, DyadId, DyadSet, FourBar, InvertedSliderCrank, JointId, Linkage, LinkageBuilder, MotionOptions,
+    Side,
 };
 use coupler_curves::motion::{Circuit, InputPosition, JointDerivatives, Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -83,7 +84,7 @@ proptest! {
                     continue;
                 }
                 // McCarthy's slide is positive where the foot is right of C -> A.
-                let s = -f64::from(circuit.mode_at(i).sign(0)) * size;
+                let s = -f64::from(circuit.mode_at(i).sign(DyadId::FIRST)) * size;
                 prop_assert!(((at(a) - at(b)).norm() - size).abs() < 1e-10);
                 prop_assert!(apart(formulas.psi(theta, s), direction(cb)) < 1e-10);
                 prop_assert!((formulas.b(s) - (at(a) - at(c)).norm()).abs() < 1e-12);
@@ -93,7 +94,7 @@ proptest! {
                 let expected = at(c) + line - cb / e * 0.25;
                 prop_assert!((at(m) - expected).norm() < 1e-12);
             }
-            if let (Some([least, _]), true) = (formulas.crank_range(), circuit.passes[0].from.flat_dyads.contains(0)) {
+            if let (Some([least, _]), true) = (formulas.crank_range(), circuit.passes[0].from.flat_dyads.contains(DyadId::FIRST)) {
                 let reached = trig::radians(circuit.passes[0].from.input.value);
                 prop_assert!((reached.abs() - least).abs() < 1e-7 || (g - r).abs() - e < 1e-12);
             }
@@ -120,7 +121,7 @@ proptest! {
                 prop_assert!((link - coupler).abs() < 1e-12 * (crank + coupler));
             }
             for k in 0..circuit.passes.len() {
-                if circuit.passes[k].to.flat_dyads.contains(0) && circuit.is_closed {
+                if circuit.passes[k].to.flat_dyads.contains(DyadId::FIRST) && circuit.is_closed {
                     // A limit: the link stands square to the line.
                     let theta = trig::radians(circuit.passes[k].to.input.value);
                     let distance = offset - crank * trig::sin(theta - turn);
@@ -148,10 +149,9 @@ proptest! {
                 let o = assembly.fixed("O", Point::origin());
                 let c = assembly.fixed("C", Point::new(l[0], 0.0));
                 let a = assembly.crank("A", o, l[1]).unwrap();
-                assembly.slot("B", [c, a], 0.2, Side::Right).unwrap();
+                let b = assembly.slot("B", [c, a], 0.2, Side::Right).unwrap();
                 let m = assembly.point("M", [c, a], l[2], 0.3).unwrap();
                 // Seen from the turning link, everything else moves.
-                let b = 3;
                 assembly.build(vec![m], Some([c, b]), all()).unwrap()
             }
         };
@@ -195,8 +195,8 @@ fn rates_at_a_limit_are_unbounded() {
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
     let end = motion.circuits[0].passes[0].to;
     let jets = JointDerivatives::new(&linkage, end.input, motion.circuits[0].passes[0].mode, end.flat_dyads);
-    assert!(jets.velocity(2).norm().is_finite(), "the crank turns on");
-    assert_eq!(jets.velocity(3), Vector::new(f64::INFINITY, f64::INFINITY));
+    assert!(jets.velocity(JointId::new(2)).norm().is_finite(), "the crank turns on");
+    assert_eq!(jets.velocity(JointId::new(3)), Vector::new(f64::INFINITY, f64::INFINITY));
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn columns_are_mccarthys_angles() {
     for (k, circuit) in motion.circuits.iter().enumerate() {
         for i in 0..circuit.len() {
             let theta = trig::radians(circuit.inputs[i]);
-            let values = compute_columns(&columns, &linkage, (circuit, 3), i);
+            let values = compute_columns(&columns, &linkage, (circuit, JointId::new(3)), i);
             let psi = bar.output_angles(theta).unwrap()[k];
             assert!(apart(trig::radians(values[0]), psi) < 1e-12);
             assert!(apart(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);

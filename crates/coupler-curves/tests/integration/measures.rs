@@ -2,7 +2,7 @@
 
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{
-    CircuitSelection, Continuation, FourBar, Linkage, LinkageBuilder, MotionOptions, Orientation, Side,
+    CircuitSelection, Continuation, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, Orientation, Side,
 };
 use coupler_curves::measure::{self, StraightCriterion, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
@@ -136,8 +136,8 @@ fn types_say_where_the_links_go() {
         let circuit = &motion.circuits[0];
         let turns = circuit.passes.len() == 1;
         let goes_to = |at: Point, pivot: f64, way: f64| ((at.x - pivot) * way > 0.0) && at.y.abs() < 0.05;
-        let crank_goes = |way| circuit.points(2).any(|p| goes_to(p, 0.0, way));
-        let rocker_goes = |way| circuit.points(3).any(|p| goes_to(p, frame, way));
+        let crank_goes = |way| circuit.points(JointId::new(2)).any(|p| goes_to(p, 0.0, way));
+        let rocker_goes = |way| circuit.points(JointId::new(3)).any(|p| goes_to(p, frame, way));
         let expected = match kind {
             "crank-rocker" | "double-crank" => turns,
             "rocker-crank" | "double-rocker" => !turns,
@@ -159,7 +159,7 @@ fn a_lemniscate_is_measured_as_one() {
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
     // Of the parallelogram and the antiparallelogram, the one whose middle does not go on a circle.
     let eight =
-        (0..2).find(|&k| motion.circuits[k].points(4).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5)).unwrap();
+        (0..2).find(|&k| motion.circuits[k].points(JointId::new(4)).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5)).unwrap();
     let value = measured(&linkage, 2, eight, 360);
     assert!((number(value("length")) - 5.244_115_108_584_24 * root).abs() < 1e-5, "{:?}", value("length"));
     assert!(number(value("area")).abs() < 1e-6);
@@ -186,7 +186,7 @@ fn a_point_of_the_moving_centrode_has_a_cusp() {
     let plain = four_bar([4.0, 1.0, 3.0, 3.5], (1.0, 1.0));
     let motion = Motion::solve(&plain, &Sampler::new(Sampling::Samples(360)));
     let jets = motion.circuits[0].derivatives(&plain, 100);
-    let pole = InstantaneousMotion::from_link(&jets, [2, 3]).unwrap().moving_pole;
+    let pole = InstantaneousMotion::from_link(&jets, [2, 3].map(JointId::new)).unwrap().moving_pole;
     let value = measured(&four_bar([4.0, 1.0, 3.0, 3.5], (pole.x, pole.y)), 2, 0, 77);
     assert_eq!((value("cusps"), value("curvature_max")), (Value::Number(1.0), Value::Number(f64::INFINITY)));
     assert_eq!(value("crunodes"), Value::Number(0.0));

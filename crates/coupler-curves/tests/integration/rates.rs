@@ -113,7 +113,7 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
     };
     let mut at: Vec<[Third; 2]> = Vec::new();
     for joint in &linkage.joints {
-        let side = |index| f64::from(signs.sign(index));
+        let side = |dyad| f64::from(signs.sign(dyad));
         let place = match joint.kind {
             JointKind::Fixed(p) => [n(p.x), n(p.y)],
             JointKind::Crank { pivot, length } => moved(at[pivot], input.cos_sin(), n(length), n(0.0)),
@@ -121,25 +121,25 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
                 let angle = input * n(turns as f64 / of as f64) + n(trig::radians(phase_deg));
                 moved(at[pivot], angle.cos_sin(), n(length), n(0.0))
             }
-            JointKind::Piston { base: [p, q], length, offset, index } => {
+            JointKind::Piston { base: [p, q], length, offset, dyad } => {
                 let reach = (input * input + n(offset * offset)).sqrt();
-                cut(at[p], at[q], [reach, n(length)], side(index))
+                cut(at[p], at[q], [reach, n(length)], side(dyad))
             }
-            JointKind::Dyad { base: [p, q], lengths, index } => cut(at[p], at[q], lengths.map(n), side(index)),
-            JointKind::Slide { from, length, line: [p, q], offset, index } => {
+            JointKind::Dyad { base: [p, q], lengths, dyad } => cut(at[p], at[q], lengths.map(n), side(dyad)),
+            JointKind::Slide { from, length, line: [p, q], offset, dyad } => {
                 // Along the line from its foot below the hanging joint.
                 let u = unit(minus(at[q], at[p]));
                 let arm = minus(at[from], at[p]);
                 let off = n(offset) - (u[0] * arm[1] - u[1] * arm[0]);
                 let along = (n(length * length) - off * off).sqrt();
-                moved(at[p], u, dot(u, arm) + n(side(index)) * along, n(offset))
+                moved(at[p], u, dot(u, arm) + n(side(dyad)) * along, n(offset))
             }
-            JointKind::Slot { base: [p, q], offset, index } => {
+            JointKind::Slot { base: [p, q], offset, dyad } => {
                 // The foot is on Thales' circle over the base, so far from the pivot.
                 let base = minus(at[q], at[p]);
                 let d = dot(base, base).sqrt();
                 let cos = n(offset) / d;
-                moved(at[p], unit(base), n(offset) * cos, n(side(index) * offset) * (n(1.0) - cos * cos).sqrt())
+                moved(at[p], unit(base), n(offset) * cos, n(side(dyad) * offset) * (n(1.0) - cos * cos).sqrt())
             }
             JointKind::Yoke { from, line: [p, q], offset, slot_direction: slot } => {
                 // Cramer's rule for p + t u + offset n = from - w slot.
@@ -150,7 +150,7 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
                 moved(start, u, (to[0] * w[1] - to[1] * w[0]) / (u[0] * w[1] - u[1] * w[0]), n(0.0))
             }
             JointKind::Aligned { from, line: [p, q], offset, direction: line_is, along, across } => {
-                let sense = if let LineDirection::BySide(index) = line_is { -side(index) } else { 1.0 };
+                let sense = if let LineDirection::BySide(dyad) = line_is { -side(dyad) } else { 1.0 };
                 let [along, across] = [along * sense, across * sense];
                 // The base's direction, turned to the right until the line through q runs beside p.
                 let base = minus(at[q], at[p]);
@@ -202,7 +202,7 @@ fn actuated(offset: f64) -> Linkage {
 fn compare(linkage: &Linkage, stop: InputPosition, variable: Third, signs: AssemblyMode) -> Result<(), TestCaseError> {
     let jets = JointDerivatives::new(linkage, stop, signs, DyadSet::EMPTY);
     let expected = places(linkage, variable, signs);
-    for joint in 0..linkage.joints.len() {
+    for joint in linkage.joint_ids() {
         let found = [jets.position(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
         for axis in 0..2 {
             let expected = orders(expected[joint][axis]);
@@ -247,7 +247,7 @@ proptest! {
                 prop_assert_eq!(&before.inputs, &after.inputs);
                 for i in 0..after.len() {
                     let jets = after.derivatives(&placed, i);
-                    for joint in 0..placed.joints.len() {
+                    for joint in placed.joint_ids() {
                         let place = after.positions.point(joint, i);
                         prop_assert!((jets.position(joint) - place).norm() < 1e-11);
                         prop_assert!((placement.transform_point(before.positions.point(joint, i)) - place).norm() < 1e-14 * 16.0);
@@ -259,7 +259,7 @@ proptest! {
 }
 
 fn find(linkage: &Linkage, name: &str) -> JointId {
-    linkage.joints.iter().position(|joint| joint.name == name).unwrap()
+    linkage.find_joint(name).unwrap()
 }
 
 /// A Scotch yoke goes with the cosine of its crank.

@@ -1,7 +1,7 @@
 //! The programs of the thesis's Appendix B, less their slips, against our samples at the same input and branch.
 
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{Linkage, LinkageBuilder, MotionOptions, Side};
+use coupler_curves::linkage::{DyadId, JointId, Linkage, LinkageBuilder, MotionOptions, Side};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 
 /// `r2` of Natesan (9.1), branch 1, and (9.2), branch -1: from the crank pin to the rocker pin.
@@ -25,7 +25,7 @@ struct Figure {
 
 fn four_bar(
     [p, r, a, s]: [f64; 4],
-    point: impl Fn(&mut LinkageBuilder, usize, usize) -> usize,
+    point: impl Fn(&mut LinkageBuilder, JointId, JointId) -> JointId,
     inverted: bool,
 ) -> Linkage {
     let mut assembly = LinkageBuilder::default();
@@ -133,7 +133,7 @@ fn figures() -> Vec<(usize, Figure)> {
     (1..).zip(all).collect()
 }
 
-fn size(circuit: &Circuit, joint: usize) -> f64 {
+fn size(circuit: &Circuit, joint: JointId) -> f64 {
     let points = || circuit.points(joint);
     let range = |f: fn(Point) -> f64| {
         points().map(f).fold(f64::NEG_INFINITY, f64::max) - points().map(f).fold(f64::INFINITY, f64::min)
@@ -159,7 +159,7 @@ fn every_sample_is_the_programs() {
             // Away from a limit 1e-12 of the curve's size; nearer one the reference loses digits in proportion.
             let tolerance =
                 if height > 1e-3 * a.min(s) { 1e-12 * size } else { 1e-15 * size * size / height.max(1e-9) + 1e-7 };
-            let branch = f64::from(circuit.mode_at(sample).sign(0));
+            let branch = f64::from(circuit.mode_at(sample).sign(DyadId::FIRST));
             let expected = (figure.program)(w, branch);
             let found = circuit.positions.point(joint, sample);
             assert!((found - expected).norm() <= tolerance, "figure {number} sample {sample}: {found} {expected}");

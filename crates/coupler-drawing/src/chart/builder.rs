@@ -1,110 +1,109 @@
-//! The points of a chart joined to lines.
+//! The lines of a chart, built from its points.
 
 use std::collections::BTreeMap;
 
 use super::{Chart, ChartSample, PointSource};
 use coupler_curves::family::Family;
 
-/// The most numbers that are kept of a family: 16 MB of them. What comes after is counted.
+/// The most numbers kept of a family, which are 16 MB. Curves beyond that are only counted.
 pub const MAX_NUMBERS: usize = 1 << 21;
 
 /// A line of a chart. A point with a value that is not finite is a gap in it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// What tells it from the others; empty where it is the only one.
+    /// The label that distinguishes it from other lines; empty if it is the only one.
     pub label: String,
-    /// The cell it is of, where it is of a single one.
+    /// The number of its cell, if all points are of one cell.
     pub cell: Option<usize>,
     /// The number of the traced joint, from 1.
     pub trace: usize,
     /// The number of the circuit, from 1.
     pub circuit: usize,
-    /// The x of its points.
+    /// The x of the points.
     pub x: Vec<f64>,
-    /// The y of its points, one list for each quantity of the chart.
+    /// The y of the points, one list for each quantity of the chart.
     pub y: Vec<Vec<f64>>,
 }
 
-/// All that a chart shows.
+/// The data of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ChartData {
-    /// Its lines.
+    /// The lines.
     pub series: Vec<Series>,
-    /// How many curves it was given.
+    /// The number of curves of the family.
     pub curve_count: usize,
-    /// How many of them are not in it, for there are too many.
+    /// The number of curves that are left out because of [`MAX_NUMBERS`].
     pub left_out_count: usize,
 }
 
-/// A chart that is being gathered, cell by cell in their order.
+/// Builds the data of a chart from samples, which are added in the order of the cells.
 #[derive(Debug)]
 pub struct ChartBuilder<'a> {
     chart: &'a Chart,
     family: &'a Family,
-    /// What tells lines apart, first what tells groups of cells apart, and the points.
+    /// The samples of each line, in the order of the lines.
     lines: BTreeMap<LineKey, Vec<ChartSample>>,
-    /// The groups of cells, each by the values of its names, and their numbers by the bits of those.
+    /// The values of the parameters in `group_by` for each group of cells.
     groups: Vec<Vec<f64>>,
+    /// The index of each group by the bits of these values.
     group_indices: BTreeMap<Vec<u64>, usize>,
     number_count: usize,
     curve_count: usize,
     left_out_count: usize,
 }
 
-/// The group of the cell, the cell where each has its own line, the trace and the circuit.
+/// The key of a line: group of cells, cell (0 if a line has points of several), trace and circuit.
 type LineKey = (usize, usize, usize, usize);
 
 impl<'a> ChartBuilder<'a> {
-    /// A chart of a family without any points yet.
+    /// A builder for the chart of a family, without points.
     pub fn new(chart: &'a Chart, family: &'a Family) -> ChartBuilder<'a> {
-        let (lines, numbers_of_groups) = (BTreeMap::new(), BTreeMap::new());
-        let groups = Vec::new();
         ChartBuilder {
             chart,
             family,
-            lines,
-            groups,
-            group_indices: numbers_of_groups,
+            lines: BTreeMap::new(),
+            groups: Vec::new(),
+            group_indices: BTreeMap::new(),
             number_count: 0,
             curve_count: 0,
             left_out_count: 0,
         }
     }
 
-    /// Adds what was taken of a curve.
-    pub fn add(&mut self, taken: ChartSample) {
+    /// Adds the points of a curve.
+    pub fn add(&mut self, sample: ChartSample) {
         self.curve_count += 1;
-        self.number_count += taken.numbers.len();
+        self.number_count += sample.numbers.len();
         if self.number_count > MAX_NUMBERS {
             self.left_out_count += 1;
             return;
         }
-        let values = self.group_values(taken.cell);
+        let values = self.group_values(sample.cell);
         let next = self.groups.len();
         let group = *self.group_indices.entry(value_bits(&values)).or_insert(next);
         if group == next {
             self.groups.push(values);
         }
-        let cell = if self.chart.point_source == PointSource::Samples { taken.cell } else { 0 };
-        self.lines.entry((group, cell, taken.trace, taken.circuit)).or_default().push(taken);
+        let cell = if self.chart.point_source == PointSource::Samples { sample.cell } else { 0 };
+        self.lines.entry((group, cell, sample.trace, sample.circuit)).or_default().push(sample);
     }
 
-    /// The values that tell the lines of a cell from others.
+    /// The values of the parameters in `group_by` for a cell, by its number from 1.
     fn group_values(&self, cell: usize) -> Vec<f64> {
         let cell = self.family.cell(cell - 1);
         self.chart.group_by.iter().map(|&slot| cell.values[slot]).collect()
     }
 
-    /// The lines, in the order of their first cells, their traces and circuits.
+    /// The data of the chart; lines are in the order of their first cells, traces and circuits.
     pub fn build(self) -> ChartData {
         let cells = if self.chart.point_source == PointSource::Curves { self.cells_by_group() } else { Vec::new() };
         let labels = self.labels();
         let mut series = Vec::new();
-        for ((key, taken), label) in self.lines.iter().zip(labels) {
+        for ((key, samples), label) in self.lines.iter().zip(labels) {
             let &(group, cell, trace, circuit) = key;
             let points = match self.chart.point_source {
-                PointSource::Samples => taken.iter().flat_map(|taken| taken.numbers.iter().copied()).collect(),
-                PointSource::Curves => self.line_points(&cells[group], taken),
+                PointSource::Samples => samples.iter().flat_map(|sample| sample.numbers.iter().copied()).collect(),
+                PointSource::Curves => self.line_points(&cells[group], samples),
             };
             let cell = (self.chart.point_source == PointSource::Samples).then_some(cell);
             let width = self.chart.numbers_per_point();
@@ -115,7 +114,7 @@ impl<'a> ChartBuilder<'a> {
         ChartData { series, curve_count: self.curve_count, left_out_count: self.left_out_count }
     }
 
-    /// The numbers of the cells of each group in the order of a line, those without a curve among them.
+    /// The numbers of the cells of each group in the order of a line, including cells without a curve.
     fn cells_by_group(&self) -> Vec<Vec<usize>> {
         let mut cells: Vec<Vec<(f64, usize)>> = vec![Vec::new(); self.groups.len()];
         for k in 0..self.family.cell_count() {
@@ -129,29 +128,29 @@ impl<'a> ChartBuilder<'a> {
         cells.into_iter().map(|cells| cells.into_iter().map(|(_, cell)| cell).collect()).collect()
     }
 
-    /// The points of a line by the cells of its group: a gap for each run of cells that have none.
-    fn line_points(&self, cells: &[usize], taken: &[ChartSample]) -> Vec<f64> {
-        let by_cell: BTreeMap<usize, &ChartSample> = taken.iter().map(|taken| (taken.cell, taken)).collect();
+    /// The points of a line over the cells of its group, with a gap for each run of cells without a point.
+    fn line_points(&self, cells: &[usize], samples: &[ChartSample]) -> Vec<f64> {
+        let by_cell: BTreeMap<usize, &ChartSample> = samples.iter().map(|sample| (sample.cell, sample)).collect();
         let gap = vec![f64::NAN; self.chart.numbers_per_point()];
         let mut out: Vec<f64> = Vec::new();
-        let mut is_open = false;
+        let mut after_gap = false;
         for cell in cells {
             match by_cell.get(cell) {
-                Some(taken) => {
-                    out.extend(if is_open && !out.is_empty() { &gap[..] } else { &[] });
-                    out.extend(&taken.numbers);
-                    is_open = false;
+                Some(sample) => {
+                    out.extend(if after_gap && !out.is_empty() { &gap[..] } else { &[] });
+                    out.extend(&sample.numbers);
+                    after_gap = false;
                 }
-                None => is_open = true,
+                None => after_gap = true,
             }
         }
         out
     }
 
-    /// What tells each line from the others: only what is not the same for all.
+    /// The label of each line, with only those values that are not the same for all lines.
     fn labels(&self) -> Vec<String> {
         let keys: Vec<LineKey> = self.lines.keys().copied().collect();
-        let varies = |of: fn(&LineKey) -> usize| keys.iter().any(|key| of(key) != of(&keys[0]));
+        let varies = |part: fn(&LineKey) -> usize| keys.iter().any(|key| part(key) != part(&keys[0]));
         let (traces, circuits) = (varies(|key| key.2), varies(|key| key.3));
         let differs = |k: &usize| self.groups.iter().any(|group| group[*k] != self.groups[0][*k]);
         let names: Vec<usize> = (0..self.chart.group_by.len()).filter(differs).collect();
@@ -161,8 +160,8 @@ impl<'a> ChartBuilder<'a> {
                 format!("{name} = {}", round_to_six_digits(self.groups[group][k]))
             };
             let mut parts: Vec<String> = names.iter().map(value).collect();
-            let shared = keys.iter().any(|key| key.0 == group && key.1 != cell);
-            parts.extend(shared.then(|| format!("no. {cell}")));
+            let needs_cell = keys.iter().any(|key| key.0 == group && key.1 != cell);
+            parts.extend(needs_cell.then(|| format!("no. {cell}")));
             parts.extend(traces.then(|| format!("trace {trace}")));
             parts.extend(circuits.then(|| format!("circuit {circuit}")));
             parts.join(", ")
@@ -171,12 +170,12 @@ impl<'a> ChartBuilder<'a> {
     }
 }
 
-/// Values as what they are told apart by; zero is one whatever its sign.
+/// The bits of values, by which groups are compared; zero and negative zero are equal.
 fn value_bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| (value + 0.0).to_bits()).collect()
 }
 
-/// The value in up to six significant digits.
+/// A value rounded to six significant digits.
 fn round_to_six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

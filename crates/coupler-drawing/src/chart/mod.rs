@@ -1,7 +1,8 @@
-//! What a chart shows, as plain numbers: quantities of every curve of a family, or of every sample of its curves.
+//! The data of charts: quantities of every curve of a family, or of every sample of its curves.
 //!
-//! A [`Chart`] is expressions over the names of [`scope`]. [`Chart::sample_cell`] reads off one solved cell what they come to
-//! there, and [`ChartBuilder`] joins that to [`Series`], the lines of the chart. Nothing of a cell is kept but those numbers.
+//! A [`Chart`] has expressions over the names of [`scope`]. [`Chart::sample_cell`] evaluates them for one solved cell,
+//! and [`ChartBuilder`] joins the resulting points to [`Series`], the lines of the chart. Only these numbers of a cell
+//! are kept in memory.
 
 mod builder;
 mod sample;
@@ -13,43 +14,43 @@ pub use scope::{definition, is_per_sample, scope, unit};
 
 use coupler_curves::expression::CompiledExpression;
 
-/// What there is a point for.
+/// What a point of a chart stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointSource {
-    /// Each curve: each row of `cells.csv`.
+    /// A curve, which is a row of `cells.csv`.
     Curves,
-    /// Each sample of each curve: each row of `points.csv`.
+    /// A sample of a curve, which is a row of `points.csv`.
     Samples,
 }
 
-/// What is drawn along an axis.
+/// The quantity of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// The expression as it is written.
+    /// The expression as written in the manifest.
     pub text: String,
-    /// Its unit, `deg` or none.
+    /// The unit: `deg` or empty.
     pub unit: &'static str,
-    /// What it is, in words; may be empty.
+    /// The definition in words; may be empty.
     pub definition: &'static str,
-    /// Its value, over [`scope`].
+    /// The compiled expression, over the names of [`scope`].
     pub expression: CompiledExpression,
-    /// Whether it is drawn by its logarithm.
+    /// Whether the axis is logarithmic.
     pub is_log: bool,
-    /// The least and the greatest value drawn; as the data has them where none is given.
+    /// The least and the greatest value of the axis; those of the data if `None`.
     pub range: Option<[f64; 2]>,
 }
 
-/// Quantities over another.
+/// A chart of one or more quantities over another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What there is a point for.
+    /// What a point stands for.
     pub point_source: PointSource,
-    /// What goes to the right.
+    /// The quantity of the x axis.
     pub x: Quantity,
-    /// What goes up, each on a chart of its own.
+    /// The quantities of the y axes, each on a separate chart.
     pub y: Vec<Quantity>,
-    /// The names, by their places in [`coupler_curves::family::Family::names`], that tell lines apart.
+    /// The parameters that distinguish lines, as indices of [`coupler_curves::family::Family::names`].
     pub group_by: Vec<usize>,
-    /// Whether a line goes in the order of x; otherwise in that of the cells or samples.
+    /// Whether a line joins its points in the order of x; otherwise it joins them in the order of cells or samples.
     pub is_ordered_by_x: bool,
 }

@@ -1,4 +1,4 @@
-//! What a chart takes of a solved cell.
+//! The points of a chart from a solved cell.
 
 use super::scope::SAMPLE_NAMES;
 use super::{Chart, PointSource};
@@ -7,7 +7,7 @@ use coupler_curves::measure::{COLUMNS, Column, compute_columns, cumulative_lengt
 use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-/// What a chart takes of a curve: a point, or a point for each of its samples.
+/// The points of a chart from one curve: a single point, or one for each sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartSample {
     /// The cell's number, from 1.
@@ -16,19 +16,19 @@ pub struct ChartSample {
     pub trace: usize,
     /// The number of the circuit, from 1.
     pub circuit: usize,
-    /// x and then each y, point after point.
+    /// The numbers of all points, [`Chart::numbers_per_point`] for each: x, then each y.
     pub numbers: Vec<f64>,
 }
 
 impl Chart {
-    /// How many numbers a point has.
+    /// The number of numbers of a point: x and each y.
     pub fn numbers_per_point(&self) -> usize {
         1 + self.y.len()
     }
 
-    /// What the chart takes of a cell, curve by curve.
+    /// The points of a cell, by curve.
     pub fn sample_cell(&self, solved: &SolvedCell) -> Vec<ChartSample> {
-        let of_curve = |curve: &MeasuredCurve| {
+        let sample = |curve: &MeasuredCurve| {
             let numbers = match self.point_source {
                 PointSource::Curves => {
                     self.evaluate_point(|slot| Family::scope_value(&solved.cell, &curve.values, slot)).collect()
@@ -37,10 +37,10 @@ impl Chart {
             };
             ChartSample { cell: solved.cell.number, trace: curve.trace, circuit: curve.circuit, numbers }
         };
-        solved.curves.iter().map(of_curve).collect()
+        solved.curves.iter().map(sample).collect()
     }
 
-    /// The x of a cell, as far as its own values give it.
+    /// The x of a cell, evaluated without measures.
     pub fn cell_x(&self, cell: &Cell) -> f64 {
         self.x.expression.evaluate(|slot| Family::scope_value(cell, &[], slot))
     }
@@ -49,29 +49,29 @@ impl Chart {
         std::iter::once(&self.x).chain(&self.y).map(move |quantity| quantity.expression.evaluate(&load))
     }
 
-    /// Every sample of a curve; a closed one comes back to its first at the end.
+    /// The numbers of every sample of a curve; on a closed curve the first sample is repeated at the end.
     fn evaluate_samples(&self, solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<f64> {
         let circuit = solved.circuit(curve);
-        let of_curves = Family::scope(&vec![String::new(); solved.cell.values.len()]).len();
-        let used = self.used_columns(of_curves);
+        let curve_slots = Family::scope(&vec![String::new(); solved.cell.values.len()]).len();
+        let used = self.used_columns(curve_slots);
         let columns: Vec<Column> = used.iter().map(|&k| COLUMNS[k]).collect();
-        let arcs = if self.uses_slot(of_curves + 3) {
+        let arc_lengths = if self.uses_slot(curve_slots + 3) {
             cumulative_lengths(&solved.linkage, circuit, curve.joint)
         } else {
             Vec::new()
         };
         // The measures are the same at every sample.
         let fixed: Vec<f64> =
-            (0..of_curves).map(|slot| Family::scope_value(&solved.cell, &curve.values, slot)).collect();
+            (0..curve_slots).map(|slot| Family::scope_value(&solved.cell, &curve.values, slot)).collect();
         let mut numbers = Vec::with_capacity((circuit.len() + 1) * self.numbers_per_point());
         for k in 0..circuit.len() + usize::from(circuit.is_closed && !circuit.is_empty()) {
             let sample = k % circuit.len();
             let at = circuit.positions.point(curve.joint, sample);
             let values = compute_columns(&columns, &solved.linkage, (circuit, curve.joint), sample);
-            let own = [at.x, at.y, input_at(circuit, k), arcs.get(k).copied().unwrap_or(f64::NAN)];
-            let load = |slot: usize| match slot.checked_sub(of_curves) {
+            let sample_values = [at.x, at.y, input_at(circuit, k), arc_lengths.get(k).copied().unwrap_or(f64::NAN)];
+            let load = |slot: usize| match slot.checked_sub(curve_slots) {
                 None => fixed[slot],
-                Some(slot) if slot < own.len() => own[slot],
+                Some(slot) if slot < sample_values.len() => sample_values[slot],
                 Some(slot) => {
                     let column = used.iter().position(|&column| column == slot - SAMPLE_NAMES.len());
                     column.map_or(f64::NAN, |column| values[column])
@@ -86,19 +86,19 @@ impl Chart {
         std::iter::once(&self.x).chain(&self.y).any(|quantity| quantity.expression.slots().contains(&slot))
     }
 
-    /// The columns it uses, by their places in [`COLUMNS`].
-    fn used_columns(&self, of_curves: usize) -> Vec<usize> {
-        (0..COLUMNS.len()).filter(|column| self.uses_slot(of_curves + SAMPLE_NAMES.len() + column)).collect()
+    /// The indices of the used columns in [`COLUMNS`].
+    fn used_columns(&self, curve_slots: usize) -> Vec<usize> {
+        (0..COLUMNS.len()).filter(|column| self.uses_slot(curve_slots + SAMPLE_NAMES.len() + column)).collect()
     }
 }
 
-/// The input at a sample; at the one after the last, of a closed circuit, that with which it comes back to its first.
+/// The input at a sample; for the sample after the last of a closed circuit, the input after one traversal.
 fn input_at(circuit: &Circuit, sample: usize) -> f64 {
-    let gone = || match (circuit.passes.first(), circuit.passes.last()) {
+    let traversed = || match (circuit.passes.first(), circuit.passes.last()) {
         (Some(first), Some(last)) => last.to.input.value - first.from.input.value,
         _ => 0.0,
     };
-    circuit.inputs.get(sample).copied().unwrap_or_else(|| circuit.inputs[0] + gone())
+    circuit.inputs.get(sample).copied().unwrap_or_else(|| circuit.inputs[0] + traversed())
 }
 
 #[cfg(test)]
@@ -107,14 +107,14 @@ mod tests {
     use coupler_curves::measure::{ALL, Value};
 
     #[test]
-    fn the_scope_has_the_names_before_the_measures() {
+    fn scope_slots_are_names_then_measures() {
         let names = vec!["p".to_owned()];
         let cell = Cell { number: 1, values: vec![7.0] };
         assert_eq!(Family::scope_value(&cell, &[], 0), 7.0);
         let length = Family::scope(&names).iter().position(|(name, _)| *name == "length").unwrap();
         let measures: Vec<Value> = (0..ALL.len()).map(|k| Value::Number(k as f64)).collect();
-        let place = ALL.iter().position(|measure| measure.name == "length").unwrap();
-        assert_eq!(Family::scope_value(&cell, &measures, length), place as f64);
+        let index = ALL.iter().position(|measure| measure.name == "length").unwrap();
+        assert_eq!(Family::scope_value(&cell, &measures, length), index as f64);
         assert!(Family::scope_value(&cell, &measures, 1000).is_nan());
     }
 }

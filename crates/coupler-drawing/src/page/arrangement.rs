@@ -1,8 +1,8 @@
-//! Where curve and linkage go in a panel: on one figure, or the curve large and the linkage as a key to it.
+//! The arrangement of curve and linkage in a panel: one figure of both, or a large curve with the linkage as its key.
 
 use coupler_curves::geometry::{Bounds, Point, Vector};
 
-/// A box of the panel, in millimetres from its upper left corner.
+/// A rectangle of an area, in millimetres from its upper left corner, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rect {
     pub corner: Point,
@@ -14,47 +14,46 @@ impl Rect {
         self.corner + self.size / 2.0
     }
 
-    /// The scale at which `bounds` fills the frame, in millimetres to a unit.
+    /// The scale at which `bounds` fills the rectangle, in millimetres to a unit; 1 if `bounds` is a single point.
     pub fn fit_scale(&self, bounds: Bounds) -> f64 {
         let size = bounds.size();
         let across = if size.x > 0.0 { self.size.x / size.x } else { f64::INFINITY };
         let down = if size.y > 0.0 { self.size.y / size.y } else { f64::INFINITY };
         match across.min(down) {
             scale if scale.is_finite() => scale,
-            // A curve that is a single point has no size to go by.
             _ => 1.0,
         }
     }
 
-    /// The frame less a border all round.
-    pub fn inset(&self, by: f64) -> Rect {
-        let by = Vector::new(by.min(self.size.x / 3.0), by.min(self.size.y / 3.0));
-        Rect { corner: self.corner + by, size: self.size - by * 2.0 }
+    /// The rectangle without a border of `width`, at most a third of its size on each side.
+    pub fn inset(&self, width: f64) -> Rect {
+        let border = Vector::new(width.min(self.size.x / 3.0), width.min(self.size.y / 3.0));
+        Rect { corner: self.corner + border, size: self.size - border * 2.0 }
     }
 }
 
-/// How a panel is divided.
+/// The division of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Arrangement {
     /// Curve and linkage on one figure, at one scale.
     Combined,
-    /// The curve above its key, with that part of the height.
+    /// The curve above its key, with this fraction of the height.
     Stacked(f64),
-    /// The curve to the left of its key, with that part of the width.
+    /// The curve to the left of its key, with this fraction of the width.
     SideBySide(f64),
 }
 
-/// What a panel has to show.
+/// The bounds of what a panel shows, in the plane of the linkage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extents {
     /// The curves.
     pub curve: Bounds,
-    /// The linkage in its pose, with the curves.
+    /// The linkage in its poses, with the curves.
     pub linkage: Bounds,
 }
 
 impl Arrangement {
-    /// The frames of the curve and of the key; both the whole where they are together.
+    /// The rectangles of the curve and of the key; both are the whole if they are combined.
     pub fn rects(self, whole: Rect) -> [Rect; 2] {
         let (corner, size) = (whole.corner, whole.size);
         let part = |x: f64, y: f64, w: f64, h: f64| Rect {
@@ -68,19 +67,20 @@ impl Arrangement {
         }
     }
 
-    /// How well a panel shows: the curve's size against the largest it could have, and, half as much, the key's.
+    /// The merit of an arrangement: the scale of the curve relative to the largest possible one, times the square root
+    /// of the same ratio for the key.
     fn merit(self, whole: Rect, gap: f64, extents: &Extents) -> f64 {
         let best = whole.inset(gap);
         let [curve, key] = self.rects(whole).map(|frame| frame.inset(gap));
         let (curve, key) = match self {
-            // One figure is easier to read than two, and should not be given up for a small gain.
+            // One figure is easier to read than two, so a small gain is not enough to divide it.
             Arrangement::Combined => return 1.25 * key.fit_scale(extents.linkage) / best.fit_scale(extents.curve),
             _ => (curve.fit_scale(extents.curve), key.fit_scale(extents.linkage)),
         };
         curve / best.fit_scale(extents.curve) * (key / best.fit_scale(extents.linkage)).sqrt()
     }
 
-    /// The arrangement that serves all panels of a page: the one whose worst panel shows best.
+    /// The arrangement for all panels of a page: the one with the greatest least merit.
     pub fn best(whole: Rect, gap: f64, panels: &[Extents]) -> Arrangement {
         const PARTS: [f64; 7] = [0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55];
         let candidates = std::iter::once(Arrangement::Combined)
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_small_curve_is_set_apart_and_a_large_one_is_not() {
+    fn a_small_curve_is_separated_from_its_linkage_and_a_large_one_is_not() {
         let whole = Rect { corner: Point::origin(), size: Vector::new(76.0, 90.0) };
         // Evans at p = 6: 4 wide and 0.4 high on a linkage of 8 by 20.
         let small = Extents { curve: bounds(2.0, 19.0, 4.0, 0.4), linkage: bounds(-1.0, 0.0, 8.0, 20.0) };

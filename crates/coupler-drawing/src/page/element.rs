@@ -1,4 +1,4 @@
-//! Elements of our own for plotters: they are placed by a drawing area, and keep full precision inside it.
+//! Elements for plotters: a drawing area places them, and inside it they keep full precision.
 
 use std::iter::once;
 
@@ -13,7 +13,7 @@ use crate::scene::{
 use coupler_curves::geometry::{Point, Similarity, Vector};
 use coupler_curves::motion::{self, DashPattern};
 
-/// A part of the page: its lengths are in 1/100 mm, its origin the upper left corner.
+/// A part of the page; lengths are in 1/100 mm, and the origin is the upper left corner.
 pub(super) type Area<'s> = DrawingArea<Canvas<'s>, Shift>;
 
 /// Draws an element at the origin of an area.
@@ -22,17 +22,17 @@ where
     &'a E: PointCollection<'a, BackendCoord>,
     E: for<'s> Drawable<Canvas<'s>>,
 {
-    // A canvas cannot fail, and an area is never drawn on from within an element.
+    // A canvas cannot fail, and no element draws on an area, which would borrow it twice.
     area.draw(element).expect("recording a scene does not fail");
 }
 
-/// Width and height of an area in millimetres.
+/// The width and height of an area in millimetres.
 pub(super) fn size(area: &Area) -> Vector {
     let (width, height) = area.dim_in_pixel();
     Canvas::to_millimetres((width as i32, height as i32)).coords
 }
 
-/// An element whose geometry is in millimetres from the origin of the area it is drawn on.
+/// Implements an element whose geometry is in millimetres from the origin of the area it is drawn on.
 macro_rules! anchored_at_origin {
     ($element:ty) => {
         impl<'a> PointCollection<'a, BackendCoord> for &'a $element {
@@ -65,7 +65,7 @@ anchored_at_origin!(Drawing);
 anchored_at_origin!(GroupElement);
 anchored_at_origin!(TextLine);
 
-/// A coupler curve: a group of its own, with an id, a title and the facts about it.
+/// A coupler curve: a group with an id, a title and data attributes.
 pub(super) struct CouplerCurve {
     pub id: String,
     pub class: &'static str,
@@ -77,7 +77,7 @@ pub(super) struct CouplerCurve {
     pub dashes: DashPattern,
     /// The dashes, already in millimetres of the area.
     pub dash_lines: Vec<motion::Dash>,
-    /// What belongs to the figure, and what is drawn beside it.
+    /// The strokes of the dashes that belong to the figure, and of those that do not.
     pub stroke_styles: [Stroke; 2],
     /// Marks on the curve.
     pub marks: Vec<Circle>,
@@ -86,16 +86,16 @@ pub(super) struct CouplerCurve {
 impl CouplerCurve {
     fn to_item(&self, origin: Vector) -> Item {
         let lines = |figure: bool| -> Vec<Polyline> {
-            let ours = self.dash_lines.iter().filter(|stroke| stroke.is_in_figure == figure && stroke.points.len() > 1);
+            let drawn = self.dash_lines.iter().filter(|dash| dash.is_in_figure == figure && dash.points.len() > 1);
             let moved = |p: &Point| p + origin;
-            ours.map(|s| Polyline { points: s.points.iter().map(moved).collect(), is_closed: false }).collect()
+            drawn.map(|dash| Polyline { points: dash.points.iter().map(moved).collect(), is_closed: false }).collect()
         };
         let path = |(figure, stroke): (bool, Stroke)| {
             let lines = lines(figure);
             (!lines.is_empty()).then_some(Item::Path(Path { polylines: lines, stroke: Some(stroke), fill: None }))
         };
-        let [figure, beside] = self.stroke_styles;
-        let paths = [(false, beside), (true, figure)].into_iter().filter_map(path);
+        let [figure, other] = self.stroke_styles;
+        let paths = [(false, other), (true, figure)].into_iter().filter_map(path);
         let marks = self.marks.iter().map(|mark| translated(&Item::Circle(mark.clone()), origin));
         Item::Group(Group {
             id: self.id.clone(),
@@ -106,16 +106,21 @@ impl CouplerCurve {
         })
     }
 
-    /// How it was drawn: what it takes to compare the drawing with the samples. Numbers read back to the same f64.
+    /// The transform and the dashes of the curve, with which a drawing can be compared with its samples. The numbers
+    /// parse to the same `f64`.
     fn drawing_data(&self, origin: Vector) -> [(&'static str, String); 3] {
-        let Similarity { scale, origin: at, .. } = self.page_from_plane;
-        let at = at + origin;
-        let DashPattern { period, dash_span: drawn } = self.dashes;
-        [("scale", scale.to_string()), ("origin", format!("{} {}", at.x, at.y)), ("dash", format!("{period} {drawn}"))]
+        let Similarity { scale, origin: plane_origin, .. } = self.page_from_plane;
+        let at = plane_origin + origin;
+        let DashPattern { period, dash_span } = self.dashes;
+        [
+            ("scale", scale.to_string()),
+            ("origin", format!("{} {}", at.x, at.y)),
+            ("dash", format!("{period} {dash_span}")),
+        ]
     }
 }
 
-/// A group of lines, circles and words.
+/// A group of lines, circles and text, without an id.
 pub(super) struct Drawing {
     pub class: &'static str,
     pub title: String,
@@ -129,7 +134,7 @@ impl Drawing {
     }
 }
 
-/// A group with an id and facts of its own.
+/// A group with an id and data attributes.
 pub(super) struct GroupElement {
     pub group: Group,
 }
@@ -160,19 +165,19 @@ fn translated(item: &Item, by: Vector) -> Item {
     }
 }
 
-/// A line of text in a room of its own.
+/// A line of text.
 pub(super) struct TextLine {
     pub text: Text,
 }
 
 impl TextLine {
-    /// A line of text at a place of the area.
+    /// A line of text at a position of the area.
     pub fn new(text: &str, typeface: Typeface, at: Point, anchor: Anchor, (size, color): (f64, Color)) -> TextLine {
         let runs = vec![TextRun { text: text.to_owned(), face: typeface.regular() }];
         TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
     }
 
-    /// The same with the words that are `symbols` in italics.
+    /// The line with the words that are single-letter `symbols` in italics.
     pub fn with_italics(mut self, symbols: &[String]) -> TextLine {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let mut runs: Vec<TextRun> = Vec::new();
@@ -184,10 +189,10 @@ impl TextLine {
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
         let mut rest = text.as_str();
         while !rest.is_empty() {
-            let word = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
-            let word = if word == 0 { rest.find(is_word).unwrap_or(rest.len()) } else { word };
-            let (piece, after) = rest.split_at(word);
-            // A longer name is a word to be read, a single letter a symbol.
+            let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
+            let end = if end == 0 { rest.find(is_word).unwrap_or(rest.len()) } else { end };
+            let (piece, after) = rest.split_at(end);
+            // A single letter is a symbol; a longer name is read as a word.
             let is_symbol = piece.chars().count() == 1 && symbols.iter().any(|symbol| symbol == piece);
             push(piece, is_symbol);
             rest = after;
@@ -196,38 +201,38 @@ impl TextLine {
         self
     }
 
-    /// The same in no more than `width`: set smaller, to two thirds, and then cut short.
+    /// The line fitted to `width`: set smaller, down to two thirds, and then truncated.
     pub fn fit_width(self, width: f64) -> TextLine {
         self.fit_width_with_suffix("", width)
     }
 
-    /// The same with an `end`, in no more than `width`: set smaller, to two thirds, and then cut short before the end,
-    /// which stays whole while there is room for it.
-    pub fn fit_width_with_suffix(mut self, end: &str, width: f64) -> TextLine {
-        // What fits to rounding fits: a room may have been made for this very text.
+    /// The line with a suffix, fitted to `width`: set smaller, down to two thirds, and then truncated before the
+    /// suffix, which stays whole as long as it fits.
+    pub fn fit_width_with_suffix(mut self, suffix: &str, width: f64) -> TextLine {
+        // Rounding is tolerated: `width` may have been computed from this very text.
         let width = width * (1.0 + 1e-9);
         let face = self.text.runs.last().map(|run| run.face);
-        let taken = |size: f64| face.map_or(0.0, |face| face.width(end, size));
-        let natural = self.text.width() + taken(self.text.size);
+        let suffix_width = |size: f64| face.map_or(0.0, |face| face.width(suffix, size));
+        let natural = self.text.width() + suffix_width(self.text.size);
         if natural > width {
             self.text.size *= (width / natural).max(2.0 / 3.0);
         }
-        if !end.is_empty() {
-            self.truncate(width - taken(self.text.size));
+        if !suffix.is_empty() {
+            self.truncate(width - suffix_width(self.text.size));
             match self.text.runs.last_mut() {
-                Some(run) => run.text.push_str(end),
-                // What parts an end from nothing is left out.
+                Some(run) => run.text.push_str(suffix),
+                // Without text before it, the suffix needs no separator.
                 None => self
                     .text
                     .runs
-                    .extend(face.map(|face| TextRun { text: end.trim_start_matches(" · ").to_owned(), face })),
+                    .extend(face.map(|face| TextRun { text: suffix.trim_start_matches(" · ").to_owned(), face })),
             }
         }
         self.truncate(width);
         self
     }
 
-    /// Cuts what is wider than `width`.
+    /// Truncates text that is wider than `width`, with an ellipsis.
     fn truncate(&mut self, width: f64) {
         while self.text.width() > width {
             match self.text.runs.last_mut() {
@@ -259,7 +264,7 @@ impl TextLine {
                     line.push(' ');
                     line.push_str(word);
                 }
-                // What parts two things parts them no less if a line ends there.
+                // At a line break the separator is dropped.
                 Some(_) if word == "·" => lines.push(String::new()),
                 _ => lines.push(word.to_owned()),
             }
@@ -276,33 +281,33 @@ impl TextLine {
 mod tests {
     use super::*;
 
-    fn words(text: &str) -> TextLine {
+    fn sans(text: &str) -> TextLine {
         TextLine::new(text, Typeface::Sans, Point::origin(), Anchor::Start, (3.0, Color(0, 0, 0)))
     }
 
     #[test]
     fn single_letters_that_are_parameters_are_italic() {
         let symbols = ["p".to_owned(), "frame".to_owned()];
-        let runs = words("p = 2, prop frame's p's").with_italics(&symbols).text.runs;
+        let runs = sans("p = 2, prop frame's p's").with_italics(&symbols).text.runs;
         let texts: Vec<(&str, Face)> = runs.iter().map(|run| (run.text.as_str(), run.face)).collect();
         assert_eq!(texts, [("p", Typeface::Sans.italic()), (" = 2, prop frame's p's", Typeface::Sans.regular())]);
     }
 
     #[test]
-    fn a_long_line_is_set_smaller_and_then_cut() {
-        let natural = words("a line of some length").text.width();
-        let smaller = words("a line of some length").fit_width(0.9 * natural).text;
+    fn a_long_line_is_set_smaller_and_then_truncated() {
+        let natural = sans("a line of some length").text.width();
+        let smaller = sans("a line of some length").fit_width(0.9 * natural).text;
         assert!(smaller.width() <= 0.9 * natural * 1.000_001 && smaller.runs[0].text.ends_with("length"));
-        let cut = words("a line of some length").fit_width(0.3 * natural).text;
+        let cut = sans("a line of some length").fit_width(0.3 * natural).text;
         assert!(cut.width() <= 0.3 * natural && cut.runs[0].text.ends_with('…'));
-        assert!(words("a").fit_width(0.0).text.runs.is_empty());
-        let ended = words("a line of some length").fit_width_with_suffix(", page 1", 0.6 * natural).text;
-        assert!(ended.width() <= 0.6 * natural && ended.runs[0].text.ends_with("…, page 1"), "{ended:?}");
-        // In a room of its own width it stays whole, however that was come by.
+        assert!(sans("a").fit_width(0.0).text.runs.is_empty());
+        let suffixed = sans("a line of some length").fit_width_with_suffix(", page 1", 0.6 * natural).text;
+        assert!(suffixed.width() <= 0.6 * natural && suffixed.runs[0].text.ends_with("…, page 1"), "{suffixed:?}");
+        // A line is not truncated to its own width, even if rounding makes that a little smaller.
         for k in 1..200 {
             let before = 0.37 * f64::from(k);
-            let room = (before + natural) - before;
-            assert_eq!(words("a line of some length").fit_width(room).text, words("a line of some length").text, "{k}");
+            let width = (before + natural) - before;
+            assert_eq!(sans("a line of some length").fit_width(width).text, sans("a line of some length").text, "{k}");
         }
     }
 }

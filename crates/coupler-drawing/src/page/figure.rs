@@ -1,4 +1,4 @@
-//! The figure of a cell: its curves, and the linkage that draws them.
+//! The figure of a cell: its curves and the linkage that traces them.
 
 use super::arrangement::{Arrangement, Extents, Rect};
 use super::element::{Area, CouplerCurve, Drawing, draw};
@@ -14,11 +14,12 @@ use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::motion::{self, Circuit, DashPattern};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-/// A chord is nowhere further than this from its curve, in millimetres on paper: with the rounding to 1/1000 mm, a page
-/// can be compared with its samples to 0.01 mm.
+/// The greatest distance of a chord from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can
+/// be compared with its samples to 0.01 mm.
 pub(super) const MAX_CHORD_ERROR: f64 = 0.009;
 
-/// The input a dash and its gap span: that asked for, or, of a length, a round part of what is used of it.
+/// The range of the input that a dash and its gap span: `dash_deg` for an angle; for a length, the greatest round
+/// number up to a twentieth of the longest pass.
 pub(super) fn dash_period(solved: &SolvedCell, options: &Options) -> f64 {
     if solved.linkage.input() != Input::Length {
         return options.dash_deg;
@@ -27,8 +28,8 @@ pub(super) fn dash_period(solved: &SolvedCell, options: &Options) -> f64 {
     round_number_below(passes.map(|pass| pass.input_length()).fold(0.0, f64::max) / 20.0)
 }
 
-/// The paths of some curves of a cell on the page, in their order, the k-th in `dashes(k)`; those of one circuit in like
-/// dashes are found together.
+/// The paths of some curves of a cell on the page, in the same order; `dashes(k)` is the pattern of the k-th. The
+/// curves of one circuit with the same pattern are computed together.
 pub(super) fn curve_paths(
     solved: &SolvedCell,
     curves: &[usize],
@@ -39,36 +40,37 @@ pub(super) fn curve_paths(
     let on_page = |points: &mut [Point]| points.iter_mut().for_each(|p| *p = page_from_plane.apply(*p));
     let mut out = vec![motion::JointPath::default(); curves.len()];
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-        let mut left: Vec<usize> = (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
-        while let Some(&first) = left.first() {
-            let alike = dashes(first);
-            let (ours, others) = left.into_iter().partition::<Vec<_>, _>(|&k| dashes(k) == alike);
-            let joints: Vec<JointId> = ours.iter().map(|&k| solved.curves[curves[k]].joint).collect();
-            let paths = motion::joint_paths(&solved.linkage, circuit, &joints, alike, tolerance);
-            for (k, mut path) in ours.into_iter().zip(paths) {
+        let mut remaining: Vec<usize> =
+            (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
+        while let Some(&first) = remaining.first() {
+            let pattern = dashes(first);
+            let (alike, others) = remaining.into_iter().partition::<Vec<_>, _>(|&k| dashes(k) == pattern);
+            let joints: Vec<JointId> = alike.iter().map(|&k| solved.curves[curves[k]].joint).collect();
+            let paths = motion::joint_paths(&solved.linkage, circuit, &joints, pattern, tolerance);
+            for (k, mut path) in alike.into_iter().zip(paths) {
                 on_page(&mut path.points);
                 path.dashes.iter_mut().for_each(|dash| on_page(&mut dash.points));
                 out[k] = path;
             }
-            left = others;
+            remaining = others;
         }
     }
     out
 }
 
-/// A cell with the poses its linkage is drawn in.
+/// The figure of a panel: curves, and the linkage in one pose or several.
 pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
     solved_cell: &'a SolvedCell,
-    /// The linkage in one pose, or in all it goes through.
+    /// The linkage in one pose, or in all poses of an animation.
     mechanisms: Vec<Mechanism<'a>>,
-    /// How long it takes to go through them.
+    /// The duration of the animation.
     seconds: f64,
     pub extents: Extents,
 }
 
 impl<'a> Figure<'a> {
-    /// The figure of a cell; `None` where it has no curve.
+    /// The figure of a panel; `None` if its cell has no curve.
     pub fn from_panel(panel: &'a Panel<'a>) -> Option<Figure<'a>> {
         let solved = panel.solved_cell;
         let first = solved.curves.first()?;
@@ -86,7 +88,7 @@ impl<'a> Figure<'a> {
         Some(Figure { panel, solved_cell: solved, mechanisms, seconds, extents: Extents { curve, linkage: key } })
     }
 
-    /// What is drawn of the linkage in its pose, or moves with it.
+    /// Items that depend on the pose, animated if there are several poses.
     fn posed_items(&self, items: impl Fn(&Mechanism) -> Vec<Item>) -> Vec<Item> {
         match &self.mechanisms[..] {
             [only] => items(only),
@@ -94,7 +96,7 @@ impl<'a> Figure<'a> {
         }
     }
 
-    /// Draws it in a frame of an area.
+    /// Draws the figure in a frame of an area.
     pub fn draw(
         &self,
         area: &Area,
@@ -126,7 +128,7 @@ impl<'a> Figure<'a> {
         }
     }
 
-    /// The curves in dashes, each with its coupler point.
+    /// Draws the curves in dashes, and their coupler points.
     fn draw_curves(
         &self,
         area: &Area,
@@ -156,7 +158,7 @@ impl<'a> Figure<'a> {
                 dashes: self.dashes(curve, period, theme),
                 dash_lines: path.dashes,
                 stroke_styles: [stroke, theme.stroke(theme.faded(ink), theme.fine_width)],
-                // A dot at each limit of the input.
+                // A dot marks each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
             };
             draw(area, &element);
@@ -165,17 +167,17 @@ impl<'a> Figure<'a> {
         draw(area, &Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
-    /// The curves as light unbroken lines: beside the linkage, and under the dashes to lead the eye over their gaps.
+    /// Draws the curves as light solid lines: in the key, and under the dashes to lead the eye across the gaps.
     fn draw_solid_curves(&self, area: &Area, paths: &[motion::JointPath], weight: f64, theme: &Theme) {
-        let trail = |(curve, path): (&MeasuredCurve, &motion::JointPath)| {
+        let solid = |(curve, path): (&MeasuredCurve, &motion::JointPath)| {
             let ink = theme.faded(self.curve_ink(curve, theme));
             Item::Path(Path::stroked(path.points.clone(), theme.stroke(ink, weight)))
         };
-        let items = self.solved_cell.curves.iter().zip(paths).map(trail).collect();
+        let items = self.solved_cell.curves.iter().zip(paths).map(solid).collect();
         draw(area, &Drawing { class: "trail", title: String::new(), items });
     }
 
-    /// What is marked of the curves: axes of symmetry, straight portions.
+    /// Draws the marks of the curves: axes of symmetry and straight portions.
     fn draw_marks(&self, area: &Area, plot: &Plot, theme: &Theme) {
         let axes = marks::symmetry_axis_items(self.solved_cell, plot, theme);
         draw(area, &Drawing { class: "axis", title: String::new(), items: axes });
@@ -192,12 +194,13 @@ impl<'a> Figure<'a> {
         curve_paths(self.solved_cell, &all, plot.page_from_plane, dashes)
     }
 
-    /// The dashes of a curve: a dash is the first part of its period, of 5 degrees, as a rule, the first 3.
+    /// The dashes of a curve: by default a dash is the first 3 degrees of a period of 5.
     fn dashes(&self, curve: &MeasuredCurve, period: f64, theme: &Theme) -> DashPattern {
         DashPattern { period, dash_span: theme.curve_dash_fraction(self.style_index(curve)) * period }
     }
 
-    /// Which ink and manner a curve has: curves of one traced joint are told apart by circuit, those of several by trace.
+    /// The index of the ink and style of a curve: by circuit if the linkage has one traced joint, otherwise by traced
+    /// joint.
     fn style_index(&self, curve: &MeasuredCurve) -> usize {
         let one_trace = self.solved_cell.linkage.traced.len() == 1;
         if one_trace { curve.circuit - 1 } else { curve.trace - 1 }
@@ -207,7 +210,7 @@ impl<'a> Figure<'a> {
         theme.curve_ink(self.style_index(curve))
     }
 
-    /// The poses at the limits of the input, circuit by circuit.
+    /// The poses at the limits of the input, by circuit.
     fn limit_poses(&self) -> Vec<Vec<Vec<Point>>> {
         let poses = |circuit: &Circuit| {
             let passes = &circuit.passes;
@@ -221,7 +224,7 @@ impl<'a> Figure<'a> {
         let mut curves: Vec<&MeasuredCurve> = Vec::new();
         for curve in self.solved_cell.curves.iter().filter(|curve| curve.circuit == self.solved_cell.curves[0].circuit)
         {
-            if curves.iter().all(|done| done.joint != curve.joint) {
+            if curves.iter().all(|other| other.joint != curve.joint) {
                 curves.push(curve);
             }
         }

@@ -1,4 +1,4 @@
-//! What every page has round its contents: border, title, source line and folio.
+//! The frame of every page: border, title, source line and folio.
 
 use plotters::element::Rectangle;
 use plotters::style::{RGBColor, ShapeStyle};
@@ -8,29 +8,77 @@ use super::theme::Theme;
 use crate::scene::{Anchor, Canvas, Color};
 use coupler_curves::geometry::Point;
 
-/// What is said round the contents of a page.
+/// The texts around the contents of a page: title, source line and folio.
+///
+/// [`Heading::new`] needs the title only; everything else is optional.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Heading<'a> {
-    /// The atlas's title.
-    pub atlas_title: &'a str,
-    /// The family's id.
-    pub family_id: &'a str,
-    /// The family's title.
+    /// The title of the page, which is the family's.
     pub family_title: &'a str,
-    /// Where the linkage comes from and what its letters mean.
+    /// The prefix of the ids of the page's groups, which is the family's id.
+    pub family_id: &'a str,
+    /// The atlas's title, written before the folio; may be empty.
+    pub atlas_title: &'a str,
+    /// The line under the title: where the linkage comes from and what its letters mean; may be empty.
     pub source: String,
-    /// Words that stand for values, set in italics.
+    /// The names of parameters, set in italics.
     pub symbols: &'a [String],
     /// The page's number in the family, from 1.
     pub page: usize,
-    /// How many pages the family has.
+    /// The number of pages of the family.
     pub page_count: usize,
 }
 
-impl Heading<'_> {
-    /// The name of the whole page.
+impl<'a> Heading<'a> {
+    /// The heading of a single page with a title; ids begin with `page`, and the other texts are empty.
+    pub fn new(title: &'a str) -> Heading<'a> {
+        Heading {
+            family_title: title,
+            family_id: "page",
+            atlas_title: "",
+            source: String::new(),
+            symbols: &[],
+            page: 1,
+            page_count: 1,
+        }
+    }
+
+    /// The heading with another prefix for the ids of the page's groups.
+    pub fn with_family_id(self, family_id: &'a str) -> Heading<'a> {
+        Heading { family_id, ..self }
+    }
+
+    /// The heading with the title of an atlas.
+    pub fn with_atlas_title(self, atlas_title: &'a str) -> Heading<'a> {
+        Heading { atlas_title, ..self }
+    }
+
+    /// The heading with a line under its title.
+    pub fn with_source(self, source: impl Into<String>) -> Heading<'a> {
+        Heading { source: source.into(), ..self }
+    }
+
+    /// The heading with the names of parameters, which are set in italics.
+    pub fn with_symbols(self, symbols: &'a [String]) -> Heading<'a> {
+        Heading { symbols, ..self }
+    }
+
+    /// The heading of a page by its number, from 1, and the number of pages.
+    pub fn with_page(self, page: usize, page_count: usize) -> Heading<'a> {
+        Heading { page, page_count, ..self }
+    }
+
+    /// The title of the document the page is written to.
     pub(super) fn page_title(&self) -> String {
-        format!("{}, page {} of {}: {}", self.family_title, self.page, self.page_count, self.atlas_title)
+        let page = format!("{}, page {} of {}", self.family_title, self.page, self.page_count);
+        if self.atlas_title.is_empty() { page } else { format!("{page}: {}", self.atlas_title) }
+    }
+
+    /// The title of the atlas and that of the family, as far as they are not empty.
+    pub(super) fn titles(&self) -> String {
+        let titles = [self.atlas_title, self.family_title];
+        titles.into_iter().filter(|title| !title.is_empty()).collect::<Vec<_>>().join(" · ")
     }
 
     /// Draws border, title, source line and folio.
@@ -39,27 +87,33 @@ impl Heading<'_> {
         let page = size(root);
         let mut at = draw_title(root, self.family_title, theme);
         let (left, right) = (at.x, page.x - at.x);
-        let words = |text: &str, at| {
+        let source_line = |text: &str, at| {
             theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey).with_italics(self.symbols)
         };
-        // What is too long for one line is parted between two of its parts; there is no room for a third line.
-        let (first, second) = split_at_separator(&self.source, |text| words(text, at).text.width() <= right - left);
+        // A source too long for one line is broken at a separator; there is no space for a third line.
+        let fits = |text: &str| source_line(text, at).text.width() <= right - left;
+        let (first, second) = split_at_separator(&self.source, fits);
         for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
-            draw(root, &words(line, at).fit_width(right - left));
+            draw(root, &source_line(line, at).fit_width(right - left));
             at.y += 1.35 * theme.source_size;
         }
         let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
         let atlas = theme.text_line(self.atlas_title, at, Anchor::End, theme.source_size, theme.grey);
-        draw(root, &atlas.fit_width_with_suffix(&self.folio(), right - left));
+        let folio = self.folio();
+        let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
+        draw(root, &atlas.fit_width_with_suffix(folio, right - left));
     }
 
-    /// What ends the last line of the page.
+    /// The page number, which ends the last line of the page, with a separator before it.
     pub(super) fn folio(&self) -> String {
-        format!(" · page {} of {}", self.page, self.page_count)
+        format!("{SEPARATOR}page {} of {}", self.page, self.page_count)
     }
 }
 
-/// The border of a page.
+/// Separates the parts of a line.
+const SEPARATOR: &str = " · ";
+
+/// Draws the border of a page.
 pub(super) fn draw_border(root: &Area, theme: &Theme) {
     let page = size(root);
     let Color(r, g, b) = theme.ink;
@@ -70,25 +124,24 @@ pub(super) fn draw_border(root: &Area, theme: &Theme) {
     draw(root, &Rectangle::new(border, style));
 }
 
-/// The title of a page, and where the line under it begins.
+/// Draws the title of a page; the position at which the line under it starts.
 pub(super) fn draw_title(root: &Area, title: &str, theme: &Theme) -> Point {
     let left = theme.border + theme.margin;
     let at = Point::new(left, theme.border + 1.9 * theme.title_size);
-    let words = theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink);
-    draw(root, &words.fit_width(size(root).x - 2.0 * left));
+    let line = theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink);
+    draw(root, &line.fit_width(size(root).x - 2.0 * left));
     Point::new(left, at.y + 1.85 * theme.source_size)
 }
 
-/// What is left free above, below and beside the contents.
+/// The margins above, below and on both sides of the contents, in millimetres.
 pub(super) fn margins(theme: &Theme) -> [f64; 3] {
     let top = theme.border + 2.3 * theme.title_size + 3.2 * theme.source_size;
     let bottom = theme.border + theme.margin + theme.source_size;
     [top, bottom, theme.border + 0.5 * theme.margin]
 }
 
-/// A text in two, parted at the last ` · ` before which it fits; if it does not fit whole.
+/// A text that does not fit as a whole, split at the last separator before which it fits.
 fn split_at_separator(text: &str, fits: impl Fn(&str) -> bool) -> (&str, &str) {
-    const SEPARATOR: &str = " · ";
     if fits(text) {
         return (text, "");
     }

@@ -1,4 +1,4 @@
-//! What is read off curves and marked on them: the straight portion, and the line of symmetry.
+//! Measured properties that are marked on curves and written under them: straight portions and axes of symmetry.
 
 use super::plot::Plot;
 use super::theme::Theme;
@@ -8,10 +8,11 @@ use coupler_curves::linkage::Input;
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-/// The measures that pages tell of, and the index of a book; what captions tell of is their own affair.
+/// The measures that pages and the index of a book use, in addition to those in captions.
 pub const PAGE_MEASURES: [&str; 6] = ["class", "mu_min_deg", "mu_max_deg", "length", "straight_length", "symmetry"];
 
-/// The facts of a cell: its class and the range of its transmission angle; its longest straight portion. Either may be empty.
+/// The facts of a cell: first its class and the range of its transmission angle, second its longest straight portion.
+/// Either may be empty.
 pub fn cell_facts(solved: &SolvedCell) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };
     let mut parts = Vec::new();
@@ -26,20 +27,21 @@ pub fn cell_facts(solved: &SolvedCell) -> [String; 2] {
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = if solved.linkage.input() == Input::Length { "" } else { "°" };
         let (length, deviation) = (format_significant(portion.length, 4), format_significant(portion.deviation, 2));
-        let of = if solved.linkage.traced.len() > 1 { format!(" (curve {})", curve.trace) } else { String::new() };
-        format!("straight {length} ± {deviation} over {:.1}{unit}{of}", portion.input_span)
+        let curve_number =
+            if solved.linkage.traced.len() > 1 { format!(" (curve {})", curve.trace) } else { String::new() };
+        format!("straight {length} ± {deviation} over {:.1}{unit}{curve_number}", portion.input_span)
     });
     [parts.join(" · "), straight]
 }
 
-/// The straight portion of a curve, if it is long enough to be seen: a fiftieth of the curve at least.
+/// The straight portion of a curve, if it is long enough to be seen: at least a fiftieth of the extent of the curve.
 fn visible_straight_portion<'a>(solved: &'a SolvedCell, curve: &'a MeasuredCurve) -> Option<&'a StraightPortion> {
     let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
     let extent = bounds.size().x.max(bounds.size().y);
     curve.straight.as_ref().filter(|portion| portion.length >= 0.02 * extent)
 }
 
-/// A number in so many significant digits.
+/// A number with `count` significant digits, in scientific notation if it is very large or small.
 pub(super) fn format_significant(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
@@ -53,7 +55,7 @@ pub(super) fn format_significant(value: f64, count: i32) -> String {
     format!("{value:.decimals$e}")
 }
 
-/// A curve's straight portion as a broad light band under its dashes.
+/// The straight portion of a curve as a broad light band under the dashes.
 pub(super) fn straight_portion_item(
     solved: &SolvedCell,
     curve: &MeasuredCurve,
@@ -67,7 +69,7 @@ pub(super) fn straight_portion_item(
     Some(Item::Path(Path { polylines: vec![Polyline { points, is_closed: false }], stroke, fill: None }))
 }
 
-/// The lines about which curves are symmetrical, in dashes and dots, a little longer than the curves.
+/// The axes of symmetry of the curves as dash-dotted lines, a little longer than the curves.
 pub(super) fn symmetry_axis_items(solved: &SolvedCell, plot: &Plot, theme: &Theme) -> Vec<Item> {
     let mut drawn: Vec<SymmetryAxis> = Vec::new();
     for curve in &solved.curves {
@@ -76,19 +78,18 @@ pub(super) fn symmetry_axis_items(solved: &SolvedCell, plot: &Plot, theme: &Them
             (other.direction_deg() - axis.direction_deg()).abs() < 1e-6
                 && (other.mirror(axis.point) - axis.point).norm() < 1e-6
         };
-        // A straight line is symmetrical about itself: that is not to be seen.
-        let seen = axis.filter(|axis| drawn.iter().all(|other| !is_like(other, axis)));
-        drawn.extend(seen.filter(|axis| crosses_axis(solved, curve, axis)));
+        // A straight line is symmetrical about itself, but drawing that axis would hide it.
+        let new = axis.filter(|axis| drawn.iter().all(|other| !is_like(other, axis)));
+        drawn.extend(new.filter(|axis| crosses_axis(solved, curve, axis)));
     }
     drawn.iter().filter_map(|axis| symmetry_axis_item(solved, axis, plot, theme)).collect()
 }
 
-/// Whether a curve goes to both sides of an axis, and not only along it.
+/// Whether a curve leaves an axis of symmetry, and does not only run along it.
 fn crosses_axis(solved: &SolvedCell, curve: &MeasuredCurve, axis: &SymmetryAxis) -> bool {
     let (mut along, mut off) = (0.0f64, 0.0f64);
     for p in solved.circuit(curve).points(curve.joint) {
-        let by = p - axis.point;
-        along = along.max(by.norm());
+        along = along.max((p - axis.point).norm());
         off = off.max((axis.mirror(p) - p).norm());
     }
     off > 1e-3 * along
@@ -96,8 +97,8 @@ fn crosses_axis(solved: &SolvedCell, curve: &MeasuredCurve, axis: &SymmetryAxis)
 
 fn symmetry_axis_item(solved: &SolvedCell, axis: &SymmetryAxis, plot: &Plot, theme: &Theme) -> Option<Item> {
     let points = solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
-    let reach = points.map(|p| axis.direction.dot(&(p - axis.point)));
-    let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
+    let positions = points.map(|p| axis.direction.dot(&(p - axis.point)));
+    let [low, high] = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
     let beyond = 1.6 * theme.joint_radius / plot.page_from_plane.scale;
     let end = |s: f64| plot.page_from_plane.apply(axis.point + axis.direction * s);
     let (from, to) = (end(low - beyond), end(high + beyond));
@@ -106,7 +107,7 @@ fn symmetry_axis_item(solved: &SolvedCell, axis: &SymmetryAxis, plot: &Plot, the
     if !whole.is_finite() || whole <= unit {
         return None;
     }
-    // A long dash, a gap, a dot, a gap; a long dash at either end.
+    // A period is a long dash, a gap, a dot and a gap; the line starts and ends with a long dash.
     let periods = (whole / unit - 0.6).ceil().max(1.0);
     let unit = whole / (periods + 0.6);
     let at = |s: f64| from + (to - from) * (s * unit / whole);

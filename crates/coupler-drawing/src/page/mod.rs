@@ -1,4 +1,7 @@
-//! What stands where on a page: paper, theme and layouts, drawn through plotters onto a [`Scene`].
+//! The layouts of pages: panels, charts, coupler grids and overlays, composed to a [`Scene`] through plotters.
+//!
+//! [`PanelPage`], [`ChartPage`], [`CouplerGridPage`] and [`OverlayPage`] say what is on a page; [`Options`] says what
+//! all pages of an atlas have in common. Each has a function that composes it, such as [`compose_panels`].
 
 mod arrangement;
 pub mod book;
@@ -10,6 +13,7 @@ mod heading;
 mod marks;
 mod mechanism;
 mod overlay;
+mod panel;
 mod panels;
 mod plot;
 mod pose;
@@ -17,24 +21,26 @@ mod theme;
 
 pub use heading::Heading;
 pub use marks::{PAGE_MEASURES, cell_facts};
+pub use panel::{Panel, PoseChoice};
 pub use theme::{CurveStyle, NamedTheme, Theme};
 
 use crate::chart::{Chart, Series};
 use crate::scene::Scene;
 use coupler_curves::geometry::Point;
+use coupler_curves::linkage::JointId;
 use coupler_curves::solve::SolvedCell;
 
 /// The size of the paper, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paper {
-    /// Its width.
+    /// The width.
     pub width: f64,
-    /// Its height.
+    /// The height.
     pub height: f64,
 }
 
 impl Paper {
-    /// The papers with a name; all lie on their long side.
+    /// The papers that have a name, all in landscape format.
     pub const NAMED: [(&'static str, Paper); 4] = [
         ("letter", Paper { width: 279.4, height: 215.9 }),
         ("tabloid", Paper { width: 431.8, height: 279.4 }),
@@ -42,7 +48,7 @@ impl Paper {
         ("a3", Paper { width: 420.0, height: 297.0 }),
     ];
 
-    /// The least and the greatest side a page may have.
+    /// The least and the greatest side of a page, in millimetres.
     pub const SIDE_RANGE: [f64; 2] = [50.0, 2000.0];
 }
 
@@ -51,53 +57,50 @@ impl Paper {
 pub enum Layout {
     /// A grid of panels, each with a cell's linkage and curves.
     Panels {
-        /// Panels in a row.
+        /// The number of panels in a row.
         columns: usize,
-        /// Rows.
+        /// The number of rows.
         rows: usize,
     },
     /// A grid of charts, each of one quantity over all curves.
     Chart {
-        /// Charts in a row.
+        /// The number of charts in a row.
         columns: usize,
-        /// Rows.
+        /// The number of rows.
         rows: usize,
     },
-    /// A page for each cell and ten traced points of it, as in the atlas of Hrones and Nelson.
+    /// A page for every ten traced points of a cell, as in the atlas of Hrones and Nelson.
     CouplerGrid,
 }
 
 impl Layout {
-    /// How many traced points a page of a coupler grid shows.
+    /// The number of traced points on a page of a coupler grid.
     pub const POINTS_PER_PAGE: usize = 10;
 
-    /// Every layout's name and what it shows.
+    /// The name and a description of every layout.
     pub const ALL: [(&'static str, &'static str); 3] = [
         ("panels", "a grid of panels, each with a cell's linkage, its curves and its caption"),
-        (
-            "coupler-grid",
-            "a page for each cell and ten of its coupler points, on the grid they stand on; then for the next ten",
-        ),
-        ("chart", "a grid of charts, each with one of the quantities that the family's `chart` names over another"),
+        ("coupler-grid", "a page for every ten coupler points of a cell, drawn on the grid they lie on"),
+        ("chart", "a grid of charts, each of one quantity over another, as the family's `chart` names them"),
     ];
 
-    /// The most columns and rows of panels that a page has room for.
+    /// The most columns and rows of panels that fit on a page.
     pub fn max_panels(options: &Options) -> [usize; 2] {
         panels::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
-    /// The most columns and rows of charts that a page has room for.
+    /// The most columns and rows of charts that fit on a page.
     pub fn max_charts(options: &Options) -> [usize; 2] {
         chart::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
-    /// The layout in which that many charts show best: as many to a page as can well be read.
+    /// The layout for `count` charts: as many on a page as can be read well.
     pub fn for_charts(options: &Options, count: usize) -> Layout {
         let [columns, rows] = chart::balanced_grid(options.paper, &options.theme.for_paper(options.paper), count);
         Layout::Chart { columns, rows }
     }
 
-    /// How many columns and rows a page has.
+    /// The number of columns and rows of a page.
     pub fn grid(self) -> [usize; 2] {
         match self {
             Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
@@ -105,172 +108,154 @@ impl Layout {
         }
     }
 
-    /// How many panels or charts a page holds.
+    /// The number of panels or charts on a page.
     pub fn cells_per_page(self) -> usize {
         let [columns, rows] = self.grid();
         columns * rows
     }
 }
 
-/// What all pages of an atlas have in common.
+/// The options that all pages of an atlas have in common.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The paper.
     pub paper: Paper,
-    /// The input a dash and its gap span, in degrees.
+    /// The range of the input that a dash and its gap span, in degrees.
     pub dash_deg: f64,
-    /// What they look like.
+    /// Colours, weights, sizes and typeface, for tabloid paper.
     pub theme: Theme,
 }
 
 impl Options {
-    /// Those of a paper where nothing else is asked for: dashes of 5 degrees, ink on cream.
+    /// The default options on a paper: dashes of 5 degrees, ink on cream.
     pub fn for_paper(paper: Paper) -> Options {
         Options { paper, dash_deg: 5.0, theme: Theme::default() }
     }
+
+    /// The options on another paper.
+    pub fn with_paper(self, paper: Paper) -> Options {
+        Options { paper, ..self }
+    }
+
+    /// The options with another range of the input for a dash and its gap, in degrees.
+    pub fn with_dash_deg(self, dash_deg: f64) -> Options {
+        Options { dash_deg, ..self }
+    }
+
+    /// The options with another theme.
+    pub fn with_theme(self, theme: Theme) -> Options {
+        Options { theme, ..self }
+    }
 }
 
-/// A page to be composed.
+/// A page of panels.
 #[derive(Clone, Debug)]
 pub struct PanelPage<'a> {
-    /// What stands round the contents.
+    /// The texts around the contents.
     pub heading: Heading<'a>,
-    /// How the cells are laid out.
+    /// The number of columns and rows.
     pub layout: Layout,
-    /// The cells.
+    /// The panels, row by row.
     pub panels: Vec<Panel<'a>>,
 }
 
-/// A cell of a page.
-#[derive(Clone, Debug)]
-pub struct Panel<'a> {
-    /// The line under it.
-    pub caption: String,
-    /// A smaller line under that; may be empty.
-    pub note: String,
-    /// What is known of the cell, as [`cell_facts`] has it; may be empty.
-    pub facts: [String; 2],
-    /// The cell.
-    pub solved_cell: &'a SolvedCell,
-    /// The pose its linkage is drawn in.
-    pub pose: PoseChoice,
-    /// The links that are drawn in the ink of a curve, by their places in the linkage, and which; the others in black.
-    pub link_inks: Vec<(usize, usize)>,
-}
-
-/// The pose a linkage is drawn in; a pose is the places of all its joints.
-#[derive(Clone, Debug, Default)]
-pub enum PoseChoice {
-    /// The clearest of the first circuit.
-    #[default]
-    Clearest,
-    /// This one.
-    Fixed(Vec<Point>),
-    /// All of these one after the other, again and again.
-    Animated {
-        /// The poses at equal steps of time, the first once more at the end.
-        poses: Vec<Vec<Point>>,
-        /// How long it takes from the first to the last.
-        seconds: f64,
-    },
-}
-
-/// A page of a coupler grid to be composed.
+/// A page of a coupler grid.
 #[derive(Clone, Debug)]
 pub struct CouplerGridPage<'a> {
-    /// What stands round the contents.
+    /// The texts around the contents.
     pub heading: Heading<'a>,
     /// The cell.
     pub panel: Panel<'a>,
-    /// Which of its curves are on this page, by their places.
+    /// The indices of the curves that are on this page.
     pub curve_indices: Vec<usize>,
-    /// The letters of its links.
+    /// The names of the links.
     pub labels: &'a [LinkLabel],
 }
 
-/// What a link is called: a letter for its length, or the length itself.
+/// The name of a link: a letter for its length, or the length itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkLabel {
-    /// The joints at its ends, by their places in the linkage.
-    pub joints: [usize; 2],
-    /// Its letter.
+    /// The indices of the joints at its ends.
+    pub joints: [JointId; 2],
+    /// The name.
     pub text: String,
 }
 
-/// The places of all joints of a cell's linkage in the pose in which it is seen best; `None` where it has no curve.
+/// The positions of all joints of a cell's linkage in the pose that is clearest to read; `None` if it has no curve.
 pub fn clearest_pose(solved: &SolvedCell) -> Option<Vec<Point>> {
     let circuit = solved.circuit(solved.curves.first()?);
     Some(pose::clearest_pose(&solved.linkage, circuit))
 }
 
-/// A page of charts to be composed.
+/// A page of charts.
 #[derive(Clone, Debug)]
 pub struct ChartPage<'a> {
-    /// What stands round the contents.
+    /// The texts around the contents.
     pub heading: Heading<'a>,
-    /// How the charts are laid out.
+    /// The number of columns and rows.
     pub layout: Layout,
-    /// What the charts show.
+    /// The quantities of all charts.
     pub chart: &'a Chart,
-    /// Which of its quantities are on this page, by their places.
+    /// The indices of the quantities `chart.y` that are on this page.
     pub quantity_range: std::ops::Range<usize>,
     /// The lines of all charts.
     pub series: &'a [Series],
 }
 
-/// A page to be composed on which a curve lies over one that was recorded.
+/// A page on which a curve is overlaid on the same curve as it was recorded earlier.
 #[derive(Clone, Debug)]
 pub struct OverlayPage<'a> {
-    /// What stands at its head.
+    /// The title.
     pub title: &'a str,
-    /// What stands under that.
+    /// The lines under the title.
     pub details: Vec<String>,
-    /// What stands at its foot.
+    /// The line at the foot.
     pub footer: &'a str,
     /// The recorded samples.
     pub recorded: Vec<Point>,
-    /// The present samples.
+    /// The current samples.
     pub current: Vec<Point>,
-    /// The present curve between its samples.
+    /// The current curve, as a finer polyline than its samples.
     pub current_path: Vec<Point>,
-    /// Whether it comes back to where it began.
+    /// Whether the curve is closed.
     pub is_closed: bool,
-    /// The places that are furthest from where they were.
+    /// The points with the greatest difference, to be marked.
     pub worst_points: Vec<Point>,
 }
 
-/// Draws a curve over one that was recorded.
-pub fn compose_overlay(sheet: &OverlayPage, options: &Options) -> Scene {
+/// Composes an overlay of a recorded and a current curve.
+pub fn compose_overlay(page: &OverlayPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let Paper { width, height } = options.paper;
-    let (paper, typeface, title) = (theme.paper, theme.typeface, sheet.title.to_owned());
+    let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
     let mut scene = Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() };
-    overlay::compose(&mut scene, sheet, &theme);
+    overlay::compose(&mut scene, page, &theme);
     scene
 }
 
-/// Draws a page of panels.
-pub fn compose_panels(sheet: &PanelPage, options: &Options) -> Scene {
+/// Composes a page of panels.
+pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&sheet.heading, options, &theme);
-    let [columns, rows] = sheet.layout.grid();
-    panels::compose(&mut scene, sheet, (columns, rows), options, &theme);
+    let mut scene = empty_scene(&page.heading, options, &theme);
+    let [columns, rows] = page.layout.grid();
+    panels::compose(&mut scene, page, (columns, rows), options, &theme);
     scene
 }
 
-/// Draws a page of a coupler grid.
-pub fn compose_coupler_grid(sheet: &CouplerGridPage, options: &Options) -> Scene {
+/// Composes a page of a coupler grid.
+pub fn compose_coupler_grid(page: &CouplerGridPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&sheet.heading, options, &theme);
-    coupler_grid::compose(&mut scene, sheet, options, &theme);
+    let mut scene = empty_scene(&page.heading, options, &theme);
+    coupler_grid::compose(&mut scene, page, options, &theme);
     scene
 }
 
-/// Draws a page of charts.
-pub fn compose_charts(sheet: &ChartPage, options: &Options) -> Scene {
+/// Composes a page of charts.
+pub fn compose_charts(page: &ChartPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&sheet.heading, options, &theme);
-    chart::compose(&mut scene, sheet, &theme);
+    let mut scene = empty_scene(&page.heading, options, &theme);
+    chart::compose(&mut scene, page, &theme);
     scene
 }
 

@@ -1,4 +1,4 @@
-//! A page on which a curve lies over one that was recorded, with the difference magnified.
+//! A page on which a curve is overlaid on its recorded form, with the differences magnified.
 
 use plotters::drawing::IntoDrawingArea;
 
@@ -15,93 +15,104 @@ pub(super) fn compose(scene: &mut Scene, sheet: &OverlayPage, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
     heading::draw_border(&root, theme);
     let mut at = heading::draw_title(&root, sheet.title, theme);
-    let page = size(&root);
-    let width = page.x - 2.0 * at.x;
+    let paper = size(&root);
+    let width = paper.x - 2.0 * at.x;
     for line in &sheet.details {
         draw(&root, &theme.text_line(line, at, Anchor::Start, theme.source_size, theme.grey).fit_width(width));
         at.y += 1.35 * theme.source_size;
     }
     let foot = theme.border + theme.margin + 2.0 * theme.source_size;
-    let frame = Rect { corner: Point::new(at.x, at.y), size: Vector::new(width, page.y - foot - at.y) };
+    let frame = Rect { corner: Point::new(at.x, at.y), size: Vector::new(width, paper.y - foot - at.y) };
     draw_figure(&root, frame, sheet, theme);
-    let at = Point::new(page.x - at.x, page.y - theme.border - 0.6 * theme.margin);
+    let at = Point::new(paper.x - at.x, paper.y - theme.border - 0.6 * theme.margin);
     draw(&root, &theme.text_line(sheet.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
 }
 
-/// The greatest difference is drawn this long, by the height of the figure.
+/// The length at which the greatest difference is drawn, as a fraction of the height of the figure.
 const MAX_DIFFERENCE_PART: f64 = 0.08;
 
 fn draw_figure(area: &Area, frame: Rect, sheet: &OverlayPage, theme: &Theme) {
-    let is_placed = |p: &&Point| p.x.is_finite() && p.y.is_finite();
-    let all = sheet.recorded.iter().chain(&sheet.current).chain(&sheet.current_path).filter(is_placed).copied();
+    let is_defined = |p: &&Point| p.x.is_finite() && p.y.is_finite();
+    let all = sheet.recorded.iter().chain(&sheet.current).chain(&sheet.current_path).filter(is_defined).copied();
     let bounds = Bounds::from_points(all);
     if bounds.is_empty() {
         return;
     }
-    // What is magnified goes over the curve's edge.
-    let free = Vector::repeat(MAX_DIFFERENCE_PART * frame.size.y);
-    let inner = Rect { corner: frame.corner + free, size: frame.size - free * 2.0 };
+    // Magnified differences extend beyond the curve.
+    let margin = Vector::repeat(MAX_DIFFERENCE_PART * frame.size.y);
+    let inner = Rect { corner: frame.corner + margin, size: frame.size - margin * 2.0 };
     let plot = Plot::new(inner, theme).fitted_to(bounds);
     plot.draw_scale_bar(area, theme);
     let on_page = |p: Point| plot.page_from_plane.apply(p);
     let (old, new) = (theme.curve_ink(0), theme.ink);
     let path = |points: &[Point], color: Color, width: f64| {
-        let placed = points.split(|p| !is_placed(&p)).filter(|run| run.len() > 1);
+        let runs = points.split(|p| !is_defined(&p)).filter(|run| run.len() > 1);
         let line = |run: &[Point]| Polyline { points: run.iter().copied().map(on_page).collect(), is_closed: false };
-        Item::Path(Path { polylines: placed.map(line).collect(), stroke: Some(theme.stroke(color, width)), fill: None })
+        Item::Path(Path { polylines: runs.map(line).collect(), stroke: Some(theme.stroke(color, width)), fill: None })
     };
-    let mut was = sheet.recorded.clone();
+    let mut recorded = sheet.recorded.clone();
     if sheet.is_closed {
-        was.extend(sheet.recorded.first().copied());
+        recorded.extend(sheet.recorded.first().copied());
     }
     let faded = theme.faded(old);
-    let recorded = vec![path(&was, faded, 2.0 * theme.curve_width)];
-    draw(area, &Drawing { class: "recorded", title: "as it was".to_owned(), items: recorded });
-    let now = vec![path(&sheet.current_path, new, theme.hair_width)];
-    draw(area, &Drawing { class: "now", title: "as it is".to_owned(), items: now });
+    let recorded = vec![path(&recorded, faded, 2.0 * theme.curve_width)];
+    draw(area, &Drawing { class: "recorded", title: "recorded".to_owned(), items: recorded });
+    let current = vec![path(&sheet.current_path, new, theme.hair_width)];
+    draw(area, &Drawing { class: "now", title: "current".to_owned(), items: current });
     let pairs: Vec<(Point, Vector)> = match sheet.recorded.len() == sheet.current.len() {
-        true => sheet.current.iter().zip(&sheet.recorded).map(|(is, was)| (*is, was - is)).collect(),
+        true => sheet.current.iter().zip(&sheet.recorded).map(|(new, old)| (*new, old - new)).collect(),
         false => Vec::new(),
     };
     let scale = plot.page_from_plane.scale;
-    let longest = pairs.iter().map(|(_, by)| by.norm() * scale).filter(|by| by.is_finite()).fold(0.0, f64::max);
+    let longest = pairs
+        .iter()
+        .map(|(_, difference)| difference.norm() * scale)
+        .filter(|length| length.is_finite())
+        .fold(0.0, f64::max);
     if longest > 0.0 {
-        let times = round_number_below(MAX_DIFFERENCE_PART * frame.size.y / longest);
-        draw_differences(area, frame, &pairs, times, &on_page, theme);
+        let magnification = round_number_below(MAX_DIFFERENCE_PART * frame.size.y / longest);
+        draw_differences(area, frame, &pairs, magnification, &on_page, theme);
     }
     let mark = |p: &Point, color| {
         let stroke = Some(theme.stroke(color, theme.fine_width));
         Item::Circle(Circle { centre: on_page(*p), radius: 1.6 * theme.joint_radius, stroke, fill: None })
     };
-    let worst = sheet.worst_points.iter().filter(is_placed);
+    let worst = sheet.worst_points.iter().filter(is_defined);
     draw(
         area,
-        &Drawing { class: "worst", title: "the furthest".to_owned(), items: worst.map(|p| mark(p, old)).collect() },
+        &Drawing {
+            class: "worst",
+            title: "the greatest differences".to_owned(),
+            items: worst.map(|p| mark(p, old)).collect(),
+        },
     );
 }
 
-/// From each sample the way to where it was, so many times as long.
+/// Draws a line from each sample towards its recorded position, `magnification` times as long as the difference, and
+/// the legend.
 fn draw_differences(
     area: &Area,
     frame: Rect,
     pairs: &[(Point, Vector)],
-    times: f64,
+    magnification: f64,
     on_page: &impl Fn(Point) -> Point,
     theme: &Theme,
 ) {
-    let is_drawn = |(p, by): &&(Point, Vector)| p.x.is_finite() && p.y.is_finite() && by.norm() > 0.0;
-    let line =
-        |(p, by): &(Point, Vector)| Polyline { points: vec![on_page(*p), on_page(p + by * times)], is_closed: false };
+    let is_drawn = |(p, difference): &&(Point, Vector)| p.x.is_finite() && p.y.is_finite() && difference.norm() > 0.0;
+    let line = |(p, difference): &(Point, Vector)| Polyline {
+        points: vec![on_page(*p), on_page(p + difference * magnification)],
+        is_closed: false,
+    };
     let lines: Vec<Polyline> = pairs.iter().filter(is_drawn).map(line).collect();
     let stroke = Some(theme.stroke(theme.curve_ink(0), theme.hair_width));
-    let ways = Item::Path(Path { polylines: lines, stroke, fill: None });
-    let magnified = match times {
+    let hairlines = Item::Path(Path { polylines: lines, stroke, fill: None });
+    let magnified = match magnification {
         1.0 => "the difference".to_owned(),
-        times if times < 1.0 => format!("the difference, {times} times as long"),
-        times => format!("the difference, {times:.0} times as long"),
+        times if times < 1.0 => format!("the difference, magnified {times} times"),
+        times => format!("the difference, magnified {times:.0} times"),
     };
-    draw(area, &Drawing { class: "difference", title: magnified.clone(), items: vec![ways] });
-    let words = format!("thin and black as it is, broad and pale as it was recorded; hairlines: {magnified}");
+    draw(area, &Drawing { class: "difference", title: magnified.clone(), items: vec![hairlines] });
+    let legend = format!("thin line: current; broad pale line: recorded; hairlines: {magnified}");
     let at = Point::new(frame.corner.x, frame.corner.y + frame.size.y + theme.source_size);
-    draw(area, &theme.text_line(&words, at, Anchor::Start, theme.note_size, theme.grey).fit_width(frame.size.x));
+    draw(area, &theme.text_line(&legend, at, Anchor::Start, theme.note_size, theme.grey).fit_width(frame.size.x));
 }

@@ -1,4 +1,4 @@
-//! The `panels` layout: a grid of cells, each with its figure, its number and its caption.
+//! The `panels` layout: a grid of cells, each with its figure, number and caption.
 
 use plotters::drawing::IntoDrawingArea;
 
@@ -24,31 +24,32 @@ fn draw_panels(root: &Area, sheet: &PanelPage, (columns, rows): (usize, usize), 
     let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::from_panel).collect();
     let facts = FactsLayout::for_page(sheet, size(&areas[0]).x - 1.2 * theme.caption_size, theme);
     let has_notes =
-        sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.incomplete_reason.is_some());
+        sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.assembly_error.is_some());
     let lines = f64::from(u8::from(has_notes) + facts.line_count());
     let foot = theme.caption_size * 1.5 + lines * theme.note_size * 1.5 + 2.2 * theme.caption_size;
-    // The figure's frame is that of any panel: plotters splits a page to within a hundredth of a millimetre.
-    let room = |area: &Area| {
+    // One arrangement fits all panels: plotters splits a page to within a hundredth of a millimetre.
+    let figure_rect = |area: &Area| {
         let gap = 1.2 * theme.caption_size;
         let size = size(area) - Vector::new(gap, 0.0) - Vector::new(gap, foot);
         Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
-    let arrangement = Arrangement::best(room(&areas[0]), 2.0 * theme.joint_radius, &extents);
+    let arrangement = Arrangement::best(figure_rect(&areas[0]), 2.0 * theme.joint_radius, &extents);
     for ((panel, figure), area) in sheet.panels.iter().zip(&figures).zip(&areas) {
-        let frame = room(area);
+        let frame = figure_rect(area);
         match figure {
             Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
             None => {
-                let reason = panel.solved_cell.motion.incomplete_reason.as_deref().unwrap_or("no curve is kept");
-                draw_not_assembled(area, frame, reason, theme);
+                let error = panel.solved_cell.motion.assembly_error.as_ref();
+                let reason = error.map_or("it has no curve".to_owned(), ToString::to_string);
+                draw_not_assembled(area, frame, &reason, theme);
             }
         }
         draw_caption(area, (foot, facts), panel, sheet.heading.symbols, theme);
     }
 }
 
-/// How the facts of the cells of a page are set: all in as many lines.
+/// The number of lines for the facts of a cell, the same for all cells of a page.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum FactsLayout {
     None,
@@ -57,16 +58,16 @@ enum FactsLayout {
 }
 
 impl FactsLayout {
-    /// One line, if every panel's fits a width without being set much smaller.
+    /// One line if the facts of every panel fit `width` at no less than 85 % of their size; otherwise two.
     fn for_page(sheet: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
-        const SMALLER: f64 = 0.85;
+        const MIN_SCALE: f64 = 0.85;
         let texts = || sheet.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
         let natural = |text: String| {
             theme.text_line(&text, Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text.width()
         };
         match texts().map(natural).fold(0.0, f64::max) {
             0.0 => FactsLayout::None,
-            widest if SMALLER * widest <= width => FactsLayout::OneLine,
+            widest if MIN_SCALE * widest <= width => FactsLayout::OneLine,
             _ => FactsLayout::TwoLines,
         }
     }
@@ -79,7 +80,7 @@ impl FactsLayout {
         }
     }
 
-    /// The lines of a panel.
+    /// The lines of facts under a panel.
     fn panel_lines(self, panel: &Panel) -> Vec<String> {
         let parts = panel.facts.iter().filter(|part| !part.is_empty()).cloned();
         match self {
@@ -90,28 +91,29 @@ impl FactsLayout {
     }
 }
 
-/// The most columns and rows: set as small as it may be, a panel has four lines under a figure of five.
+/// The most columns and rows of panels on a page: at its smallest, a panel has four lines of text under a figure five
+/// lines high.
 pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
     let [top, bottom, side] = margins(theme);
     let theme = theme.for_panel_size(Vector::zeros());
-    let fit = |room: f64, least: f64| ((room / least).floor() as usize).max(1);
+    let fit = |length: f64, least: f64| ((length / least).floor() as usize).max(1);
     [
         fit(paper.width - 2.0 * side, 5.0 * theme.caption_size),
         fit(paper.height - top - bottom, 10.5 * theme.caption_size),
     ]
 }
 
-/// The cell's number at its upper left, and its lines below.
+/// Draws the cell's number at the upper left, and its lines of text at the foot.
 fn draw_caption(area: &Area, (foot, facts): (f64, FactsLayout), panel: &Panel, symbols: &[String], theme: &Theme) {
-    let page = size(area);
+    let panel_size = size(area);
     let number = panel.solved_cell.cell.number.to_string();
     let at = Point::new(0.8 * theme.caption_size, theme.note_size);
     draw(area, &theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
-    let width = page.x - 1.2 * theme.caption_size;
-    let mut y = page.y - foot + 1.5 * theme.caption_size;
+    let width = panel_size.x - 1.2 * theme.caption_size;
+    let mut y = panel_size.y - foot + 1.5 * theme.caption_size;
     let mut line = |text: &str, size: f64, color, symbols: &[String]| {
-        let words = theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color);
-        draw(area, &words.with_italics(symbols).fit_width(width));
+        let line = theme.text_line(text, Point::new(panel_size.x / 2.0, y), Anchor::Middle, size, color);
+        draw(area, &line.with_italics(symbols).fit_width(width));
         y += 1.45 * theme.note_size;
     };
     line(&panel.caption, theme.caption_size, theme.ink, symbols);
@@ -121,21 +123,21 @@ fn draw_caption(area: &Area, (foot, facts): (f64, FactsLayout), panel: &Panel, s
     for text in facts.panel_lines(panel) {
         line(&text, theme.note_size, theme.grey, &[]);
     }
-    if let (Some(reason), true) = (&panel.solved_cell.motion.incomplete_reason, panel.solved_cell.motion.is_assembled())
-    {
-        line(reason, theme.note_size, theme.curve_ink(0), &[]);
+    let motion = &panel.solved_cell.motion;
+    if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
+        line(&error.to_string(), theme.note_size, theme.curve_ink(0), &[]);
     }
 }
 
-/// Where there is no curve to draw: that it cannot be assembled, and why.
+/// Draws a message in place of a figure: the cell is not assembled, and the reason.
 pub(super) fn draw_not_assembled(area: &Area, frame: Rect, reason: &str, theme: &Theme) {
     let centre = frame.centre();
-    let words = |text: &str, size: f64, color: Color| {
+    let text_line = |text: &str, size: f64, color: Color| {
         theme.text_line(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color)
     };
-    let mut lines = vec![words("not assembled", theme.caption_size, theme.curve_ink(0)).text];
-    let reason = words(reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
-    lines.extend(reason.iter().map(|line| words(line, theme.note_size, theme.grey).text));
+    let mut lines = vec![text_line("not assembled", theme.caption_size, theme.curve_ink(0)).text];
+    let reason = text_line(reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
+    lines.extend(reason.iter().map(|line| text_line(line, theme.note_size, theme.grey).text));
     let step = 1.5 * theme.note_size;
     let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;
     for (k, text) in lines.iter_mut().enumerate() {

@@ -1,21 +1,23 @@
+//! A frame in which a figure is drawn to scale, with its scale bar.
+
 use super::arrangement::Rect;
 use super::element::{Area, Drawing, draw};
 use super::theme::Theme;
 use crate::scene::{Anchor, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 
-/// A frame in which something is drawn to scale, and its scale bar.
+/// A frame in which a figure is drawn to scale.
 pub(super) struct Plot {
     rect: Rect,
-    /// From the plane to millimetres of the area.
+    /// From the plane of the linkage to millimetres of the area.
     pub page_from_plane: Similarity,
 }
 
 impl Plot {
-    /// A plot in a frame, with room for the scale bar at its foot.
+    /// A plot in a frame, with space for the scale bar at its foot; its scale is not set yet.
     pub fn new(frame: Rect, theme: &Theme) -> Plot {
         let foot = 1.6 * theme.note_size;
-        // A frame that is all foot still has a positive size.
+        // Even if the scale bar needs the whole frame, the plot has a positive size.
         let inner = Rect { size: Vector::new(frame.size.x, (frame.size.y - foot).max(0.2 * frame.size.y)), ..frame };
         Plot {
             rect: inner.inset(2.0 * theme.joint_radius),
@@ -23,19 +25,19 @@ impl Plot {
         }
     }
 
-    /// The plot with something in the middle of its frame.
+    /// The plot with the scale at which `bounds` fills the frame, centred.
     pub fn fitted_to(self, bounds: Bounds) -> Plot {
         let scale = self.rect.fit_scale(bounds);
         Plot { page_from_plane: Similarity::page_from_plane(bounds, self.rect.centre(), scale), ..self }
     }
 
-    /// The frame less its foot, where the scale bar stands, and with what is kept free round the figure.
+    /// The frame without its foot, where the scale bar is, but with the margin around the figure.
     pub fn rect_above_scale_bar(&self, theme: &Theme) -> Rect {
-        let free = Vector::repeat(2.0 * theme.joint_radius);
-        Rect { corner: self.rect.corner - free, size: self.rect.size + free * 2.0 }
+        let margin = Vector::repeat(2.0 * theme.joint_radius);
+        Rect { corner: self.rect.corner - margin, size: self.rect.size + margin * 2.0 }
     }
 
-    /// A scale bar under the frame: a round number of units, about a fifth of the frame's width.
+    /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width.
     pub fn draw_scale_bar(&self, area: &Area, theme: &Theme) {
         let scale = self.page_from_plane.scale;
         let units = round_number_below(0.2 * self.rect.size.x / scale);
@@ -44,9 +46,9 @@ impl Plot {
         let size = 0.75 * theme.note_size;
         let at =
             Point::new(self.rect.centre().x, self.rect.corner.y + self.rect.size.y + 2.2 * theme.joint_radius + size);
-        let words = theme.text_line(&label, Point::origin(), Anchor::Start, size, theme.grey);
+        let text = theme.text_line(&label, Point::origin(), Anchor::Start, size, theme.grey);
         let gap = 0.4 * size;
-        let left = at.x - (length + gap + words.text.width()) / 2.0;
+        let left = at.x - (length + gap + text.text.width()) / 2.0;
         let tick = 0.3 * size;
         let y = at.y - 0.35 * size;
         let line = |a: (f64, f64), b: (f64, f64)| Polyline {
@@ -60,12 +62,12 @@ impl Plot {
         ];
         let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
         let bar = Item::Path(Path { polylines: lines, stroke, fill: None });
-        let text = Item::Text(Text { position: Point::new(left + length + gap, at.y), ..words.text });
-        draw(area, &Drawing { class: "scale", title: format!("a bar of {label}"), items: vec![bar, text] });
+        let text = Item::Text(Text { position: Point::new(left + length + gap, at.y), ..text.text });
+        draw(area, &Drawing { class: "scale", title: format!("scale bar: {label}"), items: vec![bar, text] });
     }
 }
 
-/// The nearest of 1, 2 and 5 with a power of ten, not above `x`; 1 where `x` is none to go by.
+/// The greatest of 1, 2 and 5 times a power of ten that is not above `x`; 1 if `x` is not between 1e-12 and 1e12.
 pub(super) fn round_number_below(x: f64) -> f64 {
     if !(1e-12..=1e12).contains(&x) {
         return 1.0;

@@ -1,25 +1,25 @@
-//! The pose a linkage is drawn in: one in which it can be read.
+//! The choice of the pose a linkage is drawn in.
 
 use super::mechanism::sliding_line;
 use coupler_curves::geometry::{Point, cross, distance_to_segment};
-use coupler_curves::linkage::{JointKind, Linkage};
+use coupler_curves::linkage::{JointId, JointKind, Linkage};
 use coupler_curves::motion::Circuit;
 
-/// The places of all joints in the clearest pose of a circuit.
+/// The positions of all joints in the clearest pose of a circuit.
 ///
-/// A pose is clear when no two joints, and no joint and link, come near each other, and when no two links that meet
-/// lie on one line: its clarity is the least of those distances, times the least sine of those angles. Poses within
-/// a hundredth of the clearest are as good; the first of them is taken.
+/// A pose is clear if no two joints, and no joint and link, are close to each other, and if no two links that meet are
+/// nearly collinear: its clarity is the least of those distances times the least sine of the angles between links that
+/// meet. Poses within one percent of the greatest clarity count as equal; the result is the first of them.
 pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
-    /// More samples than this make no difference to the eye.
+    /// More candidates than this make no visible difference.
     const CANDIDATES: usize = 360;
     let stride = circuit.len().div_ceil(CANDIDATES).max(1);
-    // The frame is a link like the others here: a crank that lies on it cannot be seen.
+    // The frame counts as a link: a crank that lies on it cannot be seen.
     let mut links: Vec<_> = linkage.link_outlines().into_iter().map(|outline| outline.joints).collect();
     links.push(linkage.pivots());
-    for joint in 0..linkage.joints.len() {
+    for joint in linkage.joint_ids() {
         let Some([foot, through]) = sliding_line(linkage, joint) else { continue };
-        // The link with a slot goes on to what slides in it; the line of an actuator is a link of its own.
+        // The link with a slot extends to the joint that slides in it; the line of an actuator is a separate link.
         let is_slot = matches!(linkage.joints[joint].kind, JointKind::Slot { .. } | JointKind::Yoke { .. });
         let carrier = links.iter_mut().filter(|_| is_slot);
         match carrier.into_iter().find_map(|link| Some((link.iter().position(|joint| *joint == foot)?, link))) {
@@ -30,7 +30,7 @@ pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> 
     }
     merge_coincident_joints(&mut links, circuit);
     let pose = |sample: usize| -> Vec<Point> {
-        (0..linkage.joints.len()).map(|joint| circuit.positions.point(joint, sample)).collect()
+        linkage.joint_ids().map(|joint| circuit.positions.point(joint, sample)).collect()
     };
     let clarity = |at: &[Point]| {
         let clarity = clearance(&links, at) * min_link_angle_sine(&links, at);
@@ -42,38 +42,38 @@ pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> 
     pose(all.iter().find(|(_, clarity)| *clarity >= 0.99 * best).map_or(0, |(sample, _)| *sample))
 }
 
-/// Gives joints that are one point all the way one number: their distance tells nothing of the pose.
-fn merge_coincident_joints(links: &mut [Vec<usize>], circuit: &Circuit) {
+/// Replaces joints that coincide over the whole circuit by the first of them: their distance is zero in every pose.
+fn merge_coincident_joints(links: &mut [Vec<JointId>], circuit: &Circuit) {
     let samples = [0, circuit.len() / 3, circuit.len() / 2];
-    let is_one = |a: usize, b: usize| {
+    let is_same = |a: JointId, b: JointId| {
         samples.iter().all(|&sample| {
             let (a, b) = (circuit.positions.point(a, sample), circuit.positions.point(b, sample));
             (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
         })
     };
     for joint in links.iter_mut().flatten() {
-        *joint = (0..*joint).find(|&earlier| is_one(earlier, *joint)).unwrap_or(*joint);
+        *joint = (0..joint.index()).map(JointId::new).find(|&earlier| is_same(earlier, *joint)).unwrap_or(*joint);
     }
     for link in links {
         link.dedup();
     }
 }
 
-/// The least distance of two joints on no common link, or of a joint and a link it is not on.
-fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
-    let mut joints: Vec<usize> = links.iter().flatten().copied().collect();
+/// The least distance of two joints that share no link, or of a joint and a link it is not on.
+fn clearance(links: &[Vec<JointId>], at: &[Point]) -> f64 {
+    let mut joints: Vec<JointId> = links.iter().flatten().copied().collect();
     joints.sort_unstable();
     joints.dedup();
     let mut least = f64::INFINITY;
     for (k, &joint) in joints.iter().enumerate() {
         for &other in &joints[..k] {
-            // Joints of one link keep their distance, and some are one point: that tells nothing of the pose.
+            // Joints of one link have a fixed distance, which says nothing about the pose.
             if !links.iter().any(|link| link.contains(&joint) && link.contains(&other)) {
                 least = least.min((at[joint] - at[other]).norm());
             }
         }
-        // The foot of a slot without offset is its pivot, and so on the frame.
-        let is_on = |link: &&Vec<usize>| link.iter().any(|&other| at[other] == at[joint]);
+        // The foot of a slot without offset is its pivot, and so it lies on the frame.
+        let is_on = |link: &&Vec<JointId>| link.iter().any(|&other| at[other] == at[joint]);
         for link in links.iter().filter(|link| !is_on(link)) {
             for pair in link.windows(2) {
                 least = least.min(distance_to_segment(at[joint], at[pair[0]], at[pair[1]]));
@@ -84,13 +84,13 @@ fn clearance(links: &[Vec<usize>], at: &[Point]) -> f64 {
 }
 
 /// The least sine of the angles at which links meet.
-fn min_link_angle_sine(links: &[Vec<usize>], at: &[Point]) -> f64 {
+fn min_link_angle_sine(links: &[Vec<JointId>], at: &[Point]) -> f64 {
     let mut least: f64 = 1.0;
     for (k, link) in links.iter().enumerate() {
         for other in &links[..k] {
             for pin in link.iter().filter(|joint| other.contains(joint)) {
                 let arms =
-                    |link: &[usize]| link.iter().filter(|j| *j != pin).map(|&j| at[j] - at[*pin]).collect::<Vec<_>>();
+                    |link: &[JointId]| link.iter().filter(|j| *j != pin).map(|&j| at[j] - at[*pin]).collect::<Vec<_>>();
                 for a in arms(link) {
                     for b in arms(other) {
                         let lengths = a.norm() * b.norm();

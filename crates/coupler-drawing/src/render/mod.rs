@@ -1,4 +1,6 @@
-//! A scene as bytes: a function for each format. The formats decide nothing and do not know each other.
+//! The formats of pages: a function for each that renders a scene to bytes.
+//!
+//! Layout is finished before a scene is rendered. The formats do not depend on each other.
 
 #[cfg(feature = "pdf")]
 pub mod pdf;
@@ -10,14 +12,15 @@ mod svg;
 pub use png::{Error as PngError, png};
 pub use svg::svg;
 
-/// A format pages are rendered in.
+/// A format that an atlas is rendered to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Format {
     /// Scalable Vector Graphics.
     Svg,
     /// Portable Network Graphics.
     Png,
-    /// Portable Document Format: all pages in one book.
+    /// Portable Document Format, all pages in one book.
     Pdf,
 }
 
@@ -25,7 +28,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 3] = [Format::Svg, Format::Png, Format::Pdf];
 
-    /// The format of the files of single pages; none where all pages are in one book.
+    /// The format of the files of single pages; `None` if all pages are in one book.
     pub fn page_format(self) -> Option<PageFormat> {
         match self {
             Format::Svg => Some(PageFormat::Svg),
@@ -34,7 +37,12 @@ impl Format {
         }
     }
 
-    /// Its name, which is also the extension of its files.
+    /// Whether this build can write it: PDF needs the feature `pdf`.
+    pub fn is_built_in(self) -> bool {
+        self != Format::Pdf || cfg!(feature = "pdf")
+    }
+
+    /// The name, which is also the extension of the files.
     pub fn name(self) -> &'static str {
         match self {
             Format::Svg => "svg",
@@ -44,7 +52,7 @@ impl Format {
     }
 }
 
-/// A format in which each page is a file of its own.
+/// A format in which each page is a separate file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageFormat {
     /// Scalable Vector Graphics.
@@ -54,10 +62,10 @@ pub enum PageFormat {
 }
 
 impl PageFormat {
-    /// Every such format.
+    /// Every format of single pages.
     pub const ALL: [PageFormat; 2] = [PageFormat::Svg, PageFormat::Png];
 
-    /// Its name, which is also the extension of its files.
+    /// The name, which is also the extension of the files.
     pub fn name(self) -> &'static str {
         match self {
             PageFormat::Svg => Format::Svg.name(),
@@ -66,12 +74,13 @@ impl PageFormat {
     }
 }
 
-/// How text stands in an SVG.
+/// How text is written in an SVG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TextMode {
-    /// As text, which can be searched and read aloud.
+    /// As text elements, which can be searched and read aloud; what they look like depends on the installed fonts.
     #[default]
     Text,
-    /// As outlines, which look the same everywhere.
+    /// As outlines of glyphs, which look the same everywhere.
     Outlines,
 }

@@ -1,33 +1,36 @@
+//! The PNG format.
+
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Transform};
 
 use crate::scene::{Circle, Color, OutlineSegment, Path, Scene, Shape, Stroke, Text};
 
-/// Why a scene makes no image.
+/// An error of rendering a scene to PNG.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
-    /// There are too many pixels, or none.
-    #[error("a page of {width} by {height} pixels cannot be held in memory")]
+    /// The image has too many pixels, or none.
+    #[error("an image of {width} by {height} pixels does not fit in memory")]
     InvalidSize {
-        /// Pixels across.
+        /// The width in pixels.
         width: u32,
-        /// Pixels down.
+        /// The height in pixels.
         height: u32,
     },
     /// The encoder failed.
-    #[error("the image cannot be encoded: {0}")]
+    #[error("failed to encode the image: {0}")]
     Encoding(String),
 }
 
-/// A page is drawn in strips of about this many bytes, which the processor's caches hold, and not on one sheet: at 300
-/// pixels to the inch a tabloid page would take 67 million.
+/// The size of the strips a page is drawn in, about, in bytes. A strip fits the processor's caches, while a tabloid
+/// page at 300 dpi would need 67 million bytes.
 const STRIP_BYTES: usize = 1 << 22;
 
-/// A scene as a PNG image of `dpi` pixels to the inch, which the file records.
+/// Renders a scene to a PNG image of `dpi` pixels per inch, which the file records.
 ///
 /// # Errors
-/// A size that makes no image.
+/// If the image has too many pixels or cannot be encoded.
 pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let scale = dpi / 25.4;
     let pixels = |mm: f64| (mm * scale).round().max(1.0) as u32;
@@ -40,16 +43,16 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let mut rgb: Vec<[u8; 3]> = Vec::with_capacity(pixels);
     for top in (0..height).step_by(rows as usize) {
         let paper = blank_pixmap(scene.paper, (width, rows.min(height - top)));
-        let mut raster = Strip { pixmap: paper.ok_or(too_large.clone())?, scale, top_row: top };
-        shapes.iter().for_each(|shape| raster.draw_shape(*shape));
-        // The paper covers the page, so that every pixel is opaque and premultiplied colours are plain ones.
-        let (strip, _) = raster.pixmap.data().as_chunks();
-        rgb.extend(strip.iter().map(|[r, g, b, _]| [*r, *g, *b]));
+        let mut strip = Strip { pixmap: paper.ok_or(too_large.clone())?, scale, top_row: top };
+        shapes.iter().for_each(|shape| strip.draw_shape(*shape));
+        // The paper makes every pixel opaque, so premultiplied colours equal plain ones.
+        let (rgba, _) = strip.pixmap.data().as_chunks();
+        rgb.extend(rgba.iter().map(|[r, g, b, _]| [*r, *g, *b]));
     }
     encode_rgb(rgb.as_flattened(), (width, height), dpi)
 }
 
-/// Pixels on which nothing is drawn.
+/// A pixmap filled with one colour; `None` if it would be empty.
 fn blank_pixmap(Color(r, g, b): Color, (width, height): (u32, u32)) -> Option<Pixmap> {
     let pixels = vec![[r, g, b, 255]; width as usize * height as usize];
     Pixmap::from_vec(pixels.into_flattened(), IntSize::from_wh(width, height)?)
@@ -58,9 +61,9 @@ fn blank_pixmap(Color(r, g, b): Color, (width, height): (u32, u32)) -> Option<Pi
 /// A strip of a page.
 struct Strip {
     pixmap: Pixmap,
-    /// Pixels to a millimetre.
+    /// Pixels per millimetre.
     scale: f64,
-    /// The row of the page that is the strip's first.
+    /// The row of the page that is the first of the strip.
     top_row: u32,
 }
 
@@ -73,14 +76,14 @@ impl Strip {
         }
     }
 
-    /// From the page to the strip.
+    /// The transform from millimetres of the page to pixels of the strip.
     fn strip_from_page(&self) -> Transform {
         Transform::from_row(self.scale as f32, 0.0, 0.0, self.scale as f32, 0.0, -(self.top_row as f32))
     }
 
-    /// Whether anything between two heights of the page, in millimetres, can be seen on the strip.
+    /// Whether shapes from `high` to `low`, in millimetres from the top of the page, may touch the strip.
     fn is_visible(&self, high: f64, low: f64) -> bool {
-        // Half a pixel more is touched by what is smoothed, and a pixel by the thinnest line.
+        // Anti-aliasing adds half a pixel, and the thinnest line is a pixel wide.
         const MARGIN: f64 = 2.0;
         let (top, bottom) = (f64::from(self.top_row), f64::from(self.top_row + self.pixmap.height()));
         low * self.scale >= top - MARGIN && high * self.scale <= bottom + MARGIN
@@ -133,7 +136,7 @@ impl Strip {
     }
 
     fn draw_text(&mut self, text: &Text) {
-        // Letters are no higher than twice their em; a text that is turned may go anywhere.
+        // Letters are less than two ems high; rotated text is always drawn.
         if text.quarter_turns == 0
             && !self.is_visible(text.position.y - 2.0 * text.size, text.position.y + 2.0 * text.size)
         {
@@ -174,8 +177,8 @@ fn paint(Color(r, g, b): Color) -> Paint<'static> {
 
 fn encode_rgb(rgb: &[u8], (width, height): (u32, u32), dpi: f64) -> Result<Vec<u8>, Error> {
     let mut out = Vec::new();
-    // Most of a page is paper, and what is drawn on it does not resemble its neighbours: filters make such an image larger.
-    // The first level takes little more than half the time of the third, to files a quarter larger.
+    // Most pixels are paper, and the others do not resemble their neighbours, so filters would make the image larger.
+    // Level 1 takes little more than half the time of level 3, for files a quarter larger.
     PngEncoder::new_with_quality(&mut out, CompressionType::Level(1), FilterType::NoFilter)
         .write_image(rgb, width, height, ExtendedColorType::Rgb8)
         .map_err(|error| Error::Encoding(error.to_string()))?;
@@ -183,7 +186,7 @@ fn encode_rgb(rgb: &[u8], (width, height): (u32, u32), dpi: f64) -> Result<Vec<u
     Ok(out)
 }
 
-/// Puts a `pHYs` chunk after the header, which the encoder cannot write: pixels to the metre, both ways.
+/// Inserts a `pHYs` chunk after the header, which the encoder cannot write: pixels per metre in both directions.
 fn insert_resolution(png: &mut Vec<u8>, dpi: f64) {
     const SIGNATURE_AND_HEADER: usize = 8 + 25;
     let per_metre = ((dpi / 0.0254).round() as u32).to_be_bytes();

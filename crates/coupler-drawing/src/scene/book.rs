@@ -1,32 +1,34 @@
+//! Links, page labels and the outline of a book.
+
 use coupler_curves::geometry::{Point, Vector};
 
-/// A part of a page of a book that leads to another page of it.
+/// A rectangle on a page of a book that links to another page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageLink {
-    /// Its upper left corner.
+    /// The upper left corner.
     pub corner: Point,
-    /// Its width and height in millimetres.
+    /// The width and height in millimetres.
     pub size: Vector,
-    /// The page it leads to, by its place in the book, from 0.
+    /// The index of the target page in the book.
     pub page_index: usize,
 }
 
-/// What a page of a book is called, beside its place: its number, from 1.
+/// The label of a page of a book: its number, from 1, which may differ from its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageNumber {
-    /// In small Roman numerals: what stands before and after the pages themselves.
+    /// Lower-case Roman numerals, for front matter and index.
     Roman(u32),
-    /// In Arabic ones.
+    /// Arabic numerals.
     Arabic(u32),
 }
 
 /// An entry of a book's outline.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OutlineEntry {
-    /// What it says.
+    /// The title.
     pub title: String,
-    /// The page it leads to, by its place in the book, from 0.
+    /// The index of the target page in the book.
     pub page_index: usize,
-    /// The entries under it, which are not shown before it is opened.
+    /// The entries under this one, collapsed at first.
     pub children: Vec<OutlineEntry>,
 }

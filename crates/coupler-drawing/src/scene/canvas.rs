@@ -1,3 +1,5 @@
+//! The plotters backend that records a scene.
+
 use std::convert::Infallible;
 
 use plotters_backend::text_anchor::{HPos, VPos};
@@ -17,7 +19,7 @@ pub struct Canvas<'s> {
 
 type DrawResult = Result<(), DrawingErrorKind<Infallible>>;
 
-/// Pixels of the backend to a millimetre.
+/// Pixels of the backend per millimetre.
 const PIXELS_PER_MM: f64 = 100.0;
 
 impl<'s> Canvas<'s> {
@@ -26,22 +28,22 @@ impl<'s> Canvas<'s> {
         Canvas { scene }
     }
 
-    /// Records an item as it is: what elements of our own do.
+    /// Records an item in full precision, as the elements of this crate do.
     pub fn record(&mut self, item: Item) {
         self.scene.items.push(item);
     }
 
-    /// Millimetres to the backend's pixels.
+    /// A length in millimetres in pixels of the backend, rounded.
     pub fn to_pixels(mm: f64) -> i32 {
         (mm * PIXELS_PER_MM).round() as i32
     }
 
-    /// The place of a backend coordinate in millimetres.
+    /// A coordinate of the backend in millimetres.
     pub fn to_millimetres((x, y): BackendCoord) -> Point {
         Point::new(f64::from(x) / PIXELS_PER_MM, f64::from(y) / PIXELS_PER_MM)
     }
 
-    /// The colour over the paper: a translucent one is mixed here, so that no format need know of it.
+    /// A colour blended with that of the paper, so that the formats need no transparency.
     fn blend(&self, color: BackendColor) -> Color {
         let Color(r, g, b) = self.scene.paper;
         let mix = |over: u8, under: u8| {
@@ -118,12 +120,12 @@ impl DrawingBackend for Canvas<'_> {
 
     fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> DrawResult {
         let (face, size) = (face_for_style(self.scene.typeface, style), style.size() / PIXELS_PER_MM);
-        let (above, below) = face.ascent_and_descent();
-        // From the anchored height of the line's box down to its baseline.
+        let (ascent, descent) = face.ascent_and_descent();
+        // From the anchor of the line's box down to its baseline.
         let drop = match style.anchor().v_pos {
-            VPos::Top => above,
-            VPos::Center => (above - below) / 2.0,
-            VPos::Bottom => -below,
+            VPos::Top => ascent,
+            VPos::Center => (ascent - descent) / 2.0,
+            VPos::Bottom => -descent,
         } * size;
         let anchor = match style.anchor().h_pos {
             HPos::Left => Anchor::Start,
@@ -149,8 +151,8 @@ impl DrawingBackend for Canvas<'_> {
         style: &T,
     ) -> Result<(u32, u32), DrawingErrorKind<Infallible>> {
         let face = face_for_style(self.scene.typeface, style);
-        let (above, below) = face.ascent_and_descent();
-        let (width, height) = (face.width(text, style.size()), (above + below) * style.size());
+        let (ascent, descent) = face.ascent_and_descent();
+        let (width, height) = (face.width(text, style.size()), (ascent + descent) * style.size());
         Ok((width.ceil() as u32, height.ceil() as u32))
     }
 }

@@ -1,13 +1,15 @@
+//! Colours.
+
 use std::fmt;
 
 use coupler_curves::geometry::trig;
 
-/// A colour, red, green and blue, in sRGB.
+/// A colour in sRGB: red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Color(pub u8, pub u8, pub u8);
 
 impl Color {
-    /// Reads `#rrggbb` or `#rgb`, in capitals or not; none where a text is neither.
+    /// Parses `#rrggbb` or `#rgb` in upper or lower case; `None` for any other text.
     pub fn parse(text: &str) -> Option<Color> {
         let digits = text.strip_prefix('#')?;
         let digit = |k: usize| digits.as_bytes().get(k).and_then(|&byte| char::from(byte).to_digit(16));
@@ -19,7 +21,7 @@ impl Color {
         }
     }
 
-    /// Red, green and blue as parts of the light of white.
+    /// Linear red, green and blue, each from 0 to 1.
     fn to_linear(self) -> [f64; 3] {
         [self.0, self.1, self.2].map(|channel| match f64::from(channel) / 255.0 {
             c if c <= 0.04045 => c / 12.92,
@@ -27,22 +29,22 @@ impl Color {
         })
     }
 
-    /// The relative luminance, 0 of black to 1 of white (WCAG 2.2).
+    /// The relative luminance, from 0 for black to 1 for white (WCAG 2.2).
     pub fn luminance(self) -> f64 {
         let [r, g, b] = self.to_linear();
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
-    /// The contrast with another colour, 1 of like ones to 21 of black and white (WCAG 2.2).
+    /// The contrast ratio with another colour, from 1 for equal colours to 21 for black and white (WCAG 2.2).
     pub fn contrast(self, other: Color) -> f64 {
         let (a, b) = (self.luminance(), other.luminance());
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
     }
 
-    /// L*, a* and b* of CIELAB under daylight, D65.
+    /// L*, a* and b* of CIELAB with the white point D65.
     fn to_lab(self) -> [f64; 3] {
         let [r, g, b] = self.to_linear();
-        // X and Z over those of white.
+        // X and Z relative to those of white.
         let x = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505;
         let z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089;
         let [x, y, z] = [x, self.luminance(), z].map(|part| match part {
@@ -52,22 +54,23 @@ impl Color {
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
-    /// The lightness L* of CIELAB, 0 of black to 100 of white.
+    /// The lightness L* of CIELAB, from 0 for black to 100 for white.
     pub fn lightness(self) -> f64 {
         self.to_lab()[0]
     }
 
-    /// How far another colour is off in CIELAB: 2 can just be seen side by side, 100 is from black to white (CIE 1976).
+    /// The difference from another colour in CIELAB (CIE 1976): 2 is just visible side by side, black and white differ
+    /// by 100.
     pub fn difference(self, other: Color) -> f64 {
         let [a, b] = [self.to_lab(), other.to_lab()];
         (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
     }
 
-    /// The grey nearest to a lightness.
+    /// The grey whose lightness is nearest to `lightness`.
     pub fn from_lightness(lightness: f64) -> Color {
-        let off = |grey: &Color| (grey.lightness() - lightness).abs();
+        let deviation = |grey: &Color| (grey.lightness() - lightness).abs();
         let greys = (0..=u8::MAX).map(|level| Color(level, level, level));
-        greys.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(Color(0, 0, 0))
+        greys.min_by(|a, b| deviation(a).total_cmp(&deviation(b))).unwrap_or(Color(0, 0, 0))
     }
 
     /// The grey of the same lightness.
@@ -88,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_written_as_they_are_read() {
+    fn colours_are_parsed_and_formatted() {
         assert_eq!(Color::parse("#Fff"), Some(Color(255, 255, 255)));
         assert_eq!(Color::parse("#8c2d19").map(|color| color.to_string()).as_deref(), Some("#8c2d19"));
         for text in ["", "#", "8c2d19", "#8c2d1", "#8c2d190", "#8c2dg9", "#+1+1+1", "red", "#éa", "#ééé"] {
@@ -97,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn contrast_and_lightness_are_those_of_their_definitions() {
+    fn contrast_and_lightness_match_their_definitions() {
         let [black, white] = [Color(0, 0, 0), Color(255, 255, 255)];
         assert!((black.contrast(white) - 21.0).abs() < 1e-12 && (white.contrast(white) - 1.0).abs() < 1e-12);
         // #767676 is the lightest grey with 4.5:1 on white.
@@ -106,7 +109,7 @@ mod tests {
         // L* of a luminance of 0.184187 is 50.
         assert_eq!(Color::from_lightness(50.0), Color(0x77, 0x77, 0x77));
         assert!((black.difference(white) - 100.0).abs() < 0.1);
-        // The L*, a* and b* of pure red are 53.2, 80.1 and 67.2: from black 117.3 in all.
+        // L*, a* and b* of pure red are 53.2, 80.1 and 67.2: its difference from black is 117.3.
         assert!((Color(255, 0, 0).difference(black) - 117.3).abs() < 0.1);
         assert_eq!(Color(12, 12, 12).to_grey(), Color(12, 12, 12));
     }

@@ -1,3 +1,5 @@
+//! Typefaces, and the glyphs of their characters.
+
 use std::borrow::Cow;
 use std::sync::{LazyLock, OnceLock};
 
@@ -5,7 +7,7 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
-/// A typeface that is shipped, of the DejaVu family.
+/// A typeface of the DejaVu family, which is part of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Typeface {
     /// DejaVu Serif.
@@ -22,7 +24,7 @@ pub enum Typeface {
 }
 
 impl Typeface {
-    /// Every typeface by the name it goes by in a manifest.
+    /// Every typeface with its name in a manifest.
     pub const NAMED: [(&'static str, Typeface); 5] = [
         ("serif", Typeface::Serif),
         ("serif-condensed", Typeface::SerifCondensed),
@@ -31,17 +33,17 @@ impl Typeface {
         ("mono", Typeface::Mono),
     ];
 
-    /// Its upright face.
+    /// The upright face.
     pub fn regular(self) -> Face {
         Face { typeface: self, is_italic: false }
     }
 
-    /// Its italic or oblique face, for letters that stand for values.
+    /// The italic or oblique face, for the names of parameters.
     pub fn italic(self) -> Face {
         Face { typeface: self, is_italic: true }
     }
 
-    /// What a text is set in where this very typeface is not to be had: families of like width, in order.
+    /// The value of `font-family` in an SVG: this typeface, then families of similar width.
     pub fn fallback_families(self) -> &'static str {
         match self {
             Typeface::Serif => "'DejaVu Serif','Bitstream Vera Serif',Georgia,'Noto Serif',serif",
@@ -57,27 +59,27 @@ impl Typeface {
     }
 }
 
-/// A face of a shipped typeface.
+/// A face of a typeface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Face {
     /// The typeface.
     pub typeface: Typeface,
-    /// Whether it is the italic or oblique one.
+    /// Whether it is italic or oblique.
     pub is_italic: bool,
 }
 
-/// A part of a glyph's outline: in ems, y up, from the glyph's origin on the baseline.
+/// A segment of the outline of a glyph, in ems with y up, from the origin of the glyph on the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OutlineSegment {
-    /// A new contour begins.
+    /// The start of a contour.
     Move([f64; 2]),
-    /// A straight line.
+    /// A straight line to a point.
     Line([f64; 2]),
-    /// A quadratic curve by its control point and its end.
+    /// A quadratic Bézier curve: control point and end.
     Quad([f64; 2], [f64; 2]),
-    /// A cubic curve by its control points and its end.
+    /// A cubic Bézier curve: both control points and end.
     Cubic([f64; 2], [f64; 2], [f64; 2]),
-    /// The contour is closed.
+    /// The end of a closed contour.
     Close,
 }
 
@@ -85,21 +87,22 @@ struct Font {
     bytes: &'static [u8],
     font: FontRef<'static>,
     units_per_em: f64,
-    /// The glyphs of the characters that texts are made of, each read when it is first met.
+    /// The cached glyphs of the first [`CACHED_CHARACTERS`] characters, each read on first use.
     glyphs: Vec<OnceLock<Glyph>>,
 }
 
-/// What is known of a character in a face.
+/// The glyph of a character in a face.
 #[derive(Clone)]
 struct Glyph {
-    /// Its number in the font.
+    /// The glyph index in the font.
     index: u32,
-    /// In ems.
+    /// The advance width in ems.
     advance: f64,
     outline: Vec<OutlineSegment>,
 }
 
-/// Latin, Greek and Cyrillic, punctuation, arrows and the signs of mathematics are before this character.
+/// The number of characters whose glyphs are cached: Latin, Greek and Cyrillic, punctuation, arrows and mathematical
+/// signs.
 const CACHED_CHARACTERS: usize = 0x2300;
 
 impl Font {
@@ -111,18 +114,18 @@ impl Font {
 
     fn glyph(&self, character: char) -> Cow<'_, Glyph> {
         match self.glyphs.get(character as usize) {
-            Some(kept) => Cow::Borrowed(kept.get_or_init(|| self.read_glyph(character))),
+            Some(cell) => Cow::Borrowed(cell.get_or_init(|| self.read_glyph(character))),
             None => Cow::Owned(self.read_glyph(character)),
         }
     }
 
-    /// The glyph of a character; a box for one the face does not have.
+    /// The glyph of a character; a box if the face does not have it.
     fn read_glyph(&self, character: char) -> Glyph {
         let id = self.font.charmap().map(character).unwrap_or(GlyphId::NOTDEF);
         let advance = self.font.glyph_metrics(Size::unscaled(), LocationRef::default()).advance_width(id);
         let mut pen = Pen { units_per_em: self.units_per_em, segments: Vec::new() };
         if let Some(glyph) = self.font.outline_glyphs().get(id) {
-            // A glyph that cannot be drawn leaves its space empty.
+            // A glyph that cannot be drawn has an empty outline.
             let _ = glyph.draw(DrawSettings::unhinted(Size::unscaled(), LocationRef::default()), &mut pen);
         }
         let advance = f64::from(advance.unwrap_or_default()) / self.units_per_em;
@@ -130,7 +133,7 @@ impl Font {
     }
 }
 
-/// A font that is read when it is first needed.
+/// A font, parsed on first use.
 macro_rules! font {
     ($module:ident, $face:ident) => {{
         static FONT: LazyLock<Font> = LazyLock::new(|| Font::new(dejavu::$module::$face()));
@@ -139,7 +142,7 @@ macro_rules! font {
 }
 
 impl Face {
-    /// The whole font, an OpenType file.
+    /// The font file, in OpenType format.
     pub fn bytes(self) -> &'static [u8] {
         self.font().bytes
     }
@@ -159,24 +162,24 @@ impl Face {
         }
     }
 
-    /// The width of a text at an em of `size`, in the unit of `size`; no kerning.
+    /// The width of a text at a font size, in the unit of `size`, without kerning.
     pub fn width(self, text: &str, size: f64) -> f64 {
         text.chars().map(|c| self.advance(c)).sum::<f64>() * size
     }
 
-    /// How far a character moves on, in ems.
+    /// The advance width of a character, in ems.
     pub fn advance(self, character: char) -> f64 {
         self.font().glyph(character).advance
     }
 
-    /// How far the face reaches above and below its baseline, in ems, both positive.
+    /// The ascent and the descent of the face, in ems, both positive.
     pub fn ascent_and_descent(self) -> (f64, f64) {
         let Font { font, units_per_em, .. } = self.font();
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         (f64::from(metrics.ascent) / units_per_em, f64::from(-metrics.descent) / units_per_em)
     }
 
-    /// The outline of a character; a box for one the face does not have.
+    /// The outline of a character; a box if the face does not have it.
     pub fn outline(self, character: char) -> Cow<'static, [OutlineSegment]> {
         match self.font().glyph(character) {
             Cow::Borrowed(glyph) => Cow::Borrowed(&glyph.outline),
@@ -184,12 +187,13 @@ impl Face {
         }
     }
 
-    /// The number of a character's glyph in the font; 0, a box, for one the face does not have.
+    /// The glyph index of a character; 0, which is a box, if the face does not have it.
     pub fn glyph_index(self, character: char) -> u32 {
         self.font().glyph(character).index
     }
 }
 
+/// Collects the outline of a glyph in ems.
 struct Pen {
     units_per_em: f64,
     segments: Vec<OutlineSegment>,
@@ -228,7 +232,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_shipped_faces_have_the_letters_of_the_pages() {
+    fn all_faces_have_the_characters_of_pages() {
         for face in Typeface::NAMED.into_iter().flat_map(|(_, typeface)| [typeface.regular(), typeface.italic()]) {
             for c in "Watt's linkage · p = 2.00, 5° – × ∞ §".chars().filter(|c| *c != ' ') {
                 assert_ne!(face.font().font.charmap().map(c), None, "{c}");

@@ -1,8 +1,8 @@
-//! A finished page as a display list in millimetres.
+//! Scenes: finished pages as display lists in millimetres.
 //!
-//! A [`Scene`] is recorded by a [`Canvas`], a plotters `DrawingBackend` whose pixel is 1/100 mm. What plotters draws
-//! arrives in those whole numbers; elements of our own record their items in full precision. The page's origin is its
-//! upper left corner, x to the right and y down.
+//! A [`Scene`] is recorded by a [`Canvas`], a plotters `DrawingBackend` whose pixel is 1/100 mm. Elements of plotters
+//! are recorded in whole pixels, elements of this crate in full precision. The origin of the page is its upper left
+//! corner, with x to the right and y down.
 
 mod book;
 mod canvas;
@@ -16,44 +16,44 @@ pub use font::{Face, OutlineSegment, Typeface};
 
 use coupler_curves::geometry::Point;
 
-/// A page, ready to be turned into bytes.
+/// A finished page, which can be rendered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Its width in millimetres.
+    /// The width in millimetres.
     pub width: f64,
-    /// Its height in millimetres.
+    /// The height in millimetres.
     pub height: f64,
     /// The colour of the paper.
     pub paper: Color,
-    /// What its texts are set in.
+    /// The typeface of the texts.
     pub typeface: Typeface,
-    /// What the page is called.
+    /// The title of the document.
     pub title: String,
-    /// What is drawn, from back to front.
+    /// The items, from back to front.
     pub items: Vec<Item>,
-    /// What leads to other pages, where it is a page of a book; elsewhere nothing does.
+    /// Links to other pages, on a page of a book.
     pub links: Vec<PageLink>,
 }
 
-/// Something drawn.
+/// An item of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// Items that belong together.
     Group(Group),
-    /// Lines.
+    /// Polylines.
     Path(Path),
     /// A circle.
     Circle(Circle),
     /// A line of text.
     Text(Text),
-    /// Items that move.
+    /// Items that move over time.
     Animation(Animation),
 }
 
-/// An item without parts.
+/// A drawn item, which has no other items in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape<'a> {
-    /// Lines.
+    /// Polylines.
     Path(&'a Path),
     /// A circle.
     Circle(&'a Circle),
@@ -61,28 +61,28 @@ pub enum Shape<'a> {
     Text(&'a Text),
 }
 
-/// Items that belong together, and what they are.
+/// Items that belong together, with a description.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
-    /// A name that no other group of the page has; may be empty.
+    /// An id, unique on the page; may be empty.
     pub id: String,
-    /// The kind of thing it is; may be empty.
+    /// The class, which is the same for groups of the same kind; may be empty.
     pub class: &'static str,
-    /// What it is, in words; may be empty.
+    /// A description; may be empty.
     pub title: String,
-    /// Facts about it.
+    /// Data attributes: names and values.
     pub data: Vec<(&'static str, String)>,
-    /// What is drawn.
+    /// The items, from back to front.
     pub items: Vec<Item>,
 }
 
-/// Items that go from place to place, again and again. Where nothing can move they stand as in the first frame.
+/// Items that move, repeated without end. A format without animation shows the first frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animation {
-    /// The items at equal steps of time, the first once more at the end where they come back to it. They differ in their
-    /// places only.
+    /// The items at equal time steps; a periodic animation repeats its first frame at the end. Frames differ only in
+    /// the positions of their items.
     pub frames: Vec<Vec<Item>>,
-    /// How long it takes from the first frame to the last.
+    /// The time from the first frame to the last.
     pub seconds: f64,
 }
 
@@ -91,29 +91,29 @@ pub struct Animation {
 pub struct Path {
     /// The polylines.
     pub polylines: Vec<Polyline>,
-    /// How they are stroked.
+    /// The stroke, if the polylines are stroked.
     pub stroke: Option<Stroke>,
-    /// The colour they are filled with.
+    /// The colour of the fill, if they are filled.
     pub fill: Option<Color>,
 }
 
 /// A polyline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// Its points.
+    /// The points.
     pub points: Vec<Point>,
-    /// Whether the last is joined to the first.
+    /// Whether the last point is joined to the first.
     pub is_closed: bool,
 }
 
-/// How a line is stroked; joins are round.
+/// The stroke of a line; joins are round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// The colour.
     pub color: Color,
     /// The width in millimetres.
     pub width: f64,
-    /// Whether the ends are round; otherwise they are cut square at the last point.
+    /// Whether the ends are round; otherwise they are butt ends.
     pub has_round_ends: bool,
 }
 
@@ -124,30 +124,30 @@ pub struct Circle {
     pub centre: Point,
     /// The radius in millimetres.
     pub radius: f64,
-    /// How it is stroked.
+    /// The stroke, if the circle is stroked.
     pub stroke: Option<Stroke>,
-    /// The colour it is filled with.
+    /// The colour of the fill, if it is filled.
     pub fill: Option<Color>,
 }
 
 /// A line of text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Where it stands, on its baseline.
+    /// The position of the anchor, on the baseline.
     pub position: Point,
-    /// Which part of it stands there.
+    /// The part of the text that is at `position`.
     pub anchor: Anchor,
-    /// The size of the em in millimetres.
+    /// The font size (em) in millimetres.
     pub size: f64,
     /// The colour.
     pub color: Color,
-    /// Its pieces, each in a face.
+    /// The runs of the text, each in one face.
     pub runs: Vec<TextRun>,
-    /// Quarter turns clockwise about `at`.
+    /// The rotation about `position` in quarter turns clockwise.
     pub quarter_turns: u8,
 }
 
-/// A piece of text in one face.
+/// A run of text in one face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextRun {
     /// The text.
@@ -156,19 +156,19 @@ pub struct TextRun {
     pub face: Face,
 }
 
-/// Which part of a text stands at its place.
+/// The part of a text that is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Its beginning.
+    /// The start.
     Start,
-    /// Its middle.
+    /// The middle.
     Middle,
-    /// Its end.
+    /// The end.
     End,
 }
 
 impl Scene {
-    /// What is drawn where nothing can move, from back to front.
+    /// The shapes of the page without animation, from back to front.
     pub fn shapes(&self) -> Vec<Shape<'_>> {
         let mut shapes = Vec::new();
         collect_shapes(&self.items, &mut shapes);
@@ -183,18 +183,20 @@ fn collect_shapes<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
             Item::Path(path) => shapes.push(Shape::Path(path)),
             Item::Circle(circle) => shapes.push(Shape::Circle(circle)),
             Item::Text(text) => shapes.push(Shape::Text(text)),
-            Item::Animation(moving) => moving.frames.iter().take(1).for_each(|first| collect_shapes(first, shapes)),
+            Item::Animation(animation) => {
+                animation.frames.iter().take(1).for_each(|first| collect_shapes(first, shapes))
+            }
         }
     }
 }
 
 impl Text {
-    /// Its width in millimetres.
+    /// The width in millimetres.
     pub fn width(&self) -> f64 {
         self.runs.iter().map(|run| run.face.width(&run.text, self.size)).sum()
     }
 
-    /// Where it begins on its baseline, before it is turned.
+    /// The start of the text on its baseline, before the rotation.
     pub fn start(&self) -> Point {
         let shift = match self.anchor {
             Anchor::Start => 0.0,

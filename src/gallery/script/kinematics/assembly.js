@@ -39,7 +39,7 @@ export class LinkageAssembly {
     const isGood = (x) => Number.isInteger(x) && Math.abs(x) >= 1 && Math.abs(x) <= MOST;
     if (!ratio.every(isGood)) {
       const rule = `both must be whole numbers from 1 to ${MOST} or their negatives`;
-      throw new LinkageError(`\`${name}\` is geared ${ratio[0]} to ${ratio[1]}, and ${rule}`);
+      throw new LinkageError(`\`${name}\` has the gear ratio ${ratio[0]} to ${ratio[1]}, but ${rule}`);
     }
     const lowest = greatestDivisor(Math.abs(ratio[0]), Math.abs(ratio[1])) * Math.sign(ratio[1]);
     const id = this.#add(name, { kind: "gear", pivot, length, ratio: ratio.map((x) => x / lowest), phase });
@@ -97,7 +97,7 @@ export class LinkageAssembly {
   yoke(name, from, line, offset, angle) {
     this.#line(name, line);
     const [cos, sin] = cosSinOfDegrees(angle);
-    if (sin === 0) throw new LinkageError(`the slot of \`${name}\` lies along its guide`);
+    if (sin === 0) throw new LinkageError(`the slot of \`${name}\` is parallel to its guide`);
     const id = this.#add(name, { kind: "yoke", from, line, offset, lean: cos / sin });
     this.#body([id, line[1]], line, 0, "towards");
     return id;
@@ -124,7 +124,7 @@ export class LinkageAssembly {
     );
     if (known.length > 1) {
       const names = `\`${this.joints[base[0]].name}\` and \`${this.joints[base[1]].name}\``;
-      throw new LinkageError(`\`${name}\` may be on more than one link that is known by ${names}`);
+      throw new LinkageError(`\`${name}\` is ambiguous: more than one link slides on the line of ${names}`);
     }
     if (known.length === 1) return this.#pointOfCarrier(name, known[0], along, across);
     const found = this.#directedLink(name, base);
@@ -179,7 +179,7 @@ export class LinkageAssembly {
   #twoValued(name, side) {
     const MOST = 16;
     if (this.dyads === MOST) {
-      throw new LinkageError(`\`${name}\` is one dyad more than the ${MOST} a linkage may have`);
+      throw new LinkageError(`\`${name}\` is one dyad too many: a linkage may have at most ${MOST}`);
     }
     this.signs = signsWith(this.signs, this.dyads, side);
     return this.dyads++;
@@ -205,14 +205,14 @@ export class LinkageAssembly {
 
   #positive(name, length) {
     if (!(length > 0 && Number.isFinite(length))) {
-      throw new LinkageError(`the length ${length} of \`${name}\` is not positive`);
+      throw new LinkageError(`the length of \`${name}\` must be positive, found ${length}`);
     }
   }
 
   #two(name, [a, b]) {
     if (a !== b) return;
     const twice = `\`${this.joints[a].name}\``;
-    throw new LinkageError(`\`${name}\` is placed from ${twice} and ${twice}, which are one joint`);
+    throw new LinkageError(`\`${name}\` is placed from ${twice} and ${twice}, which are the same joint`);
   }
 
   // Two joints that a line goes through: of one link, they are apart.
@@ -225,7 +225,7 @@ export class LinkageAssembly {
   #areApart(name, base, { from, to }) {
     if (from.x !== to.x || from.y !== to.y) return;
     const names = `\`${this.joints[base[0]].name}\` and \`${this.joints[base[1]].name}\``;
-    throw new LinkageError(`\`${name}\` has no direction to go by: ${names} are one point`);
+    throw new LinkageError(`\`${name}\` is placed along the line from ${names}, but these coincide`);
   }
 
   // The link that has both joints, which are apart, and where they are on it.
@@ -234,7 +234,7 @@ export class LinkageAssembly {
     const found = this.#commonLink(base);
     if (!found) {
       const [a, b] = base.map((joint) => `\`${this.joints[joint].name}\``);
-      throw new LinkageError(`\`${name}\` needs a link with both ${a} and ${b}, and no link has both`);
+      throw new LinkageError(`\`${name}\` needs a link with both ${a} and ${b}, but no link has both`);
     }
     this.#areApart(name, base, found);
     return found;

@@ -1,22 +1,24 @@
-//! Limits in closed form: an extent that goes with the cosine of the input.
+//! Limits in closed form, of a dyad whose extent depends on the cosine of the input.
 
 use crate::geometry::{Vector, cross, trig};
-use crate::linkage::length_tolerance;
-use crate::motion::circuit::InputPosition;
+use crate::linkage::{DyadId, length_tolerance};
+use crate::motion::pass::InputPosition;
 use crate::motion::interval::{EndCause, IntervalEnd, Span};
 
-/// An extent that goes with the cosine of the input: with the angle measured from `towards`, it is at one end of its
-/// range at 0 degrees and at the other at 180.
+/// An extent that is a monotonic function of the cosine of the input: with the angle measured from `near_direction`, it
+/// is least at 0 degrees and greatest at 180.
 pub(super) struct SinusoidalExtent {
-    /// The input's direction at which the near bound may be met.
+    /// The direction of the input at which the extent is least.
     near_direction: Vector,
     /// The least and the greatest extent.
     pub range: [f64; 2],
-    /// What is left to the bounds at 0 and at 180 degrees; negative where they are passed.
+    /// The distance of the least extent from the lower bound and of the greatest from the upper bound; negative where
+    /// the bound is exceeded.
     margins: [f64; 2],
-    /// 1 - cos and 1 + cos of the input where the bound near 0 degrees is met, and where that near 180 is.
+    /// 1 - cos and 1 + cos of the input at which the extent equals the lower bound, and of that at the upper bound.
     versines: [[f64; 2]; 2],
-    /// What is left to the other bound at 0 and at 180 degrees: where there is none, the dyad closes nowhere.
+    /// The distance of the least extent from the upper bound and of the greatest from the lower bound: if one is
+    /// negative, the dyad closes at no input.
     opposite_margins: [f64; 2],
     /// Lengths closer than this are equal.
     tolerance: f64,
@@ -36,7 +38,7 @@ impl SinusoidalExtent {
             near_direction: quotient(to_fixed, on_arm),
             range: [nearest, furthest],
             margins: [nearest - low, high - furthest],
-            // Differences of squares are taken apart: exact factors, and accurate when small.
+            // Differences of squares are factored: the factors are exact, and the product is accurate when small.
             versines: [low, if high.is_finite() { high } else { furthest }].map(|bound| {
                 [(bound - nearest) * (bound + nearest) / product, (furthest - bound) * (furthest + bound) / product]
             }),
@@ -46,38 +48,38 @@ impl SinusoidalExtent {
         }
     }
 
-    /// `beside` less the projection of an arm on a fixed direction.
-    pub fn from_projection(on_arm: Vector, normal: Vector, beside: f64, [low, high]: [f64; 2]) -> SinusoidalExtent {
+    /// `distance` minus the projection of an arm on a fixed direction.
+    pub fn from_projection(on_arm: Vector, normal: Vector, distance: f64, [low, high]: [f64; 2]) -> SinusoidalExtent {
         let arm = on_arm.norm();
-        let (least, greatest) = (beside - arm, beside + arm);
+        let (least, greatest) = (distance - arm, distance + arm);
         SinusoidalExtent {
             near_direction: quotient(normal, on_arm),
             range: [least, greatest],
             margins: [least - low, high - greatest],
             versines: [low, high].map(|bound| [(bound - least) / arm, (greatest - bound) / arm]),
             opposite_margins: [high - least, greatest - low],
-            tolerance: length_tolerance(beside.abs() + arm + high),
+            tolerance: length_tolerance(distance.abs() + arm + high),
             base_can_vanish: false,
         }
     }
 
-    /// The input whose angle from `towards` has this cosine and sine.
+    /// The input whose angle from `near_direction` has this cosine and sine.
     fn input_position(&self, cos: f64, sin: f64) -> InputPosition {
         let t = self.near_direction;
-        // Both angles are exact where the arm starts on the frame line.
+        // Both angles are exact if the arm is on the frame line at input 0.
         let deg = trig::degrees(trig::atan2(t.y, t.x)) + trig::degrees(trig::atan2(sin, cos));
         InputPosition { value: deg, cos: t.x * cos - t.y * sin, sin: t.y * cos + t.x * sin }
     }
 
     /// The spans of the whole turn on which the dyad closes.
     ///
-    /// What is compared at 0 and at 180 degrees is a sum of lengths with a sum of lengths; equal within their
-    /// rounding, they make a change point.
-    pub fn closing_spans(&self, dyad: usize, next_id: &mut usize) -> Vec<Span> {
-        if self.opposite_margins.iter().any(|hope| *hope <= self.tolerance) {
+    /// At 0 and at 180 degrees two sums of lengths are compared; if they are equal within their rounding, there is a
+    /// change point.
+    pub fn closing_spans(&self, dyad: DyadId, next_id: &mut usize) -> Vec<Span> {
+        if self.opposite_margins.iter().any(|margin| *margin <= self.tolerance) {
             return Vec::new();
         }
-        let [fold, stretch] = self.margins.map(|room| BoundState::from_margin(room, self.tolerance));
+        let [fold, stretch] = self.margins.map(|margin| BoundState::from_margin(margin, self.tolerance));
         // The smaller of 1 - cos and 1 + cos is the exact one, and both make the sine.
         let direction = |[minus, plus]: [f64; 2]| {
             (if minus < plus { 1.0 - minus } else { plus - 1.0 }, (minus * plus).max(0.0).sqrt())
@@ -91,7 +93,7 @@ impl SinusoidalExtent {
             if cause == change && cos > 0.0 { end.with_flat_dyad(dyad, self.base_can_vanish) } else { end }
         };
         let arc = |lower: IntervalEnd, upper: IntervalEnd| {
-            // Both ends are within half a turn of `towards`; the upper one follows the lower.
+            // Both ends are within half a turn of `near_direction`; the upper one follows the lower.
             let turn = if upper.input.value > lower.input.value { 0.0 } else { 360.0 };
             Span::Range { lower, upper: upper.shifted(turn) }
         };
@@ -137,26 +139,26 @@ impl SinusoidalExtent {
     }
 }
 
-/// The direction that turns `b` into the direction of `a`: their quotient, as of complex numbers.
+/// The rotation from the direction of `b` to that of `a`: the normalized quotient of complex numbers.
 fn quotient(a: Vector, b: Vector) -> Vector {
     let product = a.norm() * b.norm();
     if product > 0.0 { Vector::new(a.dot(&b), cross(b, a)) / product } else { Vector::new(1.0, 0.0) }
 }
 
-/// Whether a dyad can pass the shortest or the longest its base can be.
+/// Whether the extent of a dyad reaches a bound.
 #[derive(Clone, Copy, PartialEq)]
 enum BoundState {
     Clear,
-    /// It lies flat there, and can.
+    /// The dyad is flat at the extreme of its extent, which equals the bound.
     Touched,
     Exceeded,
 }
 
 impl BoundState {
-    fn from_margin(room: f64, tolerance: f64) -> BoundState {
-        if room.abs() <= tolerance {
+    fn from_margin(margin: f64, tolerance: f64) -> BoundState {
+        if margin.abs() <= tolerance {
             BoundState::Touched
-        } else if room > 0.0 {
+        } else if margin > 0.0 {
             BoundState::Clear
         } else {
             BoundState::Exceeded

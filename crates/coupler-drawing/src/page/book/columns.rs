@@ -1,4 +1,4 @@
-//! Lists in columns, on as many pages as it takes.
+//! Lists in columns, on as many pages as needed.
 
 use plotters::drawing::IntoDrawingArea;
 
@@ -10,41 +10,41 @@ use super::{Atlas, Volume, draw_page_number, empty_scene};
 use crate::scene::{Anchor, Canvas, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
 use coupler_curves::geometry::{Point, Vector};
 
-/// A line of a list. Pages are those of the atlas, from 1.
+/// A row of a list. Pages are numbered as in the atlas, from 1.
 pub(super) enum Row<'a> {
-    /// What follows it is about this.
+    /// A heading of the rows after it.
     Heading { text: String, page: Option<usize> },
-    /// A remark, of one line or more.
+    /// A note, wrapped to as many lines as needed.
     Note(String),
-    /// Something with its page.
+    /// An entry with its page.
     Entry(Entry<'a>),
 }
 
-/// A geometry, or what else has a page.
+/// A geometry with its page.
 pub(super) struct Entry<'a> {
-    /// The name of its family, where it needs one.
+    /// The title of its family, if the list has several.
     pub family: Option<&'a str>,
     pub caption: &'a str,
-    /// Words of the caption that stand for values.
+    /// The names of parameters in the caption, set in italics.
     pub symbols: &'a [String],
-    /// What was measured of it; may be empty.
+    /// The measured value; may be empty.
     pub value: String,
-    /// The number of the curve it was measured of.
+    /// The number of the measured curve, if the geometry has several.
     pub curve: Option<usize>,
     pub page: usize,
 }
 
 impl Entry<'_> {
-    /// What it says at a place, in one line.
+    /// The family and the caption at a position, in one line.
     fn text_line(&self, at: Point, theme: &Theme) -> TextLine {
         let family = self.family.map_or(String::new(), |family| format!("{family} · "));
-        let mut says = text_line(&family, at, Anchor::Start, theme.note_size, theme);
-        // Only in the caption are there words that stand for values.
-        says.text.runs.extend(
+        let mut line = text_line(&family, at, Anchor::Start, theme.note_size, theme);
+        // Only the caption contains names of parameters.
+        line.text.runs.extend(
             text_line(self.caption, at, Anchor::Start, theme.note_size, theme).with_italics(self.symbols).text.runs,
         );
-        says.text.runs.retain(|run| !run.text.is_empty());
-        says
+        line.text.runs.retain(|run| !run.text.is_empty());
+        line
     }
 
     fn curve_label(&self) -> String {
@@ -52,45 +52,45 @@ impl Entry<'_> {
     }
 }
 
-/// What the pages of a list have in common.
+/// The title of a list and the numbering of its pages.
 pub(super) struct ListHeader<'a> {
     pub title: &'static str,
     pub atlas: &'a Atlas<'a>,
     pub volume: &'a Volume,
-    /// The Roman numeral of the first.
+    /// The number of the first page, written as a Roman numeral.
     pub first_number: usize,
 }
 
-/// The measures of a column, in millimetres.
+/// The dimensions of the columns, in millimetres.
 struct ColumnLayout {
     corner: Point,
-    /// Of one column.
+    /// The size of one column.
     column_size: Vector,
     gutter: f64,
     count: usize,
-    /// From one line to the next.
+    /// The distance of baselines.
     line_height: f64,
-    /// The widths that pages, values and curves' numbers take.
+    /// The widths of page numbers, values and labels of curves, with the gap before them.
     page_width: f64,
     value_width: f64,
     curve_width: f64,
 }
 
-/// A line with its place: from the top of a column, on the baseline.
+/// A line with its position: `y` is the distance of the baseline from the top of the column.
 struct PlacedLine<'r> {
     row: &'r Row<'r>,
-    /// Of a heading or a note the line it is, of others nothing.
+    /// The text of a line of a heading or note; `None` for entries.
     text: Option<String>,
-    /// Whether it is the first of its row.
+    /// Whether it is the first line of its row.
     is_first: bool,
     column: usize,
     y: f64,
 }
 
-/// Sets rows on pages. `front` gives, of the number of pages set, how much front matter there is in all.
+/// Composes rows to pages. `front` maps the number of these pages to the number of pages of front matter.
 pub(super) fn compose_list(
     rows: &[Row],
-    leaf: &ListHeader,
+    header: &ListHeader,
     front: impl Fn(usize) -> usize,
     (options, theme): (&Options, &Theme),
 ) -> Vec<Scene> {
@@ -100,21 +100,21 @@ pub(super) fn compose_list(
         placed.chunk_by(|a, b| a.column / columns.count == b.column / columns.count).collect();
     let front = front(pages.len());
     let page = |(k, placed): (usize, &&[PlacedLine])| {
-        let mut scene = empty_scene(format!("{}: {}", leaf.title, leaf.atlas.title), options, theme);
+        let mut scene = empty_scene(format!("{}: {}", header.title, header.atlas.title), options, theme);
         let root = Canvas::new(&mut scene).into_drawing_area();
         heading::draw_border(&root, theme);
-        let at = heading::draw_title(&root, leaf.title, theme);
-        let says =
-            leaf.volume.name().map_or(leaf.atlas.title.to_owned(), |name| format!("{} · {name}", leaf.atlas.title));
-        let words = theme.text_line(&says, at, Anchor::Start, theme.source_size, theme.grey);
-        draw(&root, &words.fit_width(size(&root).x - 2.0 * at.x));
+        let at = heading::draw_title(&root, header.title, theme);
+        let title = header.atlas.title;
+        let subtitle = header.volume.name().map_or(title.to_owned(), |name| format!("{title} · {name}"));
+        let subtitle = theme.text_line(&subtitle, at, Anchor::Start, theme.source_size, theme.grey);
+        draw(&root, &subtitle.fit_width(size(&root).x - 2.0 * at.x));
         let leaders = columns.draw_lines(&root, placed, theme);
         draw(&root, &Drawing { class: "leaders", title: String::new(), items: leaders });
         drop(root);
-        scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, leaf.volume, front)).collect();
+        scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, header.volume, front)).collect();
         draw_page_number(
             &mut scene,
-            PageNumber::Roman(u32::try_from(leaf.first_number + k).unwrap_or(u32::MAX)),
+            PageNumber::Roman(u32::try_from(header.first_number + k).unwrap_or(u32::MAX)),
             options,
         );
         scene
@@ -139,7 +139,7 @@ fn text_width(text: &str, theme: &Theme) -> f64 {
 }
 
 impl ColumnLayout {
-    /// As many columns as the widest entry allows, eight at most and two where one is very wide.
+    /// As many columns as the widest entry allows, from two to eight.
     fn fit(rows: &[Row], options: &Options, theme: &Theme) -> ColumnLayout {
         let [top, bottom, _] = heading::margins(theme);
         let left = theme.border + theme.margin;
@@ -172,18 +172,18 @@ impl ColumnLayout {
         }
     }
 
-    /// The rows from column to column; a heading stays with what follows it.
+    /// Places the rows from column to column; a heading is kept together with the rows after it.
     fn place_rows<'r>(&self, rows: &'r [Row<'r>], theme: &Theme) -> Vec<PlacedLine<'r>> {
         let mut placed: Vec<PlacedLine> = Vec::new();
         let (mut column, mut y) = (0, 0.0);
         for row in rows {
-            let before = if matches!(row, Row::Heading { .. }) && y > 0.0 { self.line_height } else { 0.0 };
-            // A heading with its note and an entry takes some five lines.
-            let room = if matches!(row, Row::Heading { .. }) { 6.0 } else { 1.0 };
-            if y > 0.0 && y + before + room * self.line_height > self.column_size.y {
+            let space_before = if matches!(row, Row::Heading { .. }) && y > 0.0 { self.line_height } else { 0.0 };
+            // A heading with its note and an entry needs about five lines.
+            let least_lines = if matches!(row, Row::Heading { .. }) { 6.0 } else { 1.0 };
+            if y > 0.0 && y + space_before + least_lines * self.line_height > self.column_size.y {
                 (column, y) = (column + 1, 0.0);
             } else {
-                y += before;
+                y += space_before;
             }
             let texts = match row {
                 Row::Heading { text, page } => {
@@ -203,33 +203,33 @@ impl ColumnLayout {
         placed
     }
 
-    /// The width that is left beside a heading's page.
+    /// The width of the text of a heading, next to its page number.
     fn heading_width(&self, page: Option<usize>) -> f64 {
         self.column_size.x - page.map_or(0.0, |_| self.page_width)
     }
 
-    /// Where a line begins on its page.
+    /// The position at which a line starts on its page.
     fn line_start(&self, placed: &PlacedLine) -> Point {
         let column = (placed.column % self.count) as f64;
         self.corner + Vector::new(column * (self.column_size.x + self.gutter), placed.y)
     }
 
-    /// Draws lines, and gives the dots that lead from what they say to their numbers.
+    /// Draws lines; the result is the leaders of their entries.
     fn draw_lines(&self, root: &Area, placed: &[PlacedLine], theme: &Theme) -> Vec<Item> {
         let mut leaders = Vec::new();
         for line in placed {
             let at = self.line_start(line);
             let end = at + Vector::new(self.column_size.x, 0.0);
-            let says = line.text.as_deref().unwrap_or_default();
-            let at_place = |words: TextLine| TextLine { text: Text { position: at, ..words.text } };
+            let text = line.text.as_deref().unwrap_or_default();
+            let at_start = |line: TextLine| TextLine { text: Text { position: at, ..line.text } };
             match line.row {
                 Row::Heading { page, .. } => {
-                    draw(root, &at_place(heading_line(says, theme)).fit_width(self.heading_width(*page)));
+                    draw(root, &at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
                     if let Some(page) = page.filter(|_| line.is_first) {
                         draw(root, &text_line(&page.to_string(), end, Anchor::End, theme.note_size, theme));
                     }
                 }
-                Row::Note(_) => draw(root, &at_place(note_line(says, theme)).fit_width(self.column_size.x)),
+                Row::Note(_) => draw(root, &at_start(note_line(text, theme)).fit_width(self.column_size.x)),
                 Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, at, theme)),
             }
         }
@@ -237,29 +237,29 @@ impl ColumnLayout {
         vec![Item::Path(Path { polylines: leaders, stroke, fill: None })]
     }
 
-    /// Draws an entry, and gives its dots.
+    /// Draws an entry; the result is the dots of its leader.
     fn draw_entry(&self, root: &Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Polyline> {
         let right = at.x + self.column_size.x;
-        let says = entry
+        let line = entry
             .text_line(at, theme)
             .fit_width(self.column_size.x - self.page_width - self.value_width - self.curve_width);
-        let from = at.x + says.text.width();
-        draw(root, &says);
+        let from = at.x + line.text.width();
+        draw(root, &line);
         let numbers = [
             (entry.page.to_string(), right, theme.ink),
             (entry.value.clone(), right - self.page_width, theme.ink),
             (entry.curve_label(), right - self.page_width - self.value_width, theme.grey),
         ];
         let mut to = right;
-        for (says, x, ink) in numbers.into_iter().filter(|(says, ..)| !says.is_empty()) {
-            let says = theme.text_line(&says, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
-            to = says.text.start().x;
-            draw(root, &says);
+        for (text, x, ink) in numbers.into_iter().filter(|(text, ..)| !text.is_empty()) {
+            let number = theme.text_line(&text, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
+            to = number.text.start().x;
+            draw(root, &number);
         }
         leader_dots(from, to, at.y, theme)
     }
 
-    /// The box of a line that leads to a page of its volume.
+    /// The link over a line, if it leads to a page of its volume.
     fn line_link(&self, placed: &PlacedLine, volume: &Volume, front: usize) -> Option<PageLink> {
         let page = match placed.row {
             Row::Heading { page, .. } => (*page)?,
@@ -275,7 +275,7 @@ impl ColumnLayout {
     }
 }
 
-/// Dots on a baseline between two words, which stand under one another from line to line.
+/// The dots of a leader from one x to another, aligned vertically across lines.
 fn leader_dots(from: f64, to: f64, y: f64, theme: &Theme) -> Vec<Polyline> {
     let step = 0.9 * theme.note_size;
     let (first, last) = ((from / step + 0.7).ceil() as i64, (to / step - 0.9).floor() as i64);

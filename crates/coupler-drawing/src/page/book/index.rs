@@ -1,68 +1,72 @@
+//! The index of a volume: geometries by straightness, transmission angle and symmetry.
+
 use std::cmp::Ordering;
 
 use super::columns::{Entry, Row};
 use super::index_entry::IndexValue;
 use super::{Atlas, IndexEntry, Volume};
 
-/// The most entries under a measure.
+/// The most entries of a section.
 const MAX_ENTRIES: usize = 2000;
 
 type RankedEntries<'g> = Vec<(&'g IndexEntry, IndexValue)>;
 
-/// What the index of a volume says: of every measure what it is, and the geometries, the best first.
-pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, found: &'a [IndexEntry]) -> Vec<Row<'a>> {
-    let here = |(_, found): &(&IndexEntry, IndexValue)| volume.page_range().contains(&found.page);
+/// The rows of the index: for every measure its definition and the geometries, the best first.
+pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, index_entries: &'a [IndexEntry]) -> Vec<Row<'a>> {
+    let is_in_volume = |(_, value): &(&IndexEntry, IndexValue)| volume.page_range().contains(&value.page);
     let ranked = |pick: fn(&IndexEntry) -> Option<IndexValue>, order: fn(f64, f64) -> Ordering| {
-        let picked = found.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
-        let mut entries: RankedEntries = picked.filter(here).collect();
+        let picked = index_entries.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
+        let mut entries: RankedEntries = picked.filter(is_in_volume).collect();
         entries.sort_by(|(_, a), (_, b)| order(a.value, b.value).then(a.page.cmp(&b.page)));
         entries
     };
-    let greatest = |a: f64, b: f64| b.total_cmp(&a);
-    let least = |a: f64, b: f64| a.total_cmp(&b);
+    let greatest_first = |a: f64, b: f64| b.total_cmp(&a);
+    let least_first = |a: f64, b: f64| a.total_cmp(&b);
     let sections = [
         Section {
             title: "By straightness",
-            note: "the straight portion of the straightest curve, as a part of the length of the whole curve; the straightest \
+            note: "the straight portion of the straightest curve, in percent of the length of the curve; the straightest \
                    first",
             unit: " %",
             scale: 100.0,
             decimals: 1,
-            entries: ranked(|geometry| geometry.straightness, greatest),
+            entries: ranked(|geometry| geometry.straightness, greatest_first),
         },
         Section {
             title: "By transmission angle",
-            note: "the least angle between coupler and output link that the motion comes to; the greatest first",
+            note: "the least angle between coupler and output link over the motion; the greatest first",
             unit: "°",
             scale: 1.0,
             decimals: 1,
-            entries: ranked(|geometry| geometry.transmission_angle, greatest),
+            entries: ranked(|geometry| geometry.transmission_angle, greatest_first),
         },
         Section {
             title: "By symmetry",
-            note: "how far the most symmetrical curve is from its mirror image, as a part of its greatest extent; the nearest \
-                   first",
+            note: "the deviation of the most symmetrical curve from its mirror image, in percent of its greatest extent; \
+                   the least first",
             unit: " %",
             scale: 100.0,
             decimals: 2,
-            entries: ranked(|geometry| geometry.asymmetry, least),
+            entries: ranked(|geometry| geometry.asymmetry, least_first),
         },
     ];
     sections.iter().flat_map(|section| section.rows(atlas)).collect()
 }
 
+/// A section of the index: the geometries in the order of one measure.
 struct Section<'a> {
     title: &'static str,
     note: &'static str,
-    /// What follows a value, and how often it is written.
+    /// The unit, written after a value.
     unit: &'static str,
+    /// The factor from the measure to the unit.
     scale: f64,
     decimals: u32,
     entries: RankedEntries<'a>,
 }
 
 impl<'a> Section<'a> {
-    /// Nothing, where there is no entry.
+    /// The rows of the section; none if it has no entry.
     fn rows(&self, atlas: &'a Atlas) -> Vec<Row<'a>> {
         let Section { title, note, unit, scale, decimals, ref entries } = *self;
         if entries.is_empty() {
@@ -72,17 +76,17 @@ impl<'a> Section<'a> {
         if entries.len() > MAX_ENTRIES {
             rows.push(Row::Note(format!("the first {MAX_ENTRIES} of {}", entries.len())));
         }
-        rows.extend(entries.iter().take(MAX_ENTRIES).map(|(geometry, found)| {
+        rows.extend(entries.iter().take(MAX_ENTRIES).map(|(geometry, best)| {
             let chapter = atlas.chapters.get(geometry.chapter);
             let (fine, decimals) = (f64::from(10_u32.pow(decimals)), decimals as usize);
             Row::Entry(Entry {
                 family: chapter.filter(|_| atlas.chapters.len() > 1).map(|chapter| chapter.title),
                 caption: &geometry.caption,
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
-                // Without the sign of a zero that is rounded from below.
-                value: format!("{:.decimals$}{unit}", (fine * scale * found.value).round() / fine + 0.0),
-                curve: found.curve,
-                page: found.page,
+                // Adding 0 removes the sign of a negative zero.
+                value: format!("{:.decimals$}{unit}", (fine * scale * best.value).round() / fine + 0.0),
+                curve: best.curve,
+                page: best.page,
             })
         }));
         rows

@@ -1,16 +1,16 @@
-//! What stands round the pages of an atlas that is bound as a book: title page, contents, index and outline.
+//! The parts of a book around the pages of an atlas: title page, contents, index and outline.
 //!
-//! A book of many pages is parted into volumes, each a book of its own that leads to its own pages only. Pages are
-//! numbered through all volumes. A volume is made in this order, and no more than one page of it need be held:
+//! A long atlas is divided into volumes. Each is a separate book, with links to its own pages only; pages are numbered
+//! through all volumes. A volume is composed in three steps, in which at most one page has to be in memory:
 //!
-//! 1. As soon as the number of pages of every family is known, [`Atlas::volumes`] parts them, and [`compose_front_matter`] composes title
-//!    page and contents.
-//! 2. The pages are composed, in parallel and in any order; [`draw_page_number`] writes their numbers on them. Of each cell,
-//!    [`IndexEntry::from_solved_cell`] keeps what the index will say. The scenes are handed to the book in order.
-//! 3. [`index`] composes the pages of the index, and [`outline`] tells what leads where.
+//! 1. Once the number of pages of every family is known, [`Atlas::volumes`] divides them, and [`compose_front_matter`]
+//!    composes title page and contents.
+//! 2. The pages are composed, in parallel and in any order, and [`draw_page_number`] draws their numbers.
+//!    [`IndexEntry::from_solved_cell`] collects the index entry of each cell. The scenes are added to the book in
+//!    order.
+//! 3. [`compose_index`] composes the pages of the index, and [`outline`] gives the entries of the outline.
 //!
-//! The place of a page in a volume's file is that of its front matter and its place among the volume's pages:
-//! [`Volume::page_index`]. Its with_label is [`page_number`]'s.
+//! [`Volume::page_index`] is the index of a page in the file of its volume, and [`page_number`] the label of a page.
 
 mod columns;
 mod contents;
@@ -34,71 +34,71 @@ use coupler_curves::geometry::Point;
 /// An atlas as a book.
 #[derive(Clone, Debug)]
 pub struct Atlas<'a> {
-    /// Its title.
+    /// The title.
     pub title: &'a str,
-    /// The program that makes it, and its version.
+    /// The program that writes the book, and its version.
     pub program: &'a str,
-    /// Its families, in order.
+    /// The families, in order.
     pub chapters: Vec<Chapter<'a>>,
 }
 
-/// A family of an atlas.
+/// A chapter of a book: a family of an atlas.
 #[derive(Clone, Debug)]
 pub struct Chapter<'a> {
-    /// Its title.
+    /// The title.
     pub title: &'a str,
-    /// Words that stand for values, set in italics.
+    /// The names of parameters, set in italics.
     pub symbols: &'a [String],
-    /// How many curves it has, if that is known.
+    /// The number of curves, if it is known.
     pub curve_count: Option<usize>,
-    /// How many pages it has.
+    /// The number of pages.
     pub page_count: usize,
-    /// Its cells, in the order of its pages.
+    /// The cells, in the order of the pages.
     pub cells: Vec<CellEntry>,
 }
 
-/// A cell of a family, as contents have it.
+/// A cell of a family in the contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellEntry {
-    /// The line under it.
+    /// The caption of the cell.
     pub caption: String,
-    /// Its first page among those of its family, from 1.
+    /// The number of its first page within the family, from 1.
     pub page: usize,
 }
 
-/// A part of an atlas that is bound on its own.
+/// A volume: the part of an atlas that is one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Volume {
-    /// Its number, from 1.
+    /// The number of the volume, from 1.
     pub number: usize,
-    /// How many volumes there are.
+    /// The number of volumes.
     pub volume_count: usize,
-    /// The number of its first page in the atlas, from 1.
+    /// The number of the first page in the atlas, from 1.
     pub first_page: usize,
-    /// How many pages it has, without what stands before and after them.
+    /// The number of pages, without front matter and index.
     pub page_count: usize,
 }
 
 impl Atlas<'_> {
-    /// How many pages it has, without what stands before and after them.
+    /// The number of pages, without front matter and index.
     pub fn page_count(&self) -> usize {
         self.chapters.iter().map(|chapter| chapter.page_count).sum()
     }
 
-    /// Its volumes, of `most` pages each but for the last; one, where all pages go into one.
+    /// The volumes, of at most `most` pages each; all but the last are full. There is at least one.
     pub fn volumes(&self, most: usize) -> Vec<Volume> {
         let (pages, most) = (self.page_count(), most.max(1));
-        let of = pages.div_ceil(most).max(1);
+        let volume_count = pages.div_ceil(most).max(1);
         let volume = |k: usize| Volume {
             number: k + 1,
-            volume_count: of,
+            volume_count,
             first_page: k * most + 1,
             page_count: most.min(pages - k * most),
         };
-        (0..of).map(volume).collect()
+        (0..volume_count).map(volume).collect()
     }
 
-    /// The chapters, each with how many pages stand before it.
+    /// The chapters, each with the number of pages before it.
     fn chapters_with_offset(&self) -> impl Iterator<Item = (usize, &Chapter<'_>)> {
         self.chapters.iter().scan(0, |before, chapter| {
             *before += chapter.page_count;
@@ -108,7 +108,7 @@ impl Atlas<'_> {
 }
 
 impl Chapter<'_> {
-    /// How many geometries, curves and pages it has, as far as there are any and their number is known.
+    /// The numbers of geometries, curves and pages in words, as far as they are known.
     fn format_counts(&self, separator: &str) -> String {
         let cells = (!self.cells.is_empty()).then(|| format_count(self.cells.len(), "geometry", "geometries"));
         let curves = self.curve_count.map(|curves| format_count(curves, "curve", "curves"));
@@ -118,18 +118,18 @@ impl Chapter<'_> {
 }
 
 impl Volume {
-    /// The numbers of its pages in the atlas.
+    /// The numbers of its pages in the atlas, from 1.
     pub fn page_range(&self) -> Range<usize> {
         self.first_page..self.first_page + self.page_count
     }
 
-    /// The place of a page of the atlas in the volume's file, from 0, behind so much front matter; none where it is in
-    /// another volume.
+    /// The index of a page of the atlas in the volume's file, after `front` pages of front matter; `None` if the page
+    /// is in another volume. Pages of the atlas are counted from 1, and the index from 0.
     pub fn page_index(&self, page: usize, front: usize) -> Option<usize> {
         self.page_range().contains(&page).then(|| page - self.first_page + front)
     }
 
-    /// What it is called beside the atlas's title; nothing where it is the only one.
+    /// The name of the volume, without the title of the atlas; `None` if it is the only one.
     fn name(&self) -> Option<String> {
         let Range { start, end } = self.page_range();
         (self.volume_count > 1)
@@ -137,7 +137,7 @@ impl Volume {
     }
 }
 
-/// Title page and contents of a volume. The title page shows the first cell of a sheet, if it is given one.
+/// Composes the title page and the contents of a volume. The title page shows the first panel of the frontispiece.
 pub fn compose_front_matter(
     atlas: &Atlas,
     volume: &Volume,
@@ -148,32 +148,34 @@ pub fn compose_front_matter(
     let mut first = empty_scene(atlas.title.to_owned(), options, &theme);
     title::compose(&mut first, atlas, volume, frontispiece, (options, &theme));
     let rows = contents::rows(atlas, volume);
-    let leaf = ListHeader { title: "Contents", atlas, volume, first_number: 2 };
-    let pages = columns::compose_list(&rows, &leaf, |pages| 1 + pages, (options, &theme));
+    let header = ListHeader { title: "Contents", atlas, volume, first_number: 2 };
+    let pages = columns::compose_list(&rows, &header, |pages| 1 + pages, (options, &theme));
     std::iter::once(first).chain(pages).collect()
 }
 
-/// The index of a volume behind so much front matter: the geometries on its pages by straightness, by transmission angle
-/// and by symmetry. Nothing, where there is none.
+/// Composes the index of a volume, after `front` pages of front matter: the geometries on its pages by straightness, by
+/// transmission angle and by symmetry. Without entries there are no pages.
 pub fn compose_index(
     atlas: &Atlas,
     volume: &Volume,
     front: usize,
-    found: &[IndexEntry],
+    entries: &[IndexEntry],
     options: &Options,
 ) -> Vec<Scene> {
     let theme = options.theme.for_paper(options.paper);
-    let rows = index::rows(atlas, volume, found);
-    let leaf = ListHeader { title: "Index of geometries", atlas, volume, first_number: front + 1 };
-    columns::compose_list(&rows, &leaf, |_| front, (options, &theme))
+    let rows = index::rows(atlas, volume, entries);
+    let header = ListHeader { title: "Index of geometries", atlas, volume, first_number: front + 1 };
+    columns::compose_list(&rows, &header, |_| front, (options, &theme))
 }
 
-/// The outline of a volume: contents, each family with its cells, the index; with so many pages before and after.
+/// The outline of a volume: contents, each family with its cells, and the index.
+///
+/// `front` and `index` are the numbers of pages of front matter and of the index.
 pub fn outline(atlas: &Atlas, volume: &Volume, [front, index]: [usize; 2]) -> Vec<OutlineEntry> {
-    let leaf = |title: &str, page| OutlineEntry { title: title.to_owned(), page_index: page, children: Vec::new() };
-    let mut entries = vec![leaf(atlas.title, 0)];
+    let entry = |title: &str, page| OutlineEntry { title: title.to_owned(), page_index: page, children: Vec::new() };
+    let mut entries = vec![entry(atlas.title, 0)];
     if front > 1 {
-        entries.push(leaf("Contents", 1));
+        entries.push(entry("Contents", 1));
     }
     for (before, chapter) in atlas.chapters_with_offset() {
         let first = (before + 1).max(volume.first_page);
@@ -181,7 +183,7 @@ pub fn outline(atlas: &Atlas, volume: &Volume, [front, index]: [usize; 2]) -> Ve
             continue;
         };
         let (cells, _) = contents::listed_cells(before, chapter, volume);
-        let child = |cell: &&CellEntry| Some(leaf(&cell.caption, volume.page_index(before + cell.page, front)?));
+        let child = |cell: &&CellEntry| Some(entry(&cell.caption, volume.page_index(before + cell.page, front)?));
         entries.push(OutlineEntry {
             title: chapter.title.to_owned(),
             page_index: page,
@@ -189,33 +191,33 @@ pub fn outline(atlas: &Atlas, volume: &Volume, [front, index]: [usize; 2]) -> Ve
         });
     }
     if index > 0 {
-        entries.push(leaf("Index of geometries", front + volume.page_count));
+        entries.push(entry("Index of geometries", front + volume.page_count));
     }
     entries
 }
 
-/// What the page at a place of a volume's file is called: the atlas's pages by their numbers, those before and after them
-/// in Roman numerals.
-pub fn page_number(volume: &Volume, front: usize, place: usize) -> PageNumber {
+/// The label of the page at an index of a volume's file, after `front` pages of front matter: the pages of the atlas
+/// have their numbers, front matter and index Roman numerals.
+pub fn page_number(volume: &Volume, front: usize, page_index: usize) -> PageNumber {
     let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
-    match place.checked_sub(front) {
-        None => PageNumber::Roman(number(place + 1)),
+    match page_index.checked_sub(front) {
+        None => PageNumber::Roman(number(page_index + 1)),
         Some(page) if page < volume.page_count => PageNumber::Arabic(number(volume.first_page + page)),
         Some(page) => PageNumber::Roman(number(front + 1 + page - volume.page_count)),
     }
 }
 
-/// Writes the number a page has in its book under its border.
+/// Draws the number of a page in its book below the border.
 pub fn draw_page_number(scene: &mut Scene, label: PageNumber, options: &Options) {
     let theme = options.theme.for_paper(options.paper);
-    let says = match label {
+    let text = match label {
         PageNumber::Roman(number) => to_roman(number),
         PageNumber::Arabic(number) => number.to_string(),
     };
     let root = Canvas::new(scene).into_drawing_area();
     let page = size(&root);
     let at = Point::new(page.x / 2.0, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
-    draw(&root, &theme.text_line(&says, at, Anchor::Middle, theme.source_size, theme.grey));
+    draw(&root, &theme.text_line(&text, at, Anchor::Middle, theme.source_size, theme.grey));
 }
 
 fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {
@@ -224,7 +226,7 @@ fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {
     Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
 }
 
-/// A number in small Roman numerals; in Arabic ones from 4000.
+/// A number in lower-case Roman numerals; in Arabic ones from 4000.
 fn to_roman(number: u32) -> String {
     const NUMERALS: [(u32, &str); 13] = [
         (1000, "m"),
@@ -244,17 +246,17 @@ fn to_roman(number: u32) -> String {
     if number >= 4000 {
         return number.to_string();
     }
-    let (mut rest, mut said) = (number, String::new());
-    for (value, sign) in NUMERALS {
+    let (mut rest, mut roman) = (number, String::new());
+    for (value, numeral) in NUMERALS {
         while rest >= value {
-            said.push_str(sign);
+            roman.push_str(numeral);
             rest -= value;
         }
     }
-    said
+    roman
 }
 
-/// A count of things in words.
+/// A count with its noun.
 fn format_count(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
@@ -264,10 +266,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn roman_numerals() {
+    fn numbers_are_converted_to_roman_numerals() {
         let pairs = [(1, "i"), (4, "iv"), (9, "ix"), (14, "xiv"), (49, "xlix"), (1951, "mcmli"), (3999, "mmmcmxcix")];
-        for (number, said) in pairs {
-            assert_eq!(to_roman(number), said);
+        for (number, roman) in pairs {
+            assert_eq!(to_roman(number), roman);
         }
     }
 }

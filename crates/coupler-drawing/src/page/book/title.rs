@@ -1,3 +1,5 @@
+//! The title page of a volume.
+
 use plotters::drawing::IntoDrawingArea;
 
 use super::super::arrangement::{Arrangement, Rect};
@@ -10,7 +12,7 @@ use super::{Atlas, Chapter, Volume, draw_page_number};
 use crate::scene::{Anchor, Canvas, Color, Item, PageNumber, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
-/// The most families that are named.
+/// The most lines for families.
 const MAX_FAMILIES: usize = 5;
 
 pub(super) fn compose(
@@ -23,9 +25,9 @@ pub(super) fn compose(
     let root = Canvas::new(scene).into_drawing_area();
     heading::draw_border(&root, theme);
     let page = size(&root);
-    let room = page.x - 2.0 * (theme.border + 2.0 * theme.margin);
+    let width = page.x - 2.0 * (theme.border + 2.0 * theme.margin);
     let centred = |text: &str, y: f64, size: f64, color: Color| {
-        draw(&root, &theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(room));
+        draw(&root, &theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(width));
     };
     let lines = family_lines(atlas);
     let step = 1.7 * theme.source_size;
@@ -33,7 +35,7 @@ pub(super) fn compose(
     let first = foot - 1.6 * theme.title_size - step * lines.len() as f64;
     let mut y = theme.border + 5.2 * theme.title_size;
     let most = (first - 4.0 * theme.title_size - y) / (LEADING * theme.title_size) + 1.0;
-    for line in wrap_title(atlas.title, room, most.clamp(1.0, 4.0) as usize, theme) {
+    for line in wrap_title(atlas.title, width, most.clamp(1.0, 4.0) as usize, theme) {
         centred(&line, y, TITLE_SCALE * theme.title_size, theme.ink);
         y += LEADING * theme.title_size;
     }
@@ -47,39 +49,40 @@ pub(super) fn compose(
         centred(line, first + step * f64::from(k), 1.1 * theme.source_size, theme.ink);
     }
     centred(atlas.program, foot, theme.source_size, theme.grey);
-    if let Some(sheet) = frontispiece {
+    if let Some(frontispiece) = frontispiece {
         let corner = Point::new(theme.border + 2.0 * theme.margin, y + 2.0 * theme.title_size);
-        let size = Vector::new(room, first - theme.title_size - corner.y);
-        draw_frontispiece(&root, Rect { corner, size }, sheet, (options, theme));
+        let size = Vector::new(width, first - theme.title_size - corner.y);
+        draw_frontispiece(&root, Rect { corner, size }, frontispiece, (options, theme));
     }
     drop(root);
     draw_page_number(scene, PageNumber::Roman(1), options);
 }
 
-/// The em of the title, and from one of its lines to the next, in those of a page's.
+/// The font size of the title, relative to that of the title of a page.
 const TITLE_SCALE: f64 = 2.2;
+/// The distance of lines of the title, likewise.
 const LEADING: f64 = 2.7;
 
-/// A title in lines no wider than `room` and about as wide as each other, `most` at most.
-fn wrap_title(title: &str, room: f64, most: usize, theme: &Theme) -> Vec<String> {
-    let words = theme.text_line(title, Point::origin(), Anchor::Middle, TITLE_SCALE * theme.title_size, theme.ink);
-    let count = words.wrap(room).len();
-    let even = words.text.width() / count as f64;
-    let widths = (20..).map(|k| (f64::from(k) / 20.0 * even).min(room));
-    let mut lines = widths.map(|width| words.wrap(width)).find(|lines| lines.len() <= count).unwrap_or_default();
-    let rest = lines.split_off(most.min(lines.len()) - 1);
+/// A title wrapped to at most `max_lines` lines no wider than `max_width`, all about equally wide.
+fn wrap_title(title: &str, max_width: f64, max_lines: usize, theme: &Theme) -> Vec<String> {
+    let line = theme.text_line(title, Point::origin(), Anchor::Middle, TITLE_SCALE * theme.title_size, theme.ink);
+    let count = line.wrap(max_width).len();
+    let even = line.text.width() / count as f64;
+    let widths = (20..).map(|k| (f64::from(k) / 20.0 * even).min(max_width));
+    let mut lines = widths.map(|width| line.wrap(width)).find(|lines| lines.len() <= count).unwrap_or_default();
+    let rest = lines.split_off(max_lines.min(lines.len()) - 1);
     lines.push(rest.join(" "));
     lines
 }
 
-/// What the atlas has, a line for each family.
+/// A line for each family, with its counts.
 fn family_lines(atlas: &Atlas) -> Vec<String> {
     let line = |chapter: &Chapter| format!("{} · {}", chapter.title, chapter.format_counts(" · "));
     let chapters = &atlas.chapters;
-    // The last line is for those that have no line of their own.
-    let own = if chapters.len() > MAX_FAMILIES { MAX_FAMILIES - 1 } else { chapters.len() };
-    let named = chapters[..own].iter().map(line);
-    let rest = &chapters[own..];
+    // The last line is for all families without a separate line.
+    let line_count = if chapters.len() > MAX_FAMILIES { MAX_FAMILIES - 1 } else { chapters.len() };
+    let named = chapters[..line_count].iter().map(line);
+    let rest = &chapters[line_count..];
     let others = (!rest.is_empty()).then(|| {
         let cells = rest.iter().flat_map(|chapter| chapter.cells.iter().cloned()).collect();
         let (curves, pages) =
@@ -95,17 +98,17 @@ fn family_lines(atlas: &Atlas) -> Vec<String> {
     named.chain(others).collect()
 }
 
-/// A line under the title.
+/// Draws a line under the title.
 fn draw_rule(root: &Area, centre: Point, length: f64, theme: &Theme) {
     let half = Vector::new(length / 2.0, 0.0);
     let path = Path::stroked(vec![centre - half, centre + half], theme.stroke(theme.hairline, theme.fine_width));
     draw(root, &Drawing { class: "rule", title: String::new(), items: vec![Item::Path(path)] });
 }
 
-/// The first cell of a sheet; nothing, where it has no curve or there is no room.
-fn draw_frontispiece(root: &Area, frame: Rect, sheet: &PanelPage, (options, theme): (&Options, &Theme)) {
-    let Some(figure) = sheet.panels.first().and_then(Figure::from_panel) else { return };
+/// Draws the first panel of a page, if it has a curve and there is enough space.
+fn draw_frontispiece(root: &Area, frame: Rect, page: &PanelPage, (options, theme): (&Options, &Theme)) {
+    let Some(figure) = page.panels.first().and_then(Figure::from_panel) else { return };
     if frame.size.x > 10.0 * theme.joint_radius && frame.size.y > 10.0 * theme.joint_radius {
-        figure.draw(root, frame, Arrangement::Combined, sheet, (options, theme));
+        figure.draw(root, frame, Arrangement::Combined, page, (options, theme));
     }
 }

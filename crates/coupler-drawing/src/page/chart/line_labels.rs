@@ -1,4 +1,4 @@
-//! The names of a chart's lines, to the right of their ends.
+//! The labels of the lines of a chart, to the right of their ends.
 
 use super::super::element::TextLine;
 use super::super::theme::Theme;
@@ -6,7 +6,7 @@ use super::line::LineStyle;
 use crate::scene::{Anchor, Item};
 use coupler_curves::geometry::Point;
 
-/// A name, and where its line ends.
+/// A label and the end of its line.
 #[derive(Clone, Debug)]
 pub(super) struct LineLabel<'a> {
     pub text: &'a str,
@@ -15,7 +15,7 @@ pub(super) struct LineLabel<'a> {
     pub end_height: f64,
 }
 
-/// The length of the piece of line before a name.
+/// The length of the sample of the line before its label.
 fn sample_length(theme: &Theme) -> f64 {
     2.6 * theme.note_size
 }
@@ -24,65 +24,67 @@ fn label_text(label: &str, at: Point, symbols: &[String], theme: &Theme) -> Text
     theme.text_line(label, at, Anchor::Start, theme.note_size, theme.ink).with_italics(symbols)
 }
 
-/// How much room the names of lines take, in millimetres; none where there is nothing to tell apart.
+/// The width of the labels of lines with their samples, in millimetres; 0 if all labels are empty.
 pub(super) fn label_width<'a>(labels: impl Iterator<Item = &'a str>, symbols: &[String], theme: &Theme) -> f64 {
     let width = |label: &str| label_text(label, Point::origin(), symbols, theme).text.width();
     let widest = labels.map(width).fold(0.0, f64::max);
     if widest > 0.0 { 0.8 * theme.note_size + sample_length(theme) + 0.5 * theme.note_size + widest } else { 0.0 }
 }
 
-/// The names, each as near as may be to the height of its line's end, and none on another; where there is not room for
-/// all of them, every so many, and how many lines go without. `height` is that of the frame, and `left` its right edge.
+/// The items of the labels: each as close as possible to the height of the end of its line, without overlaps.
+///
+/// If not all labels fit, every n-th is drawn, and then the number of the others. `left` is the right edge of the
+/// frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
 pub(super) fn label_items(
-    keys: Vec<LineLabel>,
-    (left, height, room): (f64, f64, f64),
+    labels: Vec<LineLabel>,
+    (left, height, width): (f64, f64, f64),
     with_marks: bool,
     symbols: &[String],
     theme: &Theme,
 ) -> Vec<Item> {
-    let apart = 1.35 * theme.note_size;
-    let most = ((height / apart).floor() as usize).max(1);
-    let count = keys.len();
-    let mut kept: Vec<LineLabel> = if count > most {
-        keys.into_iter().step_by(count.div_ceil(most.saturating_sub(1).max(1))).collect()
+    let spacing = 1.35 * theme.note_size;
+    let most = ((height / spacing).floor() as usize).max(1);
+    let count = labels.len();
+    let mut drawn: Vec<LineLabel> = if count > most {
+        labels.into_iter().step_by(count.div_ceil(most.saturating_sub(1).max(1))).collect()
     } else {
-        keys
+        labels
     };
-    kept.sort_by(|a, b| a.end_height.total_cmp(&b.end_height));
+    drawn.sort_by(|a, b| a.end_height.total_cmp(&b.end_height));
     let mut items = Vec::new();
-    let unnamed = count - kept.len();
-    let foot = if unnamed > 0 { height - apart } else { height };
-    let heights = spread_heights(&kept.iter().map(|key| key.end_height).collect::<Vec<_>>(), apart, foot);
+    let omitted = count - drawn.len();
+    let foot = if omitted > 0 { height - spacing } else { height };
+    let heights = spread_heights(&drawn.iter().map(|label| label.end_height).collect::<Vec<_>>(), spacing, foot);
     let from = left + 0.8 * theme.note_size;
     let text = from + sample_length(theme) + 0.5 * theme.note_size;
-    // Half the height of a letter below the middle.
+    // From the middle of a letter down to its baseline.
     let drop = 0.35 * theme.note_size;
-    for (key, y) in kept.iter().zip(heights) {
+    for (label, y) in drawn.iter().zip(heights) {
         items.extend(
-            key.style.line_items(&[vec![Point::new(from, y), Point::new(from + sample_length(theme), y)]], theme),
+            label.style.line_items(&[vec![Point::new(from, y), Point::new(from + sample_length(theme), y)]], theme),
         );
         if with_marks {
-            items.push(key.style.mark_item(Point::new(from + sample_length(theme) / 2.0, y), theme));
+            items.push(label.style.mark_item(Point::new(from + sample_length(theme) / 2.0, y), theme));
         }
-        let words = label_text(key.text, Point::new(text, y + drop), symbols, theme);
-        items.push(Item::Text(words.fit_width(left + room - text).text));
+        let line = label_text(label.text, Point::new(text, y + drop), symbols, theme);
+        items.push(Item::Text(line.fit_width(left + width - text).text));
     }
-    if unnamed > 0 {
-        let more = format!("and {unnamed} more");
-        let words = theme.text_line(&more, Point::new(text, height + drop), Anchor::Start, theme.note_size, theme.grey);
-        items.push(Item::Text(words.fit_width(left + room - text).text));
+    if omitted > 0 {
+        let more = format!("and {omitted} more");
+        let line = theme.text_line(&more, Point::new(text, height + drop), Anchor::Start, theme.note_size, theme.grey);
+        items.push(Item::Text(line.fit_width(left + width - text).text));
     }
     items
 }
 
-/// Ascending heights moved apart, as little as may be, within 0 and `most`.
-fn spread_heights(wanted: &[f64], apart: f64, most: f64) -> Vec<f64> {
-    // Neighbours that would touch stand together about the middle of what they want (pool adjacent violators).
+/// Ascending heights moved as little as possible so that they are at least `spacing` apart and from 0 to `most`.
+fn spread_heights(preferred: &[f64], spacing: f64, most: f64) -> Vec<f64> {
+    // Neighbours that would overlap form a block about the mean of their preferred heights (pool adjacent violators).
     let mut blocks: Vec<(f64, usize)> = Vec::new();
-    for &height in wanted {
+    for &height in preferred {
         let mut block = (height, 1);
         while let Some(&(middle, count)) = blocks.last() {
-            let gap = (block.0 - middle) - apart * (count + block.1) as f64 / 2.0;
+            let gap = (block.0 - middle) - spacing * (count + block.1) as f64 / 2.0;
             if gap >= 0.0 {
                 break;
             }
@@ -92,19 +94,19 @@ fn spread_heights(wanted: &[f64], apart: f64, most: f64) -> Vec<f64> {
         }
         blocks.push(block);
     }
-    let places = blocks
+    let spread = blocks
         .iter()
-        .flat_map(|&(middle, count)| (0..count).map(move |k| middle + apart * (k as f64 - (count - 1) as f64 / 2.0)));
-    let mut heights: Vec<f64> = places.collect();
+        .flat_map(|&(middle, count)| (0..count).map(move |k| middle + spacing * (k as f64 - (count - 1) as f64 / 2.0)));
+    let mut heights: Vec<f64> = spread.collect();
     let mut least = 0.0;
     for height in &mut heights {
         *height = f64::max(*height, least);
-        least = *height + apart;
+        least = *height + spacing;
     }
     let mut greatest = most;
     for height in heights.iter_mut().rev() {
         *height = f64::min(*height, greatest);
-        greatest = *height - apart;
+        greatest = *height - spacing;
     }
     heights
 }
@@ -114,7 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_stand_by_their_lines_and_never_on_each_other() {
+    fn labels_are_close_to_their_lines_and_do_not_overlap() {
         assert_eq!(spread_heights(&[5.0, 20.0], 4.0, 50.0), [5.0, 20.0]);
         assert_eq!(spread_heights(&[10.0, 10.0], 4.0, 50.0), [8.0, 12.0]);
         assert_eq!(spread_heights(&[0.0, 0.0, 50.0, 50.0], 4.0, 50.0), [0.0, 4.0, 46.0, 50.0]);

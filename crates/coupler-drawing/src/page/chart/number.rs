@@ -1,36 +1,36 @@
-//! Decimal numbers as they are written on axes.
+//! Decimal numbers as written on axes.
 
-/// The decimal `digits` times a power of ten, correctly rounded; `digits` is a whole number.
+/// The number `digits` times a power of ten, correctly rounded; `digits` is a whole number.
 pub(super) fn decimal(digits: f64, power: i32) -> f64 {
-    // A text has the value its decimals say, to the last bit.
+    // Parsing is correctly rounded; a multiplication by a power of ten would not be.
     format!("{digits:.0}e{power}").parse().unwrap_or(f64::NAN)
 }
 
-/// The power of ten of the first digit of a positive number; 0 for what is none.
+/// The power of ten of the first digit of a number; 0 if it is zero or not finite.
 pub(super) fn decimal_exponent(value: f64) -> i32 {
     format!("{:e}", value.abs()).split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
 }
 
-/// A number with that many decimals, none where negative, and a true minus sign.
+/// A number with a fixed number of decimals, 0 if that is negative, and with a true minus sign.
 pub(super) fn format_fixed(value: f64, decimals: i32) -> String {
     let decimals = decimals.clamp(0, 17) as usize;
     // Adding 0 makes a negative zero positive.
     format!("{:.decimals$}", value + 0.0).replace('-', "−")
 }
 
-/// A number as a multiple of a power of ten, with that many decimals: `2.5×10⁻⁷`; zero is `0`.
+/// A number as a multiple of a power of ten with a fixed number of decimals: `2.5×10⁻⁷`; zero is `0`.
 pub(super) fn format_scientific(value: f64, power: i32, decimals: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let digits = |digit: char| match digit {
+    let superscript = |digit: char| match digit {
         '-' => '⁻',
         digit => digit.to_digit(10).and_then(|k| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(k as usize)).unwrap_or(digit),
     };
-    let power_of_ten: String = format!("10{}", power.to_string().chars().map(digits).collect::<String>());
-    // The decimal point moves in the text of the number, where nothing is rounded but what is not shown.
-    let (mantissa, own) = split_exponent(value);
-    let mantissa = format_fixed(parse_decimal(&mantissa, own - power), decimals);
+    let power_of_ten: String = format!("10{}", power.to_string().chars().map(superscript).collect::<String>());
+    // Moving the decimal point in the text avoids the rounding of a division.
+    let (mantissa, exponent) = split_exponent(value);
+    let mantissa = format_fixed(parse_decimal(&mantissa, exponent - power), decimals);
     if mantissa == "1" { power_of_ten } else { format!("{mantissa}×{power_of_ten}") }
 }
 
@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_written_as_in_print() {
+    fn numbers_are_formatted_as_in_print() {
         assert_eq!(format_fixed(-0.25, 2), "−0.25");
         assert_eq!(format_fixed(-0.0, 1), "0.0");
         assert_eq!(format_scientific(1e-6, -6, 0), "10⁻⁶");

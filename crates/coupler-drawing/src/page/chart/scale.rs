@@ -1,4 +1,4 @@
-//! The scale of an axis: what it reaches from and to, its ticks and their labels.
+//! The scale of an axis: range, ticks and tick labels.
 
 use std::ops::Range;
 
@@ -7,33 +7,33 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use super::number::{decimal, decimal_exponent, format_fixed, format_scientific};
 use coupler_curves::geometry::trig;
 
-/// Values further from zero than this are as good as infinite, and its inverse as good as zero.
+/// Values of a greater magnitude count as infinite, and smaller values than its inverse as zero on a logarithmic axis.
 const MAX_MAGNITUDE: f64 = 1e300;
 
-/// What differs by less than this part of itself is one value and rounding.
+/// Values with a smaller relative difference are equal up to rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// How a scale is laid out.
+/// The options of a scale.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScaleOptions {
-    /// Whether it goes by the logarithm.
+    /// Whether it is logarithmic.
     pub is_log: bool,
-    /// Whether its values are degrees.
+    /// Whether its values are degrees, for which steps such as 45 and 90 are round.
     pub is_in_degrees: bool,
-    /// What it reaches from and to; as the values have it where not given.
+    /// The least and the greatest value; those of the data if `None`.
     pub range: Option<[f64; 2]>,
-    /// Where it ends where it is not given its range.
+    /// The ends of the scale without a `range`.
     pub ends: RangeEnds,
-    /// About how many ticks there is room for, 2 at least.
+    /// The number of ticks that fit, about; at least 2.
     pub target_ticks: usize,
 }
 
-/// Where a scale ends that is not given its range.
+/// The ends of a scale that has no given range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RangeEnds {
-    /// At the next round numbers.
+    /// The next round numbers.
     Round,
-    /// This part of its length beyond the values.
+    /// This fraction of the range of the values beyond them.
     Padded(f64),
 }
 
@@ -43,9 +43,9 @@ pub(super) struct Scale {
     pub low: f64,
     pub high: f64,
     pub is_log: bool,
-    /// The values that are labelled, ascending.
+    /// The values with labels, ascending.
     pub ticks: Vec<f64>,
-    /// Values between them that have a line of their own.
+    /// Values without labels that have a grid line.
     minor_ticks: Vec<f64>,
     /// The power of ten of the last decimal place.
     last_decimal_exponent: i32,
@@ -57,53 +57,54 @@ pub(super) fn is_drawable(value: f64, is_log: bool) -> bool {
 }
 
 impl Scale {
-    /// The scale for some values; `None` where none of them can be drawn.
-    pub fn from_values(values: impl Iterator<Item = f64>, wish: &ScaleOptions) -> Option<Scale> {
-        let drawn = values.filter(|&value| is_drawable(value, wish.is_log));
+    /// The scale for some values; `None` if none of them can be drawn.
+    pub fn from_values(values: impl Iterator<Item = f64>, options: &ScaleOptions) -> Option<Scale> {
+        let drawn = values.filter(|&value| is_drawable(value, options.is_log));
         let (low, high) = drawn.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         if low > high {
             return None;
         }
-        let mut scale = if wish.is_log { Scale::logarithmic(low, high, wish) } else { Scale::linear(low, high, wish) };
+        let mut scale =
+            if options.is_log { Scale::logarithmic(low, high, options) } else { Scale::linear(low, high, options) };
         scale.ticks.retain(|tick| (scale.low..=scale.high).contains(tick));
         scale.minor_ticks.retain(|tick| (scale.low..=scale.high).contains(tick));
         Some(scale)
     }
 
-    fn linear(low: f64, high: f64, wish: &ScaleOptions) -> Scale {
-        let [mut low, mut high] = wish.range.unwrap_or_else(|| widen_range(low, high));
-        if let (RangeEnds::Padded(part), None) = (wish.ends, wish.range) {
-            let by = part * (high - low);
-            (low, high) = (low - by, high + by);
+    fn linear(low: f64, high: f64, options: &ScaleOptions) -> Scale {
+        let [mut low, mut high] = options.range.unwrap_or_else(|| widen_range(low, high));
+        if let (RangeEnds::Padded(fraction), None) = (options.ends, options.range) {
+            let padding = fraction * (high - low);
+            (low, high) = (low - padding, high + padding);
         }
-        let step = round_step(high - low, wish);
+        let step = round_step(high - low, options);
         let first = |x: f64| (step.steps_from_zero(x) - 1e-9).ceil();
         let last = |x: f64| (step.steps_from_zero(x) + 1e-9).floor();
         let (mut from, mut to) = (first(low), last(high));
-        if let (RangeEnds::Round, None) = (wish.ends, wish.range) {
-            // Zero is near enough to be shown.
+        if let (RangeEnds::Round, None) = (options.ends, options.range) {
+            // Zero is shown if it is close to the values.
             let reaches_zero = |near: f64, far: f64| near * far > 0.0 && near.abs() < 0.25 * far.abs();
             (from, to) = (last(low), first(high));
             from = if reaches_zero(low, high) && low > 0.0 { 0.0 } else { from };
             to = if reaches_zero(high, low) && high < 0.0 { 0.0 } else { to };
             (low, high) = (low.min(step.multiple(from)), high.max(step.multiple(to)));
         }
-        // Where a step is lost in rounding there are the ends only.
+        // The limit applies if a step is lost in rounding.
         let count = (to - from).clamp(-1.0, 100.0) as usize;
         let ticks: Vec<f64> =
             if to >= from { (0..=count).map(|k| step.multiple(from + k as f64)).collect() } else { Vec::new() };
         Scale { low, high, is_log: false, ticks, minor_ticks: Vec::new(), last_decimal_exponent: step.exponent }
     }
 
-    fn logarithmic(low: f64, high: f64, wish: &ScaleOptions) -> Scale {
-        let given = wish.range;
+    fn logarithmic(low: f64, high: f64, options: &ScaleOptions) -> Scale {
+        let given = options.range;
         let [low, high] = given.unwrap_or([low, high]);
         let bottom = decimal_exponent(low);
         let top = decimal_exponent(high) + 1;
-        let of = |digits: &[u32]| -> Vec<f64> {
+        let multiples = |digits: &[u32]| -> Vec<f64> {
             (bottom..=top).flat_map(|power| digits.iter().map(move |&digit| decimal(f64::from(digit), power))).collect()
         };
-        let round = of(&[1, 2, 5]);
+        let round = multiples(&[1, 2, 5]);
         let below = round.iter().copied().filter(|tick| *tick <= low).fold(low, |_, tick| tick);
         let above = round.iter().copied().find(|tick| *tick >= high).unwrap_or(high);
         let [mut low, mut high] = if given.is_some() { [low, high] } else { [below, above] };
@@ -111,30 +112,30 @@ impl Scale {
             (low, high) = (low / 2.0, high * 2.0);
         }
         let within = |tick: &f64| (low..=high).contains(tick);
-        let powers: Vec<f64> = of(&[1]).into_iter().filter(within).collect();
-        let some = round.iter().copied().filter(within).count();
-        let (ticks, minor) = if powers.len() >= 2 && some > wish.target_ticks.max(2) + 2 {
-            let stride = powers.len().div_ceil(wish.target_ticks.max(2));
-            let minor = if stride > 1 { powers.clone() } else { of(&[2, 3, 4, 5, 6, 7, 8, 9]) };
+        let powers: Vec<f64> = multiples(&[1]).into_iter().filter(within).collect();
+        let round_count = round.iter().copied().filter(within).count();
+        let (ticks, minor) = if powers.len() >= 2 && round_count > options.target_ticks.max(2) + 2 {
+            let stride = powers.len().div_ceil(options.target_ticks.max(2));
+            let minor = if stride > 1 { powers.clone() } else { multiples(&[2, 3, 4, 5, 6, 7, 8, 9]) };
             (powers.into_iter().step_by(stride).collect(), minor)
         } else {
-            (round, of(&[3, 4, 6, 7, 8, 9]))
+            (round, multiples(&[3, 4, 6, 7, 8, 9]))
         };
         Scale { low, high, is_log: true, ticks, minor_ticks: minor, last_decimal_exponent: bottom }
     }
 
-    /// How far along the axis a value is: 0 at its beginning, 1 at its end. Within a million axes' lengths.
+    /// The position of a value along the axis: 0 at its start, 1 at its end; clamped to a million lengths of the axis.
     pub fn fraction(&self, value: f64) -> f64 {
-        let part = if self.is_log {
+        let fraction = if self.is_log {
             let [low, high, value] = [self.low, self.high, value].map(trig::log10);
             (value - low) / (high - low)
         } else {
             (value - self.low) / (self.high - self.low)
         };
-        part.clamp(-1e6, 1e6)
+        fraction.clamp(-1e6, 1e6)
     }
 
-    /// A tick as it is written: `0.25`, `−3`, and `2×10⁻⁷` where it is far from one.
+    /// The label of a tick: `0.25`, `−3`, or `2×10⁻⁷` if the ticks are far from 1.
     pub fn tick_label(&self, tick: f64) -> String {
         let most = self.ticks.iter().fold(0.0, |most: f64, tick| most.max(tick.abs()));
         if self.is_log {
@@ -147,7 +148,7 @@ impl Scale {
             };
         }
         let power = if most > 0.0 { decimal_exponent(most) } else { 0 };
-        // 2, 4, … 10 rather than 0.2, 0.4, … 1.0.
+        // 2, 4, …, 10 rather than 0.2, 0.4, …, 1.0.
         let is_ten = power - self.last_decimal_exponent == 1 && most == decimal(1.0, power);
         let power = if is_ten && !(-4..=5).contains(&power) { self.last_decimal_exponent } else { power };
         if (-4..=5).contains(&power) {
@@ -158,47 +159,47 @@ impl Scale {
     }
 }
 
-/// A range that has a length: a single value gets a tenth of itself on both sides.
+/// A range with a length: a single value is extended by a tenth of itself on both sides, and zero by 1.
 fn widen_range(low: f64, high: f64) -> [f64; 2] {
     let size = low.abs().max(high.abs());
     if high - low > ROUNDING * size && high - low > 1e-290 {
         return [low, high];
     }
-    let by = if size > 1e-290 { 0.1 * size } else { 1.0 };
-    [low - by, high + by]
+    let margin = if size > 1e-290 { 0.1 * size } else { 1.0 };
+    [low - margin, high + margin]
 }
 
-/// A round step: so many units of a power of ten.
+/// A round step between ticks: `units` times a power of ten.
 struct TickStep {
     units: f64,
     exponent: i32,
 }
 
 impl TickStep {
-    /// How many steps a value is from zero.
+    /// The number of steps from zero to a value.
     fn steps_from_zero(&self, value: f64) -> f64 {
         value / decimal(self.units, self.exponent)
     }
 
-    /// That many steps, as the decimals say.
+    /// A multiple of the step, correctly rounded.
     fn multiple(&self, steps: f64) -> f64 {
         decimal(steps * self.units, self.exponent)
     }
 }
 
-/// The least round step that makes no more ticks than wished.
-fn round_step(length: f64, wish: &ScaleOptions) -> TickStep {
+/// The least round step that makes no more ticks than the target.
+fn round_step(length: f64, options: &ScaleOptions) -> TickStep {
     const DEGREES: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0];
-    let least = length / wish.target_ticks.max(2) as f64;
+    let least = length / options.target_ticks.max(2) as f64;
     let in_degrees = DEGREES.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
-    if let (true, true, Some(units)) = (wish.is_in_degrees, least >= 0.5, in_degrees) {
+    if let (true, true, Some(units)) = (options.is_in_degrees, least >= 0.5, in_degrees) {
         return TickStep { units, exponent: 0 };
     }
-    let place = decimal_exponent(least);
-    let fits = |units: &f64| decimal(*units, place) >= least * (1.0 - 1e-9);
+    let exponent = decimal_exponent(least);
+    let fits = |units: &f64| decimal(*units, exponent) >= least * (1.0 - 1e-9);
     match [1.0, 2.0, 5.0].into_iter().find(fits) {
-        Some(units) => TickStep { units, exponent: place },
-        None => TickStep { units: 1.0, exponent: place + 1 },
+        Some(units) => TickStep { units, exponent },
+        None => TickStep { units: 1.0, exponent: exponent + 1 },
     }
 }
 
@@ -229,8 +230,8 @@ impl ValueFormatter<f64> for Scale {
 mod tests {
     use super::*;
 
-    fn labels(values: &[f64], wish: ScaleOptions) -> Vec<String> {
-        let scale = Scale::from_values(values.iter().copied(), &wish).unwrap();
+    fn labels(values: &[f64], options: ScaleOptions) -> Vec<String> {
+        let scale = Scale::from_values(values.iter().copied(), &options).unwrap();
         scale.ticks.iter().map(|tick| scale.tick_label(*tick)).collect()
     }
 
@@ -238,7 +239,7 @@ mod tests {
         ScaleOptions { is_log: false, is_in_degrees: false, range: None, ends: RangeEnds::Round, target_ticks: 6 };
 
     #[test]
-    fn ticks_are_round_and_written_as_a_reader_expects() {
+    fn ticks_are_round_and_have_short_labels() {
         assert_eq!(labels(&[1.2, 3.9], ROUND), ["1.0", "1.5", "2.0", "2.5", "3.0", "3.5", "4.0"]);
         assert_eq!(labels(&[0.1, 3.9], ROUND), ["0", "1", "2", "3", "4"]);
         assert_eq!(labels(&[-0.031, 0.02], ROUND), ["−0.04", "−0.03", "−0.02", "−0.01", "0.00", "0.01", "0.02"]);
@@ -252,34 +253,37 @@ mod tests {
 
     #[test]
     fn a_logarithmic_scale_has_powers_of_ten() {
-        let wish = ScaleOptions { is_log: true, ..ROUND };
-        assert_eq!(labels(&[3e-7, 4e-3], wish), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³"]);
-        assert_eq!(labels(&[0.002, 40.0], wish), ["0.01", "0.1", "1", "10"]);
-        assert_eq!(labels(&[0.02, 0.4], wish), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
-        assert_eq!(labels(&[30.0, 40.0], wish), ["20", "50"]);
-        assert_eq!(labels(&[1e-30, 1.0], wish).len(), 6, "every sixth power of 31");
-        // What is not above zero has no logarithm.
-        assert_eq!(Scale::from_values([0.0, -1.0].into_iter(), &wish), None);
-        let scale = Scale::from_values([0.0, 0.01, 10.0].into_iter(), &wish).unwrap();
+        let log = ScaleOptions { is_log: true, ..ROUND };
+        assert_eq!(labels(&[3e-7, 4e-3], log), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³"]);
+        assert_eq!(labels(&[0.002, 40.0], log), ["0.01", "0.1", "1", "10"]);
+        assert_eq!(labels(&[0.02, 0.4], log), ["0.02", "0.05", "0.1", "0.2", "0.5"]);
+        assert_eq!(labels(&[30.0, 40.0], log), ["20", "50"]);
+        assert_eq!(labels(&[1e-30, 1.0], log).len(), 6, "every sixth power of 31");
+        // Values that are not positive have no logarithm.
+        assert_eq!(Scale::from_values([0.0, -1.0].into_iter(), &log), None);
+        let scale = Scale::from_values([0.0, 0.01, 10.0].into_iter(), &log).unwrap();
         assert_eq!([0.01, 0.1, 1.0, 10.0].map(|v| (scale.fraction(v) * 3.0).round()), [0.0, 1.0, 2.0, 3.0]);
     }
 
     #[test]
-    fn no_values_make_it_panic() {
-        let hard =
+    fn extreme_values_do_not_panic() {
+        let extreme =
             [0.0, -0.0, 1.0, -1.0, f64::MAX, f64::MIN, f64::MIN_POSITIVE, 5e-324, f64::NAN, f64::INFINITY, 1e300];
-        let wishes = [false, true].map(|is_log| ScaleOptions { is_log, ..ROUND });
-        for &a in &hard {
-            for &b in &hard {
-                for wish in wishes
+        let variants = [false, true].map(|is_log| ScaleOptions { is_log, ..ROUND });
+        for &a in &extreme {
+            for &b in &extreme {
+                for options in variants
                     .iter()
-                    .flat_map(|w| [*w, ScaleOptions { ends: RangeEnds::Padded(0.03), is_in_degrees: true, ..*w }])
+                    .flat_map(|o| [*o, ScaleOptions { ends: RangeEnds::Padded(0.03), is_in_degrees: true, ..*o }])
                 {
-                    let Some(scale) = Scale::from_values([a, b].into_iter(), &wish) else { continue };
-                    assert!(scale.low < scale.high, "{a} {b} {wish:?}: {scale:?}");
+                    let Some(scale) = Scale::from_values([a, b].into_iter(), &options) else { continue };
+                    assert!(scale.low < scale.high, "{a} {b} {options:?}: {scale:?}");
                     assert!(scale.ticks.iter().all(|tick| !scale.tick_label(*tick).is_empty()));
-                    for value in [a, b].into_iter().filter(|v| is_drawable(*v, wish.is_log)) {
-                        assert!((-1e-9..=1.0 + 1e-9).contains(&scale.fraction(value)), "{a} {b} {wish:?}: {scale:?}");
+                    for value in [a, b].into_iter().filter(|v| is_drawable(*v, options.is_log)) {
+                        assert!(
+                            (-1e-9..=1.0 + 1e-9).contains(&scale.fraction(value)),
+                            "{a} {b} {options:?}: {scale:?}"
+                        );
                     }
                 }
             }

@@ -1,4 +1,4 @@
-//! The foot of a page: the ratios large, the facts and the folio; and the source in the column.
+//! The foot of a page: the proportions in large type, the facts and the folio; and the source in the column.
 
 use super::super::arrangement::Rect;
 use super::super::element::{Area, draw as put, size};
@@ -7,20 +7,19 @@ use super::super::{CouplerGridPage, Options, figure};
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 
-/// Draws it, and says how high it is, from the edge of the paper.
+/// Draws the foot; the result is its height from the edge of the paper.
 pub(super) fn draw(area: &Area, sheet: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
-    let page = size(area);
-    let (left, right) = (theme.border + theme.margin, page.x - theme.border - theme.margin);
+    let paper = size(area);
+    let (left, right) = (theme.border + theme.margin, paper.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
-    let at = Point::new(left, page.y - theme.border - 0.65 * theme.margin);
-    // Of several spaces together, some programs that show an SVG keep one: a wide space they keep.
-    let ratios = sheet.panel.caption.replace("  ", "\u{2003}");
-    let ratios = theme.text_line(&ratios, at, Anchor::Start, theme.title_size, theme.ink);
-    put(area, &ratios.with_italics(sheet.heading.symbols).fit_width(half));
+    let at = Point::new(left, paper.y - theme.border - 0.65 * theme.margin);
+    // Some SVG viewers collapse consecutive spaces, but not an em space.
+    let proportions = sheet.panel.caption.replace("  ", "\u{2003}");
+    let proportions = theme.text_line(&proportions, at, Anchor::Start, theme.title_size, theme.ink);
+    put(area, &proportions.with_italics(sheet.heading.symbols).fit_width(half));
     let line =
         |text: &str, y: f64| theme.text_line(text, Point::new(right, y), Anchor::End, theme.source_size, theme.grey);
-    let titles = format!("{} · {}", sheet.heading.atlas_title, sheet.heading.family_title);
-    put(area, &line(&titles, at.y).fit_width_with_suffix(&sheet.heading.folio(), half));
+    put(area, &line(&sheet.heading.titles(), at.y).fit_width_with_suffix(&sheet.heading.folio(), half));
     let facts = facts(sheet, options);
     if !facts.is_empty() {
         put(area, &line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
@@ -28,7 +27,7 @@ pub(super) fn draw(area: &Area, sheet: &CouplerGridPage, options: &Options, them
     theme.border + 0.65 * theme.margin + 1.5 * theme.title_size
 }
 
-/// Its class, the range of its transmission angle, and what a dash is where a curve is drawn.
+/// The class, the range of the transmission angle, the note and, if a curve is drawn, the range of a dash.
 fn facts(sheet: &CouplerGridPage, options: &Options) -> String {
     let solved = sheet.panel.solved_cell;
     let dash = || {
@@ -40,7 +39,7 @@ fn facts(sheet: &CouplerGridPage, options: &Options) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
 }
 
-/// The source, if there is one, in as many lines as it takes, at the foot of the column.
+/// Draws the source, if there is one, at the foot of the column, in as many lines as needed.
 pub(super) fn draw_source(area: &Area, side: Rect, sheet: &CouplerGridPage, theme: &Theme) {
     let symbols = sheet.heading.symbols;
     if sheet.heading.source.is_empty() {

@@ -1,4 +1,4 @@
-//! The grid of points on a link: hairlines that join its points, and its axis.
+//! The grids that traced points lie on: hairlines through the points, and the axis of the link.
 
 use super::super::plot::Plot;
 use super::super::theme::Theme;
@@ -6,73 +6,72 @@ use crate::scene::{Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Vector, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, Linkage};
 
-/// The grids of a linkage: traced points by coordinates on one base.
+/// The grids of a linkage, one for each base that traced points have coordinates on.
 pub(super) struct PointGrids {
     grids: Vec<PointGrid>,
 }
 
-/// The points on one base.
+/// The grid of the points on one base.
 struct PointGrid {
     base: [JointId; 2],
-    /// The coordinates that occur along the base and to its left, in parts of the base.
+    /// The coordinates of its lines along the base and to the left of it, in lengths of the base, ascending.
     coordinates: [Vec<f64>; 2],
 }
 
 impl PointGrids {
-    /// The grids that some traced joints stand on; a joint that a link is drawn to needs none.
+    /// The grids that some traced joints lie on, except joints that are part of the outline of a link.
     pub fn from_joints(linkage: &Linkage, joints: impl Iterator<Item = JointId>) -> PointGrids {
-        let drawn: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
-        let mut sheets: Vec<PointGrid> = Vec::new();
-        for joint in joints.filter(|joint| !drawn.contains(joint)) {
+        let outlined: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
+        let mut grids: Vec<PointGrid> = Vec::new();
+        for joint in joints.filter(|joint| !outlined.contains(joint)) {
             let JointKind::Rigid { base, along, across } = linkage.joints[joint].kind else { continue };
-            let known = sheets.iter().position(|sheet| sheet.base == base);
-            let at = known.unwrap_or_else(|| {
-                sheets.push(PointGrid { base, coordinates: [Vec::new(), Vec::new()] });
-                sheets.len() - 1
+            let known = grids.iter().position(|grid| grid.base == base);
+            let index = known.unwrap_or_else(|| {
+                grids.push(PointGrid { base, coordinates: [Vec::new(), Vec::new()] });
+                grids.len() - 1
             });
-            for (stations, value) in sheets[at].coordinates.iter_mut().zip([along, across]) {
-                if !stations.contains(&value) {
-                    stations.push(value);
+            for (values, value) in grids[index].coordinates.iter_mut().zip([along, across]) {
+                if !values.contains(&value) {
+                    values.push(value);
                 }
             }
         }
-        for stations in sheets.iter_mut().flat_map(|sheet| &mut sheet.coordinates) {
-            stations.sort_by(f64::total_cmp);
+        for values in grids.iter_mut().flat_map(|grid| &mut grid.coordinates) {
+            values.sort_by(f64::total_cmp);
         }
-        PointGrids { grids: sheets }
+        PointGrids { grids }
     }
 
-    /// The ends of its lines in a pose.
+    /// The ends of all lines in a pose.
     pub fn line_ends(&self, pose: &[Point]) -> Vec<Point> {
-        self.grids.iter().flat_map(|sheet| sheet.lines(pose)).flatten().collect()
+        self.grids.iter().flat_map(|grid| grid.lines(pose)).flatten().collect()
     }
 
-    /// Its lines in a pose.
+    /// The lines in a pose.
     pub fn items(&self, pose: &[Point], plot: &Plot, theme: &Theme) -> Vec<Item> {
         let on_page = |ends: [Point; 2]| Polyline {
             points: ends.map(|p| plot.page_from_plane.apply(p)).to_vec(),
             is_closed: false,
         };
-        let lines: Vec<Polyline> = self.grids.iter().flat_map(|sheet| sheet.lines(pose)).map(on_page).collect();
+        let lines: Vec<Polyline> = self.grids.iter().flat_map(|grid| grid.lines(pose)).map(on_page).collect();
         let stroke = Some(theme.stroke(theme.hairline, theme.hair_width));
         if lines.is_empty() { Vec::new() } else { vec![Item::Path(Path { polylines: lines, stroke, fill: None })] }
     }
 }
 
 impl PointGrid {
-    /// A line through all points of a station, along and across; those across begin on the axis of the link, which is
-    /// drawn as far as the points reach, and from the link to them.
+    /// The lines through the points of each coordinate, along and across the base, and its axis. Lines across start on
+    /// the axis, which extends over the points and to the nearer end of the base if they are all beyond it.
     fn lines(&self, pose: &[Point]) -> Vec<[Point; 2]> {
         let (origin, unit) = (pose[self.base[0]], pose[self.base[1]] - pose[self.base[0]]);
         let at = |along: f64, across: f64| origin + unit * along + left_normal(unit) * across;
-        let span = |stations: &[f64]| {
-            let bounds = Bounds::from_points(stations.iter().map(|s| Point::from(Vector::new(*s, 0.0))));
+        let span = |values: &[f64]| {
+            let bounds = Bounds::from_points(values.iter().map(|s| Point::from(Vector::new(*s, 0.0))));
             [bounds.min.x, bounds.max.x]
         };
         let [alongs, acrosses] = &self.coordinates;
         let ([first, last], [low, high]) = (span(alongs), span(acrosses));
         let (low, high) = (low.min(0.0), high.max(0.0));
-        // The nearest of the link's ends where all points are beyond one of them.
         let axis = [at(first.min(1.0), 0.0), at(last.max(0.0), 0.0)];
         let along =
             acrosses.iter().filter(|across| **across != 0.0).map(|&across| [at(first, across), at(last, across)]);

@@ -1,29 +1,29 @@
-//! The numbers of coupler points, each beside its point where it is furthest from all that is drawn.
+//! The placement of labels: each next to its point, where it is clearest of everything that is drawn.
 
 use super::super::arrangement::Rect;
 use super::super::theme::Theme;
 use crate::scene::{Item, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
 
-/// What numbers keep clear of.
+/// The lines and circles that labels avoid.
 #[derive(Default)]
 pub(super) struct Obstacles {
     segments: Vec<Segment>,
     circles: Vec<(Point, f64)>,
 }
 
-/// A piece of a line.
+/// A segment of a line.
 #[derive(Clone, Copy)]
 struct Segment {
     ends: [Point; 2],
-    /// Half its weight.
+    /// Half the weight of the line.
     half_width: f64,
-    /// Whether a number may stand on it where it has no better place.
+    /// Whether a label may overlap it if there is no better position.
     is_light: bool,
 }
 
 impl Obstacles {
-    /// Adds lines and circles.
+    /// Adds the lines and circles of some items.
     pub fn add(&mut self, items: &[Item], is_light: bool) {
         for item in items {
             match item {
@@ -47,13 +47,13 @@ impl Obstacles {
         }
     }
 
-    /// Adds a line of a weight by its points.
+    /// Adds a polyline with a weight in millimetres.
     pub fn add_points(&mut self, points: &[Point], weight: f64, is_light: bool) {
         let segment = |p: &[Point]| Segment { ends: [p[0], p[1]], half_width: weight / 2.0, is_light };
         self.segments.extend(points.windows(2).map(segment));
     }
 
-    /// Those that come as near to a point as `within`, or nearly so.
+    /// The obstacles within a distance of a point, and some that are a little further away.
     fn nearby(&self, centre: Point, within: f64) -> Obstacles {
         let reach = Vector::repeat(within);
         let segments = self.segments.iter().filter(|segment| segment.is_near(centre, reach)).copied().collect();
@@ -61,7 +61,8 @@ impl Obstacles {
         Obstacles { segments, circles: circles.copied().collect() }
     }
 
-    /// How clear a box stands, up to `enough` of what is heavy and a quarter of that of what is light.
+    /// The clearance of a box: its distance from obstacles that are not light plus a quarter of that from light ones,
+    /// each at most `enough`.
     pub fn clearance(&self, spot: LabelBox, enough: f64) -> f64 {
         let circles =
             self.circles.iter().map(|(at, radius)| spot.distance_to_point(*at) - radius).fold(enough, f64::min);
@@ -78,18 +79,18 @@ impl Obstacles {
 }
 
 impl Segment {
-    /// Whether the box round it meets one about a point.
-    fn is_near(&self, middle: Point, half: Vector) -> bool {
-        let ([a, b], low, high) = (self.ends, middle - half, middle + half);
+    /// Whether its bounding box meets the box with a centre and half size.
+    fn is_near(&self, centre: Point, half_size: Vector) -> bool {
+        let ([a, b], low, high) = (self.ends, centre - half_size, centre + half_size);
         a.x.min(b.x) <= high.x && a.x.max(b.x) >= low.x && a.y.min(b.y) <= high.y && a.y.max(b.y) >= low.y
     }
 }
 
-/// The box of a word or number, where it may stand.
+/// A possible box of a label.
 #[derive(Clone, Copy)]
 pub(super) struct LabelBox {
     pub centre: Point,
-    /// Half its width and height.
+    /// Half the width and height.
     pub half_size: Vector,
 }
 
@@ -98,20 +99,20 @@ impl LabelBox {
         self.centre + Vector::new(x * self.half_size.x, y * self.half_size.y)
     }
 
-    /// How far a point is from it; 0 inside.
+    /// The distance of a point; 0 inside.
     fn distance_to_point(&self, p: Point) -> f64 {
         let off = p - self.centre;
         Vector::new((off.x.abs() - self.half_size.x).max(0.0), (off.y.abs() - self.half_size.y).max(0.0)).norm()
     }
 
-    /// How far a segment is from it; 0 where it passes through.
+    /// The distance of a segment; 0 if it passes through the box.
     fn distance_to_segment(&self, [a, b]: [Point; 2]) -> f64 {
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| self.corner(x, y));
         let crosses = |[c, d]: [Point; 2]| {
             let sides = |o: Point, u: Vector, p: Point, q: Point| cross(u, p - o) * cross(u, q - o) <= 0.0;
             sides(a, b - a, c, d) && sides(c, d - c, a, b)
         };
-        // What passes through a box crosses a diagonal of it.
+        // A segment through a box crosses one of its diagonals or ends inside.
         if crosses([corners[0], corners[2]]) || crosses([corners[1], corners[3]]) {
             return 0.0;
         }
@@ -124,31 +125,26 @@ impl LabelBox {
         low.x >= frame.corner.x && low.y >= frame.corner.y && high.x <= far.x && high.y <= far.y
     }
 
-    /// How far another box is from it; 0 where they meet.
+    /// The distance of another box; 0 if they overlap.
     pub fn distance_to_box(&self, other: &LabelBox) -> f64 {
         LabelBox { half_size: self.half_size + other.half_size, ..*self }.distance_to_point(other.centre)
     }
 }
 
-/// The numbers, each of a point on the page, in a frame. One that could only stand on another is left out.
-pub(super) fn place_labels(
-    numbers: Vec<(Point, Text)>,
-    obstacles: &Obstacles,
-    frame: Rect,
-    theme: &Theme,
-) -> Vec<Item> {
+/// Labels of points on the page, placed within a frame. A label is left out if it would overlap another one everywhere.
+pub(super) fn place_labels(labels: Vec<(Point, Text)>, obstacles: &Obstacles, frame: Rect, theme: &Theme) -> Vec<Item> {
     let mut placed: Vec<LabelBox> = Vec::new();
     let mut items = Vec::new();
-    for (centre, text) in numbers {
+    for (centre, text) in labels {
         let half = Vector::new(text.width() / 2.0, 0.37 * text.size);
-        // What is that far from everything is as good as what is further.
+        // A greater clearance than this is no improvement.
         let enough = 0.6 * theme.joint_radius;
         let is_free =
             |spot: &LabelBox| spot.is_inside(frame) && placed.iter().all(|other| spot.distance_to_box(other) > 0.0);
         let within = |radii: f64| (radii + 1.0) * theme.joint_radius + 2.0 * half.x;
         let around = obstacles.nearby(centre, within(RING_RADII[RING_RADII.len() - 1]));
         let ring = |radii: f64| {
-            // Most numbers stand near their points: no more is looked at than is near the ring.
+            // Most labels are placed on the first rings, so only the obstacles near the ring are considered.
             let near = around.nearby(centre, within(radii));
             let clearance = |spot: LabelBox| {
                 let others = placed.iter().map(|other| spot.distance_to_box(other)).fold(enough, f64::min);
@@ -163,34 +159,34 @@ pub(super) fn place_labels(
     items
 }
 
-/// The distances from a point at which its number may stand, in radii of a joint.
+/// The distances of labels from their points, in radii of a joint.
 const RING_RADII: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, 6.8];
 
-/// The clearest place of the nearest ring that has one that is clear enough; of all, where none has.
+/// The clearest box of the nearest ring that has a clear enough one; if there is none, the clearest of all rings.
 fn best_box(ring: impl Fn(f64) -> Option<(f64, LabelBox)>, enough: f64) -> Option<LabelBox> {
     let mut best: Option<(f64, LabelBox)> = None;
     for radii in RING_RADII {
         best = [best, ring(radii)].into_iter().flatten().reduce(clearer_box);
-        if best.is_some_and(|(clear, _)| clear >= enough * (1.0 - 1e-9)) {
+        if best.is_some_and(|(clearance, _)| clearance >= enough * (1.0 - 1e-9)) {
             break;
         }
     }
     best.map(|(_, spot)| spot)
 }
 
-/// The first of the clearest places, and how clear it is.
+/// The first box with the greatest clearance, with its clearance.
 pub(super) fn clearest_box(
-    places: impl IntoIterator<Item = LabelBox>,
+    boxes: impl IntoIterator<Item = LabelBox>,
     clearance: impl Fn(LabelBox) -> f64,
 ) -> Option<(f64, LabelBox)> {
-    places.into_iter().map(|place| (clearance(place), place)).reduce(clearer_box)
+    boxes.into_iter().map(|spot| (clearance(spot), spot)).reduce(clearer_box)
 }
 
 fn clearer_box(first: (f64, LabelBox), second: (f64, LabelBox)) -> (f64, LabelBox) {
     if second.0 > first.0 { second } else { first }
 }
 
-/// The places round a point at a distance, beginning to the right of it.
+/// The boxes around a point at a distance, in 16 directions counterclockwise, starting on the right.
 fn boxes_around(centre: Point, half: Vector, distance: f64) -> impl Iterator<Item = LabelBox> {
     const DIRECTIONS: i32 = 16;
     (0..DIRECTIONS).map(move |direction| {

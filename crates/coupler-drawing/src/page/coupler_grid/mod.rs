@@ -1,7 +1,7 @@
-//! The `coupler-grid` layout: a linkage with a grid of points on its coupler, and the curves of ten of them.
+//! The `coupler-grid` layout: a linkage with a grid of points on its coupler, and the curves of ten of these points.
 //!
-//! All pages of a cell have one pose, and each the largest scale at which linkage and curves fit its frame. To the right
-//! of the figure stands a column: the key, which says what the letters are, and a table of the points.
+//! All pages of a cell show the same pose, each at the largest scale at which linkage and curves fit the frame. To the
+//! right of the figure is a column with the key, which names the links, and a table of the points.
 
 mod footer;
 mod grid;
@@ -27,15 +27,16 @@ use coupler_curves::motion::{self, DashPattern};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use labels::Obstacles;
 
-/// What is read of a page, and in which ink: a curve, its coupler point and its row in the table.
+/// A curve on the page, which shares its ink with its coupler point and its row in the table.
 struct ShownCurve<'a> {
     curve: &'a MeasuredCurve,
-    /// Its traced point's place on the page, from 0.
+    /// The index of its traced point on the page.
     point_index: usize,
 }
 
 impl ShownCurve<'_> {
-    /// There are more points on a page than inks: the same ink is used again with a thin line under the dashes.
+    /// Whether the dashes have a thin line under them: a page has more points than inks, so each ink is used a second
+    /// time with an underline.
     fn has_underline(&self, theme: &Theme) -> bool {
         self.point_index / theme.curve_inks.len() % 2 == 1
     }
@@ -62,49 +63,51 @@ pub(super) fn compose(scene: &mut Scene, sheet: &CouplerGridPage, options: &Opti
     match posed_mechanism(&sheet.panel) {
         Some(mechanism) => {
             draw_figure(&root, figure, sheet, &mechanism, &shown, options, theme);
-            let below = key::draw(&root, side, sheet, &mechanism, theme);
-            table::draw(&root, below, sheet, &shown, theme);
+            let rest = key::draw(&root, side, sheet, &mechanism, theme);
+            table::draw(&root, rest, sheet, &shown, theme);
         }
         None => {
-            let reason = solved.motion.incomplete_reason.as_deref().unwrap_or("no curve is kept");
-            super::panels::draw_not_assembled(&root, whole, reason, theme);
+            let error = solved.motion.assembly_error.as_ref();
+            let reason = error.map_or("it has no curve".to_owned(), ToString::to_string);
+            super::panels::draw_not_assembled(&root, whole, &reason, theme);
         }
     }
     footer::draw_source(&root, side, sheet, theme);
 }
 
-/// The theme with notes so large that all that is smaller by them can be read, as far as the paper has room for that.
+/// The theme with notes large enough for the smallest text, which is set in proportion to them, to be legible, as far
+/// as the paper is large enough.
 fn with_legible_notes(theme: &Theme, paper: Vector) -> Theme {
-    /// The em of the least lettering of these pages, in millimetres: 5.5 points.
+    /// The least font size on these pages, in millimetres: 5.5 points.
     const MIN_LETTERING: f64 = 5.5 * 25.4 / 72.0;
-    /// The em of the number at a scale bar, the least there is, in that of a note.
+    /// The font size at a scale bar, which is the smallest, relative to that of notes.
     const SCALE_BAR_PART: f64 = 0.75;
-    let room = (0.3 * paper.x / MIN_COLUMN_WIDTH).min(0.0125 * paper.y);
-    let note = theme.note_size.max((MIN_LETTERING / SCALE_BAR_PART).min(room));
+    let most = (0.3 * paper.x / MIN_COLUMN_WIDTH).min(0.0125 * paper.y);
+    let note = theme.note_size.max((MIN_LETTERING / SCALE_BAR_PART).min(most));
     Theme { note_size: note, source_size: theme.source_size.max(note), ..theme.clone() }
 }
 
 /// The least width of the column, in ems of a note.
 const MIN_COLUMN_WIDTH: f64 = 22.0;
 
-/// What is free between figure and column, likewise: the dashes of curves are not to run into those of the table.
+/// The gap between figure and column, in ems of a note: it separates the dashes of curves from those in the table.
 const GUTTER: f64 = 2.0;
 
-/// The curves of a page, numbered by their points.
-fn shown_curves<'a>(solved: &'a SolvedCell, places: &[usize]) -> Vec<ShownCurve<'a>> {
+/// The curves of a page by their indices, with the indices of their points.
+fn shown_curves<'a>(solved: &'a SolvedCell, curve_indices: &[usize]) -> Vec<ShownCurve<'a>> {
     let mut traces: Vec<usize> = Vec::with_capacity(Layout::POINTS_PER_PAGE);
-    let mut shown = Vec::with_capacity(places.len());
-    for curve in places.iter().filter_map(|&k| solved.curves.get(k)) {
-        let place = traces.iter().position(|trace| *trace == curve.trace).unwrap_or_else(|| {
+    let mut shown = Vec::with_capacity(curve_indices.len());
+    for curve in curve_indices.iter().filter_map(|&k| solved.curves.get(k)) {
+        let point_index = traces.iter().position(|trace| *trace == curve.trace).unwrap_or_else(|| {
             traces.push(curve.trace);
             traces.len() - 1
         });
-        shown.push(ShownCurve { curve, point_index: place });
+        shown.push(ShownCurve { curve, point_index });
     }
     shown
 }
 
-/// The linkage in its pose, where it can be assembled.
+/// The linkage in its pose; `None` if the cell has no curve.
 fn posed_mechanism<'a>(panel: &'a Panel) -> Option<Mechanism<'a>> {
     let solved = panel.solved_cell;
     let circuit = solved.circuit(solved.curves.first()?);
@@ -157,11 +160,11 @@ fn draw_figure(
     group("underlay", underlay);
     group("grid", grid);
     group("straight", straight);
-    let lined = |(shown, path): (&ShownCurve, &motion::JointPath)| {
+    let underline = |(shown, path): (&ShownCurve, &motion::JointPath)| {
         let line = || Path::stroked(path.points.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine_width));
         shown.has_underline(theme).then(|| Item::Path(line()))
     };
-    group("trail", shown.iter().zip(&paths).filter_map(lined).collect());
+    group("trail", shown.iter().zip(&paths).filter_map(underline).collect());
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
         draw(area, &coupler_curve(sheet, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
@@ -170,7 +173,7 @@ fn draw_figure(
     group("number", numbers);
 }
 
-/// The points of a page, each once, with their places on it.
+/// The points of a page without repetition, with their positions on it.
 fn distinct_points<'a>(
     mechanism: &Mechanism,
     shown: &'a [ShownCurve],
@@ -181,11 +184,11 @@ fn distinct_points<'a>(
     first.map(|s| (plot.page_from_plane.apply(mechanism.pose[s.curve.joint]), s))
 }
 
-/// The numbers of the points of a page, with the places of these.
+/// The numbers of the points of a page, with the positions of the points.
 fn point_numbers(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
     let number = |s: &ShownCurve| {
-        let words = s.curve.trace.to_string();
-        theme.text_line(&words, Point::origin(), Anchor::Middle, 0.85 * theme.note_size, s.ink(theme)).text
+        let number = s.curve.trace.to_string();
+        theme.text_line(&number, Point::origin(), Anchor::Middle, 0.85 * theme.note_size, s.ink(theme)).text
     };
     distinct_points(mechanism, shown, plot).map(|(centre, s)| (centre, number(s))).collect()
 }
@@ -213,7 +216,7 @@ fn coupler_curve(
     }
 }
 
-/// A small circle for each point of the page, once, where it is in the pose.
+/// A small circle at the position of each point of the page in the pose.
 fn point_circles(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<Item> {
     let circle = |(centre, s): (Point, &ShownCurve)| {
         let stroke = Some(theme.stroke(s.ink(theme), theme.fine_width));
@@ -223,7 +226,7 @@ fn point_circles(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme
     distinct_points(mechanism, shown, plot).map(circle).collect()
 }
 
-/// The unit of the input, as it is written after a number.
+/// The unit of the input, as written after a number; empty for a length.
 fn input_unit(solved: &SolvedCell) -> &'static str {
     if solved.linkage.input() == Input::Length { "" } else { "°" }
 }

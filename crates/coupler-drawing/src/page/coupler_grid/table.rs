@@ -1,4 +1,4 @@
-//! The table of a page's points: where each is on its link, and how straight its curve is.
+//! The table of the points of a page: coordinates on the link, and the straight portion of the curve.
 
 use super::super::CouplerGridPage;
 use super::super::arrangement::Rect;
@@ -12,26 +12,26 @@ use coupler_curves::linkage::{JointKind, Linkage};
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-/// The heads of the columns, and where each ends, in parts of the table's width.
+/// The heads of the columns, and the right edge of each as a fraction of the table's width.
 const COLUMNS: [(&str, f64); 5] =
     [("point", 0.2), ("along", 0.38), ("across", 0.58), ("straight", 0.82), ("over", 1.0)];
 
-/// The first columns, which are there where no straight portion was sought too.
+/// The number of columns without those of the straight portion.
 const POINT_COLUMNS: usize = 3;
 
-/// Draws it at the head of a frame.
+/// Draws the table at the head of a frame.
 pub(super) fn draw(area: &Area, frame: Rect, sheet: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) {
     let solved = sheet.panel.solved_cell;
     let has_circuits = solved.motion.circuits.len() > 1;
     let row = 1.5 * theme.note_size;
     let at = |column: usize, y: f64| Point::new(frame.corner.x + COLUMNS[column].1 * frame.size.x, y);
     let mut y = frame.corner.y + 1.5 * row;
-    let is_straight = shown.iter().any(|s| s.curve.value("straight_length") != Value::Missing);
-    let columns = if is_straight { COLUMNS.len() } else { POINT_COLUMNS };
-    let places: Vec<Option<[f64; 2]>> = shown.iter().map(|s| link_coordinates(&solved.linkage, s.curve)).collect();
-    let decimals = [0, 1].map(|k| decimals_needed(places.iter().flatten().map(|place| place[k])));
-    // Joints of links have no places to tell of.
-    let is_blank = |column: usize| (1..POINT_COLUMNS).contains(&column) && places.iter().all(Option::is_none);
+    let has_straightness = shown.iter().any(|s| s.curve.value("straight_length") != Value::Missing);
+    let columns = if has_straightness { COLUMNS.len() } else { POINT_COLUMNS };
+    let coordinates: Vec<Option<[f64; 2]>> = shown.iter().map(|s| link_coordinates(&solved.linkage, s.curve)).collect();
+    let decimals = [0, 1].map(|k| decimals_needed(coordinates.iter().flatten().map(|pair| pair[k])));
+    // A traced joint of a link has no coordinates.
+    let is_blank = |column: usize| (1..POINT_COLUMNS).contains(&column) && coordinates.iter().all(Option::is_none);
     for (column, (head, _)) in COLUMNS.iter().enumerate().take(columns).filter(|(column, _)| !is_blank(*column)) {
         put(area, &theme.text_line(head, at(column, y), Anchor::End, 0.9 * theme.note_size, theme.grey));
     }
@@ -41,7 +41,7 @@ pub(super) fn draw(area: &Area, frame: Rect, sheet: &CouplerGridPage, shown: &[S
     put(area, &Drawing { class: "rule", title: String::new(), items: vec![rule] });
     y += 0.25 * row;
     let last = frame.corner.y + frame.size.y - 3.0 * row;
-    for (k, (s, place)) in shown.iter().zip(&places).enumerate() {
+    for (k, (s, coordinates)) in shown.iter().zip(&coordinates).enumerate() {
         y += row;
         if y > last && k + 1 < shown.len() {
             let rest = format!("and {} more", shown.len() - k);
@@ -51,7 +51,8 @@ pub(super) fn draw(area: &Area, frame: Rect, sheet: &CouplerGridPage, shown: &[S
         put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note_size), s, theme));
         let number =
             if has_circuits { format!("{}/{}", s.curve.trace, s.curve.circuit) } else { s.curve.trace.to_string() };
-        let [along, across] = [0, 1].map(|k| place.map_or(String::new(), |place| format_fixed(place[k], decimals[k])));
+        let [along, across] =
+            [0, 1].map(|k| coordinates.map_or(String::new(), |pair| format_fixed(pair[k], decimals[k])));
         let [straight, over] = format_straight_portion(solved, s.curve);
         for (column, text) in [number, along, across, straight, over].iter().enumerate().take(columns) {
             let color = if column == 0 { s.ink(theme) } else { theme.grey };
@@ -60,7 +61,7 @@ pub(super) fn draw(area: &Area, frame: Rect, sheet: &CouplerGridPage, shown: &[S
     }
 }
 
-/// Two dashes of the curve in its manner, with its point.
+/// Two dashes of the curve, and its point.
 fn swatch(at: Point, shown: &ShownCurve, theme: &Theme) -> Drawing {
     let ink = shown.ink(theme);
     let length = 2.4 * theme.note_size;
@@ -83,8 +84,8 @@ fn swatch(at: Point, shown: &ShownCurve, theme: &Theme) -> Drawing {
     Drawing { class: "swatch", title: String::new(), items }
 }
 
-/// Where a point is on its link, along its base from the first joint and to the left of it; nothing where it is not
-/// placed that way.
+/// The coordinates of a point on its link: along the base from its first joint, and to the left of it. `None` if the
+/// joint is not a point of a rigid link.
 fn link_coordinates(linkage: &Linkage, curve: &MeasuredCurve) -> Option<[f64; 2]> {
     let JointKind::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].kind else { return None };
     let link = linkage.links.iter().find(|link| link.position(from).is_some() && link.position(to).is_some())?;
@@ -92,29 +93,30 @@ fn link_coordinates(linkage: &Linkage, curve: &MeasuredCurve) -> Option<[f64; 2]
     Some([along * base, across * base])
 }
 
-/// The decimals it takes to tell some values from each other and from zero: two, or more while the column has room.
+/// The number of decimals that distinguishes values from each other and from zero: at least two, and no more than fit
+/// the column.
 fn decimals_needed(values: impl Iterator<Item = f64>) -> usize {
-    /// What differs by this part is the same but for rounding.
+    /// Values with a smaller relative difference are equal up to rounding.
     const ROUNDING: f64 = 1e-9;
-    /// As many figures and signs as the column has room for.
+    /// The number of characters that fit the column.
     const MAX_CHARACTERS: usize = 7;
     let mut values: Vec<f64> = values.chain([0.0]).collect();
     values.sort_by(f64::total_cmp);
-    let is_told = |pair: &[f64], decimals: usize| {
-        let alike = pair[1] - pair[0] <= ROUNDING * pair[0].abs().max(pair[1].abs());
-        alike || format_fixed(pair[0], decimals) != format_fixed(pair[1], decimals)
+    let is_distinct = |pair: &[f64], decimals: usize| {
+        let is_equal = pair[1] - pair[0] <= ROUNDING * pair[0].abs().max(pair[1].abs());
+        is_equal || format_fixed(pair[0], decimals) != format_fixed(pair[1], decimals)
     };
-    let has_room =
+    let fits =
         |decimals: usize| values.iter().all(|value| format_fixed(*value, decimals).chars().count() <= MAX_CHARACTERS);
-    let all_told = |decimals: usize| values.windows(2).all(|pair| is_told(pair, decimals));
+    let all_distinct = |decimals: usize| values.windows(2).all(|pair| is_distinct(pair, decimals));
     let mut decimals = 2;
-    while !all_told(decimals) && has_room(decimals + 1) {
+    while !all_distinct(decimals) && fits(decimals + 1) {
         decimals += 1;
     }
     decimals
 }
 
-/// A number with so many decimals and a true minus sign; zero has none.
+/// A number with a fixed number of decimals and a true minus sign, which zero does not have.
 fn format_fixed(value: f64, decimals: usize) -> String {
     let number = format!("{value:.decimals$}");
     if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
@@ -123,7 +125,7 @@ fn format_fixed(value: f64, decimals: usize) -> String {
     number.replace('-', "−")
 }
 
-/// The length of a curve's straight portion and the input it spans.
+/// The length of the straight portion of a curve, and the range of the input it spans.
 fn format_straight_portion(solved: &SolvedCell, curve: &MeasuredCurve) -> [String; 2] {
     match &curve.straight {
         Some(portion) => {

@@ -1,4 +1,4 @@
-//! What a page looks like: colours, weights, sizes and typeface.
+//! The look of a page: colours, weights, sizes and typeface.
 
 mod named;
 
@@ -12,39 +12,39 @@ use coupler_curves::geometry::{Point, Vector};
 /// The inks, weights and sizes of a page, in millimetres on tabloid paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
-    /// The paper's colour.
+    /// The colour of the paper.
     pub paper: Color,
-    /// Links, joints, titles.
+    /// The colour of links, joints and titles.
     pub ink: Color,
-    /// Secondary text.
+    /// The colour of secondary text.
     pub grey: Color,
-    /// The frame line, the body of ternary links.
+    /// The colour of the frame, of grids and of rules; the bodies of ternary links have a lighter tint of it.
     pub hairline: Color,
-    /// The inks of curves, told apart in colour and in lightness; one at least.
+    /// The colours of curves, which differ in hue and in lightness; at least one.
     pub curve_inks: Vec<Color>,
-    /// How curves are told apart besides by their inks; one at least.
+    /// The weights and dashes of curves, by which curves in one ink differ; at least one.
     pub curve_styles: Vec<CurveStyle>,
-    /// What all texts are set in.
+    /// The typeface of all text.
     pub typeface: Typeface,
-    /// The part that is drawn of the input a dash and its gap span, more than 0 and 1 at most.
+    /// The length of a dash as a fraction of the dash and its gap; more than 0 and at most 1.
     pub dash_fraction: f64,
-    /// The page's border and its distance from the paper's edge.
+    /// The distance of the border from the edge of the paper.
     pub border: f64,
-    /// From the border to what stands in it.
+    /// The distance of the contents from the border.
     pub margin: f64,
-    /// The em of the title.
+    /// The font size (em) of the title.
     pub title_size: f64,
-    /// The em of the source line and the folio.
+    /// The font size of the source line and the folio.
     pub source_size: f64,
-    /// The em of captions.
+    /// The font size of captions.
     pub caption_size: f64,
-    /// The em of notes and of numbers beside figures.
+    /// The font size of notes and of numbers in figures.
     pub note_size: f64,
     /// The weight of links.
     pub link_width: f64,
     /// The weight of curves.
     pub curve_width: f64,
-    /// The weight of joints' circles, the border and light curves.
+    /// The weight of the circles of joints, the border and light curves.
     pub fine_width: f64,
     /// The weight of hairlines.
     pub hair_width: f64,
@@ -52,20 +52,21 @@ pub struct Theme {
     pub joint_radius: f64,
 }
 
-/// How a curve is told from another besides by its ink.
+/// The weight and the dashes of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveStyle {
-    /// Its weight, in times that of curves.
+    /// The weight as a multiple of [`Theme::curve_width`].
     pub width_factor: f64,
-    /// The drawn part of its dashes, in times that of the theme.
+    /// The length of a dash as a multiple of [`Theme::dash_fraction`].
     pub dash_factor: f64,
 }
 
 impl CurveStyle {
-    /// Curves as they are drawn where ink alone tells them apart.
+    /// The style of curves that differ in ink only.
     pub const PLAIN: CurveStyle = CurveStyle { width_factor: 1.0, dash_factor: 1.0 };
 
-    /// Those of five greys: the darkest plain, the faintest broad, the others between them in shorter and longer dashes.
+    /// The styles of five greys: the darkest plain, the faintest broad, those between them with shorter and longer
+    /// dashes.
     const FOR_GREYS: [CurveStyle; 5] = [
         CurveStyle::PLAIN,
         CurveStyle { width_factor: 2.2, dash_factor: 1.0 },
@@ -84,7 +85,8 @@ impl Default for Theme {
 }
 
 impl Theme {
-    /// The theme on a paper: what is right on tabloid, smaller on smaller paper, but never too fine to print.
+    /// The theme scaled from tabloid to another paper, by 0.3 to 2; weights change by the square root, so that lines do
+    /// not become too fine to print.
     pub fn for_paper(&self, paper: Paper) -> Theme {
         let scale = (paper.width / 431.8).min(paper.height / 279.4).clamp(0.3, 2.0);
         let weight = scale.sqrt();
@@ -104,7 +106,8 @@ impl Theme {
         }
     }
 
-    /// The theme for panels of a size: lettering, joints and links are smaller where panels are small, to a third.
+    /// The theme for panels of a size in millimetres: text, joints and lines are smaller in small panels, down to a
+    /// third.
     pub fn for_panel_size(&self, panel: Vector) -> Theme {
         let scale =
             (panel.x / (12.0 * self.caption_size)).min(panel.y / (14.0 * self.caption_size)).clamp(1.0 / 3.0, 1.0);
@@ -120,12 +123,12 @@ impl Theme {
         }
     }
 
-    /// A stroke with ends cut square.
+    /// A stroke with butt ends.
     pub fn stroke(&self, color: Color, width: f64) -> Stroke {
         Stroke { color, width, has_round_ends: false }
     }
 
-    /// A line of text at a place of an area, in the theme's typeface.
+    /// A line of text at a position of an area, in the theme's typeface.
     pub(super) fn text_line(&self, text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> TextLine {
         TextLine::new(text, self.typeface, at, anchor, (size, color))
     }
@@ -135,7 +138,7 @@ impl Theme {
         self.curve_inks[k % self.curve_inks.len()]
     }
 
-    /// The manner of the k-th curve, from 0: curves that have one ink have different manners, where there are several.
+    /// The style of the k-th curve, from 0; curves in one ink differ in style if the theme has several styles.
     fn curve_style(&self, k: usize) -> CurveStyle {
         self.curve_styles[(k + k / self.curve_inks.len()) % self.curve_styles.len()]
     }
@@ -145,7 +148,7 @@ impl Theme {
         self.stroke(self.curve_ink(k), self.curve_width * self.curve_style(k).width_factor)
     }
 
-    /// The drawn part of the dashes of the k-th curve, from 0.
+    /// The length of a dash of the k-th curve, from 0, as a fraction of the dash and its gap.
     pub fn curve_dash_fraction(&self, k: usize) -> f64 {
         (self.dash_fraction * self.curve_style(k).dash_factor).min(1.0)
     }

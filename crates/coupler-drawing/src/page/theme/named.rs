@@ -1,21 +1,21 @@
-//! The themes that have a name.
+//! The named themes.
 
 use super::{CurveStyle, Theme};
 use crate::scene::{Color, Typeface};
 
-/// A theme that has a name.
+/// A theme with a name.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedTheme {
-    /// What it goes by in a manifest.
+    /// The name used in a manifest.
     pub name: &'static str,
-    /// What it shows, or is for.
+    /// A short description.
     pub description: &'static str,
-    /// The theme.
+    /// The function that builds the theme.
     pub theme: fn() -> Theme,
 }
 
 impl Theme {
-    /// Every theme with a name, the default first.
+    /// Every named theme, the default first.
     pub const NAMED: [NamedTheme; 4] = [
         NamedTheme { name: "paper", description: "ink on cream paper", theme: Theme::paper },
         NamedTheme { name: "print", description: "the same inks on white, for a printer", theme: Theme::print },
@@ -27,7 +27,8 @@ impl Theme {
         NamedTheme { name: "dark", description: "light inks on a dark ground, for screens", theme: Theme::dark },
     ];
 
-    /// The inks of curves differ in lightness by 8 at least, so that they can be told apart in grey and by the colour-blind.
+    /// The inks of curves differ in lightness by at least 8, so that they can be distinguished in greyscale and by
+    /// colour-blind readers.
     fn paper() -> Theme {
         Theme {
             paper: Color(0xff, 0xfd, 0xf8),
@@ -66,8 +67,9 @@ impl Theme {
         Theme::print().into_greyscale(None)
     }
 
-    /// No ink is pure white, which would glare, and links, which light makes broader, are a little finer. The inks of
-    /// curves differ in lightness by 8 at least, so that they can be told apart in grey and by the colour-blind.
+    /// No ink is pure white, which would glare, and links are a little finer, because light lines look broader. The
+    /// inks of curves differ in lightness by at least 8, so that they can be distinguished in greyscale and by
+    /// colour-blind readers.
     fn dark() -> Theme {
         Theme {
             paper: Color(0x14, 0x18, 0x1d),
@@ -86,22 +88,24 @@ impl Theme {
         }
     }
 
-    /// The theme in greys of the same lightness. Where the curves have no inks that are `given`, they have greys from the
-    /// ink's to the faintest that is well seen on the paper; with each goes a manner of its own.
-    pub fn into_greyscale(self, given: Option<Vec<Color>>) -> Theme {
-        /// A little more than the 3:1 a line wants on its ground.
+    /// The theme in greys of the same lightness, with a different style for each ink.
+    ///
+    /// Curves have the greys of `inks`; by default, greys from that of the theme's ink to the faintest one that is well
+    /// visible on the paper.
+    pub fn into_greyscale(self, inks: Option<Vec<Color>>) -> Theme {
+        /// A little more than the contrast of 3:1 that a line needs on its background.
         const MIN_CONTRAST: f64 = 3.4;
-        /// The order of the greys, as parts of the way from ink to faintest: neighbours in it are well apart.
+        /// The order of the greys, as fractions from the ink to the faintest: consecutive greys differ clearly.
         const GREY_STEPS: [f64; 5] = [0.0, 1.0, 0.5, 0.75, 0.25];
         let (paper, ink) = (self.paper.to_grey(), self.ink.to_grey());
         let greys = (0..=u8::MAX).map(|level| Color(level, level, level));
         let is_lighter = |color: &Color| color.luminance() > paper.luminance();
-        let is_seen = |grey: &Color| grey.contrast(paper) >= MIN_CONTRAST && is_lighter(grey) == is_lighter(&ink);
-        let faintest = greys.filter(is_seen).min_by(|a, b| a.contrast(paper).total_cmp(&b.contrast(paper)));
+        let is_visible = |grey: &Color| grey.contrast(paper) >= MIN_CONTRAST && is_lighter(grey) == is_lighter(&ink);
+        let faintest = greys.filter(is_visible).min_by(|a, b| a.contrast(paper).total_cmp(&b.contrast(paper)));
         let faintest = faintest.map_or(ink.lightness(), Color::lightness);
         let step = |part: f64| Color::from_lightness(ink.lightness() * (1.0 - part) + faintest * part);
-        let curves = given
-            .map_or_else(|| GREY_STEPS.map(step).to_vec(), |given| given.into_iter().map(Color::to_grey).collect());
+        let curves =
+            inks.map_or_else(|| GREY_STEPS.map(step).to_vec(), |inks| inks.into_iter().map(Color::to_grey).collect());
         Theme {
             paper,
             ink,

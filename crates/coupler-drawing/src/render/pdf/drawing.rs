@@ -1,3 +1,5 @@
+//! Drawing of scenes on the pages of a document.
+
 use krilla::color::rgb;
 use krilla::geom::{self, PathBuilder, Transform};
 use krilla::paint::{Fill, LineCap, LineJoin};
@@ -7,24 +9,23 @@ use super::fonts::{FontCache, layout_glyphs};
 use crate::scene::{Circle, Color, Path, Polyline, Scene, Shape, Stroke, Text, TextRun};
 use coupler_curves::geometry::Point;
 
-/// Millimetres to the points of PDF.
+/// A length in PDF points.
 pub(super) fn mm_to_points(mm: f64) -> f32 {
     (mm * POINTS_PER_MM) as f32
 }
 
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
-/// The units that places are written in, to a millimetre: whole numbers are short and quickly written.
+/// The units of coordinates per millimetre. Coordinates are whole numbers, which are short and quick to write.
 const UNITS_PER_MM: f64 = 1000.0;
 
-/// Draws scenes on a page of a document, whose origin is the upper left corner with y down, as a scene's is.
+/// Draws scenes on a page of a document, whose origin is the upper left corner with y down, as that of a scene.
 pub(super) struct PagePainter<'d> {
     surface: Surface<'d>,
     fonts: &'d mut FontCache,
 }
 
-/// A system of coordinates on the page: where its origin is, in millimetres, and how often it is turned by a quarter,
-/// clockwise.
+/// A coordinate frame on the page: its origin in millimetres, and its rotation in quarter turns clockwise.
 #[derive(Clone, Copy)]
 struct CoordinateFrame {
     origin: Point,
@@ -53,7 +54,7 @@ impl<'d> PagePainter<'d> {
         self.surface.finish();
     }
 
-    /// The paper and all items.
+    /// Draws the paper and all items.
     pub fn draw_scene(&mut self, scene: &Scene) {
         let corners = [(0.0, 0.0), (scene.width, 0.0), (scene.width, scene.height), (0.0, scene.height)];
         let points = corners.map(|(x, y)| Point::new(x, y)).to_vec();
@@ -86,11 +87,11 @@ impl<'d> PagePainter<'d> {
         self.surface.pop();
     }
 
-    /// Places are written from a corner of the path, so that they have few digits.
+    /// Draws a path. Coordinates are relative to a corner of the path, so that they have few digits.
     fn draw_path(&mut self, path: &Path) {
         let points = path.polylines.iter().flat_map(|line| &line.points);
-        let low = points.fold([f64::INFINITY; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]);
-        let frame = CoordinateFrame::upright(Point::from(low.map(|c| clamp_length(c).floor())));
+        let corner = points.fold([f64::INFINITY; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]);
+        let frame = CoordinateFrame::upright(Point::from(corner.map(|c| clamp_length(c).floor())));
         let mut builder = PathBuilder::new();
         for line in &path.polylines {
             let mut last = None;
@@ -110,7 +111,7 @@ impl<'d> PagePainter<'d> {
         self.paint_path(frame, builder, path.stroke, path.fill);
     }
 
-    /// Four cubics, which are off a circle by less than 3/10000 of its radius.
+    /// Draws a circle as four cubics, which deviate from it by less than 3/10000 of the radius.
     fn draw_circle(&mut self, circle: &Circle) {
         const CONTROL_RATIO: f64 = 0.552_284_749_8;
         let (r, k) = (mm_to_units(circle.radius), mm_to_units(CONTROL_RATIO * circle.radius));
@@ -135,29 +136,29 @@ impl<'d> PagePainter<'d> {
         self.surface.set_fill(Some(to_fill(text.color)));
         self.surface.set_stroke(None);
         self.surface.push_transform(&frame.points_from_units());
-        for TextRun { text: words, face } in &text.runs {
+        for TextRun { text: run, face } in &text.runs {
             let [x, y] = point_in_units(&at, frame.origin);
             if let Some(font) = self.fonts.get(*face) {
                 let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(text.size));
-                self.surface.draw_glyphs(start, &layout_glyphs(words, *face), font, words, size, false);
+                self.surface.draw_glyphs(start, &layout_glyphs(run, *face), font, run, size, false);
             }
-            at.x += face.width(words, text.size);
+            at.x += face.width(run, text.size);
         }
         self.surface.pop();
     }
 }
 
-/// A place in units from an origin, which are whole.
+/// A point in whole units from an origin.
 fn point_in_units(point: &Point, origin: Point) -> [f32; 2] {
     [mm_to_units(point.x - origin.x), mm_to_units(point.y - origin.y)]
 }
 
-/// Millimetres in whole units.
+/// A length in whole units.
 fn mm_to_units(mm: f64) -> f32 {
     (clamp_length(mm) * UNITS_PER_MM).round() as f32
 }
 
-/// A length that can be written: what is no number is 0, and what is beyond all paper stays just there.
+/// A length limited to what can be written: NaN becomes 0, and a length beyond any paper becomes 100 m.
 fn clamp_length(mm: f64) -> f64 {
     const LIMIT: f64 = 1e5;
     if mm.is_nan() { 0.0 } else { mm.clamp(-LIMIT, LIMIT) }

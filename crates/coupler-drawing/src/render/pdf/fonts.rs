@@ -1,28 +1,30 @@
+//! The fonts of a book.
+
 use std::collections::HashMap;
 
 use krilla::text::{Font, GlyphId, KrillaGlyph};
 
 use crate::scene::Face;
 
-/// The faces of a book, each read when it is first needed. What is embedded of them is no more than the glyphs in use.
+/// The fonts of a book, each parsed on first use. Only the glyphs in use are embedded.
 #[derive(Default)]
 pub(super) struct FontCache {
     fonts: HashMap<Face, Option<Font>>,
 }
 
 impl FontCache {
-    /// A face, if it can be read.
+    /// The font of a face, if it can be parsed.
     pub fn get(&mut self, face: Face) -> Option<Font> {
         self.fonts.entry(face).or_insert_with(|| Font::new(face.bytes().into(), 0)).clone()
     }
 
-    /// A face that was asked for and could not be read.
+    /// A used face whose font cannot be parsed.
     pub fn first_unreadable(&self) -> Option<Face> {
         self.fonts.iter().find(|(_, font)| font.is_none()).map(|(face, _)| *face)
     }
 }
 
-/// A glyph for each character, one after the other and without kerning, as every format sets them.
+/// The glyphs of a text, one for each character and without kerning, as in the other formats.
 pub(super) fn layout_glyphs(text: &str, face: Face) -> Vec<KrillaGlyph> {
     let glyph = |(at, c): (usize, char)| {
         let (glyph, advance) = (GlyphId::new(face.glyph_index(c)), face.advance(c) as f32);

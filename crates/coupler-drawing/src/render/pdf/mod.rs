@@ -1,9 +1,9 @@
-//! A book in PDF, page after page.
+//! Books in PDF, written page by page.
 //!
-//! A [`Book`] takes finished scenes in the order of its pages. Each is drawn and compressed at once, on the thread that
-//! adds it, about a millisecond to a page; no more is held of it than its compressed drawing, until the book is finished.
-//! A book does not go from thread to thread: pages that are composed in parallel are added by one of them, in order.
-//! Where a link or an entry of the outline leads may be a page that is still to come: that is looked up in the end.
+//! A [`Book`] receives finished scenes in the order of its pages. Each is drawn and compressed at once on the thread
+//! that adds it, which takes about a millisecond; only the compressed page is kept in memory until the book is
+//! finished. A book cannot be sent to another thread: pages composed in parallel are added by one thread, in order.
+//! Links and entries of the outline may refer to later pages; they are checked when the book is finished.
 
 mod drawing;
 mod fonts;
@@ -22,27 +22,28 @@ use crate::scene::{OutlineEntry, PageLink, PageNumber, Scene};
 use drawing::{PagePainter, mm_to_points};
 use fonts::FontCache;
 
-/// Why a book cannot be written.
+/// An error of writing a book.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
-    /// A page has no area.
+    /// A page without area.
     #[error("a page of {width} by {height} mm cannot be written")]
     InvalidSize {
-        /// Millimetres across.
+        /// The width in millimetres.
         width: f64,
-        /// Millimetres down.
+        /// The height in millimetres.
         height: f64,
     },
-    /// A link or an entry of the outline leads to a page that is not in the book.
-    #[error("something leads to page {page} of a book of {page_count} pages")]
+    /// A link or an entry of the outline refers to a page that is not in the book.
+    #[error("a link refers to page {page}, but the book has {page_count} pages")]
     MissingPage {
-        /// The page it leads to, from 1.
+        /// The target page, from 1.
         page: usize,
-        /// How many pages there are.
+        /// The number of pages.
         page_count: usize,
     },
-    /// A face cannot be embedded, or a limit of the format is passed.
-    #[error("the book cannot be written: {0}")]
+    /// A font that cannot be embedded, or an exceeded limit of the format.
+    #[error("failed to write the book: {0}")]
     Writing(String),
 }
 
@@ -52,12 +53,13 @@ pub struct Book {
     metadata: Metadata,
     fonts: FontCache,
     page_count: usize,
-    /// The furthest page a link leads to.
+    /// The greatest index of a page that a link refers to.
     furthest_linked_page: Option<usize>,
 }
 
 impl Book {
-    /// An empty book: its title, and the program that writes it. There is no date and no name of a machine in it.
+    /// An empty book with a title and the name of the program that writes it. It contains no date and no name of a
+    /// machine.
     pub fn new(title: &str, program: &str) -> Book {
         let settings = SerializeSettings { enable_tagging: false, ..SerializeSettings::default() };
         let program = sanitize_text(program);
@@ -72,7 +74,7 @@ impl Book {
         }
     }
 
-    /// How many pages it has so far, which is the place of the next one.
+    /// The number of pages so far, which is the index of the next page.
     pub fn page_count(&self) -> usize {
         self.page_count
     }
@@ -80,7 +82,7 @@ impl Book {
     /// Adds a page.
     ///
     /// # Errors
-    /// A page without area.
+    /// If the page has no area.
     pub fn add_page(&mut self, scene: &Scene, label: PageNumber) -> Result<(), Error> {
         let Scene { width, height, .. } = *scene;
         let settings = PageSettings::from_wh(mm_to_points(width), mm_to_points(height))
@@ -91,9 +93,9 @@ impl Book {
         };
         let label = PageLabel::new(Some(style), None, NonZeroU32::new(number));
         let mut page = self.document.start_page_with(settings.with_page_label(label));
-        let mut pen = PagePainter::new(page.surface(), &mut self.fonts);
-        pen.draw_scene(scene);
-        pen.finish();
+        let mut painter = PagePainter::new(page.surface(), &mut self.fonts);
+        painter.draw_scene(scene);
+        painter.finish();
         for link in &scene.links {
             self.furthest_linked_page = self.furthest_linked_page.max(Some(link.page_index));
             add_link_annotation(&mut page, link);
@@ -106,14 +108,14 @@ impl Book {
     /// The bytes of the book, with an outline.
     ///
     /// # Errors
-    /// A link or an entry that leads to no page; a face that cannot be embedded.
+    /// If a link or an entry of the outline refers to a missing page, or if a font cannot be embedded.
     pub fn finish(mut self, outline: &[OutlineEntry]) -> Result<Vec<u8>, Error> {
         let furthest = outline.iter().map(furthest_page).max().max(self.furthest_linked_page);
-        if let Some(to) = furthest.filter(|&to| to >= self.page_count) {
-            return Err(Error::MissingPage { page: to + 1, page_count: self.page_count });
+        if let Some(index) = furthest.filter(|&index| index >= self.page_count) {
+            return Err(Error::MissingPage { page: index + 1, page_count: self.page_count });
         }
         if let Some(face) = self.fonts.first_unreadable() {
-            return Err(Error::Writing(format!("the face {face:?} cannot be read")));
+            return Err(Error::Writing(format!("the font of {face:?} cannot be read")));
         }
         let mut root = Outline::new();
         outline.iter().for_each(|entry| root.push_child(outline_node(entry)));
@@ -123,22 +125,22 @@ impl Book {
     }
 }
 
-/// The furthest page that an entry or one under it leads to.
+/// The greatest index of a page that an entry or one under it refers to.
 fn furthest_page(entry: &OutlineEntry) -> usize {
     entry.children.iter().map(furthest_page).fold(entry.page_index, usize::max)
 }
 
 fn outline_node(entry: &OutlineEntry) -> OutlineNode {
     let mut node = OutlineNode::new(sanitize_text(&entry.title), top_of_page(entry.page_index));
-    entry.children.iter().for_each(|child| node.push_child(self::outline_node(child)));
+    entry.children.iter().for_each(|child| node.push_child(outline_node(child)));
     node
 }
 
-fn top_of_page(page: usize) -> XyzDestination {
-    XyzDestination::new(page, geom::Point::from_xy(0.0, 0.0))
+fn top_of_page(page_index: usize) -> XyzDestination {
+    XyzDestination::new(page_index, geom::Point::from_xy(0.0, 0.0))
 }
 
-/// A box that is pressed and leads to a page; one without area cannot be pressed.
+/// Adds a link to a page, unless its rectangle has no area.
 fn add_link_annotation(page: &mut Page, link: &PageLink) {
     let [left, top] = link.corner.coords.map(mm_to_points).into();
     let [right, bottom] = (link.corner + link.size).coords.map(mm_to_points).into();
@@ -148,12 +150,12 @@ fn add_link_annotation(page: &mut Page, link: &PageLink) {
     }
 }
 
-/// A text without characters that a document's description has no place for.
+/// A text without control characters and noncharacters, which the metadata of a document cannot contain.
 fn sanitize_text(text: &str) -> String {
-    let plain = |c: char| match c {
+    let sanitized = |c: char| match c {
         '\t' | '\n' | '\r' => ' ',
         '\0'..='\x1f' | '\x7f' | '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
         c => c,
     };
-    text.chars().map(plain).collect()
+    text.chars().map(sanitized).collect()
 }

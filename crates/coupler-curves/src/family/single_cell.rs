@@ -1,0 +1,128 @@
+//! A family of one cell: a linkage with one parameter set.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::{CellError, Family, ParameterSpace, Sampling, StraightCriterion, sort_by_dependency};
+use crate::expression::Kind;
+use crate::measure;
+use crate::problem::suggestion;
+use crate::template::{self, Template};
+
+/// Why values cannot be the parameters of a linkage.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ParameterError {
+    /// The linkage has no parameter of this name.
+    #[error("unknown parameter `{name}`; {suggestion}")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The nearest parameter, or all of them.
+        suggestion: String,
+    },
+    /// A parameter has two values.
+    #[error("`{name}` is given twice")]
+    Repeated {
+        /// The name.
+        name: String,
+    },
+    /// The defaults of some parameters depend on each other.
+    #[error("the defaults depend on each other, {}; give one of them", cycle.join(" -> "))]
+    CyclicDefaults {
+        /// The names, with the first repeated at the end.
+        cycle: Vec<String>,
+    },
+    /// A parameter has no value, or one out of its bounds, or the linkage cannot be built.
+    #[error(transparent)]
+    Cell(#[from] CellError),
+}
+
+/// All errors of a parameter set, at least one; displayed one on a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterErrors(Vec<ParameterError>);
+
+impl ParameterErrors {
+    /// The errors, in the order of the values and then of the parameters.
+    pub fn iter(&self) -> std::slice::Iter<'_, ParameterError> {
+        self.0.iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a ParameterErrors {
+    type Item = &'a ParameterError;
+    type IntoIter = std::slice::Iter<'a, ParameterError>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl fmt::Display for ParameterErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, error) in self.0.iter().enumerate() {
+            write!(f, "{}{error}", if k == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for ParameterErrors {}
+
+impl Family {
+    /// A family of one cell: a linkage with these values, and its defaults for the other parameters.
+    ///
+    /// # Errors
+    /// A name that is not a parameter, a parameter given twice, defaults that depend on each other, or the
+    /// [`Family::cell_errors`] of the cell.
+    pub fn single_cell(
+        template: Arc<Template>,
+        values: &[(String, f64)],
+        sampling: Sampling,
+    ) -> Result<Family, ParameterErrors> {
+        let names: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        let known: Vec<&str> = names.iter().map(String::as_str).collect();
+        let scope: Vec<(&str, Kind)> = known.iter().map(|name| (*name, Kind::Number)).collect();
+        let mut case = Vec::new();
+        let mut errors = Vec::new();
+        for (name, value) in values {
+            match known.iter().position(|known| known == name) {
+                Some(slot) if case.iter().all(|(other, _)| *other != slot) => case.push((slot, *value)),
+                Some(_) => errors.push(ParameterError::Repeated { name: name.clone() }),
+                None => {
+                    let suggestion = suggestion(name, &known);
+                    errors.push(ParameterError::Unknown { name: name.clone(), suggestion });
+                }
+            }
+        }
+        let has_value = |slot: usize| case.iter().any(|(other, _)| *other == slot);
+        let default = |(slot, parameter): (usize, &template::Parameter)| {
+            let expression = parameter.default.as_ref().filter(|_| !has_value(slot))?;
+            Some((slot, expression.compile(&scope, Kind::Number).ok()?))
+        };
+        let defaults = template.parameters.iter().enumerate().filter_map(default).collect();
+        let derived = sort_by_dependency(defaults).map_err(|cycle| {
+            let cycle = cycle.iter().map(|&slot| known[slot].to_owned()).collect();
+            ParameterErrors(vec![ParameterError::CyclicDefaults { cycle }])
+        })?;
+        let family = Family {
+            id: template.id.clone(),
+            title: template.id.clone(),
+            captions: [template.caption.clone(), template.note.clone()],
+            template,
+            names,
+            space: ParameterSpace::Cases(vec![case]),
+            derived,
+            sampling,
+            columns: Vec::new(),
+            straight: StraightCriterion::default(),
+            is_computed: vec![true; measure::ALL.len()],
+            filter: None,
+            sort: None,
+        };
+        if errors.is_empty() {
+            errors.extend(family.cell_errors(&family.cell(0)).into_iter().map(ParameterError::Cell));
+        }
+        if errors.is_empty() { Ok(family) } else { Err(ParameterErrors(errors)) }
+    }
+}

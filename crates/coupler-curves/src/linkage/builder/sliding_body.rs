@@ -1,0 +1,182 @@
+//! Sliding joints: sliders, yokes, slots and actuators, and the links they carry.
+
+use super::{LinkageBuilder, check_length};
+use crate::geometry::{Vector, trig};
+use crate::linkage::{Error, JointId, JointKind, LineDirection, Link, LinkId, Side};
+
+/// A link identified by a joint and a line: a slider, a yoke, an actuator, or a link that a joint slides along.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SlidingBody {
+    /// The joint its points are measured from, and another that identifies the line.
+    pub base: [JointId; 2],
+    /// How its points are placed.
+    pub reference: BodyReference,
+    /// Its index among the links.
+    pub link: LinkId,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum BodyReference {
+    /// By the foot of its line and the foot's distance from the pivot; positive where the direction of the line is
+    /// that of pivot -> foot turned a quarter to the left.
+    Foot { foot: JointId, offset: f64 },
+    /// By the direction of a line, as in [`JointKind::Aligned`].
+    Line { line: [JointId; 2], offset: f64, direction: LineDirection },
+}
+
+impl LinkageBuilder {
+    /// Adds the pin of a crank about `base[1]`, driven by a linear actuator that turns about `base[0]`; the
+    /// actuator's line is `offset` from that pivot, and `side` is the pin's side of `base[0] -> base[1]`.
+    ///
+    /// # Errors
+    /// One joint given twice, a length that is not positive, pivots on no common link, more than
+    /// [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
+    pub fn piston(
+        &mut self,
+        name: &str,
+        base: [JointId; 2],
+        (length, offset): (f64, f64),
+        side: Side,
+    ) -> Result<JointId, Error> {
+        self.check_distinct(name, base)?;
+        check_length(name, length)?;
+        self.require_common_link(name, base)?;
+        let dyad = self.add_dyad(name, side)?;
+        let id = self.add_joint(name, JointKind::Piston { base, length, offset, dyad });
+        self.add_bar(base[1], id, length);
+        // McCarthy's foot is to the right of the line from pivot to pin, so the pivot is to the left of his line.
+        self.add_sliding_body([base[0], id], [base[0], id], (-offset, LineDirection::Actuator));
+        Ok(id)
+    }
+
+    /// Adds the end of a link from the joint `from`, which slides on the line `offset` to the left of two others;
+    /// `ahead` is [`Side::Left`] where it is ahead of `from` along the line, and [`Side::Right`] where it is behind.
+    ///
+    /// # Errors
+    /// One joint given twice for the line, a length that is not positive, more than
+    /// [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
+    pub fn slide(
+        &mut self,
+        name: &str,
+        (from, length): (JointId, f64),
+        (line, offset): ([JointId; 2], f64),
+        ahead: Side,
+    ) -> Result<JointId, Error> {
+        self.check_line(name, line)?;
+        check_length(name, length)?;
+        let dyad = self.add_dyad(name, ahead)?;
+        let id = self.add_joint(name, JointKind::Slide { from, length, line, offset, dyad });
+        self.add_bar(from, id, length);
+        self.add_sliding_body([id, line[1]], line, (0.0, LineDirection::Towards));
+        Ok(id)
+    }
+
+    /// Adds the point at which the slot of a yoke meets its guide, the line `offset` to the left of two joints.
+    ///
+    /// The yoke slides along the guide, and `from` slides in its slot, which is at `angle_deg` to the guide.
+    ///
+    /// # Errors
+    /// One joint given twice for the guide, a slot along the guide.
+    pub fn yoke(
+        &mut self,
+        name: &str,
+        from: JointId,
+        (line, offset): ([JointId; 2], f64),
+        angle_deg: f64,
+    ) -> Result<JointId, Error> {
+        self.check_line(name, line)?;
+        let (cos, sin) = trig::cos_sin_deg(angle_deg);
+        if sin == 0.0 {
+            return Err(Error::SlotParallelToGuide { joint: name.to_owned() });
+        }
+        let id = self.add_joint(name, JointKind::Yoke { from, line, offset, slot_direction: Vector::new(cos, sin) });
+        self.add_sliding_body([id, line[1]], line, (0.0, LineDirection::Towards));
+        Ok(id)
+    }
+
+    /// Adds the foot, at a distance `offset` from the pivot `base[0]`, of the line that slides through `base[1]`; on
+    /// a side of `base[0] -> base[1]`. The pivot and the foot are on one link.
+    ///
+    /// With no offset the foot is the pivot, and the side gives the direction of the line. Points of the link that
+    /// carries the line are added by [`LinkageBuilder::point`] on the same two joints: along the line, in its
+    /// direction at the start, and to its left.
+    ///
+    /// # Errors
+    /// One joint given twice, more than [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
+    pub fn slot(&mut self, name: &str, base: [JointId; 2], offset: f64, side: Side) -> Result<JointId, Error> {
+        self.check_distinct(name, base)?;
+        let dyad = self.add_dyad(name, side)?;
+        let id = self.add_joint(name, JointKind::Slot { base, offset, dyad });
+        if offset == 0.0 {
+            self.add_sliding_body(base, base, (0.0, LineDirection::BySide(dyad)));
+            self.links[self.sliding_bodies[self.sliding_bodies.len() - 1].link].joints.push((id, Vector::zeros()));
+            return Ok(id);
+        }
+        // With the foot to the right of pivot -> joint, the line points to the left of pivot -> foot.
+        let signed = if side == Side::Right { offset } else { -offset };
+        self.sliding_bodies.push(SlidingBody {
+            base,
+            reference: BodyReference::Foot { foot: id, offset: signed },
+            link: LinkId::new(self.links.len()),
+        });
+        self.add_bar(base[0], id, offset.abs());
+        Ok(id)
+    }
+
+    /// Adds a link that keeps the direction of a line.
+    pub(super) fn add_sliding_body(
+        &mut self,
+        base: [JointId; 2],
+        line: [JointId; 2],
+        (offset, direction): (f64, LineDirection),
+    ) {
+        self.sliding_bodies.push(SlidingBody {
+            base,
+            reference: BodyReference::Line { line, offset, direction },
+            link: LinkId::new(self.links.len()),
+        });
+        self.links.push(Link { joints: vec![(base[0], Vector::zeros())] });
+    }
+
+    /// Adds a point of a sliding body: along its line, in the line's direction at the start, and to the left of it.
+    pub(super) fn add_point_on_sliding_body(
+        &mut self,
+        name: &str,
+        body: SlidingBody,
+        [along, across]: [f64; 2],
+    ) -> JointId {
+        let SlidingBody { base, reference, link } = body;
+        let (kind, position) = match reference {
+            BodyReference::Line { line, offset, direction } => {
+                // At the start the line points towards the joint, on either side.
+                let sense = match direction {
+                    LineDirection::BySide(dyad) => -f64::from(self.mode.sign(dyad)),
+                    LineDirection::Towards | LineDirection::Actuator => 1.0,
+                };
+                let (from, position) = (base[0], Vector::new(along, across));
+                let [along, across] = [along * sense, across * sense];
+                (JointKind::Aligned { from, line, offset, direction, along, across }, position)
+            }
+            BodyReference::Foot { foot, offset } => {
+                let (along, across) = (-across / offset, along / offset);
+                let kind = JointKind::Rigid { base: [base[0], foot], along, across };
+                (kind, Vector::new(along, across) * offset.abs())
+            }
+        };
+        let id = self.add_joint(name, kind);
+        self.links[link].joints.push((id, position));
+        id
+    }
+
+    /// Checks that two joints can define a line: they are different, and on one link they do not coincide.
+    fn check_line(&self, name: &str, line: [JointId; 2]) -> Result<(), Error> {
+        self.check_distinct(name, line)?;
+        match self.common_link(line) {
+            Some((_, from, to)) if from == to => {
+                let base = line.map(|j| self.joints[j].name.clone());
+                Err(Error::NoDirection { joint: name.to_owned(), base })
+            }
+            _ => Ok(()),
+        }
+    }
+}

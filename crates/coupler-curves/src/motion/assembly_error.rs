@@ -1,0 +1,159 @@
+//! Why a linkage cannot be assembled.
+
+use std::fmt;
+
+use super::MAX_SAMPLES;
+
+/// Why a linkage cannot be assembled at all, or not over the whole input range requested.
+///
+/// Lengths are in the manifest's own unit; inputs are in degrees, or lengths where an actuator drives. Messages print
+/// up to six significant digits.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AssemblyError {
+    /// Positions, or their squares, overflow or underflow.
+    #[error("its lengths are too large or too small for double precision")]
+    BeyondDoublePrecision,
+    /// The sampling step is too short for the travel from one limit to the other.
+    #[error("a step of {step} makes more than {MAX_SAMPLES} samples from one end to the other")]
+    TooManySamples {
+        /// The step.
+        step: f64,
+    },
+    /// The base of a dyad is longer than its links reach, at every input.
+    #[error(
+        "{joint} cannot be placed: {} and {} are {} or more apart, links of {} and {} reach {}",
+        base[0], base[1], Short(*least), Short(lengths[0]), Short(lengths[1]), Short(lengths[0] + lengths[1])
+    )]
+    BaseTooLong {
+        /// The joint of the dyad.
+        joint: String,
+        /// The joints its links are on.
+        base: [String; 2],
+        /// The lengths of its links.
+        lengths: [f64; 2],
+        /// The least length of its base.
+        least: f64,
+    },
+    /// The base of a dyad is shorter than the difference of its links, at every input.
+    #[error(
+        "{joint} cannot be placed: {} and {} are {} or less apart, links of {} and {} need {}",
+        base[0], base[1], Short(*greatest), Short(lengths[0]), Short(lengths[1]), Short((lengths[0] - lengths[1]).abs())
+    )]
+    BaseTooShort {
+        /// The joint of the dyad.
+        joint: String,
+        /// The joints its links are on.
+        base: [String; 2],
+        /// The lengths of its links.
+        lengths: [f64; 2],
+        /// The greatest length of its base.
+        greatest: f64,
+    },
+    /// The base of a dyad is never of a length that its links span, within the input range.
+    #[error(
+        "{joint} cannot be placed: links of {} and {} never span the distance of {} and {} in the range",
+        Short(lengths[0]), Short(lengths[1]), base[0], base[1]
+    )]
+    BaseNeverSpanned {
+        /// The joint of the dyad.
+        joint: String,
+        /// The joints its links are on.
+        base: [String; 2],
+        /// The lengths of its links.
+        lengths: [f64; 2],
+    },
+    /// The two joints that a dyad is on coincide at every input.
+    #[error("{joint} has no position: {} and {} coincide throughout", base[0], base[1])]
+    CoincidentBase {
+        /// The joint of the dyad.
+        joint: String,
+        /// The joints its links are on.
+        base: [String; 2],
+    },
+    /// The line of a slide stays out of reach of its link.
+    #[error(
+        "{joint} cannot be placed: its line stays {} or more from {base}, and the link of {} is too short",
+        Short(*distance), Short(*length)
+    )]
+    LineTooFar {
+        /// The joint that slides.
+        joint: String,
+        /// The joint its link is on.
+        base: String,
+        /// The length of the link.
+        length: f64,
+        /// The least distance of the line from that joint.
+        distance: f64,
+    },
+    /// The offset of a slot is greater than the distance of its pivot from the joint that slides through.
+    #[error(
+        "{joint} cannot be placed: {} and {} are {} or less apart, and the offset is {}",
+        base[0], base[1], Short(*greatest), Short(*offset)
+    )]
+    OffsetTooLong {
+        /// The foot of the slot's line.
+        joint: String,
+        /// The pivot, and the joint that slides through.
+        base: [String; 2],
+        /// The greatest distance of those two.
+        greatest: f64,
+        /// The offset, without its sign.
+        offset: f64,
+    },
+    /// No length of an actuator within the range places its joint.
+    #[error("{joint} cannot be placed by an actuator of any length in the range")]
+    ActuatorOutOfRange {
+        /// The joint that the actuator drives.
+        joint: String,
+    },
+    /// No input allows the assembly mode of the start.
+    #[error("no input allows the sides requested at the start")]
+    NoStart,
+    /// The linkage cannot be assembled at the start.
+    #[error("it cannot be assembled at the start, an input of {start}")]
+    OpenAtStart {
+        /// The input at the start.
+        start: f64,
+    },
+    /// The start is not in the input range.
+    #[error("its start, an input of {start}, is not in the requested range from {} to {}", range[0], range[1])]
+    StartOutOfRange {
+        /// The input at the start.
+        start: f64,
+        /// The input range, from and to.
+        range: [f64; 2],
+    },
+    /// The input does not reach all of the range: some of the motion is missing.
+    #[error(
+        "the input goes from {} to {}{unit} only, of the requested {} to {}{unit}",
+        Rounded(reached[0]), Rounded(reached[1]), requested[0], requested[1], unit = if *in_degrees { " deg" } else { "" }
+    )]
+    RangeNotReached {
+        /// The least and the greatest input of the circuit.
+        reached: [f64; 2],
+        /// The input range requested, from and to.
+        requested: [f64; 2],
+        /// Whether inputs are in degrees; lengths otherwise.
+        in_degrees: bool,
+    },
+}
+
+/// Prints up to six significant digits.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rounded: f64 = format!("{:.5e}", self.0).parse().unwrap_or(self.0);
+        write!(f, "{rounded}")
+    }
+}
+
+/// Prints up to four decimals.
+struct Rounded(f64);
+
+impl fmt::Display for Rounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", (self.0 * 1e4).round() / 1e4 + 0.0)
+    }
+}

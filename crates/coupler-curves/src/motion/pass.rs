@@ -1,0 +1,79 @@
+//! Passes, and the values of the input at which they begin and end.
+
+use crate::geometry::trig;
+use crate::linkage::{AssemblyMode, DyadSet, Input};
+
+/// A value of the input: an angle with its cosine and sine, which are more exact than the angle at a limit, or a
+/// length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InputPosition {
+    /// The angle in degrees, continuous along a circuit, or the length.
+    pub value: f64,
+    /// The cosine of the angle; 0 for a length.
+    pub cos: f64,
+    /// The sine of the angle; 0 for a length.
+    pub sin: f64,
+}
+
+impl InputPosition {
+    /// The input at an angle in degrees.
+    pub fn from_degrees(deg: f64) -> InputPosition {
+        let (cos, sin) = trig::cos_sin_deg(deg);
+        InputPosition { value: deg, cos, sin }
+    }
+
+    /// The input at a value: an angle in degrees or a length, whichever a linkage's input is.
+    pub fn new(input: Input, value: f64) -> InputPosition {
+        match input {
+            Input::Angle { .. } => InputPosition::from_degrees(value),
+            Input::Length => InputPosition { value, cos: 0.0, sin: 0.0 },
+        }
+    }
+}
+
+/// The beginning or the end of a pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassEnd {
+    /// The input there.
+    pub input: InputPosition,
+    /// The dyads that are flat there, at a limit or a change point; none at the end of a range or a period.
+    pub flat_dyads: DyadSet,
+}
+
+/// A part of a circuit on which the input is monotonic and the assembly mode is constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pass {
+    /// Its beginning.
+    pub from: PassEnd,
+    /// Its end.
+    pub to: PassEnd,
+    /// The assembly mode.
+    pub mode: AssemblyMode,
+}
+
+impl Pass {
+    /// 1 where the input rises, -1 where it falls.
+    pub fn input_direction(&self) -> f64 {
+        if self.to.input.value >= self.from.input.value { 1.0 } else { -1.0 }
+    }
+
+    /// The range of the input, in degrees or in units of length.
+    pub fn input_length(&self) -> f64 {
+        (self.to.input.value - self.from.input.value).abs()
+    }
+
+    /// The least and the greatest input on it.
+    pub fn input_range(&self) -> [f64; 2] {
+        [self.from.input.value.min(self.to.input.value), self.from.input.value.max(self.to.input.value)]
+    }
+
+    pub(super) fn reversed(&self) -> Pass {
+        Pass { from: self.to, to: self.from, mode: self.mode }
+    }
+
+    pub(super) fn shifted(&self, deg: f64) -> Pass {
+        let shift =
+            |end: PassEnd| PassEnd { input: InputPosition { value: end.input.value + deg, ..end.input }, ..end };
+        Pass { from: shift(self.from), to: shift(self.to), mode: self.mode }
+    }
+}

@@ -1,0 +1,84 @@
+//! A panel of a page: a solved cell, the texts under it, and the pose its linkage is drawn in.
+
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::LinkId;
+use coupler_curves::solve::SolvedCell;
+
+/// A cell of a page: its curves, its linkage and the lines under them.
+///
+/// [`Panel::new`] needs the cell only; everything else is optional.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Panel<'a> {
+    /// The cell.
+    pub solved_cell: &'a SolvedCell,
+    /// The line under the figure; may be empty.
+    pub caption: String,
+    /// A smaller line under the caption; may be empty.
+    pub note: String,
+    /// Measured facts about the cell, as [`cell_facts`](super::cell_facts) gives them; may be empty.
+    pub facts: [String; 2],
+    /// The pose the linkage is drawn in.
+    pub pose: PoseChoice,
+    /// Links drawn in the ink of a curve: pairs of a link's index in the linkage and the index of the ink. The other
+    /// links are drawn in the theme's ink.
+    pub link_inks: Vec<(LinkId, usize)>,
+}
+
+impl<'a> Panel<'a> {
+    /// The panel of a solved cell in its clearest pose, without caption, note and facts.
+    pub fn new(solved_cell: &'a SolvedCell) -> Panel<'a> {
+        Panel {
+            solved_cell,
+            caption: String::new(),
+            note: String::new(),
+            facts: Default::default(),
+            pose: PoseChoice::default(),
+            link_inks: Vec::new(),
+        }
+    }
+
+    /// The panel with a caption.
+    pub fn with_caption(self, caption: impl Into<String>) -> Panel<'a> {
+        Panel { caption: caption.into(), ..self }
+    }
+
+    /// The panel with a smaller line under its caption.
+    pub fn with_note(self, note: impl Into<String>) -> Panel<'a> {
+        Panel { note: note.into(), ..self }
+    }
+
+    /// The panel with facts, such as those of [`cell_facts`](super::cell_facts).
+    pub fn with_facts(self, facts: [String; 2]) -> Panel<'a> {
+        Panel { facts, ..self }
+    }
+
+    /// The panel with its linkage in another pose.
+    pub fn with_pose(self, pose: PoseChoice) -> Panel<'a> {
+        Panel { pose, ..self }
+    }
+
+    /// The panel with some links in the inks of curves: pairs of a link's index in the linkage and the index of the
+    /// ink.
+    pub fn with_link_inks(self, link_inks: Vec<(LinkId, usize)>) -> Panel<'a> {
+        Panel { link_inks, ..self }
+    }
+}
+
+/// The pose a linkage is drawn in; a pose is the positions of all its joints.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub enum PoseChoice {
+    /// The clearest pose of the circuit of the first curve.
+    #[default]
+    Clearest,
+    /// This pose.
+    Fixed(Vec<Point>),
+    /// These poses one after the other, repeated without end.
+    Animated {
+        /// The poses at equal time steps; the first one is repeated at the end.
+        poses: Vec<Vec<Point>>,
+        /// The time from the first pose to the last, in seconds.
+        seconds: f64,
+    },
+}

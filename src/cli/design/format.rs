@@ -1,0 +1,23 @@
+//! Numbers and proportions of designs, as text.
+
+use coupler_atlas::design::Design;
+
+use super::super::format;
+
+/// A number rounded to `digits` significant digits, in scientific notation below 1e-5 and from 1e7 on.
+pub(super) fn format_significant(value: f64, digits: usize) -> String {
+    format::format_significant(value, digits, 1e-5)
+}
+
+/// A ratio with two decimals, or ∞.
+pub(super) fn format_ratio(value: f64) -> String {
+    if value.is_finite() { format!("{value:.2}") } else { "∞".to_owned() }
+}
+
+/// The parameters of a design, including derived ones: "p = 2, r = 1.5".
+pub(super) fn proportions(design: &Design) -> String {
+    let parameters = design.family.template.parameters.iter();
+    let values = parameters
+        .map(|parameter| format!("{} = {}", parameter.name, format_significant(design.parameter(&parameter.name), 6)));
+    values.collect::<Vec<_>>().join(", ")
+}

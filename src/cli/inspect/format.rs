@@ -1,0 +1,51 @@
+//! Numbers, points and circuits, as text.
+
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{DyadId, Input, Linkage};
+use coupler_curves::motion::{Circuit, Pass};
+
+use super::super::format;
+use super::pose::flat_joints;
+
+/// A number rounded to `digits` significant digits, in scientific notation below 1e-4 and from 1e7 on.
+pub(super) fn format_significant(value: f64, digits: usize) -> String {
+    format::format_significant(value, digits, 1e-4)
+}
+
+/// "(1.5, -2)".
+pub(super) fn format_point(p: Point) -> String {
+    format!("({}, {})", format_significant(p.x, 7), format_significant(p.y, 7))
+}
+
+/// The unit of the input: degrees, or none for the length of an actuator.
+pub(super) fn input_unit(linkage: &Linkage) -> &'static str {
+    if linkage.input() == Input::Length { "" } else { "°" }
+}
+
+/// The input over a circuit, pass by pass: "a full turn on branch 1", "from 28.96° on branch 1 to 97.18° (B flat), on
+/// branch -1 to 28.96° (B flat)".
+pub(super) fn describe_circuit(linkage: &Linkage, circuit: &Circuit) -> String {
+    let unit = input_unit(linkage);
+    let first = &circuit.passes[0];
+    if let [pass] = circuit.passes[..]
+        && circuit.is_closed
+    {
+        let turns = (pass.input_length() / 360.0).round();
+        let length = if turns == 1.0 { "a full turn".to_owned() } else { format!("{turns} turns") };
+        return format!("{length} on branch {}", pass.mode.sign(DyadId::FIRST));
+    }
+    let flat = |pass: &Pass| match &flat_joints(linkage, pass.to.flat_dyads)[..] {
+        [] => String::new(),
+        joints => format!(" ({} flat)", joints.join(", ")),
+    };
+    let describe_pass = |pass: &Pass| {
+        format!(
+            "on branch {} to {}{unit}{}",
+            pass.mode.sign(DyadId::FIRST),
+            format_significant(pass.to.input.value, 10),
+            flat(pass)
+        )
+    };
+    let passes: Vec<String> = circuit.passes.iter().map(describe_pass).collect();
+    format!("from {}{unit} {}", format_significant(first.from.input.value, 10), passes.join(", "))
+}

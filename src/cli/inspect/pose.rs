@@ -1,0 +1,83 @@
+//! The poses of a linkage at one input, and the motion of its links there.
+
+use coupler_curves::geometry::{Vector, cross};
+use coupler_curves::linkage::{DyadId, DyadSet, JointId, Linkage};
+use coupler_curves::motion::{InstantaneousMotion, JointDerivatives, Pass};
+use coupler_curves::solve::SolvedCell;
+
+/// The linkage at one input, on one pass.
+pub(super) struct Pose<'a> {
+    /// The number of the circuit, from 1.
+    pub circuit: usize,
+    pub pass: &'a Pass,
+    /// The input, in the turn in which the pass has it.
+    pub input: f64,
+    pub jets: JointDerivatives,
+}
+
+/// Every pose at an input, circuit by circuit; with `branch`, only those whose first dyad is on that side.
+pub(super) fn poses(solved: &SolvedCell, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
+    let input = solved.linkage.input();
+    let mut poses = Vec::new();
+    for (number, circuit) in (1..).zip(&solved.motion.circuits) {
+        for pass in &circuit.passes {
+            let (from, to) = (pass.from.input.value, pass.to.input.value);
+            let [low, high] = [from.min(to), from.max(to)];
+            // The given input may be some full turns from that of the pass.
+            let offset = (at - low).rem_euclid(input.period());
+            let is_branch = branch.is_none_or(|branch| pass.mode.sign(DyadId::FIRST) == branch);
+            // The end of a full turn is the pose at its beginning.
+            let is_seam = circuit.is_closed && circuit.passes.len() == 1 && low + offset == high;
+            if low + offset <= high && is_branch && !is_seam {
+                let jets = JointDerivatives::on_pass(&solved.linkage, pass, low + offset);
+                poses.push(Pose { circuit: number, pass, input: low + offset, jets });
+            }
+        }
+    }
+    poses
+}
+
+/// The rotation of a moving link.
+pub(super) struct LinkRotation<'a> {
+    /// The names of its joints.
+    pub joints: Vec<&'a str>,
+    /// Radians per radian of input, or per unit of length of an actuator.
+    pub angular_velocity: f64,
+    /// The derivative of the angular velocity by the input.
+    pub angular_acceleration: f64,
+}
+
+/// The rotations of the moving links that have two distinct joints.
+pub(super) fn link_rotations<'a>(solved: &'a SolvedCell, pose: &Pose) -> Vec<LinkRotation<'a>> {
+    let linkage = &solved.linkage;
+    let jets = &pose.jets;
+    let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, linkage.ground()));
+    let rotation = |link: &'a coupler_curves::linkage::Link| {
+        let (first, position) = *link.joints.first()?;
+        let (second, _) = *link.joints.iter().find(|(_, other)| *other != position)?;
+        let relative = |rate: fn(&JointDerivatives, JointId) -> Vector| rate(jets, second) - rate(jets, first);
+        let arm = jets.position(second) - jets.position(first);
+        let angular = |rate: Vector| cross(arm, rate) / arm.norm_squared();
+        Some(LinkRotation {
+            joints: link.joints.iter().map(|(joint, _)| linkage.joints[*joint].name.as_str()).collect(),
+            angular_velocity: angular(relative(JointDerivatives::velocity)),
+            angular_acceleration: angular(relative(JointDerivatives::acceleration)),
+        })
+    };
+    moving.filter_map(rotation).collect()
+}
+
+/// The instantaneous motion of the link of each traced joint; `None` where the link does not rotate.
+pub(super) fn instant_geometries<'a>(
+    solved: &'a SolvedCell,
+    pose: &'a Pose,
+) -> impl Iterator<Item = (JointId, Option<InstantaneousMotion>)> + use<'a> {
+    let linkage = &solved.linkage;
+    linkage.traced.iter().map(move |&joint| (joint, InstantaneousMotion::from_joint(linkage, &pose.jets, joint)))
+}
+
+/// The names of the joints whose dyads are stretched or folded.
+pub(super) fn flat_joints(linkage: &Linkage, flat: DyadSet) -> Vec<&str> {
+    let is_flat = |joint: &&coupler_curves::linkage::Joint| joint.kind.dyad().is_some_and(|dyad| flat.contains(dyad));
+    linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
+}
