@@ -4,11 +4,15 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { cosSinOfDegrees, radiansOf } from "../../src/gallery/script/kinematics/angles.js";
-import { LinkageError } from "../../src/gallery/script/kinematics/assembly.js";
+import { LinkageError } from "../../src/gallery/script/kinematics/linkage-builder.js";
 import { cognatePins, cognatesOf } from "../../src/gallery/script/kinematics/cognates.js";
 import { evaluateExpression } from "../../src/gallery/script/kinematics/expression.js";
 import { fourBarOf, transmissionAt } from "../../src/gallery/script/kinematics/four-bar.js";
-import { fixedCentrode, movingCentrode, poleAt } from "../../src/gallery/script/kinematics/instant.js";
+import {
+  fixedCentrode,
+  movingCentrode,
+  poleAt,
+} from "../../src/gallery/script/kinematics/instantaneous-motion.js";
 import { motionOf } from "../../src/gallery/script/kinematics/motion.js";
 import { finePath } from "../../src/gallery/script/kinematics/path.js";
 import { poseAt, ratesAt } from "../../src/gallery/script/kinematics/poses.js";

@@ -10,7 +10,7 @@ import { stretchOfCircuit } from "../../src/gallery/script/draw/band.js";
 import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clipping.js";
 import { dashData, dashesOfPeriod } from "../../src/gallery/script/draw/dashes.js";
 import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/paper-view.js";
-import { changedValues } from "../../src/gallery/script/kinematics/changes.js";
+import { changedValues } from "../../src/gallery/script/kinematics/parameter-changes.js";
 import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
 import {
   courseOf,

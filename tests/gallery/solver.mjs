@@ -23,10 +23,10 @@
 
 import { readFileSync } from "node:fs";
 
-import { LinkageError } from "../../src/gallery/script/kinematics/assembly.js";
+import { LinkageError } from "../../src/gallery/script/kinematics/linkage-builder.js";
 import { motionOf } from "../../src/gallery/script/kinematics/motion.js";
 import { linkageOf } from "../../src/gallery/script/kinematics/template.js";
-import { sideOf } from "../../src/gallery/script/kinematics/signs.js";
+import { sideOf } from "../../src/gallery/script/kinematics/assembly-mode.js";
 import { compareMeasures, measuresTold } from "./measured.mjs";
 import { compareRates, ratesTold } from "./rated.mjs";
 

@@ -1,6 +1,6 @@
 // The stretch of a curve between two inputs, as the band that marks its straight portion.
 
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
 import { posesAt } from "../kinematics/poses.js";
 
 /**
@@ -10,7 +10,7 @@ import { posesAt } from "../kinematics/poses.js";
  * `length` apart. Null where no pass has it.
  */
 export function stretchOfCircuit(linkage, circuit, joint, { start, span, length }) {
-  const alone = linkageWithOnePoint(linkage, joint);
+  const alone = singlePointLinkage(linkage, joint);
   const { period } = linkage.input;
   let best = null;
   let off = Infinity;

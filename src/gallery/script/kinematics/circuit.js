@@ -2,14 +2,14 @@
 // come.
 
 import { cosSinOfDegrees, remainderOf } from "./angles.js";
-import { endOfInterval, intervalsOf, onwardFrom } from "./interval.js";
-import { headingOf, passBetween, passOfInterval, passRange, reversedPass, shiftedPass } from "./pass.js";
-import { compareSigns, sideOf } from "./signs.js";
-import { turnedIntoSpan } from "./span.js";
+import { intervalEnd, findIntervals, nextMode } from "./interval.js";
+import { inputDirection, passBetween, passOfInterval, passRange, reversedPass, shiftedPass } from "./pass.js";
+import { compareModes, sideOf } from "./assembly-mode.js";
+import { wrapIntoSpan } from "./span.js";
 
 /** The circuits that a linkage's travel asks for, in order: { routes: [{ passes, closed }], shortfall }. */
-export function routesOf(linkage) {
-  const { intervals, shortfall: reason } = intervalsOf(linkage);
+export function findCircuits(linkage) {
+  const { intervals, shortfall: reason } = findIntervals(linkage);
   const { travel } = linkage;
   let wanted = intervals.map((_, k) => k);
   let shortfall = intervals.length === 0 ? reason : null;
@@ -60,7 +60,7 @@ function startInterval(linkage, intervals) {
       return { reason: `its start, an input of ${at}, is not in the range asked for, from ${from} to ${to}` };
     }
   }
-  const interval = ours.find((k) => turnedIntoSpan(intervals[k].span, at, period) !== null);
+  const interval = ours.find((k) => wrapIntoSpan(intervals[k].span, at, period) !== null);
   return interval === undefined
     ? { reason: `it cannot be assembled at the start, an input of ${at}` }
     : { interval };
@@ -127,26 +127,26 @@ function followedPasses(linkage, intervals, begun, passes, seen) {
 // The interval that follows, and whether the input rises on it.
 function intervalAfter({ travel }, intervals, { interval, rising }) {
   const from = intervals[interval];
-  const end = endOfInterval(from, rising);
-  const onward = end && onwardFrom(end, from.signs, rising, travel);
+  const end = intervalEnd(from, rising);
+  const onward = end && nextMode(end, from.signs, rising, travel);
   if (!onward) return null;
   // It begins where this one ends: falling from the same upper end, or rising from the same lower one.
-  const begins = (other) =>
-    other.signs === onward.signs && endOfInterval(other, !onward.rises)?.id === end.id;
+  const begins = (other) => other.signs === onward.signs && intervalEnd(other, !onward.rises)?.id === end.id;
   const next = intervals.findIndex(begins);
   return next < 0 ? null : { interval: next, rising: onward.rises };
 }
 
 // The passes with a continuous input, started where a circuit starts.
 function normalPasses(passes, closed, asked, period) {
-  const turns = passes.some((pass) => headingOf(pass) !== headingOf(passes[0]));
+  const turns = passes.some((pass) => inputDirection(pass) !== inputDirection(passes[0]));
   let best = null;
   for (const way of [passes, [...passes].reverse().map(reversedPass)]) {
     const direction = closed && !turns ? cutAtZero(way, period) : way;
     for (let start = 0; start < (closed ? direction.length : 1); start++) {
       const rotated = [...direction.slice(start), ...direction.slice(0, start)];
       const candidate = continuousPasses(rejoinedPasses(rotated), turns, asked, period);
-      const fallsFirst = headingOf(candidate[0]) < 0 && candidate.some((pass) => headingOf(pass) > 0);
+      const fallsFirst =
+        inputDirection(candidate[0]) < 0 && candidate.some((pass) => inputDirection(pass) > 0);
       if (closed && fallsFirst) continue;
       if (!best || precedesRoute(candidate, best)) best = candidate;
     }
@@ -156,8 +156,8 @@ function normalPasses(passes, closed, asked, period) {
 
 // Whether a circuit that starts as `a` does is to be preferred: rising, from a lower input, on branch 1.
 function precedesRoute([a], [b]) {
-  const falls = (pass) => (headingOf(pass) < 0 ? 1 : 0);
-  return (falls(a) - falls(b) || a.from - b.from || compareSigns(a.signs, b.signs)) < 0;
+  const falls = (pass) => (inputDirection(pass) < 0 ? 1 : 0);
+  return (falls(a) - falls(b) || a.from - b.from || compareModes(a.signs, b.signs)) < 0;
 }
 
 // A motion that never turns round starts at input 0: a pass over it is cut in two there.

@@ -109,7 +109,7 @@ export function placeYoke(a, p, q, offset, lean, x, y, first, last) {
  * that from p to q, turned to the right by the angle whose sine is offset / d. `known` has how far along it q
  * is, where that is known.
  */
-export function placeDirected(a, p, q, offset, known, along, across, x, y, first, last) {
+export function placeAligned(a, p, q, offset, known, along, across, x, y, first, last) {
   const { x: ax, y: ay } = a;
   const { x: px, y: py } = p;
   const { x: qx, y: qy } = q;
@@ -128,7 +128,7 @@ export function placeDirected(a, p, q, offset, known, along, across, x, y, first
 }
 
 /** The fourth corner of a parallelogram. */
-export function placeCorner(p, q, r, x, y, first, last) {
+export function placeParallelogram(p, q, r, x, y, first, last) {
   for (let i = first; i < last; i++) {
     x[i] = p.x[i] + (r.x[i] - q.x[i]);
     y[i] = p.y[i] + (r.y[i] - q.y[i]);

@@ -10,13 +10,13 @@
 // else, for their bases vanish. A span is { lower, upper }, two ends at most a period apart, or both null:
 // the whole period.
 
-import { stopAt } from "./columns.js";
-import { cutSpan } from "./reach.js";
-import { allSigns, firstOfSet, lastOfSet, signsOfFirst } from "./signs.js";
-import { askedEnd } from "./span.js";
+import { inputPosition } from "./positions.js";
+import { closingSpans } from "./dyad-limits.js";
+import { allModes, firstDyad, lastDyad, truncatedMode } from "./assembly-mode.js";
+import { rangeEnd } from "./span.js";
 
 /** The end of an interval that a rising or falling input comes to; null on a full turn. */
-export function endOfInterval({ span }, rising) {
+export function intervalEnd({ span }, rising) {
   return rising ? span.upper : span.lower;
 }
 
@@ -24,12 +24,12 @@ export function endOfInterval({ span }, rising) {
  * The sides with which a motion goes on that comes to an end with a rising or falling input, and whether the
  * input then rises; null where it ends.
  */
-export function onwardFrom(end, signs, rising, { coincident, continuation }) {
+export function nextMode(end, signs, rising, { coincident, continuation }) {
   if (end.cause === "asked") return null;
   if (end.cause === "change" && continuation === "branch") return { signs: signs ^ end.bound, rises: rising };
   let flips = end.flips;
-  if (coincident === "first") flips = firstOfSet(flips) | end.bound;
-  if (coincident === "last") flips = lastOfSet(flips) | end.bound;
+  if (coincident === "first") flips = firstDyad(flips) | end.bound;
+  if (coincident === "last") flips = lastDyad(flips) | end.bound;
   return { signs: signs ^ flips, rises: end.cause === "limit" ? !rising : rising };
 }
 
@@ -38,18 +38,18 @@ export function onwardFrom(end, signs, rising, { coincident, continuation }) {
  * modes, or, where only the circuit through the start pose is wanted, of those that can be reached from it.
  * The shortfall says why there are none of the mode asked for, where a dyad of it closes nowhere.
  */
-export function intervalsOf(linkage) {
+export function findIntervals(linkage) {
   const { travel, dyads } = linkage;
   const tree = { linkage, left: new Map(), nextId: 2, shortfall: null };
-  const modes = travel.circuits === "all" ? allSigns(dyads) : [travel.signs];
+  const modes = travel.circuits === "all" ? allModes(dyads) : [travel.signs];
   const intervals = [];
   for (let done = 0; done < modes.length; done++) {
     const signs = modes[done];
     for (const span of spansOfMode(tree, dyads, signs)) {
       const interval = { span, signs };
       for (const rising of [true, false]) {
-        const end = endOfInterval(interval, rising);
-        const onward = end && onwardFrom(end, signs, rising, travel);
+        const end = intervalEnd(interval, rising);
+        const onward = end && nextMode(end, signs, rising, travel);
         if (onward && !modes.includes(onward.signs)) modes.push(onward.signs);
       }
       intervals.push(interval);
@@ -60,7 +60,7 @@ export function intervalsOf(linkage) {
 
 // The whole range of the input that is asked for.
 function wholeSpan({ input, travel: { range } }) {
-  const asked = (at, id) => askedEnd(stopAt(input, at), id);
+  const asked = (at, id) => rangeEnd(inputPosition(input, at), id);
   if (range && range[1] - range[0] < input.period)
     return { lower: asked(range[0], 0), upper: asked(range[1], 1) };
   if (input.isLength) return { lower: asked(0, 0), upper: asked(Number.MAX_VALUE / 16, 1) };
@@ -72,14 +72,14 @@ function wholeSpan({ input, travel: { range } }) {
 function spansOfMode(tree, dyads, signs) {
   const { linkage } = tree;
   if (dyads === 0) return [wholeSpan(linkage)];
-  const before = signsOfFirst(signs, dyads - 1);
+  const before = truncatedMode(signs, dyads - 1);
   const key = `${dyads}.${before}`;
   if (tree.left.has(key)) return tree.left.get(key);
   const spans = [];
   for (const span of spansOfMode(tree, dyads - 1, signs)) {
-    const { parts, reason } = cutSpan(linkage, dyads - 1, span, before, () => ++tree.nextId);
+    const { parts, reason } = closingSpans(linkage, dyads - 1, span, before, () => ++tree.nextId);
     spans.push(...parts);
-    if (reason && before === signsOfFirst(linkage.travel.signs, dyads - 1)) tree.shortfall ??= reason;
+    if (reason && before === truncatedMode(linkage.travel.signs, dyads - 1)) tree.shortfall ??= reason;
   }
   tree.left.set(key, spans);
   return spans;

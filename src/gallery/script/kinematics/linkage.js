@@ -58,7 +58,7 @@ export function greatestDivisor(a, b) {
  * what is asked of one point of many at many inputs need not place the others. The joints before those points
  * keep their places.
  */
-export function linkageWithOnePoint(linkage, joint) {
+export function singlePointLinkage(linkage, joint) {
   let first = linkage.joints.length;
   let base = linkage.seenFrom ? Math.max(...linkage.seenFrom) : 0;
   while (first > 0 && linkage.joints[first - 1].step.kind === "rigid") {

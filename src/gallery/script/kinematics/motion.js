@@ -1,8 +1,8 @@
 // All that a linkage does as its input travels.
 
-import { routesOf } from "./circuit.js";
-import { LENGTHS_TOO_EXTREME } from "./reach.js";
-import { excessOfRoute, sampledCircuit, samplerOf } from "./sampling.js";
+import { findCircuits } from "./circuit.js";
+import { OUT_OF_RANGE_REASON } from "./dyad-limits.js";
+import { excessReason, sampleCircuit, newSampler } from "./sampling.js";
 
 /**
  * The circuits of a linkage, sampled as `sampling` says ({ step } or { samples, spacing }, as sampling.js has
@@ -16,13 +16,13 @@ import { excessOfRoute, sampledCircuit, samplerOf } from "./sampling.js";
  * the end of a pass, that of the pass it ends.
  */
 export function motionOf(linkage, sampling) {
-  const { routes, shortfall } = routesOf(linkage);
-  const sampler = samplerOf(sampling);
-  const excess = routes.map((route) => excessOfRoute(sampler, route)).find((reason) => reason !== null);
+  const { routes, shortfall } = findCircuits(linkage);
+  const sampler = newSampler(sampling);
+  const excess = routes.map((route) => excessReason(sampler, route)).find((reason) => reason !== null);
   if (excess) return { circuits: [], shortfall: excess };
-  const circuits = routes.map((route) => sampledCircuit(linkage, sampler, route));
+  const circuits = routes.map((route) => sampleCircuit(linkage, sampler, route));
   if (circuits.some((circuit) => linkage.traced.some((joint) => isLost(circuit, joint)))) {
-    return { circuits: [], shortfall: LENGTHS_TOO_EXTREME };
+    return { circuits: [], shortfall: OUT_OF_RANGE_REASON };
   }
   return { circuits, shortfall };
 }

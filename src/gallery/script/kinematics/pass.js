@@ -10,7 +10,7 @@ export function passBetween(begin, end, signs) {
 }
 
 /** 1 where the input rises on a pass, -1 where it falls. */
-export function headingOf(pass) {
+export function inputDirection(pass) {
   return pass.to >= pass.from ? 1 : -1;
 }
 

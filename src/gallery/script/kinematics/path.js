@@ -1,9 +1,9 @@
 // The path a joint draws, refined to a chord error.
 
-import { linkageWithOnePoint } from "./linkage.js";
+import { singlePointLinkage } from "./linkage.js";
 import { passLength } from "./pass.js";
 import { posesAt } from "./poses.js";
-import { smoothInput } from "./spacing.js";
+import { easedInput } from "./spacing.js";
 
 /**
  * The path of a joint over a circuit as { points: Float64Array [x, y, …], inputs: Float64Array, starts:
@@ -12,7 +12,7 @@ import { smoothInput } from "./spacing.js";
  * curve, as judged at its middle.
  */
 export function finePath(linkage, circuit, joint, tolerance) {
-  const alone = linkageWithOnePoint(linkage, joint);
+  const alone = singlePointLinkage(linkage, joint);
   const [points, inputs, starts] = [[], [], []];
   for (const pass of circuit.passes) {
     const nodes = refinedNodes(alone.linkage, pass, alone.joint, tolerance);
@@ -51,7 +51,7 @@ function refinedNodes(linkage, pass, joint, tolerance) {
 }
 
 function placedNodes(linkage, pass, joint, parts) {
-  const at = (part) => (part === 0 ? pass.from : part === 1 ? pass.to : smoothInput(pass, part));
+  const at = (part) => (part === 0 ? pass.from : part === 1 ? pass.to : easedInput(pass, part));
   const inputs = parts.map(at);
   const { x, y } = posesAt(linkage, pass, inputs);
   return parts.map((part, k) => ({ part, at: inputs[k], x: x[joint][k], y: y[joint][k], isOpen: false }));

@@ -64,7 +64,7 @@ export function scaledSeries(a, by) {
  * The root of a square that touches zero where the series begins, with the sign it has beyond; null where it
  * goes through zero. One term fewer is known of it than of the square: that one is not a number.
  */
-export function touchingRoot(square, size) {
+export function sqrtAtTouch(square, size) {
   // A touch has no first term but rounding; at a limit that is as near one as 1e-12 it is 1e-6.
   if (!(Math.abs(square[1]) <= 1e-9 * size && square[2] > 0)) return null;
   const root = rootOfSeries(square.map((_, n) => square[n + 2] ?? NaN));
@@ -77,7 +77,7 @@ export function constantPlace(x, y, terms) {
 }
 
 /** A direction that turns `by` radians to a radian of input. */
-export function turningDirection(cos, sin, by, terms) {
+export function rotatingUnit(cos, sin, by, terms) {
   const [x, y] = [[cos], [sin]];
   for (let n = 1; n < terms; n++) {
     const rate = by / n;

@@ -1,6 +1,6 @@
 // From a template and values to a linkage.
 
-import { LinkageAssembly, LinkageError } from "./assembly.js";
+import { LinkageBuilder, LinkageError } from "./linkage-builder.js";
 import { evaluateExpression } from "./expression.js";
 import { inputOfJoints } from "./linkage.js";
 
@@ -31,7 +31,7 @@ export function linkageOf(template, values) {
     const objection = parameterObjection(parameter, values[k]);
     if (objection) throw new LinkageError(objection);
   });
-  const assembly = new LinkageAssembly();
+  const assembly = new LinkageBuilder();
   // Where each joint of the template has gone: a grid of points makes several.
   const made = [];
   for (const joint of template.joints) made.push(placedJoints(assembly, joint, made, values));

@@ -1,9 +1,9 @@
 // Numbers read off a motion, under the names and definitions of the columns of cells.csv.
 
 import { fourBarOf } from "../kinematics/four-bar.js";
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
-import { headingOf } from "../kinematics/pass.js";
-import { finelySampled } from "../kinematics/sampling.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
+import { inputDirection } from "../kinematics/pass.js";
+import { refinedCircuit } from "../kinematics/sampling.js";
 import { courseOfTrail } from "./course.js";
 import { crossingsOfTrail } from "./crossings.js";
 import { circularPortion } from "./dwell.js";
@@ -47,7 +47,7 @@ export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
  * are.
  */
 function subjectOf(linkage, motion, sampled, joint) {
-  const circuit = finelySampled(linkage, sampled);
+  const circuit = refinedCircuit(linkage, sampled);
   const trail = trailOf(circuit, joint, linkage.input);
   return {
     linkage,
@@ -56,7 +56,7 @@ function subjectOf(linkage, motion, sampled, joint) {
     joint,
     trail,
     fourBar: fourBarOf(linkage),
-    alone: linkageWithOnePoint(linkage, joint),
+    alone: singlePointLinkage(linkage, joint),
   };
 }
 
@@ -76,7 +76,7 @@ function fourBarMeasures({ linkage, circuit, fourBar }) {
 
 // The least and the greatest input; none on a full turn.
 function inputMeasures({ passes, closed }) {
-  const turnsRound = passes.some((pass) => headingOf(pass) !== headingOf(passes[0]));
+  const turnsRound = passes.some((pass) => inputDirection(pass) !== inputDirection(passes[0]));
   if (closed && !turnsRound) return {};
   const ends = passes.flatMap((pass) => [pass.from, pass.to]);
   return { input_min_deg: Math.min(...ends), input_max_deg: Math.max(...ends) };

@@ -1,8 +1,8 @@
 // The shape of a path: its box, its cusps, its sharpest bend, and how evenly it is gone through.
 
 import { degreesOf } from "../kinematics/angles.js";
-import { stopAt } from "../kinematics/columns.js";
-import { jetsAtStop } from "../kinematics/jets.js";
+import { inputPosition } from "../kinematics/positions.js";
+import { derivativesAtInput } from "../kinematics/derivatives.js";
 import { passRange } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 import { isCorner } from "../kinematics/sampling.js";
@@ -74,7 +74,7 @@ function posedExtent({ trail, circuit, alone }, [dx, dy], top) {
 
 // Speed and curvature of the path at an input of the pass that a sample is on.
 function speedAndCurvature({ circuit, alone: { linkage, joint } }, sample, input) {
-  const { x, y } = jetsAtStop(linkage, stopAt(linkage.input, input), circuit.signs(sample))[joint];
+  const { x, y } = derivativesAtInput(linkage, inputPosition(linkage.input, input), circuit.signs(sample))[joint];
   const bounded = (rate) => (Number.isNaN(rate) ? Infinity : rate);
   const [vx, vy, ax, ay] = [x[1], y[1], 2 * x[2], 2 * y[2]].map(bounded);
   const speed = Math.sqrt(vx * vx + vy * vy);

@@ -1,7 +1,7 @@
 // Everything that is known of a curve, for programs: docs/export.md describes it.
 
-import { headingOf } from "../kinematics/pass.js";
-import { sideOf } from "../kinematics/signs.js";
+import { inputDirection } from "../kinematics/pass.js";
+import { sideOf } from "../kinematics/assembly-mode.js";
 import { pointColumns, pointRows } from "./csv.js";
 import { laidOutJson } from "./layout.js";
 import { takenMeasures } from "./taken.js";
@@ -57,5 +57,5 @@ function circuitInJson(linkage, course) {
 // Whether the input turns round at the end of a pass.
 function turnsAfterPass({ passes, closed }, k) {
   const isLast = k + 1 === passes.length;
-  return (!isLast || closed) && headingOf(passes[k]) !== headingOf(passes[(k + 1) % passes.length]);
+  return (!isLast || closed) && inputDirection(passes[k]) !== inputDirection(passes[(k + 1) % passes.length]);
 }

@@ -1,6 +1,6 @@
 // The path of a taken curve with as few points as its tolerance allows, as the program has it.
 
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
 import { passLength } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 import { distanceToChord } from "../kinematics/path.js";
@@ -11,7 +11,7 @@ import { distanceToChord } from "../kinematics/path.js";
  * the points left out again.
  */
 export function outlineOfCurve({ linkage, course, joint }, tolerance) {
-  const alone = linkageWithOnePoint(linkage, joint);
+  const alone = singlePointLinkage(linkage, joint);
   const out = [];
   for (const pass of course.passes) {
     const points = refinedPass(alone.linkage, pass, alone.joint, tolerance / 2);

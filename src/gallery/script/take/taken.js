@@ -1,7 +1,7 @@
 // A curve that is taken away: found by its name, and solved anew as the atlas sampled it.
 
-import { LinkageError } from "../kinematics/assembly.js";
-import { changedValues, templateWithChanges } from "../kinematics/changes.js";
+import { LinkageError } from "../kinematics/linkage-builder.js";
+import { changedValues, templateWithChanges } from "../kinematics/parameter-changes.js";
 import { motionOf } from "../kinematics/motion.js";
 import { linkageOf } from "../kinematics/template.js";
 import { measuresOf } from "../measure/measures.js";

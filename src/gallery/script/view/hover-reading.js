@@ -1,9 +1,9 @@
 // What a curve does at a place on it: input, speed, transmission angle, as the page's own solver has them.
 
 import { cellValues } from "../data/family.js";
-import { routesOf } from "../kinematics/circuit.js";
+import { findCircuits } from "../kinematics/circuit.js";
 import { fourBarOf, transmissionAt } from "../kinematics/four-bar.js";
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
 import { finePath } from "../kinematics/path.js";
 import { poseAt, ratesAt } from "../kinematics/poses.js";
 import { linkageOf } from "../kinematics/template.js";
@@ -22,8 +22,8 @@ function solvedCurve(family, curve, tolerance) {
   const whole = linkageOf(family.template, cellValues(family, cell[curve]));
   const traced = whole.traced[trace[curve] - 1];
   if (traced === undefined) return null;
-  const { linkage, joint } = linkageWithOnePoint(whole, traced);
-  const route = routesOf(linkage).routes[circuit[curve] - 1];
+  const { linkage, joint } = singlePointLinkage(whole, traced);
+  const route = findCircuits(linkage).routes[circuit[curve] - 1];
   if (!route) return null;
   const path = finePath(linkage, route, joint, tolerance);
   const fourBar = fourBarOf(linkage);

@@ -4,7 +4,7 @@
 // Equal parts are equal times of play: the input goes evenly, and slows down towards limits, as a hand would
 // move it, so that no joint leaps there.
 
-import { smoothInput } from "../../kinematics/spacing.js";
+import { easedInput } from "../../kinematics/spacing.js";
 
 /**
  * The course of a circuit { passes, closed }: { passes, closed, starts }, `starts` being the part each pass
@@ -29,7 +29,7 @@ export function placeAtPart({ passes, starts }, part, place) {
   place.pass = k;
   if (share <= 0) place.input = passes[k].from;
   else if (share >= 1) place.input = passes[k].to;
-  else place.input = smoothInput(passes[k], share);
+  else place.input = easedInput(passes[k], share);
   return place;
 }
 

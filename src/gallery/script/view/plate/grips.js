@@ -1,7 +1,7 @@
 // Hands on the stage: a joint is dragged along its path, the crank about its pivot, the picture moved and
 // zoomed.
 
-import { linkageWithOnePoint } from "../../kinematics/linkage.js";
+import { singlePointLinkage } from "../../kinematics/linkage.js";
 import { planePoint } from "../../draw/paper-view.js";
 import { followedInput, nearestPart, placeAtPart } from "./course.js";
 import { Poser } from "./poser.js";
@@ -119,7 +119,7 @@ function draggedCrank(plate, pivot, pin, hand) {
 
 // Any other joint goes along its path to where it is nearest the hand.
 function draggedJoint(plate, joint, hand) {
-  const alone = linkageWithOnePoint(plate.study.linkage, joint);
+  const alone = singlePointLinkage(plate.study.linkage, joint);
   const poser = new Poser(alone.linkage);
   const { pose } = plate;
   const [offX, offY] = [pose[2 * joint] - hand[0], pose[2 * joint + 1] - hand[1]];

@@ -2,8 +2,8 @@
 // inflection circle, the velocity of the point, names, the straight portion, and the curves of other points.
 
 import { cognatePins, cognatesOf } from "../../kinematics/cognates.js";
-import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instant.js";
-import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
+import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instantaneous-motion.js";
+import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
 import { clippedData } from "../../draw/clipping.js";
 import { linkData } from "../../draw/link-shapes.js";
 import { circleData, pixel, placedData } from "../../draw/path-data.js";
@@ -74,7 +74,7 @@ export class Overlays {
     const { linkage, joint, size } = study;
     const circuit = isRough
       ? study.circuit
-      : sampledCircuit(linkage, samplerOf({ samples: 1440, spacing: "smooth" }), study.circuit);
+      : sampleCircuit(linkage, newSampler({ samples: 1440, spacing: "smooth" }), study.circuit);
     const moving = movingCentrode(linkage, circuit, joint);
     if (!moving.frame) return;
     const [x0, y0, x1, y1] = study.box;

@@ -1,6 +1,6 @@
 // What can be changed of a linkage on its plate (changes are as in kinematics/changes.js).
 
-import { changedValues, tracedPoint } from "../../kinematics/changes.js";
+import { changedValues, tracedPoint } from "../../kinematics/parameter-changes.js";
 import { roundBelow } from "../../draw/paper-view.js";
 
 /**

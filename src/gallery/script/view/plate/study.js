@@ -1,13 +1,13 @@
 // A linkage as a plate studies it: assembled, all its circuits, the one that is shown.
 
-import { changedValues, templateWithChanges } from "../../kinematics/changes.js";
-import { routesOf } from "../../kinematics/circuit.js";
-import { LinkageError } from "../../kinematics/assembly.js";
+import { changedValues, templateWithChanges } from "../../kinematics/parameter-changes.js";
+import { findCircuits } from "../../kinematics/circuit.js";
+import { LinkageError } from "../../kinematics/linkage-builder.js";
 import { fourBarOf, isOnCoupler } from "../../kinematics/four-bar.js";
 import { linkageOf } from "../../kinematics/template.js";
 import { finePath } from "../../kinematics/path.js";
-import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
-import { sideOf } from "../../kinematics/signs.js";
+import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
+import { sideOf } from "../../kinematics/assembly-mode.js";
 import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
 import { emptyBox, widenedBox } from "../../draw/paper-view.js";
 import { courseOf } from "./course.js";
@@ -36,11 +36,11 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
     if (!(error instanceof LinkageError)) throw error;
     return { values, reason: error.message };
   }
-  const recorded = routesOf(linkage);
+  const recorded = findCircuits(linkage);
   const all =
     isRough && asked === null
       ? recorded
-      : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
+      : findCircuits({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
   if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows it to be assembled" };
   const home = sameRoute(routes, recorded.routes[circuit[curve] - 1]);
@@ -64,9 +64,9 @@ export function studyOf(family, curve, changes, asked = null, isRough = false) {
 }
 
 function shownCircuit({ linkage, routes, shown }, trace) {
-  const circuit = sampledCircuit(
+  const circuit = sampleCircuit(
     linkage,
-    samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }),
+    newSampler({ samples: STUDY_SAMPLES, spacing: "smooth" }),
     routes[shown],
   );
   const joint = linkage.traced[trace - 1];

@@ -1,9 +1,9 @@
 // The pose at an end of a pass, where dyads lie flat and bases may vanish.
 
-import { placeJoints } from "./columns.js";
-import { fixedFrameJets } from "./jets.js";
-import { headingOf } from "./pass.js";
-import { modesOf, sideOf } from "./signs.js";
+import { placeJoints } from "./positions.js";
+import { fixedFrameDerivatives } from "./derivatives.js";
+import { inputDirection } from "./pass.js";
+import { dyadSigns, sideOf } from "./assembly-mode.js";
 
 // A base shorter than this part of its dyad's links has no direction left but its rounding.
 const VANISHING_BASE = 1e-12;
@@ -16,10 +16,10 @@ const VANISHING_BASE = 1e-12;
  * continuity: the base then points along its rate of change, or, where that is infinite at a limit, along the
  * rate of its parts with the root of the input. Where there is no such direction the joint stays undefined.
  */
-export function placeEnd(linkage, pass, begins, inputs, columns, sample) {
+export function placeAtEnd(linkage, pass, begins, inputs, columns, sample) {
   const end = begins ? pass.begin : pass.end;
-  const inwards = begins ? headingOf(pass) : -headingOf(pass);
-  const modes = modesOf(pass.signs, end.flat, linkage.dyads);
+  const inwards = begins ? inputDirection(pass) : -headingOf(pass);
+  const modes = dyadSigns(pass.signs, end.flat, linkage.dyads);
   const kept = inputs.at[sample];
   inputs.at[sample] = end.at;
   inputs.cos[sample] = end.cos;
@@ -82,7 +82,7 @@ function flatFoot([l0, l1], base) {
 // The direction that a vanished base has in the pass, just beside its end; null where it has none.
 function directionOfBase(pose, [p, q]) {
   const { linkage, end, pass, inwards } = pose;
-  const jets = fixedFrameJets(linkage, end, pass.signs, end.flat, 0, 3);
+  const jets = fixedFrameDerivatives(linkage, end, pass.signs, end.flat, 0, 3);
   const rate = ["x", "y"].map((axis) => boundedRate(jets[q][axis][1], jets[p][axis][1]) * inwards);
   let found = rate;
   if (!rate.every(Number.isFinite)) {

@@ -2,7 +2,7 @@
 // constraints that dyads.js solves, with their rates. Angles of input are in radians, lengths in their unit.
 
 import { cosSinOfDegrees } from "./angles.js";
-import { gearedAngle } from "./columns.js";
+import { gearedAngle } from "./positions.js";
 import {
   constantPlace,
   constantSeries,
@@ -17,7 +17,7 @@ import {
   rootOfSeries,
   scaledSeries,
   sumOfSeries,
-  turningDirection,
+  rotatingUnit,
   variableSeries,
 } from "./series.js";
 
@@ -28,7 +28,7 @@ import {
  * that is 0 the height is left out with its rates. `settle(joint, place, before)` may put another place for a
  * joint's.
  */
-export function placeSeries(linkage, count, stop, mode, terms, settle = null) {
+export function placeAsSeries(linkage, count, stop, mode, terms, settle = null) {
   const at = [];
   for (let id = 0; id < count; id++) {
     const place = seriesOfStep(linkage.joints[id].step, at, stop, mode, terms);
@@ -44,12 +44,12 @@ function seriesOfStep(step, at, stop, mode, terms) {
     case "fixed":
       return constantPlace(step.x, step.y, terms);
     case "crank": {
-      const direction = turningDirection(stop.cos, stop.sin, 1, terms);
+      const direction = rotatingUnit(stop.cos, stop.sin, 1, terms);
       return movedPlace(at[step.pivot], direction, number(step.length), none);
     }
     case "gear": {
       const [cos, sin] = cosSinOfDegrees(gearedAngle(stop.at, step.ratio, step.phase));
-      const direction = turningDirection(cos, sin, step.ratio[0] / step.ratio[1], terms);
+      const direction = rotatingUnit(cos, sin, step.ratio[0] / step.ratio[1], terms);
       return movedPlace(at[step.pivot], direction, number(step.length), none);
     }
     case "piston": {

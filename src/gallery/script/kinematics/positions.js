@@ -3,9 +3,9 @@
 
 import { cosSinOfDegrees } from "./angles.js";
 import {
-  placeCorner,
+  placeParallelogram,
   placeCrank,
-  placeDirected,
+  placeAligned,
   placeDyad,
   placePiston,
   placeRigid,
@@ -16,7 +16,7 @@ import {
 import { groundOf, placeOnLink } from "./linkage.js";
 
 /** Room for so many joints at so many inputs. */
-export function newColumns(joints, count) {
+export function newPositions(joints, count) {
   const column = () => new Float64Array(count);
   return { x: Array.from({ length: joints }, column), y: Array.from({ length: joints }, column), count };
 }
@@ -34,7 +34,7 @@ export function inputColumns(stops) {
 }
 
 /** The input at a value, { at, cos, sin }. */
-export function stopAt(input, at) {
+export function inputPosition(input, at) {
   if (input.isLength) return { at, cos: 0, sin: 0 };
   const [cos, sin] = cosSinOfDegrees(at);
   return { at, cos, sin };
@@ -102,11 +102,11 @@ function placeJoint(step, id, inputs, modes, columns, first, last) {
       const [p, q] = step.line.map(of);
       const sense = step.lineIs === "turned" ? -modes[step.index] : 1;
       const known = step.lineIs === "driven" ? inputs.at : null;
-      placeDirected(of(step.from), p, q, step.offset, known, step.along * sense, step.across * sense, ...run);
+      placeAligned(of(step.from), p, q, step.offset, known, step.along * sense, step.across * sense, ...run);
       break;
     }
     case "parallelogram":
-      placeCorner(...step.corners.map(of), x, y, first, last);
+      placeParallelogram(...step.corners.map(of), x, y, first, last);
       break;
     case "rigid":
       placeRigid(of(step.base[0]), of(step.base[1]), step.along, step.across, x, y, first, last);
@@ -124,7 +124,7 @@ function gearedColumns({ ratio, phase }, at, first, last) {
  * Puts the poses into the plane they are reported in: of the link seen from, then laid as the linkage is
  * placed.
  */
-export function seeColumns(linkage, columns) {
+export function convertToViewFrame(linkage, columns) {
   if (linkage.seenFrom) seeFromLink(linkage, columns);
   const { mirror, cos, sin } = linkage.placement;
   if (!mirror && cos === 1) return;

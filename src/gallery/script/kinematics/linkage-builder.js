@@ -2,7 +2,7 @@
 
 import { cosSinOfDegrees } from "./angles.js";
 import { greatestDivisor, placeOnLink } from "./linkage.js";
-import { sideOf, signsWith } from "./signs.js";
+import { sideOf, modeWithSide } from "./assembly-mode.js";
 
 /** Why a parameter set makes no linkage, in a sentence. */
 export class LinkageError extends Error {}
@@ -10,7 +10,7 @@ export class LinkageError extends Error {}
 /**
  * Each method adds a joint and returns its place in `joints`; angles in degrees, `side` 1 left or -1 right.
  */
-export class LinkageAssembly {
+export class LinkageBuilder {
   joints = [];
   links = [];
   // Bodies that are known by a joint and a line: { base, link, foot, offset } or { base, link, line, offset,
@@ -181,7 +181,7 @@ export class LinkageAssembly {
     if (this.dyads === MOST) {
       throw new LinkageError(`\`${name}\` is one dyad more than the ${MOST} a linkage may have`);
     }
-    this.signs = signsWith(this.signs, this.dyads, side);
+    this.signs = modeWithSide(this.signs, this.dyads, side);
     return this.dyads++;
   }
 

@@ -2,13 +2,13 @@
 
 import { degreesOf } from "./angles.js";
 import { lengthTolerance } from "./linkage.js";
-import { endWithFlat, flatEnd, turnedEnd } from "./span.js";
+import { endWithFlatDyad, endFromFlatDyad, shiftedEnd } from "./span.js";
 
 /**
  * The length of a base with one end on an arm and the other fixed, `toFixed` from the arm's pivot, both [x,
  * y]; `bounds` are the least and the greatest it may be.
  */
-export function swingOfLength(onArm, toFixed, [low, high]) {
+export function extentFromBaseLength(onArm, toFixed, [low, high]) {
   const fixed = vectorLength(toFixed);
   const arm = vectorLength(onArm);
   const [nearest, furthest] = [Math.abs(fixed - arm), fixed + arm];
@@ -31,7 +31,7 @@ export function swingOfLength(onArm, toFixed, [low, high]) {
 }
 
 /** `beside` less the projection of an arm on a fixed direction, both [x, y]. */
-export function swingOfProjection(onArm, normal, beside, [low, high]) {
+export function extentFromProjection(onArm, normal, beside, [low, high]) {
   const arm = vectorLength(onArm);
   const [least, greatest] = [beside - arm, beside + arm];
   return {
@@ -49,7 +49,7 @@ export function swingOfProjection(onArm, normal, beside, [low, high]) {
  * The spans of the whole turn on which a dyad closes. What is compared at 0 and at 180 degrees is a sum of
  * lengths with a sum of lengths; equal within their rounding, they make a change point.
  */
-export function spansOfSwing(swing, dyad, nextId) {
+export function closedFormSpans(swing, dyad, nextId) {
   if (swing.hope.some((hope) => hope <= swing.tolerance)) return [];
   const [fold, stretch] = swing.room.map((room) => gateOf(room, swing.tolerance));
   // The smaller of 1 - cos and 1 + cos is the exact one, and both make the sine.
@@ -58,13 +58,13 @@ export function spansOfSwing(swing, dyad, nextId) {
     Math.sqrt(Math.max(minus * plus, 0)),
   ];
   const [inner, outer] = swing.versines.map(direction);
-  const limit = ([cos, sin]) => flatEnd(stopOfSwing(swing, cos, sin), "limit", dyad, nextId());
+  const limit = ([cos, sin]) => endFromFlatDyad(stopOfSwing(swing, cos, sin), "limit", dyad, nextId());
   const change = (cos) => {
-    const end = flatEnd(stopOfSwing(swing, cos, 0), "change", dyad, nextId());
-    return cos > 0 ? endWithFlat(end, dyad, swing.mayVanish) : end;
+    const end = endFromFlatDyad(stopOfSwing(swing, cos, 0), "change", dyad, nextId());
+    return cos > 0 ? endWithFlatDyad(end, dyad, swing.mayVanish) : end;
   };
   // Both ends are within half a turn of `towards`; the upper one follows the lower.
-  const arc = (lower, upper) => ({ lower, upper: upper.at > lower.at ? upper : turnedEnd(upper, 360) });
+  const arc = (lower, upper) => ({ lower, upper: upper.at > lower.at ? upper : shiftedEnd(upper, 360) });
   const mirrored = ([cos, sin]) => [cos, -sin];
   const lowest = fold === "shut" ? limit(inner) : null;
   switch (`${fold} ${stretch}`) {

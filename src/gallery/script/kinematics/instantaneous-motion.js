@@ -4,7 +4,7 @@
 // inflection pole (Bottema and Roth, Theoretical Kinematics, chapter VIII).
 
 import { fourBarOf, isOnCoupler } from "./four-bar.js";
-import { groundOf, linkageWithOnePoint, placeOnLink } from "./linkage.js";
+import { groundOf, singlePointLinkage, placeOnLink } from "./linkage.js";
 import { ratesAt } from "./poses.js";
 
 // A link that turns by less than this part of what it moves along does not turn.
@@ -18,11 +18,11 @@ const POLE_AT_INFINITY = 1e-13;
  * the link does not turn, and, but for the coupler of a four-bar, at a limit.
  */
 export function poleAt(linkage, pass, input, joint) {
-  return poleOfRates(linkage, ratesAt(linkage, pass, input), joint);
+  return poleFromRates(linkage, ratesAt(linkage, pass, input), joint);
 }
 
 /** The same, of the rates of all joints that are there. */
-export function poleOfRates(linkage, rates, joint) {
+export function poleFromRates(linkage, rates, joint) {
   const motionOfLink = linkFrameOf(linkage, joint);
   if (!motionOfLink) return null;
   const { fourBar, frame } = motionOfLink;
@@ -51,7 +51,7 @@ function centrodesOf(linkage, circuit, joint) {
   const link = linkFrameOf(linkage, joint);
   if (!link) return { fixed, moving, frame: null };
   const { fourBar, frame } = link;
-  const base = Math.max(...frame) < joint ? linkageWithOnePoint(linkage, joint).linkage : linkage;
+  const base = Math.max(...frame) < joint ? singlePointLinkage(linkage, joint).linkage : linkage;
   for (let i = 0; i < circuit.count; i++) {
     const at = (id) => [circuit.x[id][i], circuit.y[id][i]];
     const instant = fourBar

@@ -5,9 +5,9 @@
 // with bisection to the last bit: what is missed is a gap or a window narrower than a few ten-thousandths of
 // a turn which the rate does not betray.
 
-import { placeSeries } from "./chain.js";
-import { inputColumns, newColumns, placeJoints, stopAt } from "./columns.js";
-import { placeEnd } from "./ends.js";
+import { placeAsSeries } from "./joint-series.js";
+import { inputColumns, newPositions, placeJoints, inputPosition } from "./positions.js";
+import { placeAtEnd } from "./pass-ends.js";
 import { passOfInterval } from "./pass.js";
 import {
   differenceOfSeries,
@@ -17,17 +17,17 @@ import {
   planarDot,
   planarUnit,
 } from "./series.js";
-import { modesOf, sideOf } from "./signs.js";
-import { endWithFlat, flatEnd, turnedEnd, turnedIntoSpan } from "./span.js";
+import { dyadSigns, sideOf } from "./assembly-mode.js";
+import { endWithFlatDyad, endFromFlatDyad, shiftedEnd, wrapIntoSpan } from "./span.js";
 
 /** The least and the greatest extent of a dyad over a span, about. */
-export function rangeOfExtent(linkage, dyad, span, signs) {
+export function extentRange(linkage, dyad, span, signs) {
   const finite = surveyOf(searchOf(linkage, dyad, span, signs)).filter((extent) => !Number.isNaN(extent));
   return [Math.min(...finite), Math.max(...finite)];
 }
 
-/** The parts of a span where a dyad closes, as reach.js has them. */
-export function searchedSpans(linkage, dyad, span, signs, nextId) {
+/** The parts of a span where a dyad closes, as dyad-limits.js has them. */
+export function searchClosingSpans(linkage, dyad, span, signs, nextId) {
   const search = searchOf(linkage, dyad, span, signs);
   const survey = surveyOf(search);
   search.tolerance = toleranceOf(dyad, survey);
@@ -38,7 +38,12 @@ export function searchedSpans(linkage, dyad, span, signs, nextId) {
   const known = extents.map((extent, i) => (Number.isNaN(extent) ? extents[i === 0 ? 1 : i - 1] : extent));
   const open = known.map((extent) => roomOf(dyad, extent) >= -search.tolerance);
   const limit = (inside, outside) =>
-    flatEnd(stopAt(linkage.input, refinedLimit(search, inside, outside)), "limit", dyad.index, nextId());
+    endFromFlatDyad(
+      inputPosition(linkage.input, refinedLimit(search, inside, outside)),
+      "limit",
+      dyad.index,
+      nextId(),
+    );
   const arcs = [];
   let lower = open[0] ? [null] : null;
   for (let i = 1; i < inputs.length; i++) {
@@ -51,9 +56,9 @@ export function searchedSpans(linkage, dyad, span, signs, nextId) {
   if (lower) arcs.push([lower[0], null]);
   let spans = joinedArcs(search, arcs);
   for (const at of touched) {
-    const end = flatEnd(stopAt(linkage.input, at), "change", dyad.index, nextId());
+    const end = endFromFlatDyad(inputPosition(linkage.input, at), "change", dyad.index, nextId());
     const vanishes = dyad.vanishes && extentsAt(search, [at])[0] <= search.tolerance;
-    spans = partedSpans(spans, endWithFlat(end, dyad.index, vanishes), linkage.input);
+    spans = partedSpans(spans, endWithFlatDyad(end, dyad.index, vanishes), linkage.input);
   }
   return spans;
 }
@@ -66,13 +71,13 @@ function searchOf(linkage, dyad, span, signs) {
 
 // The extent at each input; at the ends of the span with the dyad flat that ends it.
 function extentsAt({ linkage, dyad, span, signs, pass }, ats) {
-  const inputs = inputColumns(ats.map((at) => stopAt(linkage.input, at)));
-  const columns = newColumns(linkage.joints.length, ats.length);
-  placeJoints(linkage, [0, dyad.joint], inputs, modesOf(signs, 0, linkage.dyads), columns, 0, ats.length);
+  const inputs = inputColumns(ats.map((at) => inputPosition(linkage.input, at)));
+  const columns = newPositions(linkage.joints.length, ats.length);
+  placeJoints(linkage, [0, dyad.joint], inputs, dyadSigns(signs, 0, linkage.dyads), columns, 0, ats.length);
   ats.forEach((at, i) => {
     // Where the base of an earlier dyad vanishes, this one hangs on what goes on there.
-    if (span.lower && pass.from === at) placeEnd(linkage, pass, true, inputs, columns, i);
-    if (span.lower && pass.to === at) placeEnd(linkage, pass, false, inputs, columns, i);
+    if (span.lower && pass.from === at) placeAtEnd(linkage, pass, true, inputs, columns, i);
+    if (span.lower && pass.to === at) placeAtEnd(linkage, pass, false, inputs, columns, i);
   });
   return ats.map((_, i) => extentOfColumns(dyad.step, columns, i));
 }
@@ -194,7 +199,13 @@ function levelOf(search, from, to) {
 
 function rateOfExtent({ linkage, dyad, signs }, at) {
   const { kind, base, from, line, offset } = dyad.step;
-  const places = placeSeries(linkage, dyad.joint, stopAt(linkage.input, at), (k) => sideOf(signs, k), 2);
+  const places = placeAsSeries(
+    linkage,
+    dyad.joint,
+    inputPosition(linkage.input, at),
+    (k) => sideOf(signs, k),
+    2,
+  );
   const [p, q] = (kind === "slide" ? line : base).map((joint) => places[joint]);
   const d = planarDifference(q, p);
   if (kind !== "slide") return planarDot(d, d)[1];
@@ -227,7 +238,7 @@ function joinedArcs(search, arcs) {
   }
   if (arcs.length > 1 && arcs[0][0] === null && arcs[arcs.length - 1][1] === null) {
     const [, upper] = arcs.shift();
-    arcs[arcs.length - 1][1] = turnedEnd(upper, linkage.input.period);
+    arcs[arcs.length - 1][1] = shiftedEnd(upper, linkage.input.period);
   }
   return arcs.map(([lower, upper]) => (lower && upper ? { lower, upper } : { lower: null, upper: null }));
 }
@@ -236,16 +247,16 @@ function joinedArcs(search, arcs) {
 function endOfSpan(search, end) {
   const [extent] = extentsAt(search, [end.at]);
   if (end.cause === "asked" || Math.abs(roomOf(search.dyad, extent)) > search.tolerance) return end;
-  return endWithFlat(end, search.dyad.index, search.dyad.vanishes && extent <= search.tolerance);
+  return endWithFlatDyad(end, search.dyad.index, search.dyad.vanishes && extent <= search.tolerance);
 }
 
 // The spans with the one that an end lies inside of parted there.
 function partedSpans(spans, end, { period }) {
   return spans.flatMap((span) => {
-    if (!span.lower) return [{ lower: end, upper: turnedEnd(end, period) }];
-    const at = turnedIntoSpan(span, end.at, period);
+    if (!span.lower) return [{ lower: end, upper: shiftedEnd(end, period) }];
+    const at = wrapIntoSpan(span, end.at, period);
     if (at === null || !(span.lower.at < at && at < span.upper.at)) return [span];
-    const here = turnedEnd(end, at - end.at);
+    const here = shiftedEnd(end, at - end.at);
     return [
       { lower: span.lower, upper: here },
       { lower: here, upper: span.upper },

@@ -2,25 +2,25 @@
 // Where a dyad hangs on a point of the crank's link and on the frame, its limits are in closed form; for any
 // other they are searched.
 
-import { stopAt } from "./columns.js";
+import { inputPosition } from "./positions.js";
 import { lengthTolerance, placeOnLink } from "./linkage.js";
-import { rangeOfExtent, searchedSpans } from "./search.js";
-import { askedEnd, flatEnd, intersectedSpan } from "./span.js";
-import { spansOfSwing, swingOfLength, swingOfProjection } from "./swing.js";
+import { extentRange, searchClosingSpans } from "./limit-search.js";
+import { rangeEnd, endFromFlatDyad, intersectSpans } from "./span.js";
+import { closedFormSpans, extentFromBaseLength, extentFromProjection } from "./closed-form.js";
 
 /**
  * The parts of a span where a dyad closes, given the sides of the dyads before it: { parts, reason }, with
  * the reason why there are none. `nextId` gives the numbers of new ends.
  */
-export function cutSpan(linkage, index, span, signs, nextId) {
+export function closingSpans(linkage, index, span, signs, nextId) {
   const dyad = dyadOf(linkage, index);
   let parts;
   if (dyad.step.kind === "piston") {
-    parts = intersectedSpan(span, strokeOfPiston(linkage, dyad, nextId), 0, linkage.input);
+    parts = intersectSpans(span, strokeOfPiston(linkage, dyad, nextId), 0, linkage.input);
   } else if (dyad.swing) {
-    parts = intersectedSpan(span, spansOfSwing(dyad.swing, index, nextId), 3, linkage.input);
+    parts = intersectSpans(span, closedFormSpans(dyad.swing, index, nextId), 3, linkage.input);
   } else {
-    parts = searchedSpans(linkage, dyad, span, signs, nextId);
+    parts = searchClosingSpans(linkage, dyad, span, signs, nextId);
   }
   return { parts, reason: parts.length > 0 ? null : shortfallOfDyad(linkage, dyad, span, signs) };
 }
@@ -53,8 +53,8 @@ function strokeOfPiston(linkage, { index, step }, nextId) {
   const leg = (b) => Math.sqrt(Math.max((b - offset) * (b + offset), 0));
   const [folded, stretched] = [leg(Math.abs(frame - length)), leg(frame + length)];
   const end = (at) => {
-    const stop = stopAt(linkage.input, at);
-    return at > 0 ? flatEnd(stop, "limit", index, nextId()) : askedEnd(stop, nextId());
+    const stop = inputPosition(linkage.input, at);
+    return at > 0 ? endFromFlatDyad(stop, "limit", index, nextId()) : rangeEnd(stop, nextId());
   };
   return folded < stretched ? [{ lower: end(folded), upper: end(stretched) }] : [];
 }
@@ -74,7 +74,11 @@ function swingOfDyad(linkage, { step, bounds }) {
   for (const [p, q] of [step.base, [step.base[1], step.base[0]]]) {
     const [onArm, fixed] = [placeOnLink(arm, p), placeOnLink(frame, q)];
     if (onArm && fixed) {
-      return swingOfLength([onArm.x, onArm.y], [fixed.x - pivotPlace.x, fixed.y - pivotPlace.y], bounds);
+      return extentFromBaseLength(
+        [onArm.x, onArm.y],
+        [fixed.x - pivotPlace.x, fixed.y - pivotPlace.y],
+        bounds,
+      );
     }
   }
   return null;
@@ -88,11 +92,11 @@ function swingOfSlide({ from, line, offset }, bounds, frame, arm, pivot) {
   const d = Math.sqrt(dx * dx + dy * dy);
   const [ux, uy] = [dx / d, dy / d];
   const beside = offset - (ux * (pivot.y - p.y) - uy * (pivot.x - p.x));
-  return swingOfProjection([onArm.x, onArm.y], [-uy, ux], beside, bounds);
+  return extentFromProjection([onArm.x, onArm.y], [-uy, ux], beside, bounds);
 }
 
 /** Why a linkage is not assembled whose places, or their squares, are beyond all numbers. */
-export const LENGTHS_TOO_EXTREME = "its lengths are too large or too small for double precision";
+export const OUT_OF_RANGE_REASON = "its lengths are too large or too small for double precision";
 
 // Why a dyad closes nowhere in a span, in a sentence.
 function shortfallOfDyad(linkage, dyad, span, signs) {
@@ -102,9 +106,9 @@ function shortfallOfDyad(linkage, dyad, span, signs) {
   const name = nameOf(joint);
   if (step.kind === "piston") return `${name} cannot be placed by an actuator of any length asked for`;
   const isWhole = swing && !span.lower;
-  const [least, greatest] = isWhole ? swing.extent : rangeOfExtent(linkage, dyad, span, signs);
+  const [least, greatest] = isWhole ? swing.extent : extentRange(linkage, dyad, span, signs);
   const size = Number.isFinite(high) ? Math.max(Math.abs(greatest), high) : Math.abs(greatest);
-  if (!(size * size >= 2 ** -1022 && size * size < Infinity)) return LENGTHS_TOO_EXTREME;
+  if (!(size * size >= 2 ** -1022 && size * size < Infinity)) return OUT_OF_RANGE_REASON;
   if (step.kind === "slide") {
     const nearest = shortNumber(least > 0 ? least : -greatest);
     const link = shortNumber(step.length);

@@ -1,9 +1,9 @@
 // Velocities, accelerations and jerks of all joints, by Taylor series through the chain of joints.
 
-import { discriminantOfDyad, placeSeries, slideOffset } from "./chain.js";
-import { stopAt } from "./columns.js";
+import { discriminantOfDyad, placeAsSeries, slideOffset } from "./joint-series.js";
+import { inputPosition } from "./positions.js";
 import { groundOf } from "./linkage.js";
-import { headingOf } from "./pass.js";
+import { inputDirection } from "./pass.js";
 import {
   constantSeries,
   differenceOfSeries,
@@ -16,9 +16,9 @@ import {
   quotientOfSeries,
   scaledSeries,
   sumOfSeries,
-  touchingRoot,
+  sqrtAtTouch,
 } from "./series.js";
-import { sideOf } from "./signs.js";
+import { sideOf } from "./assembly-mode.js";
 
 // Of each dyad that touches its flat pose at an end of a pass one term is lost.
 const TERMS_AT_AN_END = 8;
@@ -31,25 +31,28 @@ const TERMS_TO_JERK = 4;
  * velocity is the second term, half the acceleration the third, a sixth of the jerk the fourth. At a limit
  * they are infinite, at a change point as they are beside it in the pass.
  */
-export function jetsOnPass(linkage, pass, at, terms = 3) {
+export function derivativesOnPass(linkage, pass, at, terms = 3) {
   const ends = [
     [pass.end, -headingOf(pass)],
-    [pass.begin, headingOf(pass)],
+    [pass.begin, inputDirection(pass)],
   ];
   for (const [end, inwards] of ends) {
     if (end.at === at && end.flat !== 0) {
-      const jets = fixedFrameJets(linkage, end, pass.signs, end.flat, inwards, TERMS_AT_AN_END);
+      const jets = fixedFrameDerivatives(linkage, end, pass.signs, end.flat, inwards, TERMS_AT_AN_END);
       return seenSeries(linkage, jets);
     }
   }
-  return seenSeries(linkage, fixedFrameJets(linkage, stopAt(linkage.input, at), pass.signs, 0, 0, terms));
+  return seenSeries(
+    linkage,
+    fixedFrameDerivatives(linkage, inputPosition(linkage.input, at), pass.signs, 0, 0, terms),
+  );
 }
 
 /** The same at a stop { at, cos, sin } in an assembly mode, where no dyad lies flat. */
-export function jetsAtStop(linkage, stop, signs) {
+export function derivativesAtInput(linkage, stop, signs) {
   return seenSeries(
     linkage,
-    placeSeries(linkage, linkage.joints.length, stop, (k) => sideOf(signs, k), 3),
+    placeAsSeries(linkage, linkage.joints.length, stop, (k) => sideOf(signs, k), 3),
   );
 }
 
@@ -57,7 +60,7 @@ export function jetsAtStop(linkage, stop, signs) {
  * Places and rates in the frame of the fixed joints, by series of so many terms. `inwards` is 1 where the
  * motion is at greater inputs than this, -1 where it is at smaller ones, and 0 where that is not known.
  */
-export function fixedFrameJets(linkage, stop, signs, flat, inwards, terms) {
+export function fixedFrameDerivatives(linkage, stop, signs, flat, inwards, terms) {
   const mode = (dyad) => ((flat >> dyad) & 1 ? 0 : sideOf(signs, dyad));
   const settle = (joint, place, at) => {
     const { step } = linkage.joints[joint];
@@ -65,11 +68,11 @@ export function fixedFrameJets(linkage, stop, signs, flat, inwards, terms) {
     const rise = riseOfStep(step, at, terms);
     if (!rise) return place;
     const way = sideOf(signs, step.index) * inwards;
-    const height = way === 0 ? null : touchingRoot(rise.square, rise.size);
+    const height = way === 0 ? null : sqrtAtTouch(rise.square, rise.size);
     if (!height) return unboundedPlace(place, rise.direction);
     return movedPlace(place, rise.direction, scaledSeries(height, way), constantSeries(0, terms));
   };
-  const all = placeSeries(linkage, linkage.joints.length, stop, mode, terms, settle);
+  const all = placeAsSeries(linkage, linkage.joints.length, stop, mode, terms, settle);
   return all.map(({ x, y }) => ({ x: x.slice(0, TERMS_TO_JERK), y: y.slice(0, TERMS_TO_JERK) }));
 }
 
