@@ -1,4 +1,5 @@
-// Limits in closed form: an extent that goes with the cosine of the input (McCarthy 2.53, Natesan 4.3-4.9).
+// Computes limits in closed form, of an extent that is a sinusoid of the input (McCarthy 2.53, Natesan
+// 4.3-4.9).
 
 import { degreesOf } from "./angles.js";
 import { lengthTolerance } from "./linkage.js";
@@ -51,16 +52,16 @@ export function extentFromProjection(onArm, normal, beside, [low, high]) {
  */
 export function closedFormSpans(swing, dyad, nextId) {
   if (swing.hope.some((hope) => hope <= swing.tolerance)) return [];
-  const [fold, stretch] = swing.room.map((room) => gateOf(room, swing.tolerance));
+  const [fold, stretch] = swing.room.map((room) => boundState(room, swing.tolerance));
   // The smaller of 1 - cos and 1 + cos is the exact one, and both make the sine.
   const direction = ([minus, plus]) => [
     minus < plus ? 1 - minus : plus - 1,
     Math.sqrt(Math.max(minus * plus, 0)),
   ];
   const [inner, outer] = swing.versines.map(direction);
-  const limit = ([cos, sin]) => endFromFlatDyad(stopOfSwing(swing, cos, sin), "limit", dyad, nextId());
+  const limit = ([cos, sin]) => endFromFlatDyad(inputOfExtent(swing, cos, sin), "limit", dyad, nextId());
   const change = (cos) => {
-    const end = endFromFlatDyad(stopOfSwing(swing, cos, 0), "change", dyad, nextId());
+    const end = endFromFlatDyad(inputOfExtent(swing, cos, 0), "change", dyad, nextId());
     return cos > 0 ? endWithFlatDyad(end, dyad, swing.mayVanish) : end;
   };
   // Both ends are within half a turn of `towards`; the upper one follows the lower.
@@ -100,7 +101,7 @@ export function closedFormSpans(swing, dyad, nextId) {
 }
 
 // The input whose angle from `towards` has this cosine and sine.
-function stopOfSwing({ towards: [tx, ty] }, cos, sin) {
+function inputOfExtent({ towards: [tx, ty] }, cos, sin) {
   // Both angles are exact where the arm starts on the frame line.
   const at = degreesOf(Math.atan2(ty, tx)) + degreesOf(Math.atan2(sin, cos));
   return { at, cos: tx * cos - ty * sin, sin: ty * cos + tx * sin };
@@ -108,7 +109,7 @@ function stopOfSwing({ towards: [tx, ty] }, cos, sin) {
 
 // Whether a dyad can pass the shortest or the longest its base can be: where it is touched it lies flat, and
 // can.
-function gateOf(room, tolerance) {
+function boundState(room, tolerance) {
   if (Math.abs(room) <= tolerance) return "touched";
   return room > 0 ? "open" : "shut";
 }

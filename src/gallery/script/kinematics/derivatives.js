@@ -1,4 +1,4 @@
-// Velocities, accelerations and jerks of all joints, by Taylor series through the chain of joints.
+// Computes velocities, accelerations and jerks of all joints by Taylor series through the chain of joints.
 
 import { discriminantOfDyad, placeAsSeries, slideOffset } from "./joint-series.js";
 import { inputPosition } from "./positions.js";
@@ -29,28 +29,28 @@ const TERMS_TO_JERK = 4;
  * Places and rates of all joints at an input of a pass: planar series of at least `terms` terms up to 4, { x,
  * y }, as seen from the linkage's own view. Rates are to a radian of input, or to a unit of length: the
  * velocity is the second term, half the acceleration the third, a sixth of the jerk the fourth. At a limit
- * they are infinite, at a change point as they are beside it in the pass.
+ * they are infinite, at a change point their one-sided limits in the pass.
  */
 export function derivativesOnPass(linkage, pass, at, terms = 3) {
   const ends = [
-    [pass.end, -headingOf(pass)],
+    [pass.end, -inputDirection(pass)],
     [pass.begin, inputDirection(pass)],
   ];
   for (const [end, inwards] of ends) {
     if (end.at === at && end.flat !== 0) {
       const jets = fixedFrameDerivatives(linkage, end, pass.signs, end.flat, inwards, TERMS_AT_AN_END);
-      return seenSeries(linkage, jets);
+      return toViewFrame(linkage, jets);
     }
   }
-  return seenSeries(
+  return toViewFrame(
     linkage,
     fixedFrameDerivatives(linkage, inputPosition(linkage.input, at), pass.signs, 0, 0, terms),
   );
 }
 
-/** The same at a stop { at, cos, sin } in an assembly mode, where no dyad lies flat. */
+/** The same at an input { at, cos, sin } in an assembly mode, where no dyad lies flat. */
 export function derivativesAtInput(linkage, stop, signs) {
-  return seenSeries(
+  return toViewFrame(
     linkage,
     placeAsSeries(linkage, linkage.joints.length, stop, (k) => sideOf(signs, k), 3),
   );
@@ -65,11 +65,11 @@ export function fixedFrameDerivatives(linkage, stop, signs, flat, inwards, terms
   const settle = (joint, place, at) => {
     const { step } = linkage.joints[joint];
     if (step.index === undefined || step.kind === "directed" || !((flat >> step.index) & 1)) return place;
-    const rise = riseOfStep(step, at, terms);
+    const rise = dyadHeight(step, at, terms);
     if (!rise) return place;
     const way = sideOf(signs, step.index) * inwards;
     const height = way === 0 ? null : sqrtAtTouch(rise.square, rise.size);
-    if (!height) return unboundedPlace(place, rise.direction);
+    if (!height) return withUnboundedRates(place, rise.direction);
     return movedPlace(place, rise.direction, scaledSeries(height, way), constantSeries(0, terms));
   };
   const all = placeAsSeries(linkage, linkage.joints.length, stop, mode, terms, settle);
@@ -79,7 +79,7 @@ export function fixedFrameDerivatives(linkage, stop, signs, flat, inwards, terms
 // How a dyad's joint stands off from where it is when the dyad lies flat: where to, along a slider's line or
 // square to a base of any length; the square of how far, in lengths of that; and the size of the terms that
 // the square is made of.
-function riseOfStep(step, at, terms) {
+function dyadHeight(step, at, terms) {
   const squareTo = ([p, q]) => {
     const base = planarDifference(at[q], at[p]);
     return { base, direction: { x: scaledSeries(base.y, -1), y: base.x } };
@@ -120,7 +120,7 @@ function riseOfStep(step, at, terms) {
 
 // The same place with rates that have no bound, but across the direction they have none in: there the
 // velocity has one, and all rates where the direction stays.
-function unboundedPlace(at, direction) {
+function withUnboundedRates(at, direction) {
   const rates = (place, along, across) => {
     let bounded = place.length;
     if (along[0] !== 0 || across[0] === 0) bounded = 1;
@@ -131,7 +131,7 @@ function unboundedPlace(at, direction) {
 }
 
 // Places and rates in the plane they are reported in.
-function seenSeries(linkage, at) {
+function toViewFrame(linkage, at) {
   let out = at;
   if (linkage.seenFrom) {
     const [from, to] = linkage.seenFrom.map((joint) => at[joint]);

@@ -1,5 +1,5 @@
-// Where one two-valued joint can be placed: the inputs at which its dyad is neither too short nor too long.
-// Where a dyad hangs on a point of the crank's link and on the frame, its limits are in closed form; for any
+// Finds the inputs at which one two-valued joint can be placed: where its dyad is neither too short nor too
+// long. If a dyad connects a point of the crank's link to the frame, its limits have a closed form; for any
 // other they are searched.
 
 import { inputPosition } from "./positions.js";
@@ -95,7 +95,7 @@ function swingOfSlide({ from, line, offset }, bounds, frame, arm, pivot) {
   return extentFromProjection([onArm.x, onArm.y], [-uy, ux], beside, bounds);
 }
 
-/** Why a linkage is not assembled whose places, or their squares, are beyond all numbers. */
+/** Why a linkage is not assembled if its positions, or their squares, overflow. */
 export const OUT_OF_RANGE_REASON = "its lengths are too large or too small for double precision";
 
 // Why a dyad closes nowhere in a span, in a sentence.

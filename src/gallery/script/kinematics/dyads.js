@@ -1,6 +1,7 @@
-// The kernels: one joint at many inputs, in columns. Each takes places of earlier joints as { x, y } columns
-// and writes x[i], y[i] for `first` up to, not with, `last`. `mode` is what a dyad's height is multiplied by:
-// 1 to the left of its base, -1 to the right, 0 where it lies flat. Bases beyond a dyad's reach lay it flat.
+// Places one joint at many inputs, in columns. Each function takes positions of earlier joints as { x, y }
+// columns and writes x[i], y[i] for `first` up to, not with, `last`. `mode` is what a dyad's height is
+// multiplied by: 1 to the left of its base, -1 to the right, 0 where it lies flat. A dyad whose base is too
+// long or too short is placed flat.
 
 /** On a crank about `pivot`. */
 export function placeCrank(pivot, length, cos, sin, x, y, first, last) {
@@ -105,7 +106,7 @@ export function placeYoke(a, p, q, offset, lean, x, y, first, last) {
 }
 
 /**
- * A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is
+ * A point of a body aligned with a line. The line goes through q and past p at an offset: its direction is
  * that from p to q, turned to the right by the angle whose sine is offset / d. `known` has how far along it q
  * is, where that is known.
  */

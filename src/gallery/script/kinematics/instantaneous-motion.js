@@ -1,5 +1,5 @@
-// The motion of a link at an instant: its pole, inflection circle and centrodes. Nothing in it depends on how
-// fast the input goes: the motion is taken by the link's own angle. With w the vector from the pole to a
+// The instantaneous motion of a link: its pole, inflection circle and centrodes. It does not depend on the
+// speed of the input: derivatives are by the link's own angle. With w the vector from the pole to a
 // point of the link, its velocity is i w and its acceleration q - w, where q goes from the pole to the
 // inflection pole (Bottema and Roth, Theoretical Kinematics, chapter VIII).
 
@@ -11,22 +11,22 @@ import { ratesAt } from "./poses.js";
 const POLE_AT_INFINITY = 1e-13;
 
 /**
- * How the link that a joint is on moves at an input of a pass: { pole: [x, y], moving: [along, left],
- * inflection: [x, y], frame: [a, b] }, the instant centre in the plane and in the link's own frame (from
- * joint a, x towards joint b), and the inflection pole: the inflection circle has it and the pole at the ends
- * of a diameter, and the paths of the link's points on it are straight there to the second order. Null where
- * the link does not turn, and, but for the coupler of a four-bar, at a limit.
+ * The instantaneous motion of the link of a joint at an input of a pass: { pole: [x, y], moving: [along,
+ * left], inflection: [x, y], frame: [a, b] }, the instant centre in the plane and in the link's own frame
+ * (from joint a, x towards joint b), and the inflection pole: the inflection circle has it and the pole at
+ * the ends of a diameter, and the paths of the link's points on it are straight there to the second order.
+ * Null where the link does not turn, and, but for the coupler of a four-bar, at a limit.
  */
 export function poleAt(linkage, pass, input, joint) {
   return poleFromRates(linkage, ratesAt(linkage, pass, input), joint);
 }
 
-/** The same, of the rates of all joints that are there. */
+/** The same from the rates of all joints at that input. */
 export function poleFromRates(linkage, rates, joint) {
-  const motionOfLink = linkFrameOf(linkage, joint);
-  if (!motionOfLink) return null;
-  const { fourBar, frame } = motionOfLink;
-  return fourBar ? couplerInstant(fourBar, pointsOfPose(rates.place)) : linkInstant(rates, frame);
+  const link = linkFrameOf(linkage, joint);
+  if (!link) return null;
+  const { fourBar, frame } = link;
+  return fourBar ? motionOfCoupler(fourBar, pointsOfPose(rates.place)) : motionOfLink(rates, frame);
 }
 
 /**
@@ -55,8 +55,8 @@ function centrodesOf(linkage, circuit, joint) {
   for (let i = 0; i < circuit.count; i++) {
     const at = (id) => [circuit.x[id][i], circuit.y[id][i]];
     const instant = fourBar
-      ? couplerInstant(fourBar, at)
-      : linkInstant(ratesAt(base, circuit.passes[circuit.pass[i]], circuit.input[i]), frame);
+      ? motionOfCoupler(fourBar, at)
+      : motionOfLink(ratesAt(base, circuit.passes[circuit.pass[i]], circuit.input[i]), frame);
     if (!instant) continue;
     fixed.set(instant.pole, 2 * i);
     moving.set(instant.moving, 2 * i);
@@ -81,7 +81,7 @@ function pointsOfPose(pose) {
 }
 
 // Of a link through two joints, from their rates. A rigid arm e has e' = i w e and e'' = (i w' - w^2) e.
-function linkInstant({ place, velocity, acceleration }, [a, b]) {
+function motionOfLink({ place, velocity, acceleration }, [a, b]) {
   const arm = [place[2 * b] - place[2 * a], place[2 * b + 1] - place[2 * a + 1]];
   const size2 = arm[0] * arm[0] + arm[1] * arm[1];
   const turning = (rates) => {
@@ -95,12 +95,12 @@ function linkInstant({ place, velocity, acceleration }, [a, b]) {
   // The joint's derivatives by the link's angle, from those by the input.
   const first = va.map((v) => v / w);
   const second = [0, 1].map((k) => (acceleration[2 * a + k] - first[k] * w1) / (w * w));
-  return instantOfPlane([place[2 * a], place[2 * a + 1]], arm, first, second, [a, b]);
+  return motionOfPlane([place[2 * a], place[2 * a + 1]], arm, first, second, [a, b]);
 }
 
 // Of the coupler of a four-bar on its frame, from where its pins are. At a limit, too: as its own angle goes,
 // the coupler has no limits. There it turns about the crank's pin, while that stands still.
-function couplerInstant({ joints: { o, a, b, c } }, at) {
+function motionOfCoupler({ joints: { o, a, b, c } }, at) {
   const [po, pa, pb, pc] = [o, a, b, c].map(at);
   const [crank, coupler, rocker] = [minusVector(pa, po), minusVector(pb, pa), minusVector(pb, pc)];
   // crank' + coupler' = rocker', each a rate of turning times the arm's left normal, differentiated once
@@ -117,11 +117,11 @@ function couplerInstant({ joints: { o, a, b, c } }, at) {
   const [wc2] = solve(known);
   const first = left(crank).map((x) => x * wc1);
   const second = [0, 1].map((k) => left(crank)[k] * wc2 - crank[k] * wc1 * wc1);
-  return instantOfPlane(pa, coupler, first, second, [a, b]);
+  return motionOfPlane(pa, coupler, first, second, [a, b]);
 }
 
 // Of a plane with a joint and an arm from it, and the joint's derivatives by the plane's angle.
-function instantOfPlane(place, arm, first, second, frame) {
+function motionOfPlane(place, arm, first, second, frame) {
   const toPole = [-first[1], first[0]];
   const size = Math.hypot(...arm);
   const axis = arm.map((x) => x / size);

@@ -1,28 +1,28 @@
-// Where a linkage can be assembled: for each assembly mode, the intervals of the input.
+// Finds the intervals of the input on which a linkage can be assembled, for each assembly mode.
 //
-// The dyads are taken in the order they are placed. Each cuts the intervals left by those before it to where
-// its base is within its reach; both of its sides then share what is left. So an end of an interval belongs
+// The dyads are processed in the order they are placed. Each reduces the intervals left by those before it to
+// where its base is within its limits; both of its sides share the result. So an end of an interval belongs
 // to one dyad, and has one number by which the intervals that meet there are recognised.
 //
-// An end is { at, cos, sin, cause, flat, flips, bound, id }: the input; "limit", where a dyad is stretched or
-// folded and cannot go on, "change", where it can, or "asked", where the range asked for ends; the dyads that
-// lie flat; those of them that change their sides when the motion goes on smoothly; those that can do nothing
-// else, for their bases vanish. A span is { lower, upper }, two ends at most a period apart, or both null:
-// the whole period.
+// An end is { at, cos, sin, cause, flat, flips, bound, id }: the input; its cause, "limit" where a dyad is
+// extended or folded and the motion cannot continue, "change" where it can, or "asked" where the requested
+// range ends; the dyads that lie flat; those of them that change sides when the motion continues smoothly;
+// those that must, because their bases vanish. A span is { lower, upper }, two ends at most a period apart,
+// or both null: the whole period.
 
 import { inputPosition } from "./positions.js";
 import { closingSpans } from "./dyad-limits.js";
 import { allModes, firstDyad, lastDyad, truncatedMode } from "./assembly-mode.js";
 import { rangeEnd } from "./span.js";
 
-/** The end of an interval that a rising or falling input comes to; null on a full turn. */
+/** The end of an interval that a rising or falling input reaches; null on a full turn. */
 export function intervalEnd({ span }, rising) {
   return rising ? span.upper : span.lower;
 }
 
 /**
- * The sides with which a motion goes on that comes to an end with a rising or falling input, and whether the
- * input then rises; null where it ends.
+ * The assembly mode in which the motion continues after an end reached with a rising or falling input, and
+ * whether the input then rises; null where the motion ends.
  */
 export function nextMode(end, signs, rising, { coincident, continuation }) {
   if (end.cause === "asked") return null;
@@ -34,9 +34,9 @@ export function nextMode(end, signs, rising, { coincident, continuation }) {
 }
 
 /**
- * The intervals within the range asked for, { intervals: [{ span, signs }], shortfall }: of all assembly
- * modes, or, where only the circuit through the start pose is wanted, of those that can be reached from it.
- * The shortfall says why there are none of the mode asked for, where a dyad of it closes nowhere.
+ * The intervals within the requested range, { intervals: [{ span, signs }], shortfall }: of all assembly
+ * modes, or, if only the circuit through the start pose is requested, of those that can be reached from it.
+ * The shortfall is the reason why the requested mode has none, if one of its dyads closes nowhere.
  */
 export function findIntervals(linkage) {
   const { travel, dyads } = linkage;
@@ -59,7 +59,7 @@ export function findIntervals(linkage) {
 }
 
 // The whole range of the input that is asked for.
-function wholeSpan({ input, travel: { range } }) {
+function requestedSpan({ input, travel: { range } }) {
   const asked = (at, id) => rangeEnd(inputPosition(input, at), id);
   if (range && range[1] - range[0] < input.period)
     return { lower: asked(range[0], 0), upper: asked(range[1], 1) };
@@ -71,7 +71,7 @@ function wholeSpan({ input, travel: { range } }) {
 // that share these share the spans, and the numbers of their ends.
 function spansOfMode(tree, dyads, signs) {
   const { linkage } = tree;
-  if (dyads === 0) return [wholeSpan(linkage)];
+  if (dyads === 0) return [requestedSpan(linkage)];
   const before = truncatedMode(signs, dyads - 1);
   const key = `${dyads}.${before}`;
   if (tree.left.has(key)) return tree.left.get(key);

@@ -1,5 +1,6 @@
-// Every joint as a series in the input, each from those before it, in the frame of the fixed joints: the
-// constraints that dyads.js solves, with their rates. Angles of input are in radians, lengths in their unit.
+// Computes each joint as a series in the input, from the joints before it, in the frame of the fixed joints:
+// the constraints that dyads.js solves, with their rates. Angles of input are in radians, lengths in their
+// unit.
 
 import { cosSinOfDegrees } from "./angles.js";
 import { gearedAngle } from "./positions.js";
@@ -31,13 +32,13 @@ import {
 export function placeAsSeries(linkage, count, stop, mode, terms, settle = null) {
   const at = [];
   for (let id = 0; id < count; id++) {
-    const place = seriesOfStep(linkage.joints[id].step, at, stop, mode, terms);
+    const place = jointSeries(linkage.joints[id].step, at, stop, mode, terms);
     at.push(settle ? settle(id, place, at) : place);
   }
   return at;
 }
 
-function seriesOfStep(step, at, stop, mode, terms) {
+function jointSeries(step, at, stop, mode, terms) {
   const number = (value) => constantSeries(value, terms);
   const none = number(0);
   switch (step.kind) {
@@ -82,7 +83,7 @@ function seriesOfStep(step, at, stop, mode, terms) {
       return movedPlace(p, unit, along, number(step.offset));
     }
     default:
-      return directedSeries(step, at, stop, mode, terms);
+      return alignedSeries(step, at, stop, mode, terms);
   }
 }
 
@@ -111,7 +112,7 @@ export function discriminantOfDyad(d2, sum, difference) {
   return productOfSeries(outer, inner);
 }
 
-/** How far a slide's line runs to the left of the joint its link hangs on, with the line's direction. */
+/** The offset of a slide's line to the left of the joint its link turns on, with the line's direction. */
 export function slideOffset({ from, line, offset }, at, terms) {
   const [p, q] = line.map((joint) => at[joint]);
   const unit = planarUnit(planarDifference(q, p));
@@ -138,7 +139,7 @@ function slotSeries({ base: [p, q], offset }, at, mode, terms) {
   return movedPlace(at[p], base, along, quotientOfSeries(root, d2));
 }
 
-function directedSeries(step, at, stop, mode, terms) {
+function alignedSeries(step, at, stop, mode, terms) {
   const { offset, lineIs } = step;
   const [p, q] = step.line.map((joint) => at[joint]);
   const base = planarDifference(q, p);

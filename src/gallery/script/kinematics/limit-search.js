@@ -1,9 +1,9 @@
-// Limits by search, of dyads that are not on crank and frame.
+// Searches the limits of dyads that do not connect crank and frame.
 //
-// The program has certified enclosures of the extent and its rate, by which no limit is missed, however
-// narrow the gap. Here a dense scan does, 720 pieces to a turn, refined where the extent turns near a bound,
-// with bisection to the last bit: what is missed is a gap or a window narrower than a few ten-thousandths of
-// a turn which the rate does not betray.
+// The program uses certified enclosures of the extent and its rate, so that it misses no limit, however
+// narrow the gap. This is a dense scan with 720 pieces to a turn, refined where the extent has an extremum
+// near a bound, with bisection to the last bit: it can miss a gap or a window narrower than a few
+// ten-thousandths of a turn.
 
 import { placeAsSeries } from "./joint-series.js";
 import { inputColumns, newPositions, placeJoints, inputPosition } from "./positions.js";
@@ -20,26 +20,28 @@ import {
 import { dyadSigns, sideOf } from "./assembly-mode.js";
 import { endWithFlatDyad, endFromFlatDyad, shiftedEnd, wrapIntoSpan } from "./span.js";
 
-/** The least and the greatest extent of a dyad over a span, about. */
+/** The approximate least and greatest extent of a dyad over a span. */
 export function extentRange(linkage, dyad, span, signs) {
-  const finite = surveyOf(searchOf(linkage, dyad, span, signs)).filter((extent) => !Number.isNaN(extent));
+  const finite = sampleExtents(newSearch(linkage, dyad, span, signs)).filter(
+    (extent) => !Number.isNaN(extent),
+  );
   return [Math.min(...finite), Math.max(...finite)];
 }
 
-/** The parts of a span where a dyad closes, as dyad-limits.js has them. */
+/** The parts of a span where a dyad closes, as in dyad-limits.js. */
 export function searchClosingSpans(linkage, dyad, span, signs, nextId) {
-  const search = searchOf(linkage, dyad, span, signs);
-  const survey = surveyOf(search);
+  const search = newSearch(linkage, dyad, span, signs);
+  const survey = sampleExtents(search);
   search.tolerance = toleranceOf(dyad, survey);
   // Two joints that are one point throughout leave their dyad free to turn: it has no place.
   if (dyad.vanishes && survey.every((extent) => extent <= search.tolerance)) return [];
-  const { inputs, extents, touched } = scanned(search);
+  const { inputs, extents, touched } = bracketLimits(search);
   // Where an earlier joint has no place, at an end, this dyad is as it is beside that.
   const known = extents.map((extent, i) => (Number.isNaN(extent) ? extents[i === 0 ? 1 : i - 1] : extent));
-  const open = known.map((extent) => roomOf(dyad, extent) >= -search.tolerance);
+  const open = known.map((extent) => extentMargin(dyad, extent) >= -search.tolerance);
   const limit = (inside, outside) =>
     endFromFlatDyad(
-      inputPosition(linkage.input, refinedLimit(search, inside, outside)),
+      inputPosition(linkage.input, bisectLimit(search, inside, outside)),
       "limit",
       dyad.index,
       nextId(),
@@ -54,16 +56,16 @@ export function searchClosingSpans(linkage, dyad, span, signs, nextId) {
     }
   }
   if (lower) arcs.push([lower[0], null]);
-  let spans = joinedArcs(search, arcs);
+  let spans = joinArcs(search, arcs);
   for (const at of touched) {
     const end = endFromFlatDyad(inputPosition(linkage.input, at), "change", dyad.index, nextId());
     const vanishes = dyad.vanishes && extentsAt(search, [at])[0] <= search.tolerance;
-    spans = partedSpans(spans, endWithFlatDyad(end, dyad.index, vanishes), linkage.input);
+    spans = splitSpans(spans, endWithFlatDyad(end, dyad.index, vanishes), linkage.input);
   }
   return spans;
 }
 
-function searchOf(linkage, dyad, span, signs) {
+function newSearch(linkage, dyad, span, signs) {
   const ends = span.lower ? [span.lower.at, span.upper.at] : [0, linkage.input.period];
   const pass = passOfInterval({ span, signs }, true, linkage.input.period);
   return { linkage, dyad, span, signs, ends, pass, tolerance: 0 };
@@ -91,16 +93,16 @@ function extentOfColumns({ kind, base, from, line, offset }, { x, y }, i) {
 }
 
 // What is left to stretch or to fold, whichever is less; negative where the dyad does not close.
-function roomOf({ bounds: [low, high] }, extent) {
+function extentMargin({ bounds: [low, high] }, extent) {
   const room = Math.min(high - extent, extent - low);
   return Number.isNaN(room) ? -1 : room;
 }
 
-function roomAt(search, at) {
-  return roomOf(search.dyad, extentsAt(search, [at])[0]);
+function marginAt(search, at) {
+  return extentMargin(search.dyad, extentsAt(search, [at])[0]);
 }
 
-function surveyOf(search) {
+function sampleExtents(search) {
   const INPUTS = 128;
   const [from, to] = search.ends;
   const at = (_, i) => (i === INPUTS ? to : from + ((to - from) * i) / INPUTS);
@@ -117,10 +119,10 @@ function toleranceOf({ bounds: [low, high] }, extents) {
 
 // Inputs between neighbours of which there is one limit at most, with the extents there; and inputs at which
 // a bound is touched and not passed.
-function scanned(search) {
+function bracketLimits(search) {
   const inputs = scanInputs(search);
   const extents = extentsAt(search, inputs);
-  const rooms = extents.map((extent) => roomOf(search.dyad, extent));
+  const rooms = extents.map((extent) => extentMargin(search.dyad, extent));
   const [turning, touched] = [[], []];
   const last = inputs.length - 1;
   for (let i = 0; i <= last; i++) {
@@ -130,7 +132,7 @@ function scanned(search) {
     const [before, after] = i === 0 ? [last - 1, 1] : i === last ? [last - 1, 1] : [i - 1, i + 1];
     if (!mayCross(rooms[before], rooms[i], rooms[after], search.tolerance)) continue;
     const bracket = [i === 0 ? 0 : inputs[i - 1], i === last ? inputs[last] : inputs[i + 1]];
-    const found = lookedInto(search, bracket, rooms[i] >= -search.tolerance, isSeam);
+    const found = inspectBracket(search, bracket, rooms[i] >= -search.tolerance, isSeam);
     if (found?.turning !== undefined) turning.push(found.turning);
     if (found?.touch !== undefined) touched.push(found.touch);
   }
@@ -166,18 +168,18 @@ function mayCross(before, here, after, tolerance) {
 }
 
 // What a bracket hides: a dip or a rise that passes a bound, or one that touches it.
-function lookedInto(search, [from, to], isOpen, isSeam) {
+function inspectBracket(search, [from, to], isOpen, isSeam) {
   const sign = isOpen ? 1 : -1;
   // Near where a bound is touched the room is as flat as its rounding: the rate tells the place.
-  const level = levelOf(search, from, to);
+  const level = stationaryInput(search, from, to);
   if (level === null && isSeam) return null;
-  const at = level ?? goldenLeast(from, to, (input) => sign * roomAt(search, input));
-  const room = roomAt(search, at);
+  const at = level ?? goldenSectionMinimum(from, to, (input) => sign * marginAt(search, input));
+  const room = marginAt(search, at);
   if (isOpen ? room < -search.tolerance : room >= -search.tolerance) return { turning: at };
   // On both sides of a touch the room grows; where it does not, the extent lies along the bound.
   const [start, end] = search.ends;
   const aside = 1e-5 * (end - start);
-  const grows = (input) => start <= input && input <= end && roomAt(search, input) > 100 * search.tolerance;
+  const grows = (input) => start <= input && input <= end && marginAt(search, input) > 100 * search.tolerance;
   const isTouch =
     isOpen && level !== null && room <= search.tolerance && grows(at - aside) && grows(at + aside);
   return isTouch ? { touch: at } : null;
@@ -185,7 +187,7 @@ function lookedInto(search, [from, to], isOpen, isSeam) {
 
 // Where the extent is least or greatest between two inputs, by bisection of its rate; null where that keeps
 // its sign.
-function levelOf(search, from, to) {
+function stationaryInput(search, from, to) {
   const rises = rateOfExtent(search, to) > 0;
   if (rateOfExtent(search, from) > 0 === rises) return null;
   let [a, b] = [from, to];
@@ -214,19 +216,19 @@ function rateOfExtent({ linkage, dyad, signs }, at) {
 }
 
 // The last input, going from `inside` towards `outside`, at which the dyad still closes.
-function refinedLimit(search, inside, outside) {
-  const floor = Math.min(roomAt(search, inside), 0);
+function bisectLimit(search, inside, outside) {
+  const floor = Math.min(marginAt(search, inside), 0);
   let [a, b] = [inside, outside];
   for (;;) {
     const middle = a + (b - a) / 2;
     if (middle === a || middle === b) return a;
-    if (roomAt(search, middle) >= floor) a = middle;
+    if (marginAt(search, middle) >= floor) a = middle;
     else b = middle;
   }
 }
 
 // Gives the arcs that reach the ends of the span those ends; on a whole turn, joins them over input 0.
-function joinedArcs(search, arcs) {
+function joinArcs(search, arcs) {
   const { span, linkage } = search;
   if (span.lower) {
     return arcs
@@ -246,12 +248,12 @@ function joinedArcs(search, arcs) {
 // The end of the span, where this dyad lies flat too if there is no room left.
 function endOfSpan(search, end) {
   const [extent] = extentsAt(search, [end.at]);
-  if (end.cause === "asked" || Math.abs(roomOf(search.dyad, extent)) > search.tolerance) return end;
+  if (end.cause === "asked" || Math.abs(extentMargin(search.dyad, extent)) > search.tolerance) return end;
   return endWithFlatDyad(end, search.dyad.index, search.dyad.vanishes && extent <= search.tolerance);
 }
 
 // The spans with the one that an end lies inside of parted there.
-function partedSpans(spans, end, { period }) {
+function splitSpans(spans, end, { period }) {
   return spans.flatMap((span) => {
     if (!span.lower) return [{ lower: end, upper: shiftedEnd(end, period) }];
     const at = wrapIntoSpan(span, end.at, period);
@@ -265,7 +267,7 @@ function partedSpans(spans, end, { period }) {
 }
 
 /** Where `f` is least between two places, by golden section. */
-function goldenLeast(from, to, f) {
+function goldenSectionMinimum(from, to, f) {
   const RATIO = (Math.sqrt(5) - 1) / 2;
   let [a, b] = [from, to];
   let [x, y] = [b - RATIO * (b - a), a + RATIO * (b - a)];

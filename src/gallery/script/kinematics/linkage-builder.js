@@ -1,14 +1,15 @@
-// A linkage being put together, joint by joint.
+// Builds a linkage joint by joint.
 
 import { cosSinOfDegrees } from "./angles.js";
 import { greatestDivisor, placeOnLink } from "./linkage.js";
 import { sideOf, modeWithSide } from "./assembly-mode.js";
 
-/** Why a parameter set makes no linkage, in a sentence. */
+/** A parameter set from which no linkage can be built; the message is a sentence. */
 export class LinkageError extends Error {}
 
 /**
- * Each method adds a joint and returns its place in `joints`; angles in degrees, `side` 1 left or -1 right.
+ * Builds a linkage: each method adds a joint and returns its index in `joints`. Angles are in degrees, `side`
+ * is 1 for left or -1 for right.
  */
 export class LinkageBuilder {
   joints = [];
@@ -153,7 +154,7 @@ export class LinkageBuilder {
     return this.point(name, base, along, side * Math.sqrt(Math.max(across2, 0)));
   }
 
-  /** That the linkage can be seen from a link with two joints. */
+  /** Throws unless a link has both of these joints, from which the linkage is to be seen. */
   seenFrom(joints) {
     this.#directedLink("seen_from", joints);
   }

@@ -1,12 +1,15 @@
-// A linkage with some of its parameters changed, and what follows from them.
+// Applies changed parameters to a linkage and recomputes the values derived from them.
 //
-// Changes are a Map of names to numbers, as addresses have them: parameters and helpers by their names, and
-// where the traced point is on its link as "M.along" and "M.across". What is not changed is as the atlas has
-// it, or follows.
+// Changes are a Map of names to numbers, as in addresses: parameters and helpers by their names, and the
+// position of the traced point on its link as "M.along" and "M.across". All other values are those of the
+// atlas, or derived.
 
 import { evaluateExpression } from "./expression.js";
 
-/** The values of a cell's names with changes: what is derived follows, where it is not changed itself. */
+/**
+ * The values of a cell's names with changes; derived values are recomputed unless they are changed
+ * themselves.
+ */
 export function changedValues(family, cell, changes) {
   const width = family.names.length;
   const values = family.cells.values.slice(cell * width, (cell + 1) * width);
@@ -67,8 +70,8 @@ function coordinatePart(coordinate, k) {
 }
 
 /**
- * A template whose traced point is where changes have it; a point of a grid comes to stand beside the grid,
- * traced last.
+ * A template with its traced point at its changed position; a changed point of a grid is added after the grid
+ * and traced last.
  */
 export function templateWithChanges(template, trace, values, changes) {
   const point = tracedPoint(template, trace);

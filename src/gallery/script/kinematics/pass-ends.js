@@ -1,4 +1,4 @@
-// The pose at an end of a pass, where dyads lie flat and bases may vanish.
+// Computes the pose at an end of a pass, where dyads lie flat and bases may vanish.
 
 import { placeJoints } from "./positions.js";
 import { fixedFrameDerivatives } from "./derivatives.js";
@@ -18,7 +18,7 @@ const VANISHING_BASE = 1e-12;
  */
 export function placeAtEnd(linkage, pass, begins, inputs, columns, sample) {
   const end = begins ? pass.begin : pass.end;
-  const inwards = begins ? inputDirection(pass) : -headingOf(pass);
+  const inwards = begins ? inputDirection(pass) : -inputDirection(pass);
   const modes = dyadSigns(pass.signs, end.flat, linkage.dyads);
   const kept = inputs.at[sample];
   inputs.at[sample] = end.at;
@@ -55,14 +55,14 @@ function flatDyad(pose, { base: [p, q], lengths, index }) {
     return [from[0] + dx * by, from[1] + dy * by];
   }
   // On a base of no length the two links have one length and lie on one line, square to the base.
-  const direction = directionOfBase(pose, [p, q]);
+  const direction = baseDirection(pose, [p, q]);
   if (!direction) return [NaN, NaN];
   const height = sideOf(pose.pass.signs, index) * lengths[0];
   return [from[0] - direction[1] * height, from[1] + direction[0] * height];
 }
 
 function vanishedLine(pose, { from, line, index, along, across }) {
-  const direction = directionOfBase(pose, line);
+  const direction = baseDirection(pose, line);
   if (!direction) return [NaN, NaN];
   const sense = -sideOf(pose.pass.signs, index);
   const [ux, uy] = direction;
@@ -80,13 +80,13 @@ function flatFoot([l0, l1], base) {
 }
 
 // The direction that a vanished base has in the pass, just beside its end; null where it has none.
-function directionOfBase(pose, [p, q]) {
+function baseDirection(pose, [p, q]) {
   const { linkage, end, pass, inwards } = pose;
   const jets = fixedFrameDerivatives(linkage, end, pass.signs, end.flat, 0, 3);
   const rate = ["x", "y"].map((axis) => boundedRate(jets[q][axis][1], jets[p][axis][1]) * inwards);
   let found = rate;
   if (!rate.every(Number.isFinite)) {
-    const [of, from] = [surgeOf(pose, q, jets), surgeOf(pose, p, jets)];
+    const [of, from] = [rootRate(pose, q, jets), rootRate(pose, p, jets)];
     if (!of || !from) return null;
     found = [of[0] - from[0], of[1] - from[1]];
   }
@@ -101,11 +101,11 @@ function boundedRate(a, b) {
 
 // How a joint leaves a limit: its place goes with the root of the input, and this is the factor; null where
 // it is unknown.
-function surgeOf(pose, joint, jets) {
+function rootRate(pose, joint, jets) {
   const { step } = pose.linkage.joints[joint];
   const isFlat = step.index !== undefined && ((pose.end.flat >> step.index) & 1) === 1;
   const surges = (joints) => {
-    const found = joints.map((other) => surgeOf(pose, other, jets));
+    const found = joints.map((other) => rootRate(pose, other, jets));
     return found.every(Boolean) ? found : null;
   };
   switch (step.kind) {
@@ -125,9 +125,9 @@ function surgeOf(pose, joint, jets) {
       return found && [0, 1].map((k) => found[0][k] + found[2][k] - found[1][k]);
     }
     case "dyad":
-      return isFlat ? surgeOfFlatDyad(pose, step, jets) : surgeOfDyad(pose, joint, surges(step.base));
+      return isFlat ? rootRateOfFlatDyad(pose, step, jets) : rootRateOfDyad(pose, joint, surges(step.base));
     case "slot":
-      return isFlat && step.offset !== 0 ? surgeOfFlatSlot(pose, step, jets) : null;
+      return isFlat && step.offset !== 0 ? rootRateOfFlatSlot(pose, step, jets) : null;
     default:
       return null;
   }
@@ -141,7 +141,7 @@ function baseAndRate(pose, [p, q], jets) {
 }
 
 // The square of the height is l0^2 - foot^2, with foot = (d^2 + l0^2 - l1^2) / 2d: its rate is finite.
-function surgeOfFlatDyad(pose, { base, lengths: [l0, l1], index }, jets) {
+function rootRateOfFlatDyad(pose, { base, lengths: [l0, l1], index }, jets) {
   const { dx, dy, d, rate } = baseAndRate(pose, base, jets);
   const footRate = ((0.5 - ((l0 - l1) * (l0 + l1)) / (2 * d * d)) * rate) / d;
   const factor = Math.sqrt(Math.abs(2 * flatFoot([l0, l1], d) * footRate));
@@ -150,14 +150,14 @@ function surgeOfFlatDyad(pose, { base, lengths: [l0, l1], index }, jets) {
 }
 
 // The square of the slide is d^2 - e^2, and at the limit the foot goes as the slide does.
-function surgeOfFlatSlot(pose, { base, offset, index }, jets) {
+function rootRateOfFlatSlot(pose, { base, offset, index }, jets) {
   const { dx, dy, d, rate } = baseAndRate(pose, base, jets);
   const factor = Math.sqrt(Math.abs(2 * rate)) * sideOf(pose.pass.signs, index) * Math.sign(offset);
   return Number.isFinite(factor) ? [(-dy * factor) / d, (dx * factor) / d] : null;
 }
 
 // Both links keep their lengths: u . v = u . vp and w . v = w . vq.
-function surgeOfDyad(pose, joint, found) {
+function rootRateOfDyad(pose, joint, found) {
   if (!found) return null;
   const [at, p, q] = [joint, ...pose.linkage.joints[joint].step.base].map((other) =>
     pointOfPose(pose, other),

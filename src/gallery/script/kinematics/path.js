@@ -1,4 +1,4 @@
-// The path a joint draws, refined to a chord error.
+// Computes the path of a joint to a chord tolerance.
 
 import { singlePointLinkage } from "./linkage.js";
 import { passLength } from "./pass.js";
@@ -9,7 +9,7 @@ import { easedInput } from "./spacing.js";
  * The path of a joint over a circuit as { points: Float64Array [x, y, …], inputs: Float64Array, starts:
  * [index] }: from its beginning to its end, each limit once; `starts` has the place of each pass's first
  * point, the last of the pass before. No chord is further than `tolerance` (in the plane's unit) from the
- * curve, as judged at its middle.
+ * curve, measured at its middle.
  */
 export function finePath(linkage, circuit, joint, tolerance) {
   const alone = singlePointLinkage(linkage, joint);

@@ -1,4 +1,4 @@
-// Where every joint is at inputs of a pass, as seen from the linkage's own view.
+// Computes the poses and rates of all joints at inputs of a pass, in the linkage's view frame.
 
 import { inputColumns, newPositions, placeJoints, convertToViewFrame, inputPosition } from "./positions.js";
 import { placeAtEnd } from "./pass-ends.js";

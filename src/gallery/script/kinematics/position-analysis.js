@@ -1,7 +1,7 @@
-// The angles of a four-bar and of an inverted slider-crank, as McCarthy and Soh have them (Geometric Design
-// of Linkages), at a sample { linkage, rates, input, side }: the rates of all joints there, the input in
-// degrees or as a length, and the side (1 or -1) of each two-valued joint, side(index). Angles are in
-// degrees, rates to a radian of input or a unit of length; not a number of a linkage that is neither.
+// Computes the angles of a four-bar and of an inverted slider-crank, as defined by McCarthy and Soh
+// (Geometric Design of Linkages), at a sample { linkage, rates, input, side }: the rates of all joints there,
+// the input in degrees or as a length, and the side (1 or -1) of each two-valued joint, side(index). Angles
+// are in degrees, rates per radian of input or unit of length; NaN for a linkage that is neither.
 
 import { degreesOf } from "./angles.js";
 import { fourBarOf } from "./four-bar.js";
@@ -9,9 +9,9 @@ import { handednessOf } from "./linkage.js";
 
 /** The output angle psi: (2.52), of an inverted slider-crank (2.45); from -180 to 180. */
 export function psiAt(sample) {
-  const bar = loopOf(sample);
+  const bar = fourBarJoints(sample);
   if (bar) return angleBetween(armOf(sample, bar.o, bar.c), armOf(sample, bar.c, bar.b));
-  const slider = sliderOf(sample);
+  const slider = invertedSliderCrank(sample);
   if (!slider) return NaN;
   const { o, a, c } = slider;
   const angle = angleBetween(armOf(sample, o, c), armOf(sample, c, a)) - betaOf(slider);
@@ -22,37 +22,37 @@ export function psiAt(sample) {
 
 /** The coupler angle phi from the crank: (2.57). */
 export function phiAt(sample) {
-  const bar = loopOf(sample);
+  const bar = fourBarJoints(sample);
   return bar ? angleBetween(armOf(sample, bar.o, bar.a), armOf(sample, bar.a, bar.b)) : NaN;
 }
 
 /** The transmission angle mu at the rocker's pin, from 0 to 180: section 2.3.3. */
 export function muAt(sample) {
-  const bar = loopOf(sample);
+  const bar = fourBarJoints(sample);
   return bar ? Math.abs(angleBetween(armOf(sample, bar.b, bar.a), armOf(sample, bar.b, bar.c))) : NaN;
 }
 
 /** The angular velocity of the output to that of the input. */
 export function psiRatioAt(sample) {
-  const bar = loopOf(sample);
-  if (bar) return turningOf(sample, bar.c, bar.b);
-  const slider = sliderOf(sample);
+  const bar = fourBarJoints(sample);
+  if (bar) return angularVelocityRatio(sample, bar.c, bar.b);
+  const slider = invertedSliderCrank(sample);
   if (!slider) return NaN;
   const { a, c, offset, rate } = slider;
   const [x, y] = armOf(sample, c, a);
   // As psi is the angle of C-A less beta, whose rate is e s' / b^2.
-  return boundedRatio(turningOf(sample, c, a) - (offset * rate) / (x * x + y * y));
+  return boundedRatio(angularVelocityRatio(sample, c, a) - (offset * rate) / (x * x + y * y));
 }
 
 /** The angular velocity of the coupler to that of the input. */
 export function phiRatioAt(sample) {
-  const bar = loopOf(sample);
-  return bar ? turningOf(sample, bar.a, bar.b) : NaN;
+  const bar = fourBarJoints(sample);
+  return bar ? angularVelocityRatio(sample, bar.a, bar.b) : NaN;
 }
 
-/** A^2 + B^2 - C^2, which is not negative where the four-bar can be put together: (2.53), with (2.51). */
+/** A^2 + B^2 - C^2, which is not negative where the four-bar can be assembled: (2.53), with (2.51). */
 export function solvabilityAt(sample) {
-  const bar = loopOf(sample);
+  const bar = fourBarJoints(sample);
   if (!bar) return NaN;
   const { frame: g, crank: a, coupler: h, rocker: b } = bar.lengths;
   const theta = Math.atan2(...sineAndCosine(armOf(sample, bar.o, bar.c), armOf(sample, bar.o, bar.a)));
@@ -64,12 +64,12 @@ export function solvabilityAt(sample) {
 
 /** The slide s of an inverted slider-crank: (2.42). */
 export function slideAt(sample) {
-  return sliderOf(sample)?.slide ?? NaN;
+  return invertedSliderCrank(sample)?.slide ?? NaN;
 }
 
 /** The distance b = |CA| of an inverted slider-crank: (2.40). */
 export function distanceAt(sample) {
-  const slider = sliderOf(sample);
+  const slider = invertedSliderCrank(sample);
   if (!slider) return NaN;
   const [x, y] = armOf(sample, slider.c, slider.a);
   return Math.sqrt(x * x + y * y);
@@ -77,7 +77,7 @@ export function distanceAt(sample) {
 
 /** The angle beta from CB to CA of an inverted slider-crank: (2.40). */
 export function betaAt(sample) {
-  const slider = sliderOf(sample);
+  const slider = invertedSliderCrank(sample);
   return slider ? betaOf(slider) : NaN;
 }
 
@@ -87,14 +87,14 @@ function betaOf({ slide, offset }) {
 }
 
 // The four-bar as it stands on its frame; none seen from another link, where other angles have these names.
-function loopOf({ linkage }) {
+function fourBarJoints({ linkage }) {
   const bar = linkage.seenFrom ? null : fourBarOf(linkage);
   return bar && { ...bar.joints, lengths: bar };
 }
 
 // McCarthy's inverted slider-crank, { o, a, c, offset, slide, rate (of the slide) }: a slot on the crank's
 // pin, or the actuator that drives it.
-function sliderOf(sample) {
+function invertedSliderCrank(sample) {
   const { linkage, input } = sample;
   if (linkage.seenFrom) return null;
   const crank = linkage.joints.findIndex(({ step }) => step.kind === "crank");
@@ -133,7 +133,7 @@ function rateOfArm({ linkage, rates: { velocity } }, from, to) {
 }
 
 // How fast the line between two joints turns.
-function turningOf(sample, from, to) {
+function angularVelocityRatio(sample, from, to) {
   const [x, y] = armOf(sample, from, to);
   const [vx, vy] = rateOfArm(sample, from, to);
   return boundedRatio((x * vy - y * vx) / (x * x + y * y));

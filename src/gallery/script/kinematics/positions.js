@@ -15,15 +15,15 @@ import {
 } from "./dyads.js";
 import { groundOf, placeOnLink } from "./linkage.js";
 
-/** Room for so many joints at so many inputs. */
+/** Empty columns for a number of joints at a number of inputs. */
 export function newPositions(joints, count) {
   const column = () => new Float64Array(count);
   return { x: Array.from({ length: joints }, column), y: Array.from({ length: joints }, column), count };
 }
 
 /**
- * Values of the input in columns { at, cos, sin }, of stops { at, cos, sin }: degrees or lengths; of those,
- * cos is 0.
+ * Input positions { at, cos, sin } as columns { at, cos, sin }; `at` is in degrees, or a length, and then cos
+ * is 0.
  */
 export function inputColumns(stops) {
   const [at, cos, sin] = [0, 1, 2].map(() => new Float64Array(stops.length));
@@ -33,7 +33,7 @@ export function inputColumns(stops) {
   return { at, cos, sin };
 }
 
-/** The input at a value, { at, cos, sin }. */
+/** The input position at a value, { at, cos, sin }. */
 export function inputPosition(input, at) {
   if (input.isLength) return { at, cos: 0, sin: 0 };
   const [cos, sin] = cosSinOfDegrees(at);
@@ -121,8 +121,8 @@ function gearedColumns({ ratio, phase }, at, first, last) {
 }
 
 /**
- * Puts the poses into the plane they are reported in: of the link seen from, then laid as the linkage is
- * placed.
+ * Converts positions, in place, to the frame they are reported in: that of the link seen from, then the
+ * linkage's orientation.
  */
 export function convertToViewFrame(linkage, columns) {
   if (linkage.seenFrom) seeFromLink(linkage, columns);

@@ -1,4 +1,4 @@
-// Sampling circuits as the program does it.
+// Samples circuits in the same way as the program.
 //
 // { step }: every whole multiple of a step, in degrees or units of length, and the ends of the passes. {
 // samples }: that many in the whole circuit, evenly over each pass; with { spacing: "smooth" } dense towards
@@ -28,16 +28,16 @@ function evenInputs(count, period) {
   return Array.from({ length: count }, (_, i) => (period * i) / count);
 }
 
-/** Why a route is not sampled by so short a step, in a sentence; null where it is. */
+/** Why a route cannot be sampled by so short a step, in a sentence; null if it can. */
 export function excessReason({ spacing, step }, { passes }) {
   // A full turn may have them all, and rounding one more.
   const isLong = spacing === "step" && passes.some((pass) => passLength(pass) / step > MAX_SAMPLES + 1);
   return isLong ? `a step of ${step} makes more than ${MAX_SAMPLES} samples from one end to the other` : null;
 }
 
-/** A route { passes, closed } as a sampled circuit, as motion.js has it. */
+/** Samples a route { passes, closed }: a circuit as described in motion.js. */
 export function sampleCircuit(linkage, sampler, { passes, closed }) {
-  const plan = samplePlan(linkage, sampler, passes, closed);
+  const plan = planSamples(linkage, sampler, passes, closed);
   const { stops, pass, runs, ends } = plan;
   const inputs = inputColumns(stops);
   const joints = linkage.joints.length;
@@ -64,12 +64,14 @@ export function sampleCircuit(linkage, sampler, { passes, closed }) {
   return { passes, closed, count, input: inputs.at, pass: Uint32Array.from(pass), x, y, signs, branch };
 }
 
-// So many samples to a turn, or to a whole circuit that rocks, tell of a curve between them to a part in a
-// million.
+// This many samples per turn, or per whole rocking circuit, interpolate a curve to a part in a million.
 const FINE_SAMPLES = 360;
 const fineSamplers = new Map();
 
-/** A circuit by as many samples as tell of its curves between them, dense towards limits; itself if it has them. */
+/**
+ * A circuit with samples dense enough to interpolate its curves, denser towards limits; itself if it has
+ * them.
+ */
 export function refinedCircuit(linkage, circuit) {
   const turns = linkage.input.isLength ? 1 : linkage.input.period / 360;
   const samples = Math.min(FINE_SAMPLES * turns, MAX_SAMPLES);
@@ -78,7 +80,10 @@ export function refinedCircuit(linkage, circuit) {
   return sampleCircuit(linkage, fineSamplers.get(samples), circuit);
 }
 
-/** Whether paths may have a corner at a sample: where the input goes on over a change point, and the branch stays. */
+/**
+ * Whether paths may have a corner at a sample: a change point at which the input continues on the same
+ * branch.
+ */
 export function isCorner({ passes, pass, input, closed }, sample) {
   const k = pass[sample];
   const [own, next] = [passes[k], passes[(k + 1) % passes.length]];
@@ -90,11 +95,11 @@ export function isCorner({ passes, pass, input, closed }, sample) {
 // Where the samples of a route are: pass after pass, each up to and with its end; before them the start,
 // which of a closed circuit is the end of its last pass. `ends` are [sample, pass, whether it is where the
 // pass begins].
-function samplePlan(linkage, sampler, passes, closed) {
+function planSamples(linkage, sampler, passes, closed) {
   const { input } = linkage;
   if (closed && passes.length === 1 && passes[0].begin.flat === 0 && sampler.spacing !== "arc") {
     // A full turn on one branch: the table as it is, and again for every further turn.
-    const stops = wholeTurns(sampler, input);
+    const stops = fullPeriod(sampler, input);
     return { stops, pass: new Array(stops.length).fill(0), runs: [[0, stops.length]], ends: [] };
   }
   const last = passes.length - 1;
@@ -104,11 +109,11 @@ function samplePlan(linkage, sampler, passes, closed) {
     runs: [],
     ends: [closed ? [0, last, false] : [0, 0, true]],
   };
-  const mileages = mileagesOfRoute(linkage, sampler, passes);
-  const intervals = intervalsOfPasses(sampler, passes, closed, mileages);
+  const mileages = cumulativeLengths(linkage, sampler, passes);
+  const intervals = intervalCounts(sampler, passes, closed, mileages);
   passes.forEach((pass, k) => {
     const begin = plan.stops.length;
-    plan.stops.push(...insidePass(sampler, pass, intervals[k], input, mileages[k]));
+    plan.stops.push(...innerSamples(sampler, pass, intervals[k], input, mileages[k]));
     if (k < last || !closed) {
       plan.ends.push([plan.stops.length, k, false]);
       plan.stops.push(pass.end);
@@ -120,13 +125,13 @@ function samplePlan(linkage, sampler, passes, closed) {
 }
 
 // The samples strictly inside a pass.
-function insidePass(sampler, pass, intervals, input, mileage) {
+function innerSamples(sampler, pass, intervals, input, mileage) {
   const { from, to } = pass;
   if (sampler.spacing === "step") {
     const { step } = sampler;
     const apart = (at) => Math.abs(at - from) > 1e-9 * step && Math.abs(at - to) > 1e-9 * step;
     const inside = multiplesOf(step, Math.min(from, to), Math.max(from, to)).filter(apart);
-    const stops = inside.map((at) => stopOfMultiple(sampler, input, at));
+    const stops = inside.map((at) => inputAtMultiple(sampler, input, at));
     return from > to ? stops.reverse() : stops;
   }
   const shares = Array.from({ length: Math.max(intervals - 1, 0) }, (_, i) => (i + 1) / intervals);
@@ -139,23 +144,23 @@ function insidePass(sampler, pass, intervals, input, mileage) {
 }
 
 // The input at a multiple of the step, from the table where the step divides the turn.
-function stopOfMultiple({ turn, step }, input, at) {
+function inputAtMultiple({ turn, step }, input, at) {
   if (turn.length * step !== 360 || input.isLength) return inputPosition(input, at);
   const { cos, sin } = turn[remainderOf(Math.round(at / step), turn.length)];
   return { at, cos, sin };
 }
 
 // The samples of a whole period from input 0.
-function wholeTurns(sampler, input) {
+function fullPeriod(sampler, input) {
   if (input.period === 360) return sampler.turn;
   if (sampler.spacing === "step") {
-    return multiplesOf(sampler.step, 0, input.period).map((at) => stopOfMultiple(sampler, input, at));
+    return multiplesOf(sampler.step, 0, input.period).map((at) => inputAtMultiple(sampler, input, at));
   }
   return evenInputs(sampler.count, input.period).map((at) => inputPosition(input, at));
 }
 
 // The paths of the first traced joint, pass by pass, where samples are to be even along them.
-function mileagesOfRoute(linkage, sampler, passes) {
+function cumulativeLengths(linkage, sampler, passes) {
   if (sampler.spacing !== "arc" || linkage.traced.length === 0) return [];
   const mileages = passes.map((pass) => cumulativeLength(linkage, pass, linkage.traced[0]));
   // A joint that does not move tells nothing: the input is as good then.
@@ -163,7 +168,7 @@ function mileagesOfRoute(linkage, sampler, passes) {
 }
 
 // How many intervals each pass gets: in proportion to its length, at least one, by largest remainder.
-function intervalsOfPasses({ spacing, count }, passes, closed, mileages) {
+function intervalCounts({ spacing, count }, passes, closed, mileages) {
   if (spacing === "step") return passes.map(() => 0);
   const wanted = closed ? count : Math.max(count - 1, 0);
   const lengths = passes.map((pass, k) => mileages[k]?.whole ?? passLength(pass));

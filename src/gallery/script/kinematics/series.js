@@ -1,6 +1,6 @@
-// The beginnings of Taylor series in the input: arrays of the coefficients of 1, t, t^2 and so on. Sums,
-// products, quotients and roots are exact to their order, so that what comes out are derivatives in closed
-// form, not differences. A planar series is { x, y }.
+// Truncated Taylor series in the input: arrays of the coefficients of 1, t, t^2 and so on. Sums, products,
+// quotients and roots are exact to their order, so that the results are derivatives in closed form, not
+// differences. A planar series is { x, y }.
 
 /** The series of a constant. */
 export function constantSeries(value, terms) {
@@ -44,7 +44,7 @@ export function quotientOfSeries(a, b) {
   return quotient;
 }
 
-/** The root; of what rounding makes negative, 0. */
+/** The square root; 0 where rounding makes the square negative. */
 export function rootOfSeries(a) {
   const root = new Array(a.length);
   root[0] = Math.sqrt(Math.max(a[0], 0));
@@ -71,7 +71,7 @@ export function sqrtAtTouch(square, size) {
   return square.map((_, n) => (n === 0 ? 0 : root[n - 1]));
 }
 
-/** A place that stays, as a planar series. */
+/** A constant position as a planar series. */
 export function constantPlace(x, y, terms) {
   return { x: constantSeries(x, terms), y: constantSeries(y, terms) };
 }

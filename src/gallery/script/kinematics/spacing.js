@@ -1,4 +1,4 @@
-// Samples that are not even in the input: dense towards limits, or even along the path.
+// Spaces samples unevenly in the input: dense towards limits, or even along the path.
 
 import { passLength } from "./pass.js";
 import { posesAt } from "./poses.js";
@@ -17,8 +17,8 @@ export function easedInput(pass, part) {
 }
 
 /**
- * How far a joint has come along its path over a pass, by chords: { whole, part(share) }, the length, and the
- * part of the pass, as easedInput takes it, at which so much of the length is behind.
+ * The cumulative length of a joint's path over a pass, by chords: { whole, part(share) }, the total length,
+ * and the part of the pass, an argument of easedInput, at which a share of that length is reached.
  */
 export function cumulativeLength(linkage, pass, joint) {
   const CHORDS = 2048;

@@ -1,8 +1,8 @@
-// Ends of intervals of the input, and parts of spans; what they are is told in interval.js.
+// Ends of intervals of the input, and parts of spans; see interval.js for their fields.
 
 import { remainderOf } from "./angles.js";
 
-/** An end of the range asked for, at a stop { at, cos, sin }. */
+/** An end of the requested range, at an input { at, cos, sin }. */
 export function rangeEnd({ at, cos, sin }, id) {
   return { at, cos, sin, cause: "asked", flat: 0, flips: 0, bound: 0, id };
 }
@@ -19,7 +19,7 @@ export function endWithFlatDyad(end, dyad, vanishes) {
   return { ...end, flat: end.flat | bit, flips: end.flips | bit, bound };
 }
 
-/** The same end so much further on, by whole turns. */
+/** The same end shifted by whole turns. */
 export function shiftedEnd(end, by) {
   return { ...end, at: end.at + by };
 }
@@ -50,7 +50,7 @@ function laterEnd(earlierDyads, own, way, input) {
   return (own.at - earlierDyads.at) * way > 0 ? own : earlierDyads;
 }
 
-/** The parts of a span that are in one of `allowed`, which may be up to so many turns off. */
+/** The parts of a span that are in one of `allowed`, which may be shifted by up to `turns` turns. */
 export function intersectSpans(span, allowed, turns, input) {
   if (!span.lower) return allowed;
   const out = [];

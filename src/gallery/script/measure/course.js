@@ -92,7 +92,9 @@ export function distanceOnCourse({ x, y }, [from, to]) {
   return Math.sqrt(dx * dx + dy * dy);
 }
 
-/** The first point after another that is further on along the way than some distance; `count` where none is. */
+/**
+ * The first point after another that is further on along the way than some distance; `count` where none is.
+ */
 export function wayBeyond({ way, count }, from, distance) {
   const far = way[from] + distance;
   let [low, high] = [from + 1, count];

@@ -3,11 +3,11 @@
 // A portion lies in a strip, the narrowest band between two parallel lines that holds it. Its length is that
 // of its projection on that band's line, and its deviation half the band's width.
 //
-// Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. A portion
-// that is too wide asks for a length that goes with its width, and any that begins there and goes further is as
-// wide at least: so from each point the search leaps to where that length may be. The longest by points, and
-// whatever might come to be longer, is then drawn out between them, a short one among many more. A portion may
-// go over sample 0 of a closed curve, and over limits.
+// Of a tolerance, the longest portion is wanted whose strip is no wider than that part of its length. A
+// portion that is too wide asks for a length that goes with its width, and any that begins there and goes
+// further is as wide at least: so from each point the search leaps to where that length may be. The longest
+// by points, and whatever might come to be longer, is then drawn out between them, a short one among many
+// more. A portion may go over sample 0 of a closed curve, and over limits.
 
 import {
   bendBetween,
@@ -167,8 +167,8 @@ function longestFrom({ course, tolerance }, [from, begun], further, widest, long
   return found;
 }
 
-// How wide a portion is at least, by the points at its ends, if it is too wide; null where it may lie in a strip
-// of a width.
+// How wide a portion is at least, by the points at its ends, if it is too wide; null where it may lie in a
+// strip of a width.
 function excessWidth(course, [from, to], most) {
   const { x, y } = course;
   const last = to - from;
@@ -230,7 +230,8 @@ function refinedPortion(search, ends, depth) {
   return finePortion(search, [ends[0] - 1, ends[1] + 1], depth);
 }
 
-// A portion drawn out, and again from where it has come to while an end of it has gone nearly as far as it may.
+// A portion drawn out, and again from where it has come to while an end of it has gone nearly as far as it
+// may.
 function drawnFurthest(search, ends) {
   const [MOVES, FAR] = [4, 0.95];
   let best = drawnOutStrip(search, ends);
