@@ -34,7 +34,7 @@ export function findCircuits(linkage) {
   return { routes, shortfall };
 }
 
-// What a route lacks of the range asked for.
+// What a route lacks of the requested range.
 function incompleteReason({ passes }, { input, travel: { range } }) {
   const [from, to] = range;
   const [low, high] = inputRangeOfPasses(passes);
@@ -189,7 +189,7 @@ function joinPasses(passes) {
 
 // Shifts passes by whole turns so that each begins where the one before ends, and the whole lies where it
 // should: the middle of a rocking circuit in (-180, 180], the start of a turning one in the first period, a
-// range asked for as asked.
+// requested range as given.
 function makeContinuous(passes, turns, asked, period) {
   const out = [passes[0]];
   for (const pass of passes.slice(1)) {

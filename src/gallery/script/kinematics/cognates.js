@@ -68,7 +68,7 @@ export function cognatePins(linkage, { pivots, turnsAs, arms }, pose) {
   return [...pin(0, turnsAs[0]), ...pin(1, turnsAs[2])];
 }
 
-// The four-bar where it stands in the plane, and its coupler point.
+// The four-bar at its position in the plane, and its coupler point.
 function placedFourBar(linkage, joint) {
   const fourBar = fourBarOf(linkage);
   if (!fourBar || !isOnCoupler(linkage, fourBar, joint)) return null;

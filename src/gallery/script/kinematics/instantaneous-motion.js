@@ -99,7 +99,7 @@ function motionOfLink({ place, velocity, acceleration }, [a, b]) {
 }
 
 // Of the coupler of a four-bar on its frame, from where its pins are. At a limit, too: as its own angle goes,
-// the coupler has no limits. There it turns about the crank's pin, while that stands still.
+// the coupler has no limits. There it turns about the crank's pin, while that is at rest.
 function motionOfCoupler({ joints: { o, a, b, c } }, at) {
   const [po, pa, pb, pc] = [o, a, b, c].map(at);
   const [crank, coupler, rocker] = [minusVector(pa, po), minusVector(pb, pa), minusVector(pb, pc)];

@@ -58,7 +58,7 @@ export function findIntervals(linkage) {
   return { intervals, shortfall: tree.shortfall };
 }
 
-// The whole range of the input that is asked for.
+// The whole range of the input that is requested.
 function requestedSpan({ input, travel: { range } }) {
   const asked = (at, id) => rangeEnd(inputPosition(input, at), id);
   if (range && range[1] - range[0] < input.period)

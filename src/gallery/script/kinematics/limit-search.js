@@ -36,7 +36,7 @@ export function searchClosingSpans(linkage, dyad, span, signs, nextId) {
   // Two joints that are one point throughout leave their dyad free to turn: it has no place.
   if (dyad.vanishes && survey.every((extent) => extent <= search.tolerance)) return [];
   const { inputs, extents, touched } = bracketLimits(search);
-  // Where an earlier joint has no place, at an end, this dyad is as it is beside that.
+  // Where an earlier joint has no place, at an end, this dyad is as it is next to that.
   const known = extents.map((extent, i) => (Number.isNaN(extent) ? extents[i === 0 ? 1 : i - 1] : extent));
   const open = known.map((extent) => extentMargin(dyad, extent) >= -search.tolerance);
   const limit = (inside, outside) =>
@@ -170,7 +170,7 @@ function mayCross(before, here, after, tolerance) {
 // What a bracket hides: a dip or a rise that passes a bound, or one that touches it.
 function inspectBracket(search, [from, to], isOpen, isSeam) {
   const sign = isOpen ? 1 : -1;
-  // Near where a bound is touched the room is as flat as its rounding: the rate tells the place.
+  // Near where a bound is touched the room is as flat as its rounding: the rate determines the place.
   const level = stationaryInput(search, from, to);
   if (level === null && isSeam) return null;
   const at = level ?? goldenSectionMinimum(from, to, (input) => sign * marginAt(search, input));

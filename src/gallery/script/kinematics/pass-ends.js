@@ -79,7 +79,7 @@ function flatFoot([l0, l1], base) {
   return l0 < l1 && base < l1 ? -l0 : l0;
 }
 
-// The direction that a vanished base has in the pass, just beside its end; null where it has none.
+// The direction that a vanished base has in the pass, just inside its end; null where it has none.
 function baseDirection(pose, [p, q]) {
   const { linkage, end, pass, inwards } = pose;
   const jets = fixedFrameDerivatives(linkage, end, pass.signs, end.flat, 0, 3);

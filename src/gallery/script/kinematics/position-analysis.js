@@ -86,7 +86,7 @@ function betaOf({ slide, offset }) {
   return degreesOf(Math.atan2(slide, offset));
 }
 
-// The four-bar as it stands on its frame; none seen from another link, where other angles have these names.
+// The four-bar on its fixed frame; null if seen from another link, where other angles have these names.
 function fourBarJoints({ linkage }) {
   const bar = linkage.seenFrom ? null : fourBarOf(linkage);
   return bar && { ...bar.joints, lengths: bar };

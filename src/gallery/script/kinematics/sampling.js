@@ -137,7 +137,7 @@ function innerSamples(sampler, pass, intervals, input, mileage) {
   const shares = Array.from({ length: Math.max(intervals - 1, 0) }, (_, i) => (i + 1) / intervals);
   const at = (share) => {
     if (sampler.spacing !== "even") return easedInput(pass, mileage ? mileage.part(share) : share);
-    // From both ends, so that equal passes there and back have equal samples.
+    // From both ends, so that equal passes forth and back have equal samples.
     return from < to ? from + (to - from) * share : to + (from - to) * (1 - share);
   };
   return shares.map((share) => inputPosition(input, at(share)));
@@ -163,7 +163,7 @@ function fullPeriod(sampler, input) {
 function cumulativeLengths(linkage, sampler, passes) {
   if (sampler.spacing !== "arc" || linkage.traced.length === 0) return [];
   const mileages = passes.map((pass) => cumulativeLength(linkage, pass, linkage.traced[0]));
-  // A joint that does not move tells nothing: the input is as good then.
+  // A joint that does not does not move has no length: the input is used then.
   return mileages.every(({ whole }) => whole > 0) ? mileages : [];
 }
 

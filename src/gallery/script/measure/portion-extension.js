@@ -1,28 +1,27 @@
-// Portions whose ends are moved between the points of a course.
+// Extends portions by moving their ends between the points of a segment.
 
-import { clampedPlaces } from "./course.js";
+import { clampEnds } from "./curve-segment.js";
 
 const GOLDEN_SECTION = 0.6180339887498949;
 
 /**
- * The size and the ends, { size, ends }, of a portion whose ends are moved, by a point at most, to where it
- * is largest and still fits; null where nothing fits. What begins at a place is asked how it fits up to some
- * ends: beginning(start) is a function of an end that tells { size, excess }, by how much it does not fit,
- * none where that is not positive.
+ * Moves the ends of a portion, by a point at most, to where it is largest and still fits: { size, ends };
+ * null if nothing fits. beginning(start) is a function of an end that returns { size, excess } of the portion
+ * between them, which fits if the excess is not positive.
  */
-export function drawnOut(course, ends, beginning) {
+export function extendPortion(segment, ends, beginning) {
   // Golden sections of the two points between which it begins: to a tenth of the way between points. How near
   // to its furthest its end is taken, by the way between points, on the way and at last.
   const [ROUNDS, ROUGHLY, FINELY] = [6, 1e-2, 1e-5];
   const fit = beginning(ends[0])(ends[1]);
   const whole = fit.excess <= 0 ? { size: fit.size, ends } : null;
   if (ends[1] - ends[0] < 3) return whole;
-  const [low, high] = clampedPlaces(course, [ends[0] - 1, ends[1] + 1]);
-  const shift = low > ends[0] ? course.starts : 0;
+  const [low, high] = clampEnds(segment, [ends[0] - 1, ends[1] + 1]);
+  const shift = low > ends[0] ? segment.starts : 0;
   const [from, to] = ends.map((place) => place + shift);
   const endOf = (start, near) => {
     const of = beginning(start - shift);
-    return furthestEnd(near, [to - 1, high], (end) => of(end - shift));
+    return furthestFittingEnd(near, [to - 1, high], (end) => of(end - shift));
   };
   let [a, b] = [low, from + 1];
   let [c, d] = [b - GOLDEN_SECTION * (b - a), a + GOLDEN_SECTION * (b - a)];
@@ -49,7 +48,7 @@ export function drawnOut(course, ends, beginning) {
 // The furthest end, of those between two, up to which a portion fits, and its size there, { end, size };
 // where none does, the end at which it fits best, and for its size by how much it does not, less than
 // nothing.
-function furthestEnd(near, [from, to], fit) {
+function furthestFittingEnd(near, [from, to], fit) {
   let [low, high] = [from, to];
   let first = fit(low);
   const last = fit(high);

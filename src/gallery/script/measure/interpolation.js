@@ -1,16 +1,16 @@
-// A curve between its samples: about each, the polynomial of the fourth degree, in the length of the chords,
-// through it and two on either side.
+// Interpolates a curve between its samples: near each, by the polynomial of the fourth degree, in the length
+// of the chords, through it and two on either side.
 
-import { sampleAfter } from "./trail.js";
+import { neighbourSample } from "./sampled-curve.js";
 
 /**
- * The point at a place on a trail, in samples from the first, and the input there: [x, y, input]. Round a
- * closed curve; on that a place may be a little less than nothing.
+ * The point and the input at a position on a curve, counted in samples from the first: [x, y, input].
+ * Positions wrap round a closed curve, on which they may be slightly negative.
  */
-export function pointOfTrail(trail, place) {
-  const { count: n, x, y, inputs, turn, bends, sharp } = trail;
+export function pointAndInputAt(curve, place) {
+  const { count: n, x, y, inputs, turn, curvatures, sharp } = curve;
   if (place < 0) {
-    const found = pointOfTrail(trail, place + n);
+    const found = pointAndInputAt(curve, place + n);
     found[2] -= turn;
     return found;
   }
@@ -19,16 +19,17 @@ export function pointOfTrail(trail, place) {
   const part = place - whole;
   const rounds = Math.floor(whole / n) * turn;
   if (part === 0) return [x[i], y[i], inputs[i] + rounds];
-  const after = sampleAfter(trail, i, 1);
+  const after = neighbourSample(curve, i, 1);
   const next = after < 0 ? i : after;
   const sx = x[next] - x[i];
   const sy = y[next] - y[i];
   const chord = Math.sqrt(sx * sx + sy * sy);
   const input = inputs[next] + (next < i ? turn : 0);
-  // An arc over the chord, as flat as the curve is at the flatter end; of a turning back the other end tells.
-  let bend = Math.abs(bends[i]) < Math.abs(bends[next]) ? bends[i] : bends[next];
-  if (sharp[i]) bend = bends[next];
-  else if (sharp[next]) bend = bends[i];
+  // An arc over the chord, as flat as the curve is at the flatter end; at a reversal the curvature at the
+  // other end counts.
+  let bend = Math.abs(curvatures[i]) < Math.abs(curvatures[next]) ? curvatures[i] : curvatures[next];
+  if (sharp[i]) bend = curvatures[next];
+  else if (sharp[next]) bend = curvatures[i];
   const height = Math.min(Math.max((bend * chord * part * (1 - part)) / 2, -0.2), 0.2);
   const straight = [
     x[i] + sx * part + sy * height,
@@ -37,8 +38,8 @@ export function pointOfTrail(trail, place) {
   ];
   // About the sample that is nearer, by the length of the chords; halfway the one goes over into the other.
   const over = Math.min(Math.max((part - 0.25) * 2, 0), 1);
-  const before = over < 1 ? pointAbout(trail, i, part * chord, inputs[i], straight, chord) : null;
-  const behind = over > 0 ? pointAbout(trail, next, (part - 1) * chord, input, straight, chord) : null;
+  const before = over < 1 ? pointAbout(curve, i, part * chord, inputs[i], straight, chord) : null;
+  const behind = over > 0 ? pointAbout(curve, next, (part - 1) * chord, input, straight, chord) : null;
   const found = before ?? behind;
   if (before && behind) for (let k = 0; k < 3; k++) found[k] += (behind[k] - before[k]) * over;
   const low = Math.min(inputs[i], input);
@@ -48,15 +49,15 @@ export function pointOfTrail(trail, place) {
 }
 
 // The point and the input so far along the chords from a sample. Where the path turns back its samples on the
-// other side do not tell of it; and where they lie too unevenly, a polynomial through them strays further
+// other side do not determine it; and where they lie too unevenly, a polynomial through them strays further
 // from their chord than a curve that is known by its samples does: then it is the point on the arc over the
 // chord.
-function pointAbout(trail, k, u, from, straight, chord) {
-  const near = nearSample(trail, k);
+function pointAbout(curve, k, u, from, straight, chord) {
+  const near = localPolynomial(curve, k);
   if (!near || !near.isSmooth) return [straight[0], straight[1], straight[2]];
   const { x: cx, y: cy, input: ci } = near;
-  const px = trail.x[k] + ((((cx[4] * u + cx[3]) * u + cx[2]) * u + cx[1]) * u + cx[0]);
-  const py = trail.y[k] + ((((cy[4] * u + cy[3]) * u + cy[2]) * u + cy[1]) * u + cy[0]);
+  const px = curve.x[k] + ((((cx[4] * u + cx[3]) * u + cx[2]) * u + cx[1]) * u + cx[0]);
+  const py = curve.y[k] + ((((cy[4] * u + cy[3]) * u + cy[2]) * u + cy[1]) * u + cy[0]);
   const input = from + ((((ci[4] * u + ci[3]) * u + ci[2]) * u + ci[1]) * u + ci[0]);
   const dx = px - straight[0];
   const dy = py - straight[1];
@@ -65,30 +66,30 @@ function pointAbout(trail, k, u, from, straight, chord) {
 }
 
 /**
- * The point at a place and how far the input has gone, there and back, from the first sample to it: [x, y,
+ * The point at a position and the total variation of the input from the first sample to it: [x, y,
  * travelled].
  */
-export function arrivedAtPlace(trail, place) {
-  const { count: n, travel, inputs } = trail;
+export function pointAndTravelAt(curve, place) {
+  const { count: n, travel, inputs } = curve;
   if (place < 0) {
-    const arrived = arrivedAtPlace(trail, place + n);
+    const arrived = pointAndTravelAt(curve, place + n);
     arrived[2] -= travel[n];
     return arrived;
   }
   const whole = Math.floor(place);
   const i = whole % n;
-  const found = pointOfTrail(trail, i + (place - whole));
+  const found = pointAndInputAt(curve, i + (place - whole));
   const gone = Math.min(Math.abs(found[2] - inputs[i]), travel[i + 1] - travel[i]);
   found[2] = Math.floor(whole / n) * travel[n] + travel[i] + gone;
   return found;
 }
 
-/** The greatest extent in a direction, about the sample that is furthest. */
-export function reachOfTrail(trail, [dx, dy], top) {
-  const height = dx * trail.x[top] + dy * trail.y[top];
-  const near = nearSample(trail, top);
+/** The greatest extent in a direction, near the furthest sample. */
+export function maxExtent(curve, [dx, dy], top) {
+  const height = dx * curve.x[top] + dy * curve.y[top];
+  const near = localPolynomial(curve, top);
   if (!near) return height;
-  const rise = mostNear(near, (u) => {
+  const rise = maximumNear(near, (u) => {
     const [p] = derivativesNear(near, u);
     return dx * p[0] + dy * p[1];
   });
@@ -96,11 +97,11 @@ export function reachOfTrail(trail, [dx, dy], top) {
   return rise > 0 && rise < 0.5 * (near.ends[1] - near.ends[0]) ? height + rise : height;
 }
 
-/** The greatest curvature about a sample. */
-export function curvatureNear(trail, i) {
-  const near = nearSample(trail, i);
-  if (!near) return Math.abs(trail.bends[i]);
-  return mostNear(near, (u) => {
+/** The greatest curvature near a sample. */
+export function maxCurvatureNear(curve, i) {
+  const near = localPolynomial(curve, i);
+  if (!near) return Math.abs(curve.curvatures[i]);
+  return maximumNear(near, (u) => {
     const [, v, a] = derivativesNear(near, u);
     const speed2 = v[0] * v[0] + v[1] * v[1];
     return Math.abs((v[0] * a[1] - v[1] * a[0]) / (speed2 * Math.sqrt(speed2)));
@@ -108,13 +109,13 @@ export function curvatureNear(trail, i) {
 }
 
 /**
- * How far a point near a sample is from the curve there, positive to the left, and the curve's normal: [off,
- * nx, ny].
+ * The signed distance of a point near a sample from the curve, positive to the left, and the curve's normal:
+ * [distance, nx, ny].
  */
-export function offsetFromTrail(trail, px, py, i) {
-  const near = nearSample(trail, i);
+export function signedDistance(curve, px, py, i) {
+  const near = localPolynomial(curve, i);
   if (!near) return null;
-  const [ox, oy] = [trail.x[i] - px, trail.y[i] - py];
+  const [ox, oy] = [curve.x[i] - px, curve.y[i] - py];
   let u = 0;
   // Newton's steps to where the way from the curve is square to it.
   for (let round = 0; round < 4; round++) {
@@ -131,15 +132,15 @@ export function offsetFromTrail(trail, px, py, i) {
   return [-nx * (ox + p[0]) - ny * (oy + p[1]), nx, ny];
 }
 
-// The curve about a sample that two others stand on either side of; null of fewer than five samples.
-function nearSample(trail, i) {
-  if (trail.count < 5) return null;
-  trail.nears[i] ??= polynomialsAbout(trail, i);
-  return trail.nears[i];
+// The curve about a sample with two others on either side; null of fewer than five samples.
+function localPolynomial(curve, i) {
+  if (curve.count < 5) return null;
+  curve.localPolynomials[i] ??= fitLocalPolynomial(curve, i);
+  return curve.localPolynomials[i];
 }
 
-function polynomialsAbout(trail, i) {
-  const { count: n, closed, x, y, inputs, turn } = trail;
+function fitLocalPolynomial(curve, i) {
+  const { count: n, closed, x, y, inputs, turn } = curve;
   // Near the end of an open curve the five are those next to the end.
   const shift = closed ? 0 : Math.max(2 - i, 0) + Math.min(n - 3 - i, 0);
   const s = new Float64Array(5);
@@ -160,8 +161,8 @@ function polynomialsAbout(trail, i) {
   const [px, py, input] = divided.map((values) => newtonPowers(values, s));
   const end = (k) => s[Math.min(Math.max(k - shift, 0), 4)];
   const isSmooth = [-2, -1, 0, 1, 2].every((off) => {
-    const k = sampleAfter(trail, i, off);
-    return k < 0 || !trail.sharp[k];
+    const k = neighbourSample(curve, i, off);
+    return k < 0 || !curve.sharp[k];
   });
   return { x: px, y: py, input, ends: [end(1), end(3)], isSmooth };
 }
@@ -200,7 +201,7 @@ function derivativesNear({ x, y }, u) {
 }
 
 // The greatest value between the samples before and after, by thirds.
-function mostNear({ ends }, of) {
+function maximumNear({ ends }, of) {
   let [a, b] = ends;
   // To 1e-7 of the way between samples: what is flat there is known to the square of that.
   for (let round = 0; round < 40; round++) {

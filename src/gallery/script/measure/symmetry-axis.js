@@ -1,20 +1,20 @@
-// A line that a curve may be symmetrical about, { through: [x, y], along: [x, y] of length 1 }, and how
-// nearly it is.
+// Fits the symmetry axis of a curve, a line { through: [x, y], along: [x, y] of length 1 }, and computes the
+// residual.
 
 import { cosSinOfDegrees, degreesOf, remainderOf } from "../kinematics/angles.js";
 import { distanceToChord } from "../kinematics/path.js";
-import { offsetFromTrail } from "./between.js";
-import { chordAfter, sampleAfter } from "./trail.js";
+import { signedDistance } from "./interpolation.js";
+import { chordLengthAfter, neighbourSample } from "./sampled-curve.js";
 
-/** The line through a point in a direction; null where that is none. */
-export function mirrorAxis(through, [dx, dy]) {
+/** The line through a point in a direction; null for a zero direction. */
+export function axisThrough(through, [dx, dy]) {
   const size = Math.sqrt(dx * dx + dy * dy);
   const along = [dx / size, dy / size];
   return along.every(Number.isFinite) ? { through, along } : null;
 }
 
 /** Its direction from the x-axis, in degrees, from 0 up to 180. */
-export function axisDegrees({ along: [x, y] }) {
+export function axisDirectionDeg({ along: [x, y] }) {
   const deg = remainderOf(degreesOf(Math.atan2(y, x)), 180);
   return deg === 180 ? 0 : deg;
 }
@@ -27,16 +27,16 @@ export function mirroredPoint({ through, along }, x, y) {
 }
 
 /**
- * The axis that a curve is symmetrical about if it is about any, by the moments of its length; null where
- * moments of up to the third order tell of none, as of a circle. An axis is a principal axis of the second
- * moments, and moments of an odd order across it vanish; where the second are the same every way, those of
- * the third order tell.
+ * The only possible symmetry axis of a curve, by the moments of its length; null if moments of up to the
+ * third order do not determine it, as for a circle. An axis is a principal axis of the second moments, and
+ * moments of an odd order across it vanish; if the second are the same in every direction, those of the third
+ * order decide.
  */
-export function axisByMoments(trail) {
+export function axisByMoments(curve) {
   // What is less than this part of what it might be is taken for nothing.
   const NONE = 1e-3;
-  const { centre, all, cubes, second, third, threefold } = momentsOfTrail(trail);
-  const axis = (deg) => mirrorAxis(centre, cosSinOfDegrees(deg));
+  const { centre, all, cubes, second, third, threefold } = curveMoments(curve);
+  const axis = (deg) => axisThrough(centre, cosSinOfDegrees(deg));
   const direction = ([x, y], fold) => degreesOf(Math.atan2(y, x)) / fold;
   const across = ([x, y], deg) => {
     const [cos, sin] = cosSinOfDegrees(deg);
@@ -52,12 +52,12 @@ export function axisByMoments(trail) {
   return Math.hypot(...threefold) > NONE * cubes ? axis(direction(threefold, 3)) : null;
 }
 
-// Moments about the centre, each sample standing for half the way to either neighbour.
-function momentsOfTrail(trail) {
-  const { x, y, count } = trail;
+// Moments about the centre, each sample weighted by half the distance to either neighbour.
+function curveMoments(curve) {
+  const { x, y, count } = curve;
   const weight = (_, i) => {
-    const before = sampleAfter(trail, i, -1);
-    return ((before < 0 ? 0 : chordAfter(trail, before)) + chordAfter(trail, i)) / 2;
+    const before = neighbourSample(curve, i, -1);
+    return ((before < 0 ? 0 : chordLengthAfter(curve, before)) + chordLengthAfter(curve, i)) / 2;
   };
   const weights = Float64Array.from({ length: count }, weight);
   let [total, cx, cy] = [0, 0, 0];
@@ -84,52 +84,52 @@ function momentsOfTrail(trail) {
 }
 
 /**
- * How far the mirror image of a curve is from it: the greatest distance of mirrored samples, no fewer than
- * ninety of them where there are so many, from the lines between all.
+ * The approximate residual of an axis: the greatest distance of mirrored samples, at least ninety of them if
+ * there are so many, from the chords between all samples.
  */
-export function roughMirrorDistance(trail, axis) {
+export function roughResidual(curve, axis) {
   const ENOUGH = 90;
-  const { x, y, count } = trail;
+  const { x, y, count } = curve;
   const stride = Math.max(Math.floor(count / ENOUGH), 1);
-  const nearest = nearestSamples(trail);
+  const nearest = sampleIndex(curve);
   let [near, most] = [0, 0];
   for (let i = 0; i < count; i += stride) {
     const [px, py] = mirroredPoint(axis, x[i], y[i]);
     near = nearest(px, py, near);
     // No line to a neighbour is further than the sample itself.
     const [dx, dy] = [x[near] - px, y[near] - py];
-    if (dx * dx + dy * dy > most * most) most = Math.max(most, distanceToNeighbours(trail, px, py, near));
+    if (dx * dx + dy * dy > most * most) most = Math.max(most, distanceToNeighbours(curve, px, py, near));
   }
   return most;
 }
 
 // How far a point is from the lines to the neighbours of a sample.
-function distanceToNeighbours(trail, px, py, i) {
-  const at = (k) => ({ x: trail.x[k], y: trail.y[k] });
+function distanceToNeighbours(curve, px, py, i) {
+  const at = (k) => ({ x: curve.x[k], y: curve.y[k] });
   const to = (way) => {
-    const next = sampleAfter(trail, i, way);
+    const next = neighbourSample(curve, i, way);
     return distanceToChord({ x: px, y: py }, at(i), at(next < 0 ? i : next));
   };
   return Math.min(to(-1), to(1));
 }
 
 /**
- * The axis about which a nearly symmetrical curve is most nearly so, in the mean of the squares, and how far
- * the image is from the curve there at most, { axis, most }; of a given axis only the latter.
+ * The axis of a nearly symmetrical curve refined by least squares, and the greatest distance of the mirror
+ * image from the curve, { axis, most }; for a given axis only the latter.
  */
-export function fineMirror(trail, begun, isGiven) {
+export function refineAxis(curve, begun, isGiven) {
   const [ROUNDS, STRIDE] = [3, 4];
-  const nearest = nearestSamples(trail);
+  const nearest = sampleIndex(curve);
   let [axis, near] = [begun, 0];
   for (let round = 0; ; round++) {
     const isLast = isGiven || round === ROUNDS;
     const across = [-axis.along[1], axis.along[0]];
     // The normal equations of an offset and a turn.
     let [most, a, b, c, u, v] = [0, 0, 0, 0, 0, 0];
-    for (let i = 0; i < trail.count; i += isLast ? 1 : STRIDE) {
-      const [px, py] = mirroredPoint(axis, trail.x[i], trail.y[i]);
+    for (let i = 0; i < curve.count; i += isLast ? 1 : STRIDE) {
+      const [px, py] = mirroredPoint(axis, curve.x[i], curve.y[i]);
       near = nearest(px, py, near);
-      const found = offsetFromTrail(trail, px, py, near);
+      const found = signedDistance(curve, px, py, near);
       if (!found) continue;
       const [off, nx, ny] = found;
       most = Math.max(most, Math.abs(off));
@@ -147,16 +147,16 @@ export function fineMirror(trail, begun, isGiven) {
     const [shift, turn] = [(b * v - c * u) / det, (b * u - a * v) / det];
     const through = [0, 1].map((k) => axis.through[k] + across[k] * shift);
     axis =
-      mirrorAxis(
+      axisThrough(
         through,
         [0, 1].map((k) => axis.along[k] + across[k] * turn),
       ) ?? axis;
   }
 }
 
-// A function of a point and a guess that tells the nearest sample: along the curve from the guess, and then
+// A function of a point and a guess that returns the nearest sample: along the curve from the guess, and then
 // by boxes round samples that follow one another, by which most are seen not to be nearer.
-function nearestSamples({ x, y, count }) {
+function sampleIndex({ x, y, count }) {
   const IN_BOX = 16;
   const boxes = [];
   for (let first = 0; first < count; first += IN_BOX) {
