@@ -1,6 +1,6 @@
 // A drawing to be pasted, as Chromium draws it and as the page reads it.
 
-import { drawnOutlines } from "../../src/gallery/script/shape/drawing.js";
+import { svgOutlines } from "../../src/gallery/script/shape/svg-outlines.js";
 
 /** A drawing with transforms of every kind, and outlines of every kind. */
 export const DRAWN = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">
@@ -42,7 +42,7 @@ export function boxesDrawn(page, svg) {
 
 /** The same boxes, of what the page reads. */
 export function boxesRead(svg) {
-  return drawnOutlines(svg).map(({ points }) => {
+  return svgOutlines(svg).map(({ points }) => {
     const [xs, ys] = [0, 1].map((axis) => points.filter((_, k) => k % 2 === axis));
     return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
   });

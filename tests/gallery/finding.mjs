@@ -1,6 +1,7 @@
 // Tries Find, By shape and Compare in Chromium: node tests/gallery/finding.mjs SMALL-ATLAS LARGE-ATLAS
 //
-// The first folder is an atlas of several families with "evans" and "watt" among them, the second one of thousands of curves.
+// The first folder is an atlas of several families with "evans" and "watt" among them, the second one of
+// thousands of curves.
 
 import assert from "node:assert/strict";
 

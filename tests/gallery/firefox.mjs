@@ -1,8 +1,9 @@
-// The gallery in Firefox, from disk: FIREFOX=/usr/bin/firefox node tests/gallery/firefox.mjs ATLAS HRONES-NELSON
+// The gallery in Firefox, from disk: FIREFOX=/usr/bin/firefox node tests/gallery/firefox.mjs ATLAS
+// HRONES-NELSON
 //
-// Every room is opened and does what it is for, and the browser's console stays empty. How they do it is tried in
-// pages.mjs, plate.mjs, finding.mjs and taking.mjs; here it is what engines of the web differ in: events, sizes, the
-// policy, what is saved. Skipped where FIREFOX names no browser.
+// Every room is opened and does what it is for, and the browser's console stays empty. How they do it is
+// tried in pages.mjs, plate.mjs, finding.mjs and taking.mjs; here it is what engines of the web differ in:
+// events, sizes, the policy, what is saved. Skipped where FIREFOX names no browser.
 
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";

@@ -1,5 +1,6 @@
-// Drives Firefox by Marionette, the protocol that is built into it: JSON over a local socket, and so neither a
-// package nor another program is needed. https://firefox-source-docs.mozilla.org/testing/marionette/Protocol.html
+// Drives Firefox by Marionette, the protocol that is built into it: JSON over a local socket, and so neither
+// a package nor another program is needed.
+// https://firefox-source-docs.mozilla.org/testing/marionette/Protocol.html
 
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -17,7 +18,9 @@ export function firefoxThere() {
   return FIREFOX && existsSync(FIREFOX) ? FIREFOX : null;
 }
 
-/** What the browser prefers: a port of its own choice, nothing from the network, what is saved in one folder. */
+/**
+ * What the browser prefers: a port of its own choice, nothing from the network, what is saved in one folder.
+ */
 const preferences = (saved) => ({
   "marionette.port": 0,
   "browser.download.dir": saved,

@@ -1,7 +1,7 @@
 // The plate of a curve, in a browser: node tests/gallery/plate.mjs FOLDER
 //
-// FOLDER is that of the atlas of atlas.toml. A line for each test, under the number of the promise it keeps; ONLY in
-// the environment leaves those whose number begins with it. Exit 1 if one fails.
+// FOLDER is that of the atlas of atlas.toml. A line for each test, under the number of the promise it keeps;
+// ONLY in the environment leaves those whose number begins with it. Exit 1 if one fails.
 
 import { runTests } from "./browser.mjs";
 import { EVERYONE } from "./plate-everyone.mjs";

@@ -1,14 +1,14 @@
 // Tries the search by shape: node tests/gallery/shape.mjs ATLAS…
 //
-// Of each atlas, curves are turned, scaled, mirrored, begun elsewhere, passed the other way, sampled anew and disturbed; the
-// search must find them again. Times are printed, not asserted: they depend on the machine.
+// Of each atlas, curves are turned, scaled, mirrored, begun elsewhere, passed the other way, sampled anew and
+// disturbed; the search must find them again. Times are printed, not asserted: they depend on the machine.
 
 import assert from "node:assert/strict";
 
 import { curveKey, curvePoints } from "../../src/gallery/script/data/family.js";
-import { askedShape } from "../../src/gallery/script/shape/asked.js";
-import { decodedShape, encodedShape } from "../../src/gallery/script/shape/encode.js";
-import { indexing, indexingWindows } from "../../src/gallery/script/shape/indexing.js";
+import { queryShape } from "../../src/gallery/script/shape/query-shape.js";
+import { decodeShape, encodeShape } from "../../src/gallery/script/shape/encode.js";
+import { buildIndex, addWindows } from "../../src/gallery/script/shape/shape-index.js";
 import {
   extentOf,
   lengthsAlong,
@@ -16,11 +16,11 @@ import {
   resampled,
   reversedOutline,
 } from "../../src/gallery/script/shape/outline.js";
-import { quieted } from "../../src/gallery/script/shape/quiet.js";
-import { shapeIn } from "../../src/gallery/script/shape/parse.js";
-import { searching } from "../../src/gallery/script/shape/search.js";
-import { composed, fitted, inverted, placed } from "../../src/gallery/script/shape/similarity.js";
-import { fourier } from "../../src/gallery/script/shape/spectrum.js";
+import { smoothed } from "../../src/gallery/script/shape/smoothing.js";
+import { parseShape } from "../../src/gallery/script/shape/parse.js";
+import { searchByShape } from "../../src/gallery/script/shape/search.js";
+import { composed, fitted, inverted, transformed } from "../../src/gallery/script/shape/similarity.js";
+import { fourier } from "../../src/gallery/script/shape/fourier.js";
 import { atlasOf, finished, randoms } from "./atlas-data.mjs";
 
 const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, `${what}: ${a}, not ${b}`);
@@ -53,15 +53,15 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   re.forEach((value, k) => near(x[k], value, 1e-14, "there and back"));
 
   const similarity = { mirror: true, re: 0.6, im: -1.1, x: 3, y: -2 };
-  const there = placed(similarity, even);
-  placed(inverted(similarity), there).forEach((value, k) =>
+  const there = transformed(similarity, even);
+  transformed(inverted(similarity), there).forEach((value, k) =>
     near(value, even[k], 1e-13, "inverse of a similarity"),
   );
-  placed(composed(inverted(similarity), similarity), even).forEach((value, k) =>
+  transformed(composed(inverted(similarity), similarity), even).forEach((value, k) =>
     near(value, even[k], 1e-13, "composition"),
   );
   const turned = { mirror: false, re: 0.3, im: 2, x: 1, y: 1 };
-  const fit = fitted(even, placed(turned, even));
+  const fit = fitted(even, transformed(turned, even));
   for (const part of ["re", "im", "x", "y"]) near(fit[part], turned[part], 1e-12, `fit, ${part}`);
 }
 
@@ -76,21 +76,21 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
         (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / count) + noise * (2 * random() - 1),
     );
   for (const points of [circle(300, 0), circle(12, 0), Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)])
-    assert.equal(quieted(points, true), points);
+    assert.equal(smoothed(points, true), points);
   const line = Float64Array.of(0, 0, 1, 0, 5, 1);
-  assert.equal(quieted(line, false), line);
+  assert.equal(smoothed(line, false), line);
   const length = (points) => lengthsAlong(points, true).at(-1) / (2 * Math.PI);
   for (const count of [100, 200, 400]) {
     const given = circle(count, 0.02);
     assert.ok(length(given) > 1.02, "noise adds to the length");
-    near(length(quieted(given, true)), 1, 0.02, "the length of a quiet circle");
+    near(length(smoothed(given, true)), 1, 0.02, "the length of a quiet circle");
   }
 }
 
 /* What is pasted. */
 
 {
-  const read = (text) => shapeIn(text);
+  const read = (text) => parseShape(text);
   assert.deepEqual([...read("x,y\n0,0\n1,0\n1,2").points], [0, 0, 1, 0, 1, 2]);
   assert.deepEqual([...read("# mm\n0 0\n1\t0\n2  3\n").points].slice(-2), [2, 3]);
   assert.deepEqual([...read("1,5;2,5\n3;4,25").points], [1.5, 2.5, 3, 4.25]);
@@ -134,7 +134,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
 
 {
   const near2 = (svg, expected, what) => {
-    const { points } = shapeIn(svg);
+    const { points } = parseShape(svg);
     assert.equal(points.length, expected.length, what);
     // y points down in SVG.
     expected.forEach((value, k) => near(points[k], k % 2 ? -value : value, 1e-12, what));
@@ -174,7 +174,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     ['<g transform="scale(2,1) translate(2 1)"><ellipse rx="3" ry="3"/></g>', "ellipse"],
     ['<rect x="-1" y="-2" width="6" height="6" rx="3" transform="scale(2 1)"/>', "rounded rectangle"],
   ]) {
-    const { points, closed } = shapeIn(round);
+    const { points, closed } = parseShape(round);
     assert.equal(closed, true, what);
     for (let k = 0; k < points.length; k += 2)
       near(((points[k] - 4) / 6) ** 2 + ((points[k + 1] + 1) / 3) ** 2, 1, 1e-12, what);
@@ -194,7 +194,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     ["<svg><text>M0 0L9 9</text></svg>", /draws no path/],
     [`<g transform="scale(0)">${line}</g>`, /Fewer than two/],
   ])
-    assert.throws(() => shapeIn(wrong), { message: sentence }, wrong);
+    assert.throws(() => parseShape(wrong), { message: sentence }, wrong);
 }
 
 /* In the address. */
@@ -203,14 +203,14 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   const points = Float64Array.from({ length: 600 }, (_, k) =>
     k % 2 ? 3 * Math.sin((k - 1) / 95.5) : 5 * Math.cos(k / 95.5),
   );
-  const word = encodedShape(points, true);
+  const word = encodeShape(points, true);
   assert.equal(word.length, 1 + 48 * 4);
   assert.match(word, /^[\w-]+$/);
-  const { points: again, closed } = decodedShape(word);
+  const { points: again, closed } = decodeShape(word);
   assert.equal(closed, true);
   for (let k = 0; k < again.length; k += 2)
     near(((again[k] - 50) / 50) ** 2 + ((again[k + 1] - 30) / 30) ** 2, 1, 0.01, "on the ellipse");
-  for (const wrong of ["", "x", "cAA", "oAAAA", "c!AAAAAAA"]) assert.equal(decodedShape(wrong), null);
+  for (const wrong of ["", "x", "cAA", "oAAAA", "c!AAAAAAA"]) assert.equal(decodeShape(wrong), null);
 }
 
 /* The curves of atlases, found again. */
@@ -234,14 +234,18 @@ function disturbed(points, closed, random, { count, noise }) {
     x: 10 * random(),
     y: -5 * random(),
   };
-  const placedThere = placed(similarity, moved);
+  const placedThere = transformed(similarity, moved);
   return random() < 0.5 ? reversedOutline(placedThere, closed) : placedThere;
 }
 
-// Deviations that differ by less, of the extent, are as near: chords of the samples depart as much from the curve.
+// Deviations that differ by less, of the extent, are as near: chords of the samples depart as much from the
+// curve.
 const AS_NEAR = 3e-4;
 
-/** Searches for curves of an atlas, disturbed; { first, five } are how many came first, and among the first five. */
+/**
+ * Searches for curves of an atlas, disturbed; { first, five } are how many came first, and among the first
+ * five.
+ */
 function trial(indexes, families, { label, tries, part, ...disturbance }) {
   const random = randoms(20);
   const curves = families.flatMap((family) =>
@@ -255,7 +259,7 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
     const own = curvePoints(family, curve);
     const from = closed ? random() : random() * (1 - part);
     const points = part < 1 ? portion(own, closed, from, from + part, 300).points : own;
-    const shape = askedShape(
+    const shape = queryShape(
       disturbed(points, closed && part === 1, random, disturbance),
       closed && part === 1,
     );
@@ -263,7 +267,7 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
       value,
       longest: step,
       whole,
-    } = finished(searching(indexes, shape, { part: part < 1, least: 0.15 }));
+    } = finished(searchByShape(indexes, shape, { part: part < 1, least: 0.15 }));
     const name = `${family.id}:${curveKey(family, curve)}`;
     // The same curve is drawn by cognates, and by families that overlap: what is as near shares its place.
     const at = value.findIndex((one) => one.name === name);
@@ -282,9 +286,9 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
 
 for (const folder of process.argv.slice(2)) {
   const { families } = atlasOf(folder);
-  const made = families.map((family) => finished(indexing(family)));
+  const made = families.map((family) => finished(buildIndex(family)));
   const indexes = made.map(({ value }) => value);
-  const windows = indexes.map((index) => finished(indexingWindows(index, 0.15)));
+  const windows = indexes.map((index) => finished(addWindows(index, 0.15)));
   const sum = (runs) => Math.round(runs.reduce((whole, run) => whole + run.whole, 0));
   console.log(`${folder}: index ${sum(made)} ms, windows ${sum(windows)} ms`);
   const tries = 100;
@@ -318,12 +322,12 @@ for (const folder of process.argv.slice(2)) {
 function unmirrored(indexes, family) {
   const points = curvePoints(family, 0);
   const closed = family.curves.closed[0] === 1;
-  const shape = askedShape(points, closed);
-  const { value } = finished(searching(indexes, shape, { mirror: false }));
+  const shape = queryShape(points, closed);
+  const { value } = finished(searchByShape(indexes, shape, { mirror: false }));
   assert.ok(value.every(({ similarity }) => !similarity.mirror));
   assert.ok(value[0].rms < 1e-3);
   value.slice(1).forEach(({ rms }, k) => assert.ok(rms >= value[k].rms, "ranked by deviation"));
-  const byGreatest = finished(searching(indexes, shape, { by: "greatest" })).value;
+  const byGreatest = finished(searchByShape(indexes, shape, { by: "greatest" })).value;
   byGreatest.slice(1).forEach(({ greatest }, k) => assert.ok(greatest >= byGreatest[k].greatest));
 }
 console.log("shape: as it should be");

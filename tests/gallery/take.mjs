@@ -1,7 +1,8 @@
 // What the page takes away, under node: node tests/gallery/take.mjs ATLAS [PROGRAM]
 //
-// ATLAS is the folder of a rendered atlas with a gallery. With PROGRAM, the binary, what it exports of the atlas's manifest
-// (MANIFEST, in the environment) is compared too. Exit 0 with a line of what was compared, 1 where something is wrong.
+// ATLAS is the folder of a rendered atlas with a gallery. With PROGRAM, the binary, what it exports of the
+// atlas's manifest (MANIFEST, in the environment) is compared too. Exit 0 with a line of what was compared, 1
+// where something is wrong.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -79,8 +80,8 @@ function comparedTable(name, taken, { header, rows }) {
   return places.filter(([x, y]) => Number.isFinite(x + y));
 }
 
-// Rates to 1e-9 of their size and of the table's: near a limit, where they grow without bounds, so does what rounding makes
-// of them.
+// Rates to 1e-9 of their size and of the table's: near a limit, where they grow without bounds, so does what
+// rounding makes of them.
 function comparedColumns(name, taken, { header, rows }) {
   const family = { ...taken.family, columns: header.split(",").slice(header.split(",").indexOf("y") + 1) };
   const [own, ...lines] = csvOfCurve({ ...taken, family }).trimEnd().split("\n").map((line) => line.split(","));
@@ -197,7 +198,8 @@ function testAgainstProgram(families) {
   rmSync(folder, { recursive: true });
 }
 
-// Every further column there is, of every linkage of the catalogue, over all its circuits, as it is and mirrored.
+// Every further column there is, of every linkage of the catalogue, over all its circuits, as it is and
+// mirrored.
 function testEveryColumn(folder, fragment) {
   const listed = execFileSync(program, ["list", "columns"], { encoding: "utf8" }).trimEnd().split("\n");
   assert.deepEqual(columnNames(), listed.map((line) => line.split(" ")[0]), "the columns");
@@ -221,8 +223,8 @@ function testEveryColumn(folder, fragment) {
   assert.deepEqual(columnNames().filter((name) => !columnsWithNumbers.has(name)), [], "columns without a number");
 }
 
-// Circuits that the atlas does not have: what the page makes of them, the program does of their fragment, by the names
-// told with it; but for those names, the same.
+// Circuits that the atlas does not have: what the page makes of them, the program does of their fragment, by
+// the names told with it; but for those names, the same.
 function testBesideAtlas(folder, families) {
   const curves = families
     .filter(({ linkage, template, curves: { count } }) => CATALOGUE.includes(linkage) && template.circuits === "start" && count > 0)

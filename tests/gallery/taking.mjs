@@ -28,7 +28,10 @@ async function onPlate(browser, fragment, test, options) {
   await view.close();
 }
 
-/** What a browser makes of an SVG: an image that can be decoded, of what size, and how much of it is not paper. */
+/**
+ * What a browser makes of an SVG: an image that can be decoded, of what size, and how much of it is not
+ * paper.
+ */
 function looked(page, text) {
   return page.evaluate(async (svg) => {
     const parsed = new DOMParser().parseFromString(svg, "image/svg+xml");

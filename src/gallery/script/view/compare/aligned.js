@@ -1,11 +1,11 @@
 // Curves laid over the first of them.
 
 import { curvePoints } from "../../data/family.js";
-import { askedShape } from "../../shape/asked.js";
-import { indexing } from "../../shape/indexing.js";
+import { queryShape } from "../../shape/query-shape.js";
+import { buildIndex } from "../../shape/shape-index.js";
 import { deviationBetween } from "../../shape/deviation.js";
-import { searching } from "../../shape/search.js";
-import { identity, placed } from "../../shape/similarity.js";
+import { searchByShape } from "../../shape/search.js";
+import { identity, transformed } from "../../shape/similarity.js";
 
 /**
  * Lays a curve, { family, curve }, over the first by an alignment's name: { points, closed, similarity, rms,
@@ -17,15 +17,15 @@ export function laidOver(first, one, align) {
   const base = curvePoints(first.family, first.curve);
   const baseClosed = first.family.curves.closed[first.curve] === 1;
   if (align === "similar" || align === "mirrored") {
-    const shape = askedShape(base, baseClosed);
+    const shape = queryShape(base, baseClosed);
     const found = shape && searched(shape, one, align === "mirrored");
     if (found) {
       const { similarity, rms, greatest } = found;
-      return { points: placed(similarity, own), closed, similarity, rms, greatest };
+      return { points: transformed(similarity, own), closed, similarity, rms, greatest };
     }
   }
   const similarity = boxed(base, own, align);
-  const points = placed(similarity, own);
+  const points = transformed(similarity, own);
   const deviation = deviationBetween({ points: base, closed: baseClosed }, { points, closed });
   return { points, closed, similarity, ...deviation };
 }
@@ -33,8 +33,8 @@ export function laidOver(first, one, align) {
 /** The one curve, compared with a shape as the search by shape compares them. */
 function searched(shape, { family, curve }, mirror) {
   const alone = { ...family, curves: { ...family.curves, count: 1, ...onlyCurve(family.curves, curve) } };
-  const index = finished(indexing(alone));
-  return finished(searching([index], shape, { mirror }))[0];
+  const index = finished(buildIndex(alone));
+  return finished(searchByShape([index], shape, { mirror }))[0];
 }
 
 function onlyCurve(curves, curve) {

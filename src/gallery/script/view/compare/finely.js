@@ -1,6 +1,6 @@
 // Curves laid over one another as the page's own solver has them, in place of the points of the data.
 
-import { placed } from "../../shape/similarity.js";
+import { transformed } from "../../shape/similarity.js";
 import { solvedOrNull } from "../hover-reading.js";
 
 // The chord error of a curve in the picture, in its pixels.
@@ -18,7 +18,7 @@ export function drawnFinely(picture, curves, laid) {
     const { similarity } = laid[k];
     const enlarged = picture.scale * Math.hypot(similarity.re, similarity.im);
     const solved = solvedOrNull(family, curve, OVER_ERROR / enlarged);
-    if (solved) picture.redraw(k, placed(similarity, solved.path.points));
+    if (solved) picture.redraw(k, transformed(similarity, solved.path.points));
     if (k + 1 < curves.length) waiting = window.setTimeout(() => next(k + 1));
   };
   if (curves.length) waiting = window.setTimeout(() => next(0));

@@ -1,6 +1,6 @@
 // The indexes of families by shape, kept as long as the page is open.
 
-import { indexing, indexingWindows } from "../../shape/indexing.js";
+import { buildIndex, addWindows } from "../../shape/shape-index.js";
 import { inSlices } from "./slices.js";
 
 const INDEXES = new WeakMap();
@@ -11,11 +11,11 @@ const INDEXES = new WeakMap();
  */
 export async function indexFor(family, least, stopped) {
   if (!INDEXES.has(family)) {
-    const index = await inSlices(indexing(family), stopped);
+    const index = await inSlices(buildIndex(family), stopped);
     if (!index) return null;
     INDEXES.set(family, index);
   }
   const index = INDEXES.get(family);
-  if (least !== null) await inSlices(indexingWindows(index, least), stopped);
+  if (least !== null) await inSlices(addWindows(index, least), stopped);
   return stopped() ? null : index;
 }

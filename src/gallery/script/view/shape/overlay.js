@@ -1,7 +1,7 @@
 // A curve with a shape laid over it as it fits best.
 
 import { curvePoints } from "../../data/family.js";
-import { inverted, placed } from "../../shape/similarity.js";
+import { inverted, transformed } from "../../shape/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { s } from "../dom.js";
 
@@ -11,7 +11,7 @@ const INSET = 6;
 export function overlayPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
-  const laid = placed(inverted(similarity), shape.points);
+  const laid = transformed(inverted(similarity), shape.points);
   const seen = framing([points, laid], width, height);
   const isPart = from !== 0 || to !== 1;
   const part = isPart ? portion(points, closed, from, to, 96).points : points;

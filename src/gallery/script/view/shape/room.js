@@ -1,9 +1,9 @@
 // The room where curves are found that are like a shape.
 
 import { curveAt, curvePoints } from "../../data/family.js";
-import { askedShape } from "../../shape/asked.js";
-import { decodedShape, encodedShape } from "../../shape/encode.js";
-import { searching } from "../../shape/search.js";
+import { queryShape } from "../../shape/query-shape.js";
+import { decodeShape, encodeShape } from "../../shape/encode.js";
+import { searchByShape } from "../../shape/search.js";
 import { fill, h } from "../dom.js";
 import { familyChoice } from "../find/families.js";
 import { familiesAsked, loadingFamilies } from "../find/loading.js";
@@ -115,7 +115,7 @@ class ShapeRoom {
   /** Takes the shape of the address: a drawn one, or a curve of the atlas. */
   async take() {
     const { asked, app } = this;
-    const drawn = asked.d && decodedShape(asked.d);
+    const drawn = asked.d && decodeShape(asked.d);
     if (drawn) this.given(drawn.points, drawn.closed);
     if (drawn || !asked.like) return;
     const [id, key] = asked.like.split(":");
@@ -127,15 +127,15 @@ class ShapeRoom {
 
   given(points, closed) {
     this.pad.show(points, closed);
-    this.shape = askedShape(points, closed);
+    this.shape = queryShape(points, closed);
     this.asked.part ??= !closed;
     this.options.mark();
   }
 
   drawn(points, closed) {
-    this.shape = askedShape(points, closed);
+    this.shape = queryShape(points, closed);
     if (!this.shape) return;
-    Object.assign(this.asked, { d: encodedShape(this.shape.points, closed), like: null, part: !closed });
+    Object.assign(this.asked, { d: encodeShape(this.shape.points, closed), like: null, part: !closed });
     this.options.mark();
     this.ask();
   }
@@ -157,7 +157,7 @@ class ShapeRoom {
     }
     const began = performance.now();
     const found = await inSlices(
-      searching(indexes, this.shape, { part: part === true, least, mirror, by }),
+      searchByShape(indexes, this.shape, { part: part === true, least, mirror, by }),
       stopped,
     );
     if (!found) return;

@@ -1,31 +1,32 @@
-// A curve of an index beside a shape: as a whole, or a portion of it.
+// Fits a curve of an index to a shape: the whole curve, or a portion of it.
 
 import { curvePoints } from "../data/family.js";
 import { closestFit } from "./fit.js";
-import { KEPT } from "./indexing.js";
-import { cleaned, mirroredOutline, portion, resampled, reversedOutline } from "./outline.js";
+import { INDEX_POINTS } from "./shape-index.js";
+import { withoutDuplicates, mirroredOutline, portion, resampled, reversedOutline } from "./outline.js";
 import { composed } from "./similarity.js";
 
-// How exactly a curve is compared: its points, those of a portion, the rounds of fitting, and their reach
-// along the curve.
-const CARE = {
+// Settings of a comparison: the points of a curve and of a portion, the rounds of fitting, and how far along
+// the curve nearest points are searched.
+const PRECISION = {
   rough: { points: 64, piece: 48, rounds: 2, reach: 0.08 },
   exact: { points: 192, piece: 128, rounds: 5, reach: 0.05 },
 };
-// What a portion is continued by at its ends, by its own length, so that its ends can be found.
+// A portion is extended at both ends by this part of its length, so that its ends can move.
 const MARGIN = 0.15;
 
 /**
- * Fits a whole curve to a shape, beginning with a seed { mirror, reversed, start }: { rms, greatest,
- * similarity: from the curve's own plane to the shape's outline, from, to, start: in the way it is passed }.
+ * Fits a whole curve to a shape, starting from a seed { mirror, reversed, start }: { rms, greatest,
+ * similarity, from, to, start }: the similarity maps the curve's plane to the shape's outline; `start` is in
+ * the direction of the seed.
  */
-export function wholeFit(index, curve, asked, seed, care) {
+export function wholeFit(index, curve, query, seed, care) {
   const closed = index.closed[curve] === 1;
-  const { points: count, rounds, reach } = CARE[care];
+  const { points: count, rounds, reach } = PRECISION[care];
   const even = resampled(outlineOf(index, curve, care), closed, count);
-  const seen = passed(even, seed, closed);
+  const seen = orientedCurve(even, seed, closed);
   const span = closed ? count : count - 1;
-  const fit = closestFit(closed ? asked.closed : asked.open, seen, {
+  const fit = closestFit(closed ? query.closed : query.open, seen, {
     start: seed.start * count,
     span,
     whole: true,
@@ -44,20 +45,20 @@ export function wholeFit(index, curve, asked, seed, care) {
 }
 
 /**
- * Fits a portion of a curve to a shape, likewise; the seed has a `span`, and `start` is in the curve's own
+ * Fits a portion of a curve to a shape; the seed also has a `span`, and `start` is in the curve's own
  * direction.
  */
-export function partFit(index, curve, asked, seed, care) {
+export function partFit(index, curve, query, seed, care) {
   const closed = index.closed[curve] === 1;
-  const { piece: count, rounds, reach } = CARE[care];
+  const { piece: count, rounds, reach } = PRECISION[care];
   const { start, span } = seed;
   const margin = MARGIN * span;
   const piece = portion(outlineOf(index, curve, care), closed, start - margin, start + span + margin, count);
-  const seen = passed(piece.points, seed, false);
+  const seen = orientedCurve(piece.points, seed, false);
   const share = (count - 1) / (piece.to - piece.from);
   const before = seed.reversed ? piece.to - start - span : start - piece.from;
   const given = { start: before * share, span: span * share, whole: false, rounds, reach };
-  const fit = closestFit(asked.open, seen, given);
+  const fit = closestFit(query.open, seen, given);
   const [near, far] = seed.reversed
     ? [piece.to - fit.to / share, piece.to - fit.from / share]
     : [piece.from + fit.from / share, piece.from + fit.to / share];
@@ -67,19 +68,19 @@ export function partFit(index, curve, asked, seed, care) {
 }
 
 /**
- * The points of a curve: those that the index keeps, in units of its own, for a rough look, and its own for
- * an exact one.
+ * The points of a curve: those stored in the index, in its units, for a rough comparison, and the original
+ * ones for an exact one.
  */
 function outlineOf(index, curve, care) {
-  if (care === "rough") return index.kept.subarray(2 * KEPT * curve, 2 * KEPT * (curve + 1));
-  return cleaned(curvePoints(index.family, curve), index.closed[curve] === 1);
+  if (care === "rough") return index.kept.subarray(2 * INDEX_POINTS * curve, 2 * INDEX_POINTS * (curve + 1));
+  return withoutDuplicates(curvePoints(index.family, curve), index.closed[curve] === 1);
 }
 
 /**
- * A curve as it is passed, about its middle and with a size of 1: { points, closed, frame }, the frame from
- * its own plane.
+ * A curve in the direction and orientation of a seed, centred, with a size of 1: { points, closed, frame };
+ * the frame is the similarity from its own plane.
  */
-function passed(points, { mirror, reversed }, closed) {
+function orientedCurve(points, { mirror, reversed }, closed) {
   const [x0, y0, x1, y1] = boxOf(points);
   const scale = 1 / (Math.hypot(x1 - x0, y1 - y0) || 1);
   const [x, y] = [(x0 + x1) / 2, (y0 + y1) / 2];

@@ -1,4 +1,4 @@
-// The discrete Fourier transform of complex sequences whose length is a power of two.
+// Computes the discrete Fourier transform of complex sequences whose length is a power of two.
 
 /**
  * Transforms of one length: `forward(re, im)` and `inverse(re, im)`, both in place; the inverse divides by
@@ -24,7 +24,7 @@ export function fourier(length) {
     }
     for (let half = 1; half < length; half *= 2) butterflies(re, im, half, cos, sin);
   };
-  // Swapping the parts of the input and of the output turns the direction round.
+  // Swapping the real and imaginary parts of the input and of the output gives the inverse.
   const inverse = (re, im) => {
     forward(im, re);
     for (let k = 0; k < length; k += 1) {
@@ -51,8 +51,7 @@ function butterflies(re, im, half, cos, sin) {
 }
 
 /**
- * Centres complex samples on their mean and scales them to unit energy, in place; false if they are all one
- * point.
+ * Centres complex samples on their mean and scales them to unit energy, in place; false if they all coincide.
  */
 export function normalised(re, im) {
   const count = re.length;

@@ -1,25 +1,25 @@
-// The path data of SVG as polylines.
+// Converts SVG path data to polylines.
 
-const CHORDS_OF_A_BEND = 24;
+const CHORDS_PER_CURVE = 24;
 
 /**
  * The subpaths of path data (M L H V C S Q T A Z, absolute and relative), [{ points: flat array, closed }], y
- * down as in SVG; curves in 24 chords. What follows an error is left out, as SVG has it.
+ * down as in SVG; curves in 24 chords. Everything after an error is ignored, as in SVG.
  */
 export function subpathsOf(data) {
   const pen = new Pen();
   for (const [, letter, rest] of data.matchAll(/([mlhvcsqtaz])([^mlhvcsqtaz]*)/gi)) {
     const numbers = letter.toLowerCase() === "a" ? arcNumbers(rest) : numbersOf(rest);
-    if (!pen.drawn(letter, numbers)) break;
+    if (!pen.drawCommand(letter, numbers)) break;
   }
-  return pen.finished();
+  return pen.outlines();
 }
 
 function numbersOf(text) {
   return (text.match(/[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?/gi) ?? []).map(Number);
 }
 
-/** The numbers of arcs, whose flags need nothing between them and what follows. */
+/** The numbers of arcs, whose flags need no separator. */
 function arcNumbers(text) {
   const number = "([+-]?(?:\\d+\\.?\\d*|\\.\\d+)(?:e[+-]?\\d+)?)[\\s,]*";
   const arc = new RegExp(`${number}${number}${number}([01])[\\s,]*([01])[\\s,]*${number}${number}`, "gi");
@@ -35,49 +35,49 @@ class Pen {
     this.control = null;
   }
 
-  finished() {
+  outlines() {
     return this.paths
       .filter(({ points }) => points.length >= 4)
       .map(({ points, closed }) => ({ points: Float64Array.from(points), closed }));
   }
 
-  /** Draws a command with its numbers, as often as they suffice; false where they do not. */
-  drawn(letter, numbers) {
+  /** Draws a command, repeated while its numbers suffice; false if they do not suffice for the first. */
+  drawCommand(letter, numbers) {
     const kind = letter.toLowerCase();
     const isRelative = letter === kind;
     const width = PARAMETERS[kind];
     if (!this.paths.length && kind !== "m") return false;
-    if (kind === "z") return this.closes();
+    if (kind === "z") return this.closePath();
     if (numbers.length < width) return false;
     for (let k = 0; k + width <= numbers.length; k += width) {
       const given = numbers.slice(k, k + width);
       const at = isRelative ? [this.x, this.y] : [0, 0];
       if (kind === "a") this.arc(given, at);
-      else if (kind === "m" && k === 0) this.begins(given[0] + at[0], given[1] + at[1]);
-      else this.draws(kind, given, at);
+      else if (kind === "m" && k === 0) this.moveTo(given[0] + at[0], given[1] + at[1]);
+      else this.drawSegment(kind, given, at);
     }
     return true;
   }
 
-  begins(x, y) {
+  moveTo(x, y) {
     this.paths.push({ points: [x, y], closed: false });
     [this.x, this.y, this.startX, this.startY, this.control] = [x, y, x, y, null];
   }
 
-  closes() {
+  closePath() {
     this.paths.at(-1).closed = true;
     [this.x, this.y, this.control] = [this.startX, this.startY, null];
     return true;
   }
 
-  to(x, y) {
-    // After Z a new subpath begins where the last began.
+  lineTo(x, y) {
+    // After Z a new subpath starts where the last one started.
     if (this.paths.at(-1).closed) this.paths.push({ points: [this.x, this.y], closed: false });
     this.paths.at(-1).points.push(x, y);
     [this.x, this.y] = [x, y];
   }
 
-  draws(kind, given, [ax, ay]) {
+  drawSegment(kind, given, [ax, ay]) {
     if (kind === "h") this.line(given[0] + ax, this.y);
     else if (kind === "v") this.line(this.x, given[0] + ay);
     else {
@@ -91,11 +91,11 @@ class Pen {
   }
 
   line(x, y) {
-    this.to(x, y);
+    this.lineTo(x, y);
     this.control = null;
   }
 
-  /** The last control point on the other side of the pen, if the command before was of this kind. */
+  /** The last control point reflected at the current point, if the command before was of this kind. */
   reflected(kind) {
     if (this.control?.kind !== kind) return [this.x, this.y];
     return [2 * this.x - this.control.x, 2 * this.y - this.control.y];
@@ -103,12 +103,12 @@ class Pen {
 
   bezier(points, kind) {
     const whole = [this.x, this.y, ...points];
-    for (let n = 1; n <= CHORDS_OF_A_BEND; n += 1) this.to(...casteljau(whole, n / CHORDS_OF_A_BEND));
+    for (let n = 1; n <= CHORDS_PER_CURVE; n += 1) this.lineTo(...casteljau(whole, n / CHORDS_PER_CURVE));
     const at = points.length - 4;
     this.control = { kind, x: points[at], y: points[at + 1] };
   }
 
-  /** An arc of an ellipse by its ends, as the appendix of SVG 1.1, F.6, has it. */
+  /** An elliptical arc by its ends (SVG 1.1, appendix F.6). */
   arc([rx, ry, turn, large, sweep, endX, endY], [ax, ay]) {
     const [x, y] = [endX + ax, endY + ay];
     const { a, b, cx, cy, from, across, cos, sin } = arcCentre(
@@ -124,15 +124,15 @@ class Pen {
     );
     this.control = null;
     if (!(a > 0 && b > 0)) {
-      this.to(x, y);
+      this.lineTo(x, y);
       return;
     }
-    for (let n = 1; n < CHORDS_OF_A_BEND; n += 1) {
-      const angle = from + (across * n) / CHORDS_OF_A_BEND;
+    for (let n = 1; n < CHORDS_PER_CURVE; n += 1) {
+      const angle = from + (across * n) / CHORDS_PER_CURVE;
       const [u, v] = [a * Math.cos(angle), b * Math.sin(angle)];
-      this.to(cx + cos * u - sin * v, cy + sin * u + cos * v);
+      this.lineTo(cx + cos * u - sin * v, cy + sin * u + cos * v);
     }
-    this.to(x, y);
+    this.lineTo(x, y);
   }
 }
 

@@ -1,9 +1,9 @@
-// A window of a curve moved to where it is most like a shape.
+// Refines a window of a curve to where it is most like a shape.
 
-import { WINDOW, windowAt } from "./indexing.js";
+import { WINDOW, windowAt } from "./shape-index.js";
 
-/** Moves windows of the curves of an index to where they are most like a shape. */
-export class Settler {
+/** Refines windows of the curves of an index. */
+export class WindowRefiner {
   constructor(index) {
     this.index = index;
     [this.w, this.u, this.v, this.left] = [0, 1, 2, 3].map(() => ({
@@ -15,11 +15,11 @@ export class Settler {
   }
 
   /**
-   * Moves the ends of a window, { start, span } by the curve's length, by `rounds` of Gauss and Newton to
+   * Moves the ends of a window, { start, span } by the curve's length, by `rounds` of Gauss-Newton steps to
    * where it is most like a shape of unit energy { re, im }: { start, span, value }, the square of their
    * correlation, 1 for a similar portion.
    */
-  settled(curve, own, { start, span }, least, rounds) {
+  refine(curve, own, { start, span }, least, rounds) {
     let [from, to] = [start, start + Math.min(span, 1)];
     let best = this.valueAt(curve, own, from, to);
     let trust = 1;
@@ -44,7 +44,7 @@ export class Settler {
   }
 
   /**
-   * Ends that the curve has: of an open one none beyond its own, and an extent from the least to the whole.
+   * Ends in the valid range: of an open curve not beyond its own, and with a span from `least` to the whole.
    */
   allowed(curve, from, to, least) {
     const [a, b] = this.index.closed[curve] ? [from, to] : [Math.max(from, 0), Math.min(to, 1)];
@@ -53,7 +53,7 @@ export class Settler {
     return span === b - a ? [a, b] : [middle - span / 2, middle + span / 2];
   }
 
-  /** How far to move both ends, by the derivatives of the window apart from what a similarity can do. */
+  /** Computes the steps of both ends, from the derivatives of the window orthogonal to similarities. */
   step(curve, own, from, to) {
     const { w, u, v, left } = this;
     const h = 0.01 * (to - from);
@@ -61,7 +61,7 @@ export class Settler {
     this.centred(curve, from + h, to, u);
     this.centred(curve, from, to + h, v);
     [this.first, this.last] = [0, 0];
-    const energy = shared(w, w);
+    const energy = realProduct(w, w);
     if (!(energy > 1e-12)) return;
     this.product(own, w, energy);
     const [x, y] = [this.x, this.y];
@@ -79,8 +79,13 @@ export class Settler {
       }
       this.withoutWindow(moved, energy);
     }
-    const uv = shared(u, v);
-    const [uu, vv, ur, vr] = [shared(u, u), shared(v, v), shared(u, left), shared(v, left)];
+    const uv = realProduct(u, v);
+    const [uu, vv, ur, vr] = [
+      realProduct(u, u),
+      realProduct(v, v),
+      realProduct(u, left),
+      realProduct(v, left),
+    ];
     const damped = 1e-3 * (uu + vv) + 1e-12;
     const whole = (uu + damped) * (vv + damped) - uv * uv;
     this.first = ((vv + damped) * ur - uv * vr) / whole;
@@ -100,7 +105,7 @@ export class Settler {
     }
   }
 
-  /** The complex product of one with the other's conjugate, by the other's energy, in x and y. */
+  /** Computes the complex product of one with the other's conjugate, by the other's energy, in x and y. */
   product(one, other, energy) {
     let [x, y] = [0, 0];
     for (let n = 0; n < WINDOW; n += 1) {
@@ -111,7 +116,7 @@ export class Settler {
     this.y = y / energy;
   }
 
-  /** Takes from a vector, in place, the part of it that is a multiple of the window. */
+  /** Subtracts from a vector, in place, its projection on the window. */
   withoutWindow(one, energy) {
     const { w } = this;
     this.product(one, w, energy);
@@ -123,7 +128,7 @@ export class Settler {
 }
 
 /** The real part of the product of one with the other's conjugate. */
-function shared(one, other) {
+function realProduct(one, other) {
   let sum = 0;
   for (let n = 0; n < WINDOW; n += 1) sum += one.re[n] * other.re[n] + one.im[n] * other.im[n];
   return sum;

@@ -1,33 +1,35 @@
-// The shape that is asked for, made ready to be compared.
+// Prepares the shape to search for.
 
-import { cleaned, extentOf, resampled } from "./outline.js";
-import { quieted } from "./quiet.js";
+import { withoutDuplicates, extentOf, resampled } from "./outline.js";
+import { smoothed } from "./smoothing.js";
 
 /**
- * A shape from its points: { closed, points, extent, frame, outline, trembles }: `outline` lies about its
- * middle with an extent of 1, `frame` is the similarity from the points as given to it, and `trembles` says
- * whether it had to be smoothed. Null where there are not two different points.
+ * A shape from its points: { closed, points, extent, frame, outline, isNoisy }: `outline` is centred, with an
+ * extent of 1, `frame` is the similarity from the given points to it, and `isNoisy` whether it was smoothed.
+ * Null if there are fewer than two different points.
  */
-export function askedShape(points, closed) {
-  const given = cleaned(points, closed);
+export function queryShape(points, closed) {
+  const given = withoutDuplicates(points, closed);
   const extent = given.length >= 4 ? extentOf(given) : 0;
   if (!(extent > 0)) return null;
   const [x, y] = middleOf(given);
   const frame = { mirror: false, re: 1 / extent, im: 0, x: -x / extent, y: -y / extent };
   const own = given.map((value, k) => (value - (k % 2 ? y : x)) / extent);
-  const outline = quieted(own, closed);
-  return { closed, points: given, extent, frame, outline, trembles: outline !== own };
+  const outline = smoothed(own, closed);
+  return { closed, points: given, extent, frame, outline, isNoisy: outline !== own };
 }
 
-/** The even points of a shape; `open`: also of a closed one from its first point round to it again. */
-export function evenShape(shape, count, open = false) {
+/** Evenly spaced points of a shape; with `open`, a closed one is cut open at its first point. */
+export function resampledShape(shape, count, open = false) {
   if (!(shape.closed && open))
     return { points: resampled(shape.outline, shape.closed, count), closed: shape.closed };
   const round = Float64Array.from([...shape.outline, shape.outline[0], shape.outline[1]]);
   return { points: resampled(round, false, count), closed: false };
 }
 
-/** An open shape gone there and back: a closed one, as a linkage draws it that rocks along one path. */
+/**
+ * An open shape traversed forth and back: a closed one, like the curve of a circuit that rocks on one path.
+ */
 export function thereAndBack(shape) {
   const { outline } = shape;
   const back = [];

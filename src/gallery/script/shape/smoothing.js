@@ -1,19 +1,19 @@
-// The trembling of a hand, and the noise of a measurement, taken out of an outline: they add to the length
+// Removes the tremor of a drawing hand and the noise of measurements from an outline: they add to the length
 // along it, by which outlines are compared.
 
 import { lengthsAlong, resampled } from "./outline.js";
 
-// Even points in which an outline is smoothed, and over how many of them on either side.
+// The number of even points of a smoothed outline, and the numbers of points on either side to smooth over.
 const SMOOTHED = 160;
 const REACHES = [2, 3, 4, 6, 8];
-// What shortens an outline by more than this part of its length was no shape of it.
+// Smoothing that shortens an outline by less than this part of its length removes no more noise.
 const SHORTENED = 0.01;
 
 /**
- * An outline without what trembles about it: smoothed ever wider as long as that shortens it, in even points;
- * the outline itself, the very array, if it does not tremble.
+ * An outline without noise: smoothed more and more widely as long as that shortens it, in even points; the
+ * same array if it has no noise.
  */
-export function quieted(points, closed) {
+export function smoothed(points, closed) {
   const even = resampled(points, closed, SMOOTHED);
   let quiet = points;
   let length = lengthOf(even, closed);
@@ -27,8 +27,8 @@ export function quieted(points, closed) {
 }
 
 /**
- * Even points of an outline, each where the parabola lies that fits best the points within a reach on both
- * sides of it (Savitzky and Golay 1964); at the ends of an open outline those that there are.
+ * Even points of an outline, each replaced by the value of the parabola that best fits the points within a
+ * reach on both sides of it (Savitzky and Golay 1964), or those available at the ends of an open outline.
  */
 function smoothedOutline(points, closed, reach) {
   const count = points.length / 2;
@@ -45,7 +45,7 @@ function smoothedOutline(points, closed, reach) {
   return out;
 }
 
-/** What each of the values at −reach … reach weighs in their best parabola at a place. */
+/** The weights of the values at −reach … reach in the value of their best parabola at a position. */
 function parabolaWeights(reach, place) {
   const count = 2 * reach + 1;
   const square = (reach * (reach + 1)) / 3;

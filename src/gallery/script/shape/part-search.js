@@ -1,45 +1,45 @@
-// Which curves have a portion like a shape, by the windows of the index.
+// Finds the curves with a portion like a shape, by the windows of the index.
 
-import { evenShape } from "./asked.js";
-import { CHORDS, SPANS, WINDOW, directionOf, windowAt, windowsOf } from "./indexing.js";
-import { correlation, Settler } from "./settle.js";
+import { resampledShape } from "./query-shape.js";
+import { CHORDS, SPANS, WINDOW, directionOf, windowAt, windowCount } from "./shape-index.js";
+import { correlation, WindowRefiner } from "./window-refiner.js";
 import { Shortlist } from "./shortlist.js";
-import { normalised } from "./spectrum.js";
+import { normalised } from "./fourier.js";
 
-// Curves whose best windows are looked at more closely.
+// The number of curves whose best windows are compared more closely.
 const CLOSER = 600;
 
 /**
  * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than
  * `least` of the curve's length: [{ index, curve, value, seeds: [{ mirror, reversed, start, span }] }], as
- * `likelyWhole`, with `start` and `span` by the curve's length in its own direction. The index must have its
- * windows.
+ * `candidateCurves`, with `start` and `span` by the curve's length in its own direction. The index must have
+ * its windows.
  */
-export function* likelyParts(index, shape, { mirror, least, most }) {
+export function* candidateParts(index, shape, { mirror, least, most }) {
   const own = windowOf(shape);
   if (!own) return [];
-  const best = bestWindows(index.count);
+  const best = newBestWindows(index.count);
   for (let s = 0; s < SPANS.length && (s === 0 || SPANS[s - 1] > least); s += 1)
-    yield* scan(index, s, own, mirror, best);
+    yield* scanSpan(index, s, own, mirror, best);
   const closer = new Shortlist(CLOSER);
-  const settler = new Settler(index);
-  const settle = (curve, seeds, rounds) => {
+  const refiner = new WindowRefiner(index);
+  const refineSeeds = (curve, seeds, rounds) => {
     const moved = seeds.map((seed) => ({
       ...seed,
-      ...settler.settled(curve, own.ways[seed.way], seed, 0.9 * least, rounds),
+      ...refiner.refine(curve, own.orientations[seed.orientation], seed, 0.9 * least, rounds),
     }));
     return moved.sort((a, b) => b.value - a.value);
   };
   for (let curve = 0; curve < index.count; curve += 1) {
-    // Windows are so far apart that only after a round or two their likeness can be told.
-    const seeds = settle(curve, seedsOf(index, curve, own, best).slice(0, SEEDS), 2);
+    // Windows are so far apart that their correlation is meaningful only after a round or two.
+    const seeds = refineSeeds(curve, seedsOf(index, curve, own, best).slice(0, SEEDS), 2);
     if (seeds.length) closer.offer({ index, curve, value: seeds[0].value, seeds });
     if (curve % 128 === 127) yield;
   }
   const list = new Shortlist(most);
   let k = 0;
   for (const { curve, seeds } of closer.best()) {
-    const [nearest] = settle(curve, seeds.slice(0, 3), 6);
+    const [nearest] = refineSeeds(curve, seeds.slice(0, 3), 6);
     list.offer({ index, curve, value: nearest.value, seeds: [nearest] });
     if ((k += 1) % 32 === 0) yield;
   }
@@ -47,35 +47,35 @@ export function* likelyParts(index, shape, { mirror, least, most }) {
 }
 
 /**
- * The window that a shape is, with unit energy, in four ways, and the directions of its chords; null if it is
- * a point.
+ * A shape as a window of unit energy, in four orientations, and the directions of its chords; null for a
+ * point.
  */
 function windowOf(shape) {
-  const { points } = evenShape(shape, WINDOW, true);
+  const { points } = resampledShape(shape, WINDOW, true);
   const re = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n]);
   const im = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n + 1]);
   if (!normalised(re, im)) return null;
-  const ends = evenShape(shape, CHORDS + 1, true).points;
+  const ends = resampledShape(shape, CHORDS + 1, true).points;
   const chords = Uint8Array.from({ length: CHORDS }, (_, k) =>
     directionOf(ends[2 * k + 2] - ends[2 * k], ends[2 * k + 3] - ends[2 * k + 1]),
   );
   const back = (values) => values.slice().reverse();
   const mirrored = im.map((value) => -value);
-  // 0 as it is, 1 the other way, 2 and 3 their mirror images.
-  const ways = [
+  // 0 as given, 1 reversed, 2 and 3 their mirror images.
+  const orientations = [
     { re, im },
     { re: back(re), im: back(im) },
     { re, im: mirrored },
     { re: back(re), im: back(mirrored) },
   ];
-  return { chords, ways };
+  return { chords, orientations };
 }
 
 /**
- * For each half of each curve and each way the window whose chords differ least in direction from the
- * shape's, once turned.
+ * For each half of each curve and each orientation, the window whose chords, after rotation, differ least in
+ * direction from the shape's.
  */
-function bestWindows(count) {
+function newBestWindows(count) {
   const slots = SLOTS * count;
   return {
     difference: new Uint8Array(slots).fill(NOT_LIKE),
@@ -84,17 +84,17 @@ function bestWindows(count) {
   };
 }
 
-// The sum of differences of seven chords, in 256ths of a turn, at which a window is not like a shape at all.
+// A window with this sum of differences of seven chords, in 256ths of a turn, is not like the shape at all.
 const NOT_LIKE = 110;
-// Windows that are kept of a curve: one that begins in each half of it, in each of four ways.
+// The number of windows kept of a curve: one that starts in each half of it, in each of four orientations.
 const SLOTS = 8;
 const SEEDS = 4;
 // The difference of one chord, likewise.
 const OTHER_CHORD = 28;
 
-/** Compares the directions of the chords of all windows of an extent. */
-function* scan(index, s, { chords }, mirror, best) {
-  const each = windowsOf(SPANS[s]);
+/** Compares the directions of the chords of all windows of a span. */
+function* scanSpan(index, s, { chords }, mirror, best) {
+  const each = windowCount(SPANS[s]);
   const away = Uint8Array.from({ length: 256 }, (_, k) => Math.min(k, 256 - k));
   const steps = Uint16Array.from({ length: CHORDS }, (_, k) => Math.round((k * SPANS[s] * each) / CHORDS));
   const turn = (chords[CHORDS - 1] - chords[0]) & 255;
@@ -108,8 +108,9 @@ function* scan(index, s, { chords }, mirror, best) {
 }
 
 /**
- * The first and the last chord alone tell most windows away: their angle is that of the shape as it is, and
- * of its mirror image passed the other way; or it is the opposite, for the two other ways.
+ * Compares the windows of one curve. The first and the last chord alone exclude most windows: their angle
+ * must be that of the shape, for the shape as given and for its reversed mirror image; or the opposite, for
+ * the two other orientations.
  */
 function scanCurve(index, curve, s, given, best) {
   const { each, away, turn, mirror } = given;
@@ -138,37 +139,39 @@ function scanCurve(index, curve, s, given, best) {
     if (same < OTHER_CHORD) {
       const middle = away[(q - inner) & 255];
       if (middle + away[(r - late) & 255] + away[(p + q - early) & 255] < difference[at])
-        keepNearer(windows, base, from - base, given, 0, best, at, s);
+        keepIfNearer(windows, base, from - base, given, 0, best, at, s);
       if (mirror && middle + away[(p - late) & 255] + away[(q + r - early) & 255] < difference[at + 3])
-        keepNearer(windows, base, from - base, given, 3, best, at, s);
+        keepIfNearer(windows, base, from - base, given, 3, best, at, s);
     }
     if (other < OTHER_CHORD) {
       const middle = away[(q + inner) & 255];
       if (middle + away[(p + late) & 255] + away[(q + r + early) & 255] < difference[at + 1])
-        keepNearer(windows, base, from - base, given, 1, best, at, s);
+        keepIfNearer(windows, base, from - base, given, 1, best, at, s);
       if (mirror && middle + away[(r + late) & 255] + away[(p + q + early) & 255] < difference[at + 2])
-        keepNearer(windows, base, from - base, given, 2, best, at, s);
+        keepIfNearer(windows, base, from - base, given, 2, best, at, s);
     }
   }
 }
 
-/** Keeps a window, in a way, if its chords are nearer to the shape's than those of the best so far. */
-function keepNearer(windows, base, w, given, way, best, at, s) {
-  const most = best.difference[at + way];
-  const sum = differenceOf(windows, base, w, given, way, most);
+/**
+ * Keeps a window, for an orientation, if its chords are nearer to the shape's than those of the best so far.
+ */
+function keepIfNearer(windows, base, w, given, orientation, best, at, s) {
+  const most = best.difference[at + orientation];
+  const sum = differenceOf(windows, base, w, given, orientation, most);
   if (sum >= most) return;
-  best.difference[at + way] = sum;
-  best.span[at + way] = s;
-  best.window[at + way] = w;
+  best.difference[at + orientation] = sum;
+  best.span[at + orientation] = s;
+  best.window[at + orientation] = w;
 }
 
 /**
  * The sum of the differences in direction of a window's chords, turned so that the fourth agrees; or more
  * than `most`.
  */
-function differenceOf(windows, base, w, { each, away, steps, chords }, way, most) {
-  const reversed = way % 2 === 1;
-  const sign = way < 2 ? 1 : -1;
+function differenceOf(windows, base, w, { each, away, steps, chords }, orientation, most) {
+  const reversed = orientation % 2 === 1;
+  const sign = orientation < 2 ? 1 : -1;
   let sum = 0;
   let turned = 0;
   // From the middle outwards.
@@ -185,25 +188,25 @@ function differenceOf(windows, base, w, { each, away, steps, chords }, way, most
 }
 
 /**
- * The best windows of a curve, one for each half and way that has one, with their correlations, the likeliest
- * first.
+ * The best windows of a curve, one for each half and orientation that has one, with their correlations, the
+ * best first.
  */
 function seedsOf(index, curve, own, best) {
   const [re, im] = [new Float64Array(WINDOW), new Float64Array(WINDOW)];
   const seeds = [];
   for (let at = SLOTS * curve; at < SLOTS * (curve + 1); at += 1) {
-    const way = at % 4;
+    const orientation = at % 4;
     if (best.difference[at] >= NOT_LIKE) continue;
     const span = SPANS[best.span[at]];
     const seed = {
-      way,
-      mirror: way >= 2,
-      reversed: way % 2 === 1,
+      orientation,
+      mirror: orientation >= 2,
+      reversed: orientation % 2 === 1,
       span,
-      start: best.window[at] / windowsOf(span),
+      start: best.window[at] / windowCount(span),
     };
     windowAt(index, curve, seed.start, span, re, im);
-    seeds.push({ ...seed, value: correlation(own.ways[way], re, im) });
+    seeds.push({ ...seed, value: correlation(own.orientations[orientation], re, im) });
   }
   return seeds.sort((a, b) => b.value - a.value);
 }

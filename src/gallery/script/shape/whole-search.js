@@ -1,12 +1,12 @@
-// Which whole curves are like a shape, by the spectra of the index.
+// Finds the whole curves like a shape, by the spectra of the index.
 
-import { evenShape, thereAndBack } from "./asked.js";
-import { SPECTRUM } from "./indexing.js";
-import { fourier, normalised } from "./spectrum.js";
+import { resampledShape, thereAndBack } from "./query-shape.js";
+import { SPECTRUM } from "./shape-index.js";
+import { fourier, normalised } from "./fourier.js";
 import { Shortlist } from "./shortlist.js";
 
-// The ways in which a curve may be passed: as it is, the other way round, and the mirror images of both.
-const WAYS = [
+// The orientations of a curve: as given, reversed, and the mirror images of both.
+const ORIENTATIONS = [
   { mirror: false, reversed: false },
   { mirror: false, reversed: true },
   { mirror: true, reversed: false },
@@ -14,24 +14,23 @@ const WAYS = [
 ];
 
 /**
- * Finds, step by step, the `most` curves of an index that are most like a shape: the generator's value is [{
+ * Finds, step by step, the `most` curves of an index that are most like a shape: the generator returns [{
  * index, curve, value, seeds: [{ mirror, reversed, start }] }], `value` up to 1 for a similar curve, `start`
- * the fraction of the curve's length, in the way it is passed, at which the shape begins.
+ * the fraction of the curve's length, in the seed's direction, at which the shape starts.
  *
- * All turns, scales and beginnings are tried at once: they are the cyclic correlation with the curve, and its
- * size.
+ * All rotations, scales and starts are tried at once, by the cyclic correlation with the curve.
  */
-export function* likelyWhole(index, shape, { mirror, most }) {
-  const ways = mirror ? WAYS : WAYS.slice(0, 2);
+export function* candidateCurves(index, shape, { mirror, most }) {
+  const orientations = mirror ? ORIENTATIONS : ORIENTATIONS.slice(0, 2);
   const list = new Shortlist(most);
-  yield* likelyClosed(index, shape.closed ? shape : thereAndBack(shape), ways, list);
-  if (!shape.closed) yield* likelyOpen(index, shape, ways, list);
+  yield* candidatesAmongClosed(index, shape.closed ? shape : thereAndBack(shape), orientations, list);
+  if (!shape.closed) yield* candidatesAmongOpen(index, shape, orientations, list);
   return list.best();
 }
 
-function* likelyClosed(index, shape, ways, list) {
+function* candidatesAmongClosed(index, shape, orientations, list) {
   const transform = fourier(SPECTRUM);
-  const own = parts(evenShape(shape, SPECTRUM).points);
+  const own = parts(resampledShape(shape, SPECTRUM).points);
   if (!normalised(own.re, own.im)) return;
   transform.forward(own.re, own.im);
   const size = own.re.map((value, k) => Math.hypot(value, own.im[k]));
@@ -39,7 +38,7 @@ function* likelyClosed(index, shape, ways, list) {
   const [straight, turned] = [new Float64Array(index.count), new Float64Array(index.count)];
   for (let curve = 0; curve < index.count; curve += 1) {
     if (!index.closed[curve]) continue;
-    bounds(index, curve, size, straight, turned);
+    correlationBounds(index, curve, size, straight, turned);
     order.push(curve);
     if (curve % 1024 === 1023) yield;
   }
@@ -54,9 +53,9 @@ function* likelyClosed(index, shape, ways, list) {
     const curve = order[k];
     // No curve further on in this order can be more like the shape than its bound.
     if (most[curve] <= list.least()) break;
-    const seeds = ways.flatMap((way) => {
-      const bound = way.mirror === way.reversed ? straight[curve] : turned[curve];
-      return bound > list.least() ? peaks(index, curve, own, way, transform, work) : [];
+    const seeds = orientations.flatMap((orientation) => {
+      const bound = orientation.mirror === orientation.reversed ? straight[curve] : turned[curve];
+      return bound > list.least() ? correlationPeaks(index, curve, own, orientation, transform, work) : [];
     });
     seeds.sort((a, b) => b.value - a.value);
     if (seeds.length) list.offer({ index, curve, value: seeds[0].value, seeds: seeds.slice(0, 3) });
@@ -64,8 +63,8 @@ function* likelyClosed(index, shape, ways, list) {
   }
 }
 
-/** Bounds of the correlation: that of the sizes of the waves, which no turn and no beginning changes. */
-function bounds(index, curve, size, straight, turned) {
+/** Bounds of the correlation: that of the amplitudes, which rotations and starts do not change. */
+function correlationBounds(index, curve, size, straight, turned) {
   const base = SPECTRUM * curve;
   let [along, against] = [0, 0];
   for (let k = 0; k < SPECTRUM; k += 1) {
@@ -76,13 +75,12 @@ function bounds(index, curve, size, straight, turned) {
   turned[curve] = against / SPECTRUM;
 }
 
-/** The two best beginnings of a curve passed in one way. */
-function peaks(index, curve, own, way, transform, { re, im, square }) {
+/** The two best starts of a curve in one orientation. */
+function correlationPeaks(index, curve, own, orientation, transform, { re, im, square }) {
   const base = SPECTRUM * curve;
-  // The other direction of a curve turns its spectrum round; so does its mirror image, which conjugates it as
-  // well.
-  const turned = way.mirror !== way.reversed;
-  const sign = way.mirror ? 1 : -1;
+  // Reversing a curve reverses its spectrum; mirroring reverses and conjugates it.
+  const turned = orientation.mirror !== orientation.reversed;
+  const sign = orientation.mirror ? 1 : -1;
   for (let k = 0; k < SPECTRUM; k += 1) {
     const at = base + (turned ? (SPECTRUM - k) & (SPECTRUM - 1) : k);
     const [x, y] = [index.re[at], sign * index.im[at]];
@@ -98,24 +96,28 @@ function peaks(index, curve, own, way, transform, { re, im, square }) {
     if (square[k] < before || square[k] <= after) continue;
     const bend = before + after - 2 * square[k];
     const beside = bend < 0 ? (before - after) / (2 * bend) : 0;
-    found.push({ ...way, start: (k + beside) / SPECTRUM, value: Math.sqrt(square[k]) / SPECTRUM });
+    found.push({ ...orientation, start: (k + beside) / SPECTRUM, value: Math.sqrt(square[k]) / SPECTRUM });
   }
   return found.sort((a, b) => b.value - a.value).slice(0, 2);
 }
 
-function* likelyOpen(index, shape, ways, list) {
-  const own = parts(evenShape(shape, SPECTRUM).points);
+function* candidatesAmongOpen(index, shape, orientations, list) {
+  const own = parts(resampledShape(shape, SPECTRUM).points);
   if (!normalised(own.re, own.im)) return;
   for (let curve = 0; curve < index.count; curve += 1) {
     if (index.closed[curve]) continue;
-    const seeds = ways.map((way) => ({ ...way, start: 0, value: likeness(index, curve, own, way) }));
+    const seeds = orientations.map((orientation) => ({
+      ...orientation,
+      start: 0,
+      value: openCorrelation(index, curve, own, orientation),
+    }));
     seeds.sort((a, b) => b.value - a.value);
     list.offer({ index, curve, value: seeds[0].value, seeds: seeds.slice(0, 2) });
     if (curve % 256 === 255) yield;
   }
 }
 
-function likeness(index, curve, own, { mirror, reversed }) {
+function openCorrelation(index, curve, own, { mirror, reversed }) {
   const base = SPECTRUM * curve;
   let [x, y] = [0, 0];
   for (let k = 0; k < SPECTRUM; k += 1) {

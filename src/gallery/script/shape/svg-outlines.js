@@ -1,41 +1,47 @@
-// The outlines that a document of SVG draws, or a fragment of one, where its transforms put them.
+// Extracts the outlines drawn by an SVG document or fragment, with all transforms applied.
 
-import { markupTree } from "./markup.js";
-import { subpathsOf } from "./path.js";
-import { listedNumbers, matrixOfTransform, matrixProduct, movedByMatrix, UNMOVED } from "./transform.js";
+import { parseMarkup } from "./markup.js";
+import { subpathsOf } from "./svg-path.js";
+import {
+  parseNumbers,
+  matrixOfTransform,
+  matrixProduct,
+  transformPoints,
+  IDENTITY_MATRIX,
+} from "./svg-transform.js";
 
-// What is in these is drawn elsewhere, if at all.
+// The contents of these are drawn elsewhere, if at all.
 const UNDRAWN = new Set(
   "defs symbol clippath mask marker pattern lineargradient radialgradient filter metadata".split(" "),
 );
-// Nothing of them is an outline, and their words may look like one.
+// These contain no outlines, but their text may look like some.
 const WORDS = new Set("title desc style script text foreignobject".split(" "));
 const USED_WITHIN_USED = 12;
 // CSS pixels to a unit of length.
 const UNITS = { "": 1, px: 1, in: 96, cm: 96 / 2.54, mm: 96 / 25.4, q: 96 / 101.6, pt: 4 / 3, pc: 16 };
 
 /**
- * The outlines drawn by markup of SVG, [{ points: flat array, closed }], y down as in SVG, in the units of
- * its outermost element: paths, polylines, polygons, lines, rectangles, circles and ellipses, and what `use`
- * has of them. The `viewBox` of an element is passed over: it changes the size alone.
+ * The outlines drawn by SVG markup, [{ points: flat array, closed }], y down as in SVG, in the units of its
+ * outermost element: paths, polylines, polygons, lines, rectangles, circles and ellipses, and their copies by
+ * `use`. A `viewBox` is ignored: it changes only the size.
  *
- * @throws {Error} a sentence on what it has that cannot be read
+ * @throws {Error} a sentence about what cannot be read
  */
-export function drawnOutlines(text) {
-  // A sheet of styles would go before the attributes.
+export function svgOutlines(text) {
+  // A style sheet would override the attributes.
   for (const [, sheet] of text.matchAll(/<style\b[^>]*>([\s\S]*?)<\/style/gi))
     if (/(?:^|[;{\s/])transform\s*:/i.test(sheet))
       throw new Error("A transform in a sheet of styles is not read: write it as an attribute.");
-  const root = markupTree(text);
+  const root = parseMarkup(text);
   const byId = new Map();
-  index(root, byId);
-  return outlinesWithin(root, UNMOVED, { byId, used: 0 });
+  indexById(root, byId);
+  return outlinesWithin(root, IDENTITY_MATRIX, { byId, used: 0 });
 }
 
-function index(element, byId) {
+function indexById(element, byId) {
   const id = element.attributes.get("id");
   if (id !== undefined && !byId.has(id)) byId.set(id, element);
-  for (const child of element.children) index(child, byId);
+  for (const child of element.children) indexById(child, byId);
 }
 
 function outlinesWithin(element, matrix, drawing) {
@@ -43,13 +49,13 @@ function outlinesWithin(element, matrix, drawing) {
   return outlinesOfElement(element, matrix, drawing);
 }
 
-/** Of an element that is drawn, be it by itself or by use. */
+/** The outlines of an element that is drawn directly or by `use`. */
 function outlinesOfElement(element, outer, drawing) {
   if (isHidden(element)) return [];
   const matrix = matrixProduct(outer, ownMatrix(element));
   const data = Object.hasOwn(SHAPE_DATA, element.name) ? SHAPE_DATA[element.name](element) : "";
   const own = subpathsOf(data ?? "").map(({ points, closed }) => ({
-    points: movedByMatrix(matrix, points),
+    points: transformPoints(matrix, points),
     closed,
   }));
   const used = element.name === "use" ? usedOutlines(element, matrix, drawing) : [];
@@ -80,7 +86,7 @@ function isHidden({ attributes }) {
   return attributes.get("display") === "none" || /(?:^|[;\s])display\s*:\s*none/i.test(style);
 }
 
-/** The path data of each shape that there is in SVG; empty of one that is not drawn. */
+/** The path data of each kind of SVG shape; empty for a shape that is not drawn. */
 const SHAPE_DATA = {
   path: ({ attributes }) => attributes.get("d") ?? "",
   polyline: (element) => polygonData(element, ""),
@@ -102,13 +108,13 @@ const SHAPE_DATA = {
 };
 
 function polygonData({ name, attributes }, end) {
-  const numbers = listedNumbers(attributes.get("points") ?? "");
+  const numbers = parseNumbers(attributes.get("points") ?? "");
   if (!numbers) throw new Error(`The points of a ${name} cannot be read.`);
   const whole = numbers.slice(0, 2 * Math.floor(numbers.length / 2));
   return whole.length >= 4 ? `M${whole.join(" ")}${end}` : "";
 }
 
-/** In four arcs, from the greatest x on, as SVG draws it. */
+/** Path data of an ellipse in four arcs, starting at the greatest x, as in SVG. */
 function ellipseData(element, rx, ry) {
   const [cx, cy] = ["cx", "cy"].map((word) => attributeLength(element, word, 0));
   if (!(rx > 0 && ry > 0)) return "";
@@ -136,7 +142,7 @@ function rectangleData(element) {
   return `${top}h${-across}${round(-rx, -ry)}v${-down}${round(rx, -ry)}Z`;
 }
 
-/** A length of an element, in pixels; `otherwise` where it has none, or "auto". */
+/** A length of an element, in pixels; `otherwise` if it is missing or "auto". */
 function attributeLength({ name, attributes }, word, otherwise) {
   const text = (attributes.get(word) ?? "").trim().toLowerCase();
   if (text === "" || text === "auto") return otherwise;
