@@ -19,8 +19,8 @@ const WHITE_DOT =
 
 /**
  * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages,
- * and its third linkage not assembled; "watt" with a PNG on dark paper; and one more, called "find" as a room is, with what
- * "roberts" has. Returns { folder, remove() }.
+ * and its third linkage not assembled; "watt" with a PNG on dark paper; and one more, called "find" as a room
+ * is, with what "roberts" has. Returns { folder, remove() }.
  */
 export function oddAtlas(from) {
   const folder = mkdtempSync(join(tmpdir(), "coupler-atlas-odd-"));

@@ -6,10 +6,10 @@ import assert from "node:assert/strict";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-import { stretchOfCircuit } from "../../src/gallery/script/draw/band.js";
+import { circuitPortion } from "../../src/gallery/script/draw/circuit-portion.js";
 import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clipping.js";
-import { dashData, dashesOfPeriod } from "../../src/gallery/script/draw/dashes.js";
-import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/paper-view.js";
+import { dashData, dashPattern } from "../../src/gallery/script/draw/dashes.js";
+import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/plane-view.js";
 import { changedValues } from "../../src/gallery/script/kinematics/parameter-changes.js";
 import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
 import {
@@ -64,7 +64,7 @@ const tests = [
   [
     "a dash is the first 3 of every 5 degrees, from input 0",
     () => {
-      const lines = linesOf(dashData(straightPath(0, 360), dashesOfPeriod(5)));
+      const lines = linesOf(dashData(straightPath(0, 360), dashPattern(5)));
       assert.equal(lines.length, 72);
       lines.forEach((line, k) => {
         // Numbers are written in seven digits.
@@ -83,10 +83,10 @@ const tests = [
             .sort((a, b) => a - b)
             .join(),
         );
-      const there = spans(dashData(straightPath(-40, 40), dashesOfPeriod(5)));
-      const back = spans(dashData(straightPath(40, -40), dashesOfPeriod(5)));
+      const there = spans(dashData(straightPath(-40, 40), dashPattern(5)));
+      const back = spans(dashData(straightPath(40, -40), dashPattern(5)));
       assert.deepEqual([...back].sort(), [...there].sort());
-      assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashesOfPeriod(5))), [...there, ...back]);
+      assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashPattern(5))), [...there, ...back]);
     },
   ],
   [
@@ -253,7 +253,7 @@ const tests = [
       const family = familyOf(folder, "peaucellier-lipkin");
       const { linkage, circuit, joint, course } = studyOf(family, 0, new Map());
       const { from, to } = course.passes[0];
-      const { points } = stretchOfCircuit(linkage, circuit, joint, {
+      const { points } = circuitPortion(linkage, circuit, joint, {
         start: from,
         span: to - from,
         length: family.curves.measures.straight_length[0],

@@ -1,7 +1,7 @@
 // The curves that are compared: those of the atlas, and those whose parameters were changed on a plate.
 
 import { curveAt } from "../../data/family.js";
-import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { parsedName, takenCurve, takenMeasures } from "../../take/taken.js";
 
 /**

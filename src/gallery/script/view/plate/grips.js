@@ -2,7 +2,7 @@
 // zoomed.
 
 import { singlePointLinkage } from "../../kinematics/linkage.js";
-import { planePoint } from "../../draw/paper-view.js";
+import { planePoint } from "../../draw/plane-view.js";
 import { followedInput, nearestPart, placeAtPart } from "./course.js";
 import { Poser } from "./poser.js";
 

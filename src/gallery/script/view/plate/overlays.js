@@ -6,8 +6,8 @@ import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instanta
 import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
 import { clippedData } from "../../draw/clipping.js";
 import { linkData } from "../../draw/link-shapes.js";
-import { circleData, pixel, placedData } from "../../draw/path-data.js";
-import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { circleData, pixel, definedData } from "../../draw/path-data.js";
+import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
 
 /** What can be switched, { name, label, isOn at first, there(study) }. */
@@ -121,12 +121,12 @@ export class Overlays {
       const at = [o, [ax, ay], [bx, by], c, point].flatMap(([px, py]) => [x + scale * px, y - scale * py]);
       this.cognates[k].setAttribute(
         "d",
-        placedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`),
+        definedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`),
       );
       for (const joint of [1, 2]) pins += circleData(at[2 * joint], at[2 * joint + 1], 3.5, 6);
       for (const joint of [0, 3]) pins += circleData(at[2 * joint], at[2 * joint + 1], 5, 6);
     });
-    this.cognatePins.setAttribute("d", placedData(pins));
+    this.cognatePins.setAttribute("d", definedData(pins));
   }
 
   // The moving centrode is drawn in its link's own frame: a transform carries it along.

@@ -1,7 +1,7 @@
 // What can be changed of a linkage on its plate (changes are as in kinematics/changes.js).
 
 import { changedValues, tracedPoint } from "../../kinematics/parameter-changes.js";
-import { roundBelow } from "../../draw/paper-view.js";
+import { roundBelow } from "../../draw/plane-view.js";
 
 /**
  * What a plate offers to change: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind` is

@@ -2,7 +2,7 @@
 // another above it, so that a frame of the motion paints the linkage alone. Weights of lines are in pixels of
 // the screen at any zoom.
 
-import { fittedView, viewBetween, zoomedView } from "../../draw/paper-view.js";
+import { fittedView, interpolatedView, zoomedView } from "../../draw/plane-view.js";
 import { fill, h } from "../dom.js";
 import { MovingSheet } from "./moving-sheet.js";
 import { StillSheet } from "./still-sheet.js";
@@ -139,7 +139,7 @@ export class Stage {
     const { view, aim } = this;
     const isThere =
       Math.abs(aim.scale / view.scale - 1) < 2e-3 && Math.hypot(aim.x - view.x, aim.y - view.y) < 0.5;
-    this.view = isThere ? aim : viewBetween(view, aim, 0.22);
+    this.view = isThere ? aim : interpolatedView(view, aim, 0.22);
     this.gliding = isThere ? 0 : window.requestAnimationFrame(() => this.#glide());
     this.#place();
   }

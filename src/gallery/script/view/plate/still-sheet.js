@@ -1,9 +1,9 @@
 // What of a plate stays where it is while the linkage moves: the curve in dashes, other curves, guides,
 // wheels, the straight portion, the fixed centrode, the ground, and a scale.
 
-import { groundData } from "../../draw/hatching.js";
+import { groundData } from "../../draw/ground.js";
 import { circleData, pixel, polylineData } from "../../draw/path-data.js";
-import { roundBelow } from "../../draw/paper-view.js";
+import { roundBelow } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
 import { turningParts } from "./course.js";
 

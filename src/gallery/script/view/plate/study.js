@@ -9,7 +9,7 @@ import { finePath } from "../../kinematics/path.js";
 import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
 import { sideOf } from "../../kinematics/assembly-mode.js";
 import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
-import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { courseOf } from "./course.js";
 
 // So many samples over a circuit show what its other points and its sliders do.

@@ -1,8 +1,8 @@
-// The ground under a fixed pivot: a line and the strokes that say it does not move.
+// Draws the ground symbol of a fixed pivot: a line with hatching.
 
 import { pixel } from "./path-data.js";
 
-/** Path data of the ground under a pivot at X, Y on the screen, so many pixels wide. */
+/** Path data of the ground symbol of a pivot at X, Y on the screen, `width` pixels wide. */
 export function groundData(x, y, width = 22) {
   const STROKES = 4;
   const top = y + 0.5 * width;

@@ -1,15 +1,15 @@
-// The stretch of a curve between two inputs, as the band that marks its straight portion.
+// Computes the portion of a curve between two inputs, to mark its straight portion.
 
 import { singlePointLinkage } from "../kinematics/linkage.js";
 import { posesAt } from "../kinematics/poses.js";
 
 /**
- * The stretch of a joint's path over a circuit { passes, closed } from the input `start` over `span` of
- * input, on over limits, and of a closed circuit over its beginning: { points: [x, y, …], from: { pass, input
- * }, to: { pass, input } }. Where more than one pass has that input, the stretch is taken whose ends are
- * `length` apart. Null where no pass has it.
+ * The portion of a joint's path over a circuit { passes, closed } that starts at the input `start` and covers
+ * `span` of input, continuing over limits and over the start of a closed circuit: { points: [x, y, …], from:
+ * { pass, input }, to: { pass, input } }. If several passes contain the start, the portion whose ends are
+ * nearest to `length` apart is returned; null if no pass contains it.
  */
-export function stretchOfCircuit(linkage, circuit, joint, { start, span, length }) {
+export function circuitPortion(linkage, circuit, joint, { start, span, length }) {
   const alone = singlePointLinkage(linkage, joint);
   const { period } = linkage.input;
   let best = null;
@@ -18,18 +18,18 @@ export function stretchOfCircuit(linkage, circuit, joint, { start, span, length 
     for (const at of linkage.input.isLength ? [start] : [start, start - period, start + period]) {
       const slack = 1e-9 * Math.abs(pass.to - pass.from);
       if (at < Math.min(pass.from, pass.to) - slack || at > Math.max(pass.from, pass.to) + slack) continue;
-      const stretch = walkedStretch(alone, circuit, k, at, span);
-      const { points } = stretch;
+      const portion = portionFrom(alone, circuit, k, at, span);
+      const { points } = portion;
       const n = points.length;
       const error = Math.abs(Math.hypot(points[n - 2] - points[0], points[n - 1] - points[1]) - length);
-      // The same place may be found at the seam of two passes.
-      if (error < off - 1e-6 * length) [best, off] = [stretch, error];
+      // The same portion may be found from both passes at a common end.
+      if (error < off - 1e-6 * length) [best, off] = [portion, error];
     }
   });
   return best;
 }
 
-function walkedStretch({ linkage, joint }, { passes, closed }, first, start, span) {
+function portionFrom({ linkage, joint }, { passes, closed }, first, start, span) {
   const PARTS = 48;
   const points = [];
   let [k, at, left] = [first, start, span];

@@ -1,6 +1,6 @@
-// Where the plane lies on the screen: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
+// Maps the plane to the screen by a view: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
 
-/** The box round points of columns x[i], y[i] and what it was: [x0, y0, x1, y1]; begun with `emptyBox()`. */
+/** Extends a box [x0, y0, x1, y1], at first `emptyBox()`, to points in columns x[i], y[i], and returns it. */
 export function widenedBox(box, xs, ys, count = xs.length) {
   for (let i = 0; i < count; i++) {
     const [x, y] = [xs[i], ys[i]];
@@ -13,32 +13,32 @@ export function widenedBox(box, xs, ys, count = xs.length) {
   return box;
 }
 
-/** A box with nothing in it. */
+/** The empty box. */
 export function emptyBox() {
   return [Infinity, Infinity, -Infinity, -Infinity];
 }
 
 /**
- * The view { scale, x, y } that has a box of the plane in the middle of a frame, `margin` pixels from its
+ * The view { scale, x, y } that fits a box of the plane into the middle of a frame, `margin` pixels from its
  * edges.
  */
 export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
   const [w, h] = [Math.max(width - 2 * margin, 1), Math.max(height - 2 * margin, 1)];
   const size = Math.max(x1 - x0, y1 - y0);
   if (!Number.isFinite(size)) return { scale: 1, x: width / 2, y: height / 2 };
-  // A path that is one point still has a place.
+  // A path that is a single point is centred too.
   const least = size > 0 ? 1e-9 * size : 1;
   const scale = Math.min(w / Math.max(x1 - x0, least), h / Math.max(y1 - y0, least));
   return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
 }
 
-/** The same view, zoomed by a factor about a place on the screen. */
+/** A view zoomed by a factor about a point on the screen. */
 export function zoomedView({ scale, x, y }, factor, [atX, atY]) {
   return { scale: scale * factor, x: atX + (x - atX) * factor, y: atY + (y - atY) * factor };
 }
 
-/** A view so much of the way (0 to 1) from one to another. */
-export function viewBetween(from, to, part) {
+/** The view between two others at a fraction (0 to 1). */
+export function interpolatedView(from, to, part) {
   const between = (a, b) => a + (b - a) * part;
   return {
     scale: from.scale * (to.scale / from.scale) ** part,
@@ -47,12 +47,12 @@ export function viewBetween(from, to, part) {
   };
 }
 
-/** The place in the plane under a place on the screen. */
+/** The point of the plane at a point on the screen. */
 export function planePoint({ scale, x, y }, [atX, atY]) {
   return [(atX - x) / scale, (y - atY) / scale];
 }
 
-/** A round number, 1, 2 or 5 times a power of ten, that is `x` or a little less. */
+/** The greatest round number, 1, 2 or 5 times a power of ten, that is at most `x`. */
 export function roundBelow(x) {
   const power = 10 ** Math.floor(Math.log10(x));
   const part = x / power;
