@@ -119,10 +119,7 @@ function slotSlider(sample, o, { base: [c, a], offset, index }) {
 // From one joint to another as the linkage's own frame has it, but for a turn: one that is placed mirrored
 // keeps its angles.
 function armOf({ linkage, rates: { place } }, from, to) {
-  return [
-    place[2 * to] - place[2 * from],
-    (place[2 * to + 1] - place[2 * from + 1]) * handednessOf(linkage),
-  ];
+  return [place[2 * to] - place[2 * from], (place[2 * to + 1] - place[2 * from + 1]) * handednessOf(linkage)];
 }
 
 function rateOfArm({ linkage, rates: { velocity } }, from, to) {

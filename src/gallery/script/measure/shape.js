@@ -143,8 +143,7 @@ export function maxCurvature(tracedCurve, cusps) {
   let [a, b] = neighbourInputs(tracedCurve, sample);
   const here = circuit.input[sample];
   // At a limit the path bends as it does elsewhere, but its rates do not give the curvature.
-  if (limits.some((at) => Math.abs(at - here) <= Math.abs(b - a)))
-    return maxCurvatureNear(curve, sharpest);
+  if (limits.some((at) => Math.abs(at - here) <= Math.abs(b - a))) return maxCurvatureNear(curve, sharpest);
   const at = (input) => speedAndCurvature(tracedCurve, sample, input)[1];
   // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.
   for (let round = 0; round < 18; round++) {

@@ -1,15 +1,15 @@
-// Leafing: families, their contact sheets, and one page after another.
+// Tests browsing families, their contact sheets, and their pages.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened } from "./browser.mjs";
-import { announced, atlas, check, large, on, pointAt } from "./desk.mjs";
+import { eventually, openGallery } from "./browser.mjs";
+import { announced, atlas, addTest, large, startAt, pointAt } from "./pages-support.mjs";
 import { ODD_REASON, oddAtlas } from "./odd-atlas.mjs";
 
-check(
+addTest(
   "1.1",
-  "families are a contact sheet, drawn when seen, their scripts loaded only then",
-  on(atlas, "/"),
+  "families are a contact sheet, drawn and loaded only when they become visible",
+  startAt(atlas, "/"),
   async (g, page) => {
     const hasRead = (id) => g.requests.some((url) => url.endsWith(`/${id}/gallery.js`));
     assert.equal(await page.locator(".families > li").count(), 26);
@@ -42,7 +42,7 @@ check(
   },
 );
 
-check("1.2", "families are searched by name", on(atlas, "/"), async (g, page) => {
+addTest("1.2", "families can be searched by name", startAt(atlas, "/"), async (g, page) => {
   await page.getByRole("searchbox").fill("watt");
   assert.deepEqual(await page.locator(".families li:visible .name").allInnerTexts(), [
     "Watt linkage",
@@ -57,10 +57,10 @@ check("1.2", "families are searched by name", on(atlas, "/"), async (g, page) =>
   assert.equal(await page.getByRole("searchbox").inputValue(), "watt");
 });
 
-check(
+addTest(
   "1.3",
-  "a family's contact sheet: every page in reach, few in the page",
-  on(large, "/hrones-nelson"),
+  "a family's contact sheet shows every page with few elements",
+  startAt(large, "/hrones-nelson"),
   async (g, page) => {
     await page.waitForSelector(".window svg path");
     assert.equal(await page.locator(".window svg").first().locator("path").count(), 10);
@@ -84,10 +84,10 @@ check(
   },
 );
 
-check(
+addTest(
   "1.4",
   "7,800 curves in a contact sheet, by keys too",
-  on(large, "/hrones-nelson?show=curves"),
+  startAt(large, "/hrones-nelson?show=curves"),
   async (g, page) => {
     await page.waitForSelector(".window svg path");
     await page.locator(".window a").first().focus();
@@ -110,10 +110,10 @@ check(
   },
 );
 
-check(
+addTest(
   "1.9",
-  "next, previous, the first, the last, and any page",
-  on(large, "/hrones-nelson/99"),
+  "next, previous, first, last and any page can be opened",
+  startAt(large, "/hrones-nelson/99"),
   async (g, page) => {
     const isOn = (number) =>
       eventually(
@@ -156,7 +156,7 @@ check(
   },
 );
 
-check("1.10", "a place keeps how far it was read", on(large, "/hrones-nelson"), async (g, page) => {
+addTest("1.10", "a view keeps its scroll position", startAt(large, "/hrones-nelson"), async (g, page) => {
   await page.evaluate(() => window.scrollTo(0, 9000));
   await page.waitForTimeout(100);
   const followed = await page.evaluate(() => {
@@ -180,7 +180,7 @@ check("1.10", "a place keeps how far it was read", on(large, "/hrones-nelson"), 
   );
 });
 
-check("1.11", "addresses that lead nowhere say so", on(atlas, "/nowhere/at/all"), async (g, page) => {
+addTest("1.11", "an unknown address is reported", startAt(atlas, "/nowhere/at/all"), async (g, page) => {
   assert.match(await page.locator("main").innerText(), /nothing at this address/);
   await g.go("/evans/7");
   assert.match(await page.getByRole("alert").innerText(), /^Evans linkage has 1 pages? only\. /);
@@ -190,14 +190,14 @@ check("1.11", "addresses that lead nowhere say so", on(atlas, "/nowhere/at/all")
   await page.waitForSelector(".families");
 });
 
-check(
+addTest(
   "1.12",
-  "charts, families without pictures, in PNG, and linkages that cannot be assembled",
+  "charts, families without pictures, PNG pages and linkages that cannot be assembled are shown",
   null,
   async ({ browser }) => {
     const odd = oddAtlas(atlas);
     try {
-      const g = await opened(browser, odd.folder, "/evans-chart/1");
+      const g = await openGallery(browser, odd.folder, "/evans-chart/1");
       const { page } = g;
       await page.waitForSelector(".page-sheet img");
       assert.match(await page.locator(".beside").innerText(), /A chart\s+Of 35 curves/);
@@ -228,10 +228,10 @@ check(
   },
 );
 
-check(
+addTest(
   "1.13",
-  "every family, its pages and its curves: all open, and all curves are solved",
-  on(atlas, "/"),
+  "every family opens with its pages and curves, and all curves are solved",
+  startAt(atlas, "/"),
   async (g, page) => {
     const families = await page.evaluate(
       () => JSON.parse(document.getElementById("atlas").textContent).families,
@@ -260,14 +260,14 @@ check(
   },
 );
 
-check(
+addTest(
   "1.14",
-  "a family that is called as a room is can be leafed through, and the room is still there",
+  "a family with the name of a view can be browsed, and the view still opens",
   null,
   async ({ browser }) => {
     const odd = oddAtlas(atlas);
     try {
-      const g = await opened(browser, odd.folder, "/");
+      const g = await openGallery(browser, odd.folder, "/");
       const { page } = g;
       const heading = () => page.locator("h1").innerText();
       await page.locator('.families a[href="#/find"]').click();

@@ -1,14 +1,14 @@
-// Tries Find, By shape and Compare in Chromium: node tests/gallery/finding.mjs SMALL-ATLAS LARGE-ATLAS
+// Tests Find, By shape and Compare in Chromium: node tests/gallery/finding.mjs SMALL-ATLAS LARGE-ATLAS
 //
 // The first folder is an atlas of several families with "evans" and "watt" among them, the second one of
 // thousands of curves.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened, runTests } from "./browser.mjs";
-import { COMPARING } from "./comparing.mjs";
-import { boxesDrawn, boxesRead, DRAWN } from "./drawn.mjs";
-import { FILTERING } from "./filtering.mjs";
+import { eventually, openGallery, runTests } from "./browser.mjs";
+import { COMPARING } from "./compare.mjs";
+import { browserBoxes, parsedBoxes, DRAWING } from "./pasted-drawing.mjs";
+import { FILTERING } from "./search-filters.mjs";
 import { PRINTING } from "./printing.mjs";
 
 const [small, large] = process.argv.slice(2);
@@ -39,9 +39,9 @@ const leastPlaces = (page) =>
 const tests = [
   [
     "4.1",
-    "a filter leaves what it says, at once, and is in the address",
+    "a filter takes effect at once, and is in the address",
     async ({ browser }) => {
-      const gallery = await opened(browser, large, "/find");
+      const gallery = await openGallery(browser, large, "/find");
       const { page } = gallery;
       await loaded(page);
       const all = await numberLeft(page);
@@ -64,9 +64,9 @@ const tests = [
   ],
   [
     "4.2",
-    "ends of a range move by keys and by dragging",
+    "the ends of a range move by keys and by dragging",
     async ({ browser }) => {
-      const gallery = await opened(browser, large, "/find");
+      const gallery = await openGallery(browser, large, "/find");
       const { page } = gallery;
       await loaded(page);
       const end = page.getByRole("slider", { name: "transmission angle at least, least" });
@@ -87,9 +87,9 @@ const tests = [
   ],
   [
     "4.3",
-    "words, sorting, the table, arrows, Enter and p",
+    "words, sorting, the table, arrows, Enter and p work",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/find?sort=-length");
+      const gallery = await openGallery(browser, small, "/find?sort=-length");
       const { page } = gallery;
       await loaded(page);
       const all = await numberLeft(page);
@@ -137,7 +137,7 @@ const tests = [
     "4.4",
     "thousands of results scroll with few elements",
     async ({ browser }) => {
-      const gallery = await opened(browser, large, "/find");
+      const gallery = await openGallery(browser, large, "/find");
       const { page } = gallery;
       await loaded(page);
       const longest = await page.evaluate(async () => {
@@ -159,9 +159,9 @@ const tests = [
   ],
   [
     "4.5",
-    "a curve of the atlas is like itself first, laid over",
+    "a curve of the atlas is its own best match, shown as an overlay",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/shape?like=evans:2.1.1");
+      const gallery = await openGallery(browser, small, "/shape?like=evans:2.1.1");
       const { page } = gallery;
       await ranked(page);
       const names = await page
@@ -178,9 +178,9 @@ const tests = [
   ],
   [
     "4.6",
-    "a curve is drawn with the pointer, and found in thousands",
+    "a curve is drawn with the pointer, and found among thousands",
     async ({ browser }) => {
-      const gallery = await opened(browser, large, "/shape");
+      const gallery = await openGallery(browser, large, "/shape");
       const { page } = gallery;
       const pad = await page.locator(".pad").boundingBox();
       const at = (angle) => [
@@ -222,9 +222,9 @@ const tests = [
   ],
   [
     "4.7",
-    "a curve is drawn with keys, pasted, and refused with a sentence",
+    "a curve is drawn with keys and pasted, and invalid text is rejected with a sentence",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/shape");
+      const gallery = await openGallery(browser, small, "/shape");
       const { page } = gallery;
       await page.locator(".pad").focus();
       for (const keys of [
@@ -256,20 +256,20 @@ const tests = [
     "a drawing with transforms is read as it is drawn, and its curve found",
     async ({ browser }) => {
       const blank = await browser.newPage();
-      const wanted = await boxesDrawn(blank, DRAWN);
+      const wanted = await browserBoxes(blank, DRAWING);
       await blank.close();
-      const boxes = boxesRead(DRAWN);
+      const boxes = parsedBoxes(DRAWING);
       assert.equal(wanted.length, 8);
       assert.equal(boxes.length, 8);
-      // Chords of bends lie within by up to 1 - cos(7.5 deg) of them, of half turns.
+      // The chords of a curve deviate by up to 1 - cos(7.5 deg) of its radius, for a half turn.
       boxes.flat().forEach((value, k) => {
         const [x0, y0, x1, y1] = wanted[k >> 2];
         const off = Math.abs(value - wanted.flat()[k]) / Math.max(x1 - x0, y1 - y0);
         assert.ok(off < 0.005, `${boxes[k >> 2]} is not ${wanted[k >> 2]}`);
       });
-      const gallery = await opened(browser, small, "/shape");
+      const gallery = await openGallery(browser, small, "/shape");
       const { page } = gallery;
-      // An ellipse twice as long as wide, drawn as a circle that is stretched and sheared.
+      // An ellipse twice as long as wide, drawn as a stretched circle.
       const paste = async (text) => {
         await page.getByLabel("Or paste points or a path").fill(text);
         await page.getByRole("button", { name: "Use what is pasted" }).click();
@@ -290,9 +290,9 @@ const tests = [
   ],
   [
     "5.1",
-    "an address pins, and curves are compared side by side and over one another",
+    "an address pins curves, and they are compared side by side and overlaid",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/compare?c=evans:2.1.1,watt:3.1.1,evans:3.1.1");
+      const gallery = await openGallery(browser, small, "/compare?c=evans:2.1.1,watt:3.1.1,evans:3.1.1");
       const { page } = gallery;
       await eventually(
         async () => (await page.locator(".pinned-tiles > li").count()) === 3,
@@ -332,7 +332,7 @@ const tests = [
   ],
   [
     "7.f",
-    "no room overflows a narrow screen, light or dark",
+    "no view overflows a narrow screen, light or dark",
     async ({ browser }) => {
       for (const colorScheme of ["light", "dark"]) {
         for (const room of [
@@ -341,7 +341,7 @@ const tests = [
           "/shape?like=evans:2.1.1",
           "/compare?c=evans:2.1.1,watt:3.1.1&view=over",
         ]) {
-          const gallery = await opened(browser, small, room, {
+          const gallery = await openGallery(browser, small, room, {
             viewport: { width: 360, height: 800 },
             colorScheme,
           });

@@ -1,9 +1,9 @@
-// A drawing to be pasted, as Chromium draws it and as the page reads it.
+// A drawing to paste, with its outlines as drawn by Chromium and as read by the page.
 
 import { svgOutlines } from "../../src/gallery/script/shape/svg-outlines.js";
 
 /** A drawing with transforms of every kind, and outlines of every kind. */
-export const DRAWN = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">
+export const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">
   <defs><path id="loop" d="M0 0C30-40 80-10 50 20S-20 30 0 0Z"/></defs>
   <g transform="translate(40 30) rotate(-20)"><g transform="matrix(1.2 .3 -.4 .8 10 5),scale(1.5,.7)">
     <path transform="skewX(15)"
@@ -17,7 +17,7 @@ export const DRAWN = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http:
 </svg>`;
 
 /** The boxes of the outlines of a drawing as Chromium draws it, [[x0, y0, x1, y1], …]. */
-export function boxesDrawn(page, svg) {
+export function browserBoxes(page, svg) {
   return page.evaluate((text) => {
     const holder = document.createElement("div");
     holder.innerHTML = text;
@@ -40,8 +40,8 @@ export function boxesDrawn(page, svg) {
   }, svg);
 }
 
-/** The same boxes, of what the page reads. */
-export function boxesRead(svg) {
+/** The same boxes as read by the page. */
+export function parsedBoxes(svg) {
   return svgOutlines(svg).map(({ points }) => {
     const [xs, ys] = [0, 1].map((axis) => points.filter((_, k) => k % 2 === axis));
     return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];

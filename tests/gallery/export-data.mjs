@@ -1,4 +1,4 @@
-// What the tests of taking away have in common: families read from the scripts of an atlas, tables, archives.
+// Helpers of the tests of exports: read families from the scripts of an atlas, tables and archives.
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";

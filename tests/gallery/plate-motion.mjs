@@ -1,16 +1,16 @@
-// The plate of a curve: motion, and hands on it.
+// Tests the motion of the plate of a curve, and dragging its joints.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened } from "./browser.mjs";
-import { still, gripAt, inputNow, near, crankAngle, pivotsOf } from "./plate-screen.mjs";
+import { eventually, openGallery } from "./browser.mjs";
+import { REDUCED_MOTION, gripAt, inputNow, assertNear, crankAngle, pivotsOf } from "./plate-support.mjs";
 
-export const HANDS = [
+export const MOTION = [
   [
     "3.1",
-    "plays by itself, pauses and plays with the space bar",
+    "the motion starts by itself, and the space bar pauses and plays it",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1");
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1");
       const { page } = plate;
       const before = await inputNow(page);
       await eventually(async () => (await inputNow(page)) !== before, "nothing moves");
@@ -25,9 +25,9 @@ export const HANDS = [
   ],
   [
     "3.1",
-    "does not start by itself where motion is not wanted",
+    "the motion does not start by itself if reduced motion is preferred",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const before = await inputNow(plate.page);
       await plate.page.waitForTimeout(300);
       assert.equal(await inputNow(plate.page), before);
@@ -37,9 +37,9 @@ export const HANDS = [
   ],
   [
     "3.1",
-    "stops when it is left",
+    "the motion stops when the plate is left",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1");
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1");
       await plate.go("/");
       const frames = await plate.page.evaluate(
         () =>
@@ -62,23 +62,23 @@ export const HANDS = [
   ],
   [
     "3.2",
-    "the slider scrubs, and its keys step by a degree and to limits",
+    "the slider changes the input, and its keys step by a degree and to limits",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/watt/curve/3.1.1", still);
+      const plate = await openGallery(browser, folder, "/watt/curve/3.1.1", REDUCED_MOTION);
       const { page } = plate;
       const scrub = page.getByRole("slider", { name: "Place on the circuit" });
       await scrub.focus();
       const before = await inputNow(page);
       await page.keyboard.press("ArrowRight");
-      near(await inputNow(page), before + 1, 0.11, "a step of a degree");
+      assertNear(await inputNow(page), before + 1, 0.11, "a step of a degree");
       await page.keyboard.press("Shift+ArrowLeft");
-      near(await inputNow(page), before - 9, 0.11, "ten degrees back");
+      assertNear(await inputNow(page), before - 9, 0.11, "ten degrees back");
       // Crank and coupler in line: 9 = 4 + 16 - 16 cos, so the limits are at arccos(11 / 16).
       const limit = (Math.acos(11 / 16) * 180) / Math.PI;
       await page.keyboard.press("End");
-      near(await inputNow(page), limit, 0.051, "the limit");
+      assertNear(await inputNow(page), limit, 0.051, "the limit");
       await page.keyboard.press("End");
-      near(await inputNow(page), -limit, 0.051, "the other limit");
+      assertNear(await inputNow(page), -limit, 0.051, "the other limit");
       assert.match(await scrub.getAttribute("aria-valuetext"), /^input −46\.6°$/);
       assert.match(await page.locator(".ends").textContent(), /−46\.6° to 46\.6°/);
       await plate.close();
@@ -86,9 +86,9 @@ export const HANDS = [
   ],
   [
     "3.3",
-    "the crank follows the hand turn after turn",
+    "the crank follows a drag turn after turn",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       const [pivot] = await pivotsOf(page);
       const at = await gripAt(page, 2);
@@ -105,16 +105,16 @@ export const HANDS = [
       }
       await page.mouse.up();
       const wanted = (((from + 500) % 360) + 360) % 360;
-      near(((await crankAngle(page, pivot, 2)) + 360) % 360, wanted, 1, "the crank's direction");
-      near(await inputNow(page), wanted, 1, "the input");
+      assertNear(((await crankAngle(page, pivot, 2)) + 360) % 360, wanted, 1, "the crank's direction");
+      assertNear(await inputNow(page), wanted, 1, "the input");
       await plate.close();
     },
   ],
   [
     "3.3",
-    "a hand that goes beyond a limit comes back on the other branch",
+    "a drag beyond a limit comes back on the other branch",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/watt/curve/3.1.1", still);
+      const plate = await openGallery(browser, folder, "/watt/curve/3.1.1", REDUCED_MOTION);
       const { page } = plate;
       const [pivot] = await pivotsOf(page);
       await page.getByRole("slider", { name: "Place on the circuit" }).fill("0.2");
@@ -130,11 +130,11 @@ export const HANDS = [
       await page.mouse.down();
       for (let deg = input; deg <= 70; deg += 3) await to(deg);
       await to(70);
-      near(await inputNow(page), 46.567, 0.06, "it stays at the limit");
+      assertNear(await inputNow(page), 46.567, 0.06, "it stays at the limit");
       for (let deg = 70; deg >= input; deg -= 3) await to(deg);
       await to(input);
       await page.mouse.up();
-      near(await inputNow(page), input, 0.3, "back at the input");
+      assertNear(await inputNow(page), input, 0.3, "back at the input");
       const other = await gripAt(page, 3);
       assert.ok(
         Math.hypot(other[0] - rocker[0], other[1] - rocker[1]) > 20,
@@ -147,7 +147,7 @@ export const HANDS = [
     "3.3",
     "any other joint can be dragged along its path",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/jansen/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/jansen/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       const foot = await gripAt(page, 7);
       await page.mouse.move(...foot);
@@ -163,8 +163,8 @@ export const HANDS = [
     "3.3",
     "a finger drags joints, and two fingers zoom and move the picture",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/chebyshev/curve/1.1.1", {
-        ...still,
+      const plate = await openGallery(browser, folder, "/chebyshev/curve/1.1.1", {
+        ...REDUCED_MOTION,
         hasTouch: true,
         viewport: { width: 360, height: 740 },
       });
@@ -197,7 +197,10 @@ export const HANDS = [
       assert.ok((await scale()) > 1.5 * fitted, `the scale went from ${fitted} to ${await scale()}`);
       const sheetAt = async () => {
         const matrix = await page.locator(".still > g").getAttribute("transform");
-        return matrix.match(/-?[\d.]+/g).slice(-2).map(Number);
+        return matrix
+          .match(/-?[\d.]+/g)
+          .slice(-2)
+          .map(Number);
       };
       const [fromX, fromY] = await sheetAt();
       await touch("touchStart", [left + 20, top + 20], [left + 60, top + 20]);
@@ -205,9 +208,9 @@ export const HANDS = [
         await touch("touchMove", [left + 20 + 5 * k, top + 20], [left + 60 + 5 * k, top + 20]);
       await touch("touchEnd");
       const [toX, toY] = await sheetAt();
-      // Each finger comes to be 40 to the right; what one goes ahead of the other zooms out again.
-      near(toX - fromX, 40, 4, "two fingers move it across");
-      near(toY, fromY, 1, "and not down");
+      // Each finger ends 40 pixels to the right; the zoom while one is ahead of the other is undone.
+      assertNear(toX - fromX, 40, 4, "two fingers move it across");
+      assertNear(toY, fromY, 1, "and not down");
       await plate.close();
     },
   ],
@@ -215,7 +218,7 @@ export const HANDS = [
     "3.4",
     "both branches can be chosen, and the choice is in the address",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       const before = await gripAt(page, 3);
       await page.getByRole("radio", { name: /^2: a full turn, branch −1/ }).check();

@@ -1,16 +1,16 @@
-// The plate of a curve: all kinds of linkages, and everyone.
+// Tests the plate of a curve with all kinds of linkages, and its accessibility.
 
 import assert from "node:assert/strict";
 
-import { contrastOf, eventually, opened } from "./browser.mjs";
-import { gripAt, inputNow, still } from "./plate-screen.mjs";
+import { contrastOf, eventually, openGallery } from "./browser.mjs";
+import { gripAt, inputNow, REDUCED_MOTION } from "./plate-support.mjs";
 
-export const EVERYONE = [
+export const ACCESSIBILITY = [
   [
     "3.12",
-    "all kinds of linkages open without a complaint, and move",
+    "all kinds of linkages open without errors, and move",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1");
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1");
       const families = await plate.page.evaluate(() =>
         JSON.parse(document.getElementById("atlas").textContent).families.map(({ id }) => id),
       );
@@ -39,10 +39,13 @@ export const EVERYONE = [
   ],
   [
     "3.13",
-    "everything is told to screen readers, and the text stands out",
+    "everything is available to screen readers, and text has enough contrast",
     async ({ browser, folder }) => {
       for (const colorScheme of ["light", "dark"]) {
-        const plate = await opened(browser, folder, "/watt/curve/1.1.1?p=1.9", { ...still, colorScheme });
+        const plate = await openGallery(browser, folder, "/watt/curve/1.1.1?p=1.9", {
+          ...REDUCED_MOTION,
+          colorScheme,
+        });
         const { page } = plate;
         const scene = page.getByRole("img", { name: "The linkage on its curve" });
         const summary = await page.locator(`#${await scene.getAttribute("aria-describedby")}`).textContent();
@@ -82,11 +85,11 @@ export const EVERYONE = [
   ],
   [
     "3.14",
-    "a narrow screen has the drawing first, and nothing sticks out",
+    "a narrow screen has the drawing first, and nothing overflows",
     async ({ browser, folder }) => {
       for (const width of [360, 768, 1400]) {
-        const plate = await opened(browser, folder, "/hrones-nelson/curve/1.3.1?A=2.4", {
-          ...still,
+        const plate = await openGallery(browser, folder, "/hrones-nelson/curve/1.3.1?A=2.4", {
+          ...REDUCED_MOTION,
           viewport: { width, height: 800 },
         });
         const { page } = plate;
@@ -105,7 +108,7 @@ export const EVERYONE = [
     "3.15",
     "pins, neighbours and the zoom work by keys",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       await page.keyboard.press("]");
       await eventually(async () => (await plate.fragment()) === "/evans/curve/2.1.1", "it stays");
@@ -123,9 +126,9 @@ export const EVERYONE = [
   ],
   [
     "3.15",
-    "the wheel zooms about the pointer, and a hand moves the picture",
+    "the wheel zooms about the pointer, and dragging moves the picture",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       const pin = await gripAt(page, 2);
       await page.mouse.move(...pin);
@@ -135,7 +138,7 @@ export const EVERYONE = [
         "no zoom",
       );
       const after = await gripAt(page, 2);
-      // A pointer is told of in whole pixels.
+      // Pointer events have integer coordinates.
       assert.ok(Math.hypot(after[0] - pin[0], after[1] - pin[1]) < 1, "the place under the pointer moved");
       const { left, top } = await page
         .locator(".stage")
@@ -151,9 +154,9 @@ export const EVERYONE = [
   ],
   [
     "3.16",
-    "a plate in print is still, and has its facts",
+    "a printed plate does not move, and has its facts",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       await page.emulateMedia({ media: "print" });
       for (const name of [".drive", ".sliders", ".circuits-gauge"])

@@ -1,20 +1,29 @@
-// A page near and far: by wheel, drag, fingers, keys and buttons.
+// Tests zooming and moving a page by wheel, drag, fingers, keys and buttons.
 
 import assert from "node:assert/strict";
 
-import { eventually, settled } from "./browser.mjs";
-import { atlas, check, large, middleOfDesk, nearness, on, PHONE, sheetBox } from "./desk.mjs";
+import { eventually, waitUntilSettled } from "./browser.mjs";
+import {
+  atlas,
+  addTest,
+  large,
+  viewportCentre,
+  zoomPercent,
+  startAt,
+  PHONE,
+  sheetBox,
+} from "./pages-support.mjs";
 
-check(
+addTest(
   "1.5",
-  "a page is its SVG, sized and never scaled",
-  on(large, "/hrones-nelson/100"),
+  "a page is its SVG, which is resized and never scaled",
+  startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     const image = page.locator(".page-sheet img");
     assert.match(await image.getAttribute("src"), /hrones-nelson-100\.svg$/);
     await page.locator(".viewport").focus();
     for (let k = 0; k < 12; k += 1) await page.keyboard.press("+");
-    await eventually(async () => (await nearness(page)) === 3200, "as near as may be");
+    await eventually(async () => (await zoomPercent(page)) === 3200, "as near as may be");
     const shown = await image.evaluate((element) => ({
       box: element.getBoundingClientRect().width,
       laid: element.clientWidth,
@@ -26,13 +35,13 @@ check(
   },
 );
 
-check(
+addTest(
   "1.6",
-  "nearer and further by wheel, about the pointer; the address keeps it",
-  on(large, "/hrones-nelson/3"),
+  "the wheel zooms about the pointer, and the address keeps the zoom",
+  startAt(large, "/hrones-nelson/3"),
   async (g, page) => {
-    const { box } = await middleOfDesk(page);
-    // A wheel is told at whole pixels.
+    const { box } = await viewportCentre(page);
+    // Wheel events have integer coordinates.
     const [x, y] = [Math.round(box.x + box.width * 0.3), Math.round(box.y + box.height * 0.6)];
     const placeUnder = async () => {
       const sheet = await sheetBox(page);
@@ -42,18 +51,18 @@ check(
     const before = await placeUnder();
     for (let k = 0; k < 4; k += 1) {
       await page.mouse.wheel(0, -200);
-      await settled(page);
+      await waitUntilSettled(page);
     }
     const after = await placeUnder();
-    // The pointer is over the same place, to half a pixel of 3,000.
+    // The pointer is over the same point, to half a pixel of 3,000.
     assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 2e-4, `${before} and ${after}`);
-    assert.ok((await nearness(page)) > 300);
+    assert.ok((await zoomPercent(page)) > 300);
     await eventually(async () => /zoom=3\.\d+&at=/.test(await g.fragment()), "the address says where");
     const address = await g.fragment();
     const where = await sheetBox(page);
     await page.reload();
     await page.waitForSelector(".page-sheet img");
-    await settled(page);
+    await waitUntilSettled(page);
     const again = await sheetBox(page);
     assert.ok(
       Math.abs(again.width - where.width) < 20 && Math.abs(again.x - where.x) < 8,
@@ -61,34 +70,34 @@ check(
     );
     await page.mouse.wheel(0, 5000);
     for (let k = 0; k < 8; k += 1) await page.mouse.wheel(0, 300);
-    await eventually(async () => (await nearness(page)) === 100, "never further than the whole page");
+    await eventually(async () => (await zoomPercent(page)) === 100, "never further than the whole page");
   },
 );
 
-check("1.7", "moved by drag, keys and buttons", on(atlas, "/watt/1"), async (g, page) => {
-  const { x, y } = await middleOfDesk(page);
+addTest("1.7", "a page is moved by drag, keys and buttons", startAt(atlas, "/watt/1"), async (g, page) => {
+  const { x, y } = await viewportCentre(page);
   await page.getByRole("button", { name: "Nearer" }).click();
   await page.getByRole("button", { name: "Nearer" }).click();
-  await settled(page);
+  await waitUntilSettled(page);
   const start = await sheetBox(page);
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 40, y - 30, { steps: 4 });
   await page.mouse.up();
-  await settled(page);
+  await waitUntilSettled(page);
   const dragged = await sheetBox(page);
   assert.deepEqual([Math.round(dragged.x - start.x), Math.round(dragged.y - start.y)], [40, -30]);
   await page.locator(".viewport").focus();
   await page.keyboard.press("ArrowRight");
-  await settled(page);
+  await waitUntilSettled(page);
   assert.ok((await sheetBox(page)).x < dragged.x);
   await page.keyboard.press("0");
-  await eventually(async () => (await nearness(page)) === 100, "0 shows the whole page");
+  await eventually(async () => (await zoomPercent(page)) === 100, "0 shows the whole page");
   assert.equal(await page.getByRole("button", { name: "Fit" }).getAttribute("aria-pressed"), "true");
 });
 
-check("1.8", "nearer by two fingers", on(large, "/hrones-nelson/5", PHONE), async (g, page) => {
-  const { x, y } = await middleOfDesk(page);
+addTest("1.8", "two fingers zoom in", startAt(large, "/hrones-nelson/5", PHONE), async (g, page) => {
+  const { x, y } = await viewportCentre(page);
   const client = await page.context().newCDPSession(page);
   const touch = (type, apart) =>
     client.send("Input.dispatchTouchEvent", {
@@ -104,13 +113,13 @@ check("1.8", "nearer by two fingers", on(large, "/hrones-nelson/5", PHONE), asyn
   await touch("touchStart", 30);
   for (let apart = 32; apart <= 90; apart += 4) await touch("touchMove", apart);
   await touch("touchEnd", null);
-  await eventually(async () => (await nearness(page)) > 250, "two fingers bring the page nearer");
+  await eventually(async () => (await zoomPercent(page)) > 250, "two fingers bring the page nearer");
 });
 
-check(
+addTest(
   "1.15",
-  "what is in the middle stays there in a window of another size, and on the next page",
-  on(large, "/hrones-nelson/123?zoom=20.00&at=200.0,120.0"),
+  "the centre of the view is kept when the window is resized, and on the next page",
+  startAt(large, "/hrones-nelson/123?zoom=20.00&at=200.0,120.0"),
   async (g, page) => {
     const asked = async () => {
       const [, zoom, x, y] = (await g.fragment()).match(/zoom=([\d.]+)&at=([\d.]+),([\d.]+)/) ?? [];
@@ -131,8 +140,13 @@ check(
 );
 
 const low = { viewport: { width: 700, height: 500 } };
-check("1.16", "arrows scroll to what is below a whole page", on(atlas, "/evans/1", low), async (g, page) => {
-  await page.locator(".viewport").focus();
-  await page.keyboard.press("ArrowDown");
-  await eventually(async () => (await page.evaluate(() => window.scrollY)) > 10, "the window is scrolled");
-});
+addTest(
+  "1.16",
+  "arrow keys scroll below a page that fits",
+  startAt(atlas, "/evans/1", low),
+  async (g, page) => {
+    await page.locator(".viewport").focus();
+    await page.keyboard.press("ArrowDown");
+    await eventually(async () => (await page.evaluate(() => window.scrollY)) > 10, "the window is scrolled");
+  },
+);

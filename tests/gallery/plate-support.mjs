@@ -1,10 +1,10 @@
-// What the tests of the plate have in common: where its joints are on the screen, and what it says.
+// Helpers of the tests of the plate: positions of its joints on the screen, and the values it shows.
 
 import assert from "node:assert/strict";
 
-export const still = { reducedMotion: "reduce" };
+export const REDUCED_MOTION = { reducedMotion: "reduce" };
 
-/** The place of a joint on the screen, from the circle a hand takes hold of. */
+/** The position of a joint on the screen, from the handle it is dragged by. */
 export const gripAt = (page, joint) =>
   page.locator(`.grip[data-joint="${joint}"]:not(.crank-grip)`).evaluate((grip) => {
     const box = grip.ownerSVGElement.getBoundingClientRect();
@@ -21,8 +21,8 @@ export const fieldOf = (page, name) =>
 export const sliderOf = (page, name) =>
   page.locator(`.parameter:has(input[aria-label="Value of ${name}"]) input[type=range]`);
 
-/** Fills a number in, as a hand does, and waits until the plate rests. */
-export async function changed(page, name, value) {
+/** Enters the value of a parameter and waits until the plate is updated. */
+export async function changeParameter(page, name, value) {
   await fieldOf(page, name).fill(String(value));
   await fieldOf(page, name).press("Tab");
   await page.waitForTimeout(300);
@@ -35,7 +35,7 @@ export async function measureNow(page, name) {
   return (await row.locator("td").allTextContents()).map((text) => text.replace("−", "-").replace("°", ""));
 }
 
-export const near = (a, b, within, what) =>
+export const assertNear = (a, b, within, what) =>
   assert.ok(Math.abs(a - b) <= within, `${what}: ${a}, not ${b} within ${within}`);
 
 /** The angle of a crank on the screen, counter-clockwise from the x-axis, in degrees. */
@@ -45,7 +45,7 @@ export async function crankAngle(page, pivot, pin) {
   return (Math.atan2(oy - py, px - ox) * 180) / Math.PI;
 }
 
-/** The places of fixed pivots on the screen, from left to right. */
+/** The positions of fixed pivots on the screen, from left to right. */
 export const pivotsOf = (page) =>
   page.locator(".pivot:not(.inner)").evaluateAll((all) =>
     all

@@ -1,8 +1,8 @@
-// Find where it has nothing to show, and what it says of what it shows.
+// Tests filters in Find that leave nothing, and the labels of results.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened } from "./browser.mjs";
+import { eventually, openGallery } from "./browser.mjs";
 
 const [small, large] = process.argv.slice(2);
 
@@ -11,12 +11,12 @@ const counted = (page) => page.locator(".counted b").innerText();
 export const FILTERING = [
   [
     "4.9",
-    "filters that leave nothing are told, each with what there is without it",
+    "filters that leave nothing are listed, each with the count without it",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/find?mu_worst_deg=60..&class=drag-link");
+      const gallery = await openGallery(browser, small, "/find?mu_worst_deg=60..&class=drag-link");
       const { page } = gallery;
-      const told = () => page.locator(".found").innerText();
-      await eventually(async () => /No curve passes/.test(await told()), "it is told");
+      const message = () => page.locator(".found").innerText();
+      await eventually(async () => /No curve passes/.test(await message()), "it is told");
       assert.equal(await counted(page), "0 of 323 curves");
       const without = page.getByRole("button", { name: /^Without class: / });
       const left = (await without.innerText()).match(/(\d+) curves?$/)[1];
@@ -31,7 +31,7 @@ export const FILTERING = [
       await page.getByRole("button", { name: "Clear all filters" }).press("Enter");
       assert.equal(await counted(page), "323 of 323 curves");
       assert.equal(await page.getByRole("button", { name: "Clear all filters" }).count(), 0);
-      // An address may ask for what no family here has.
+      // An address may name a parameter that no family here has.
       await gallery.go("/find?p.nothing=1..2");
       await page.getByRole("button", { name: "Without parameter nothing: 323 curves" }).click();
       assert.equal(await counted(page), "323 of 323 curves");
@@ -40,9 +40,9 @@ export const FILTERING = [
   ],
   [
     "4.10",
-    "inputs that are lengths have no degrees, and the column that is sorted by is in sight",
+    "inputs that are lengths have no degrees, and the sorted column is visible",
     async ({ browser }) => {
-      const gallery = await opened(
+      const gallery = await openGallery(
         browser,
         small,
         "/find?family=linear-actuator,evans&sort=straight_start_deg&show=table",
@@ -65,9 +65,9 @@ export const FILTERING = [
   ],
   [
     "4.11",
-    "tiles of points of one linkage say which point",
+    "tiles of points of one linkage have the number of the point",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/find?family=hrones-nelson");
+      const gallery = await openGallery(browser, small, "/find?family=hrones-nelson");
       const { page } = gallery;
       await eventually(async () => (await page.locator(".results > li").count()) > 9, "they are there");
       const labels = await page.locator(".results .label").allInnerTexts();
@@ -77,9 +77,9 @@ export const FILTERING = [
   ],
   [
     "4.12",
-    "whoever comes back from a plate is as far down what was found",
+    "going back from a plate restores the scroll position of the results",
     async ({ browser }) => {
-      const gallery = await opened(browser, large, "/find?class=change-point");
+      const gallery = await openGallery(browser, large, "/find?class=change-point");
       const { page } = gallery;
       await eventually(async () => /^2,250 of/.test(await counted(page)), "all are there");
       await page.evaluate(() => window.scrollTo(0, 20000));

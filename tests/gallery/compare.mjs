@@ -1,12 +1,12 @@
-// Compare: curves of the atlas, and those whose parameters were changed on a plate, side by side.
+// Tests Compare with curves of the atlas, and with curves whose parameters were changed on a plate.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened } from "./browser.mjs";
+import { eventually, openGallery } from "./browser.mjs";
 
 const [small] = process.argv.slice(2);
 
-/** The boxes, in pixels within their frames, of the curves that stand side by side. */
+/** The boxes, in pixels within their frames, of the curves that are shown side by side. */
 const boxesSideBySide = (page) =>
   page.locator(".pinned-tiles .leaf").evaluateAll((frames) =>
     frames.map((frame) => {
@@ -19,26 +19,28 @@ const boxesSideBySide = (page) =>
 export const COMPARING = [
   [
     "5.3",
-    "side by side curves are at one scale, aligned, and as fine as over one another",
+    "side by side, curves have one scale, are aligned, and are as fine as overlaid",
     async ({ browser }) => {
       // The second linkage is the larger one.
-      const gallery = await opened(browser, small, "/compare?c=evans:1.1.1,evans:9.1.1&align=none");
+      const gallery = await openGallery(browser, small, "/compare?c=evans:1.1.1,evans:9.1.1&align=none");
       const { page } = gallery;
-      // What is solved has three decimals of a pixel, what comes from the data one.
+      // Solved curves have three decimals of a pixel, those from the data one.
       const isFine = () =>
         page
           .locator(".pinned-tiles path")
           .evaluateAll((paths) => paths.every((path) => /\.\d{3}L/.test(path.getAttribute("d"))));
       await eventually(isFine, "curves are solved finely");
-      const told = await page.locator(".compared-facts tr").evaluateAll((rows) =>
-        Object.fromEntries(
-          rows.map(({ cells }) => [
-            cells[0].textContent,
-            [...cells].slice(1).map(({ textContent }) => Number(textContent.replace("−", "-"))),
-          ]),
-        ),
-      );
-      const wide = (k) => told["greatest x"][k] - told["least x"][k];
+      const facts = await page
+        .locator(".compared-facts tr")
+        .evaluateAll((rows) =>
+          Object.fromEntries(
+            rows.map(({ cells }) => [
+              cells[0].textContent,
+              [...cells].slice(1).map(({ textContent }) => Number(textContent.replace("−", "-"))),
+            ]),
+          ),
+        );
+      const wide = (k) => facts["greatest x"][k] - facts["least x"][k];
       const [first, second] = await boxesSideBySide(page);
       assert.ok(Math.abs(second[2] / first[2] / (wide(1) / wide(0)) - 1) < 0.02, "as they are, at one scale");
       await page.getByLabel("Aligned").selectOption("place");
@@ -52,9 +54,9 @@ export const COMPARING = [
   ],
   [
     "5.4",
-    "what was changed on a plate is pinned as it is, and compared with what it comes from",
+    "a curve changed on a plate is pinned with its changes, and compared with the original",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/evans/curve/3.1.1", { reducedMotion: "reduce" });
+      const gallery = await openGallery(browser, small, "/evans/curve/3.1.1", { reducedMotion: "reduce" });
       const { page } = gallery;
       const pin = page.locator(".plate button.pin");
       await pin.click();
@@ -67,7 +69,7 @@ export const COMPARING = [
         .locator(".measures tr", { hasText: "swing of the output" })
         .locator("td.now")
         .allTextContents();
-      // What cannot be assembled cannot be pinned.
+      // A linkage that cannot be assembled cannot be pinned.
       await field.fill("100");
       await field.press("Enter");
       await eventually(() => pin.isDisabled(), "there is nothing to pin");
@@ -87,7 +89,7 @@ export const COMPARING = [
       const lede = () => page.locator(".lede").innerText();
       await eventually(
         async () => /without evans:3\.1\.1\?p=100: B cannot be placed/.test(await lede()),
-        "what cannot be assembled is told",
+        "the linkage that cannot be assembled is reported",
       );
       await gallery.close();
     },
@@ -96,7 +98,7 @@ export const COMPARING = [
     "5.5",
     "pins outlast a reload of the page",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/evans/curve/3.1.1", { reducedMotion: "reduce" });
+      const gallery = await openGallery(browser, small, "/evans/curve/3.1.1", { reducedMotion: "reduce" });
       const { page } = gallery;
       await page.locator(".plate button.pin").click();
       await page.reload();

@@ -1,11 +1,11 @@
-// What the tests of the gallery's pages share: their atlases, their register, and hands that point.
+// Helpers of the tests of the gallery's pages: their atlases, the list of tests, and pointing at curves.
 
-import { opened, settled } from "./browser.mjs";
+import { openGallery, waitUntilSettled } from "./browser.mjs";
 
 /** The folders of the atlas of atlas.toml, and of one of 7,800 curves. */
 export const [atlas, large] = process.argv.slice(2);
 
-/** A telephone held upright. */
+/** The options of a phone in portrait format. */
 export const PHONE = {
   viewport: { width: 360, height: 740 },
   hasTouch: true,
@@ -13,24 +13,24 @@ export const PHONE = {
   deviceScaleFactor: 2,
 };
 
-/** All tests, as runTests() of browser.mjs takes them. */
-export const CHECKS = [];
+/** All tests, in the form of runTests() of browser.mjs. */
+export const TESTS = [];
 
-/** Where a test begins: an atlas, a fragment, and the options of the browser's context. */
-export const on = (folder, fragment, options = {}) => ({ folder, fragment, options });
+/** The start of a test: an atlas, a fragment, and the options of the browser's context. */
+export const startAt = (folder, fragment, options = {}) => ({ folder, fragment, options });
 
 /**
- * Puts down a test. With a place to begin on, it is given the opened gallery and its page, which is closed
- * after it: the test fails if the page was not quiet. Without, it is given { browser }.
+ * Adds a test. With a start, it is called with the opened gallery and its page, which is closed after it: the
+ * test fails if the page logged errors. Without, it is called with { browser }.
  */
-export function check(point, sentence, place, test) {
+export function addTest(point, sentence, place, test) {
   const opening = async ({ browser }) => {
-    const gallery = await opened(browser, place.folder, place.fragment, place.options);
-    await settled(gallery.page);
+    const gallery = await openGallery(browser, place.folder, place.fragment, place.options);
+    await waitUntilSettled(gallery.page);
     await test(gallery, gallery.page);
     await gallery.close();
   };
-  CHECKS.push([point, sentence, place ? opening : test]);
+  TESTS.push([point, sentence, place ? opening : test]);
 }
 
 /** The box, in pixels of the window, of a curve on the page that is shown. */
@@ -41,7 +41,7 @@ export function boxOfCurve(page, id, key) {
   });
 }
 
-/** Moves the pointer over the box of a curve until it is forward; true if it ever was. */
+/** Moves the pointer over the box of a curve until the curve is highlighted; false if it never is. */
 export async function pointAt(page, id, key) {
   const { left, right, top, bottom } = await boxOfCurve(page, id, key);
   for (let y = top; y <= bottom; y += 2) {
@@ -56,18 +56,18 @@ export async function pointAt(page, id, key) {
   return false;
 }
 
-/** How near the page is, in per cent of the whole. */
-export const nearness = (page) =>
+/** The zoom of the page, in per cent of the whole. */
+export const zoomPercent = (page) =>
   page.locator(".near-by").evaluate((element) => parseInt(element.textContent, 10));
 
-/** Where the sheet is in the window. */
+/** The box of the sheet in the window. */
 export const sheetBox = (page) => page.locator(".page-sheet").boundingBox();
 
-/** What was last said to screen readers. */
+/** The last announcement to screen readers. */
 export const announced = (page) => page.locator("[role=status]").textContent();
 
 /** The centre of the viewport, in pixels. */
-export async function middleOfDesk(page) {
+export async function viewportCentre(page) {
   const box = await page.locator(".viewport").boundingBox();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2, box };
 }

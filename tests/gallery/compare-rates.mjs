@@ -2,14 +2,14 @@
 
 import { columnsAtSample } from "../../src/gallery/script/take/columns.js";
 
-// Of a rate or a pole, by its own size and the linkage's: near a limit, where rates grow without bounds, so
-// does what rounding makes of them.
+// The tolerance of a rate or a pole, by its own size and the linkage's: near a limit rates and their rounding
+// errors grow without bounds.
 const RATE_TOLERANCE = 1e-9;
 
 let greatest = { off: 0, where: "" };
 let compared = 0;
 
-/** Compares the rates of one case; `complain(name, sentence)` is told of each disagreement. */
+/** Compares the rates of one case; `complain(name, sentence)` is called for each disagreement. */
 export function compareRates({ name, rates }, linkage, motion, complain) {
   for (const { trace, circuit: number, values } of rates) {
     const circuit = motion.circuits[number - 1];
@@ -27,19 +27,19 @@ export function compareRates({ name, rates }, linkage, motion, complain) {
 }
 
 function rateDisagreement(column, found, given, size, where) {
-  const wanted = given === "inf" ? Infinity : given === "-inf" ? -Infinity : given;
+  const expected = given === "inf" ? Infinity : given === "-inf" ? -Infinity : given;
   compared += 1;
-  if (wanted === null || !Number.isFinite(wanted)) {
+  if (expected === null || !Number.isFinite(expected)) {
     const here = Number.isNaN(found) ? null : found;
-    return here === wanted ? null : `${column} is ${found}, not ${wanted}`;
+    return here === expected ? null : `${column} is ${found}, not ${expected}`;
   }
-  const off = Math.abs(found - wanted) / Math.max(Math.abs(wanted), size);
+  const off = Math.abs(found - expected) / Math.max(Math.abs(expected), size);
   if (!(off <= greatest.off)) greatest = { off, where: `${column}, ${where}` };
-  return off <= RATE_TOLERANCE ? null : `${column} is ${found}, not ${wanted}`;
+  return off <= RATE_TOLERANCE ? null : `${column} is ${found}, not ${expected}`;
 }
 
-/** The greatest deviation found, in a line. */
-export function ratesTold() {
+/** A line with the greatest deviation found. */
+export function rateSummary() {
   return compared === 0
     ? "no rates"
     : `${compared} rates: ${greatest.off.toExponential(1)} (${greatest.where})`;

@@ -1,27 +1,27 @@
-// Pointing at a curve: it comes forward, and says what it is.
+// Tests pointing at a curve: it is highlighted, and its data are shown.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import { eventually, settled } from "./browser.mjs";
+import { eventually, waitUntilSettled } from "./browser.mjs";
 import {
   announced,
   atlas,
   boxOfCurve,
-  check,
+  addTest,
   large,
-  middleOfDesk,
-  on,
+  viewportCentre,
+  startAt,
   PHONE,
   pointAt,
   sheetBox,
-} from "./desk.mjs";
+} from "./pages-support.mjs";
 
-check(
+addTest(
   "2.1",
-  "a curve that is pointed at comes forward, the page recedes",
-  on(large, "/hrones-nelson/100"),
+  "a curve under the pointer is highlighted, and the page is dimmed",
+  startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     const opacity = () =>
       page.locator(".page-sheet .picture").evaluate((element) => Number(getComputedStyle(element).opacity));
@@ -29,16 +29,16 @@ check(
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
     assert.ok((await opacity()) < 0.5);
     assert.ok((await page.locator(".overlay .forward").getAttribute("d")).length > 500);
-    const { box } = await middleOfDesk(page);
+    const { box } = await viewportCentre(page);
     await page.mouse.move(box.x + 20, box.y + 20);
     await eventually(async () => (await opacity()) === 1, "the page comes back");
   },
 );
 
-check(
+addTest(
   "2.2",
-  "its parameters, class and measures stand beside it, with units and definitions",
-  on(large, "/hrones-nelson/100"),
+  "its parameters, class and measures are shown next to the page, with units and definitions",
+  startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
     const beside = await page.locator(".beside").innerText();
@@ -47,8 +47,8 @@ check(
     // 14.4° to 77.4° on the page itself.
     assert.match(beside, /least transmission angle[\s\S]*14\.36°/);
     assert.match(beside, /greatest transmission angle[\s\S]*77\.36°/);
-    const told = page.locator(".page-measures dt", { hasText: "time ratio" });
-    assert.match(await told.getAttribute("title"), /slower stroke to that of its faster/);
+    const term = page.locator(".page-measures dt", { hasText: "time ratio" });
+    assert.match(await term.getAttribute("title"), /slower stroke to that of its faster/);
     await page.locator(".beside").getByRole("button", { name: "Pin" }).click();
     assert.equal(
       await page.locator(".beside").getByRole("button", { name: "Pinned" }).getAttribute("aria-pressed"),
@@ -57,12 +57,12 @@ check(
   },
 );
 
-check(
+addTest(
   "2.3",
-  "at the pointer: input, speed and transmission angle, as the closed forms have them",
-  on(atlas, "/scotch-yoke/1"),
+  "input, speed and transmission angle at the pointer agree with closed forms",
+  startAt(atlas, "/scotch-yoke/1"),
   async (g, page) => {
-    // A point on the yoke of a crank r goes to and fro as r cos θ: the speed per radian is r |sin θ|.
+    // A point on the yoke of a crank r oscillates as r cos θ: the speed per radian is r |sin θ|.
     const solved = await page.evaluate(() => document.querySelector(".overlay a").getAttribute("href"));
     const key = solved.split("/").at(-1);
     const { left, right, top, bottom } = await boxOfCurve(page, "scotch-yoke", key);
@@ -82,7 +82,7 @@ check(
     const crank = Number.isFinite(r)
       ? r
       : Number(await page.locator(".page-parameters dt:text-is('r') + dd").innerText());
-    // The input is told to a tenth of a degree.
+    // The input is shown to a tenth of a degree.
     assert.ok(
       Math.abs(parseFloat(speed) - crank * Math.abs(Math.sin(theta))) < crank * 2e-3,
       `${speed} at ${input} of ${crank}`,
@@ -95,10 +95,10 @@ check(
   },
 );
 
-check(
+addTest(
   "2.4",
-  "a click opens the plate; who comes back finds the curve forward",
-  on(large, "/hrones-nelson/100"),
+  "a click opens the plate, and the curve is highlighted after going back",
+  startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
     await page.mouse.down();
@@ -114,10 +114,10 @@ check(
   },
 );
 
-check(
+addTest(
   "2.5",
-  "by keys: Tab to the curves, arrows between and along them, Enter opens",
-  on(atlas, "/evans/1"),
+  "Tab moves to the curves, arrows between and along them, and Enter opens",
+  startAt(atlas, "/evans/1"),
   async (g, page) => {
     await page.locator(".viewport").focus();
     await page.keyboard.press("Tab");
@@ -148,15 +148,15 @@ check(
   },
 );
 
-check(
+addTest(
   "2.6",
-  "by touch: a tap shows, a second tap opens",
-  on(large, "/hrones-nelson/100", PHONE),
+  "a tap shows a curve, a second tap opens it",
+  startAt(large, "/hrones-nelson/100", PHONE),
   async (g, page) => {
     const { left, right, top, bottom } = await boxOfCurve(page, "hrones-nelson", "43.50.1");
     for (let y = top; y < bottom && !/curve=43\.50\.1/.test(await g.fragment()); y += 5) {
       await page.touchscreen.tap((left * 2 + right) / 3, y);
-      await settled(page);
+      await waitUntilSettled(page);
     }
     assert.match(await g.fragment(), /^\/hrones-nelson\/100\?curve=/);
     assert.equal(await page.locator(".viewport.receded").count(), 1);
@@ -166,10 +166,10 @@ check(
   },
 );
 
-check(
+addTest(
   "2.7",
-  "quick: a curve of fifty is found and read within a frame or two",
-  on(large, "/hrones-nelson/100"),
+  "one of fifty curves is found and shown within two frames",
+  startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
     const took = await page.evaluate(async () => {
@@ -196,10 +196,10 @@ check(
   },
 );
 
-check(
+addTest(
   "2.8",
-  "the list beside the page leads to plates too, and brings its curves forward",
-  on(atlas, "/evans/1"),
+  "the list next to the page opens plates too, and highlights its curves",
+  startAt(atlas, "/evans/1"),
   async (g, page) => {
     const row = page.locator(".page-curves a").nth(3);
     await row.hover();
@@ -210,14 +210,14 @@ check(
   },
 );
 
-check(
+addTest(
   "2.9",
-  "what comes forward lies on what is printed",
-  on(large, "/hrones-nelson/100"),
+  "the highlighted curve lies on the printed one",
+  startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     const svg = readFileSync(join(large, "hrones-nelson/hrones-nelson-100.svg"), "utf8");
     for (const trace of [41, 45, 50]) {
-      // The first dash begins at an input of 0, as the path that comes forward does.
+      // The first dash begins at an input of 0, as that of the highlighted path does.
       const [, x, y] = svg.match(
         new RegExp(`data-cell="43" data-trace="${trace}"[\\s\\S]*?<path d="m([-\\d.]+) ([-\\d.]+)`),
       );

@@ -1,16 +1,16 @@
-// Taking away, in a browser: node tests/gallery/taking.mjs ATLAS
+// Tests the export menu in a browser: node tests/gallery/export-menu.mjs ATLAS
 //
 // ATLAS is the folder of a rendered atlas that has a family `evans`. See browser.mjs for the environment.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 
-import { contrastOf, eventually, opened, runTests } from "./browser.mjs";
-import { entitiesOf, filesOfZip, pointsOf } from "./taken.mjs";
+import { contrastOf, eventually, openGallery, runTests } from "./browser.mjs";
+import { entitiesOf, filesOfZip, pointsOf } from "./export-data.mjs";
 
 const [atlas] = process.argv.slice(2);
 
-/** Takes away by the menu of the view that is open, and returns { name, bytes, text }. */
+/** Exports by the menu of the open view, and returns { name, bytes, text }. */
 async function saved(page, label) {
   await page.click(".take-button");
   const [download] = await Promise.all([
@@ -22,16 +22,13 @@ async function saved(page, label) {
 }
 
 async function onPlate(browser, fragment, test, options) {
-  const view = await opened(browser, atlas, fragment, { acceptDownloads: true, ...options });
+  const view = await openGallery(browser, atlas, fragment, { acceptDownloads: true, ...options });
   await view.page.waitForSelector(".take-button");
   await test(view.page, view);
   await view.close();
 }
 
-/**
- * What a browser makes of an SVG: an image that can be decoded, of what size, and how much of it is not
- * paper.
- */
+/** Decodes an SVG in the browser: the size of the image, and the part of it that is not paper. */
 function looked(page, text) {
   return page.evaluate(async (svg) => {
     const parsed = new DOMParser().parseFromString(svg, "image/svg+xml");
@@ -50,7 +47,7 @@ function looked(page, text) {
 }
 
 const tests = [
-  ["6.1", "a curve is saved as every format, and each is what it says", ({ browser }) =>
+  ["6.1", "a curve is saved in every format", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
       const still = await saved(page, "SVG still");
       assert.equal(still.name, "evans-1-1-1.svg");
@@ -79,7 +76,7 @@ const tests = [
       assert.match(toml.text, /linkage = "evans"\n[\s\S]*\{ p = 2, r = 1, a = 2\.59, s = 2\.59, k = 2 \}/);
       await eventually(async () => (await page.textContent(".take-told")) === "Saved as curves.toml", "it says what it did");
     })],
-  ["6.2", "changed parameters are taken away as they are", ({ browser }) =>
+  ["6.2", "changed parameters are exported", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
       const csv = await saved(page, "CSV points");
       assert.equal(csv.name, "evans-1-1-1-p-2.5.csv");
@@ -88,7 +85,7 @@ const tests = [
       assert.equal(json.parameters.p, 2.5);
       assert.match((await saved(page, "Manifest fragment .toml")).text, /p = 2\.5, /);
     })],
-  ["6.7", "a circuit that the atlas does not have is taken away under its number among all", ({ browser }) =>
+  ["6.7", "a circuit that the atlas does not have is exported with its number among all", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
       const aside = page.getByText("The atlas does not have this circuit");
       assert.equal(await aside.isVisible(), false);
@@ -125,7 +122,7 @@ const tests = [
       const command = await page.locator(".take-copy textarea").inputValue();
       assert.match(command, /^# The atlas does not have the circuit of evans:1\.1\.1\?circuit=2\.\n[\s\S]*coupler-atlas export circuits\.toml evans-taken:1\.1\.2 --format/);
     })],
-  ["6.3", "the command line and the fragment are copied, or shown to be copied", async ({ browser }) => {
+  ["6.3", "the command line and the fragment are copied, or shown for copying", async ({ browser }) => {
     await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
       await page.click(".take-button");
       await page.getByRole("menuitem", { name: "Copy the command line" }).click();
@@ -145,7 +142,7 @@ const tests = [
       assert.equal(await page.evaluate(() => document.activeElement.className), "take-button");
     }, { before: denied });
   }],
-  ["6.4", "the menu is worked by keys, says what it is, and closes", ({ browser }) =>
+  ["6.4", "the menu is operated by keys, has a name, and closes", ({ browser }) =>
     onPlate(browser, "/evans/curve/1.1.1", async (page) => {
       const button = page.locator(".take-button");
       await button.focus();
@@ -172,7 +169,7 @@ const tests = [
       await page.mouse.click(5, 5);
       await page.waitForFunction(() => document.querySelector(".take-menu").hidden);
     })],
-  ["6.5", "the menu is in sight and legible on a narrow screen, light and dark", async ({ browser }) => {
+  ["6.5", "the menu is visible and legible on a narrow screen, light and dark", async ({ browser }) => {
     for (const colorScheme of ["light", "dark"]) {
       await onPlate(browser, "/evans/curve/1.1.1", async (page) => {
         await page.click(".take-button");
@@ -183,7 +180,7 @@ const tests = [
       }, { colorScheme, viewport: { width: 360, height: 800 } });
     }
   }],
-  ["6.6", "several curves come as an archive, and all that a filter leaves as one fragment", async ({ browser }) => {
+  ["6.6", "several curves are saved as an archive, and all results of a filter as one fragment", async ({ browser }) => {
     await onPlate(browser, "/compare?c=evans:1.1.1,evans:2.1.1", async (page) => {
       const zip = await saved(page, "DXF CAD, AutoCAD R12");
       assert.equal(zip.name, "curves.zip");

@@ -1,38 +1,38 @@
-// Light: the first view, and memory.
+// Tests the time to the first view, and memory.
 
 import assert from "node:assert/strict";
 
-import { opened } from "./browser.mjs";
-import { check, large, on } from "./desk.mjs";
+import { openGallery } from "./browser.mjs";
+import { addTest, large, startAt } from "./pages-support.mjs";
 
-check(
+addTest(
   "8.1",
-  "the first view within a second, and little memory for 7,800 curves",
+  "the first view opens within a second, and 7,800 curves need little memory",
   null,
   async ({ browser }) => {
-    // The best of three, for the machine may be busy with something else.
+    // The best of three, because the machine may be busy.
     const paints = [];
     for (let k = 0; k < 3; k += 1) {
-      const first = await opened(browser, large, "/");
+      const first = await openGallery(browser, large, "/");
       paints.push(await firstView(first.page));
       await first.close();
     }
     const painted = Math.min(...paints);
     assert.ok(painted < 1000, `drawn after ${painted.toFixed(0)} ms`);
-    const g = await opened(browser, large, "/");
+    const g = await openGallery(browser, large, "/");
     const { page } = g;
     await firstView(page);
     const memory = await memoryOf(page);
-    console.log(`     first view drawn after ${painted.toFixed(0)} ms; ${memory.told}`);
-    assert.ok(memory.bytes < 60e6, memory.told);
+    console.log(`     first view drawn after ${painted.toFixed(0)} ms; ${memory.summary}`);
+    assert.ok(memory.bytes < 60e6, memory.summary);
     await g.close();
   },
 );
 
-check(
+addTest(
   "8.2",
-  "scrolled from end to end, memory and nodes stay flat",
-  on(large, "/hrones-nelson?show=curves"),
+  "scrolling from end to end does not increase memory and nodes",
+  startAt(large, "/hrones-nelson?show=curves"),
   async (g, page) => {
     await page.waitForSelector(".window svg path");
     const before = await memoryOf(page);
@@ -53,15 +53,15 @@ check(
     const after = await memoryOf(page);
     const at = (part) => frames[Math.floor(part * (frames.length - 1))].toFixed(0);
     console.log(
-      `     frames ${at(0.5)} ms in the middle, ${at(0.95)} of 95 in 100; before ${before.told}; after ${after.told}`,
+      `     frames ${at(0.5)} ms in the middle, ${at(0.95)} of 95 in 100; before ${before.summary}; after ${after.summary}`,
     );
     assert.ok(after.nodes < before.nodes + 3000, `${after.nodes} nodes, of ${before.nodes}`);
-    assert.ok(after.bytes < before.bytes + 10e6, after.told);
-    assert.ok(after.bytes < 60e6, after.told);
+    assert.ok(after.bytes < before.bytes + 10e6, after.summary);
+    assert.ok(after.bytes < 60e6, after.summary);
   },
 );
 
-check("8.3", "the size of the data is said", on(large, "/"), async (g, page) => {
+addTest("8.3", "the size of the data is shown", startAt(large, "/"), async (g, page) => {
   assert.match(
     await page.getByRole("contentinfo").innerText(),
     /1 family · 780 pages · 7,800 curves · 6\.\d MB of data/,
@@ -69,8 +69,8 @@ check("8.3", "the size of the data is said", on(large, "/"), async (g, page) => 
 });
 
 /**
- * What a page holds after its litter is gone: { bytes, nodes, told }, the heap with the arrays that lie
- * outside of it.
+ * The memory of a page after garbage collection: { bytes, nodes, summary }; bytes include arrays outside the
+ * heap.
  */
 async function memoryOf(page) {
   const client = await page.context().newCDPSession(page);
@@ -86,11 +86,11 @@ async function memoryOf(page) {
   return {
     bytes,
     nodes,
-    told: `${mega(bytes)} MB (heap ${mega(heap)}, arrays ${mega(backingStorageSize)}, DOM ${mega(embedderHeapUsedSize)}), ${nodes} nodes`,
+    summary: `${mega(bytes)} MB (heap ${mega(heap)}, arrays ${mega(backingStorageSize)}, DOM ${mega(embedderHeapUsedSize)}), ${nodes} nodes`,
   };
 }
 
-/** Milliseconds from the beginning until the first pages are drawn from their data. */
+/** Milliseconds from the start of loading until the first pages are drawn from their data. */
 async function firstView(page) {
   await page.waitForSelector(".families .leaf path", { timeout: 20000 });
   return page.evaluate(() => performance.now());

@@ -1,15 +1,16 @@
-// Usable by everyone: names, keys, contrast, themes, motion, narrow screens, print, and whatever titles say.
+// Tests the accessibility of the pages: names, keys, contrast, themes, motion, narrow screens, print, and
+// unusual titles.
 
 import assert from "node:assert/strict";
 
-import { contrastOf, eventually, opened } from "./browser.mjs";
-import { atlas, check, on, PHONE } from "./desk.mjs";
+import { contrastOf, eventually, openGallery } from "./browser.mjs";
+import { atlas, addTest, startAt, PHONE } from "./pages-support.mjs";
 import { MARKED_TITLE, oddAtlas } from "./odd-atlas.mjs";
 
-check(
+addTest(
   "7.1",
-  "landmarks, names, one heading, titles; the skip link leads past the masthead",
-  on(atlas, "/"),
+  "pages have landmarks, names, one heading and titles; the skip link leads past the masthead",
+  startAt(atlas, "/"),
   async (g, page) => {
     for (const fragment of ["/", "/evans", "/evans/1"]) {
       await g.go(fragment);
@@ -37,10 +38,10 @@ check(
   },
 );
 
-check(
+addTest(
   "7.2",
-  "everything by Tab alone, the focus always seen, and no trap",
-  on(atlas, "/evans/1"),
+  "everything can be reached by Tab alone, with a visible focus and no trap",
+  startAt(atlas, "/evans/1"),
   async (g, page) => {
     await page.locator(".skip").focus();
     const seen = ["Skip to the content"];
@@ -81,61 +82,66 @@ check(
   },
 );
 
-check("7.3", "light and dark, as the system or as chosen, and remembered", null, async ({ browser }) => {
-  const g = await opened(browser, atlas, "/", { colorScheme: "dark" });
-  const { page } = g;
-  const theme = () =>
-    page.evaluate(() => [
-      document.documentElement.dataset.theme,
-      getComputedStyle(document.body).backgroundColor,
-    ]);
-  const dark = await theme();
-  assert.equal(dark[0], "dark");
-  await page.emulateMedia({ colorScheme: "light" });
-  await eventually(async () => (await theme())[0] === "light", "it follows the system");
-  await page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
-  assert.deepEqual(await theme(), dark);
-  // The browser stores what is to be remembered in its own time.
-  const remembered = async () => {
-    await page.reload();
-    await page.waitForSelector("main > *");
-    return (await theme())[0] === "dark";
-  };
-  await eventually(remembered, "it is remembered");
-  assert.deepEqual(await theme(), dark);
-  await page.waitForSelector(".families path");
-  const ink = await page
-    .locator(".families path")
-    .first()
-    .evaluate((path) => getComputedStyle(path).stroke);
-  await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
-  assert.notEqual(
-    await page
+addTest(
+  "7.3",
+  "the theme is that of the system or as chosen, and is remembered",
+  null,
+  async ({ browser }) => {
+    const g = await openGallery(browser, atlas, "/", { colorScheme: "dark" });
+    const { page } = g;
+    const theme = () =>
+      page.evaluate(() => [
+        document.documentElement.dataset.theme,
+        getComputedStyle(document.body).backgroundColor,
+      ]);
+    const dark = await theme();
+    assert.equal(dark[0], "dark");
+    await page.emulateMedia({ colorScheme: "light" });
+    await eventually(async () => (await theme())[0] === "light", "it follows the system");
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
+    assert.deepEqual(await theme(), dark);
+    // The browser stores settings with a delay.
+    const remembered = async () => {
+      await page.reload();
+      await page.waitForSelector("main > *");
+      return (await theme())[0] === "dark";
+    };
+    await eventually(remembered, "it is remembered");
+    assert.deepEqual(await theme(), dark);
+    await page.waitForSelector(".families path");
+    const ink = await page
       .locator(".families path")
       .first()
-      .evaluate((path) => getComputedStyle(path).stroke),
-    ink,
-    "thumbnails too",
-  );
-  await g.close();
-  const shy = await opened(browser, atlas, "/", {
-    before: (fresh) =>
-      fresh.addInitScript(() => {
-        Object.defineProperty(window, "localStorage", {
-          get: () => {
-            throw new Error("no storage from disk");
-          },
-        });
-      }),
-  });
-  await shy.page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
-  assert.equal(await shy.page.evaluate(() => document.documentElement.dataset.theme), "dark");
-  await shy.close();
-});
+      .evaluate((path) => getComputedStyle(path).stroke);
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
+    assert.notEqual(
+      await page
+        .locator(".families path")
+        .first()
+        .evaluate((path) => getComputedStyle(path).stroke),
+      ink,
+      "thumbnails too",
+    );
+    await g.close();
+    const shy = await openGallery(browser, atlas, "/", {
+      before: (fresh) =>
+        fresh.addInitScript(() => {
+          Object.defineProperty(window, "localStorage", {
+            get: () => {
+              throw new Error("no storage from disk");
+            },
+          });
+        }),
+    });
+    await shy.page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
+    assert.equal(await shy.page.evaluate(() => document.documentElement.dataset.theme), "dark");
+    await shy.close();
+  },
+);
 
-check("7.4", "contrast of WCAG AA, light and dark", null, async ({ browser }) => {
+addTest("7.4", "text has the contrast of WCAG AA, light and dark", null, async ({ browser }) => {
   for (const colorScheme of ["light", "dark"]) {
-    const g = await opened(browser, atlas, "/", { colorScheme });
+    const g = await openGallery(browser, atlas, "/", { colorScheme });
     for (const fragment of ["/", "/evans", "/evans/1?curve=1.1.1"]) {
       await g.go(fragment);
       const texts = g.page.locator("h1, h2, h3, p, dt, dd, a, button, .tag, .label, .name, span");
@@ -155,7 +161,7 @@ check("7.4", "contrast of WCAG AA, light and dark", null, async ({ browser }) =>
   }
 });
 
-check("7.5", "nothing is cut off at 360 pixels", on(atlas, "/", PHONE), async (g, page) => {
+addTest("7.5", "nothing is cut off at 360 pixels", startAt(atlas, "/", PHONE), async (g, page) => {
   for (const fragment of ["/", "/evans", "/evans/1?curve=1.1.1", "/watt?show=curves", "/evans-chart/1"]) {
     await g.go(fragment);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
@@ -164,14 +170,14 @@ check("7.5", "nothing is cut off at 360 pixels", on(atlas, "/", PHONE), async (g
   await g.go("/evans/1");
   for (const button of await page.locator(".page-bar :is(button, a):visible").all()) {
     const { width, height } = await button.boundingBox();
-    assert.ok(Math.min(width, height) >= 24, "a finger meets it");
+    assert.ok(Math.min(width, height) >= 24, "it is large enough for a finger");
   }
 });
 
-check(
+addTest(
   "7.6",
-  "no motion for who wants none",
-  on(atlas, "/evans/1", { reducedMotion: "reduce" }),
+  "nothing moves if reduced motion is preferred",
+  startAt(atlas, "/evans/1", { reducedMotion: "reduce" }),
   async (g, page) => {
     const moving = await page.evaluate(
       () =>
@@ -186,10 +192,10 @@ check(
   },
 );
 
-check(
+addTest(
   "7.7",
-  "printed: the page alone, the sheet without its frame",
-  on(atlas, "/evans/1", { colorScheme: "dark" }),
+  "in print there is only the page, and the contact sheet without its frame",
+  startAt(atlas, "/evans/1", { colorScheme: "dark" }),
   async (g, page) => {
     await page.emulateMedia({ media: "print" });
     for (const hidden of [".masthead", ".footer", ".page-bar", ".beside"])
@@ -205,10 +211,10 @@ check(
   },
 );
 
-check("7.8", "titles with markup are shown as text", null, async ({ browser }) => {
+addTest("7.8", "titles with markup are shown as text", null, async ({ browser }) => {
   const odd = oddAtlas(atlas);
   try {
-    const g = await opened(browser, odd.folder, "/");
+    const g = await openGallery(browser, odd.folder, "/");
     for (const [fragment, place] of [
       ["/", ".families .name"],
       ["/evans", "h1"],
@@ -230,18 +236,23 @@ check("7.8", "titles with markup are shown as text", null, async ({ browser }) =
   }
 });
 
-check("7.9", "a strict policy, and no style in markup", on(atlas, "/evans/1"), async (g, page) => {
-  const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute("content");
-  assert.match(policy, /default-src 'none'/);
-  assert.doesNotMatch(policy, /unsafe/);
-  const html = await page.content();
-  assert.doesNotMatch(html.replace(/<script[\s\S]*?<\/script>/g, ""), /\son\w+="/);
-});
+addTest(
+  "7.9",
+  "the page has a strict policy and no inline styles",
+  startAt(atlas, "/evans/1"),
+  async (g, page) => {
+    const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute("content");
+    assert.match(policy, /default-src 'none'/);
+    assert.doesNotMatch(policy, /unsafe/);
+    const html = await page.content();
+    assert.doesNotMatch(html.replace(/<script[\s\S]*?<\/script>/g, ""), /\son\w+="/);
+  },
+);
 
-check(
+addTest(
   "7.10",
-  "in the dark pages are turned, or as printed if that is chosen",
-  on(atlas, "/evans/1", { colorScheme: "dark" }),
+  "in the dark theme pages are inverted, or as printed if that is chosen",
+  startAt(atlas, "/evans/1", { colorScheme: "dark" }),
   async (g, page) => {
     const filter = () => page.locator(".page-sheet img").evaluate((image) => getComputedStyle(image).filter);
     assert.match(await filter(), /invert/);
@@ -255,10 +266,10 @@ check(
   },
 );
 
-check("7.11", "pages of dark paper are left alone in the dark", null, async ({ browser }) => {
+addTest("7.11", "pages on dark paper are not inverted in the dark theme", null, async ({ browser }) => {
   const odd = oddAtlas(atlas);
   try {
-    const g = await opened(browser, odd.folder, "/watt/1", { colorScheme: "dark" });
+    const g = await openGallery(browser, odd.folder, "/watt/1", { colorScheme: "dark" });
     const { page } = g;
     const of = (property) =>
       page.locator(".page-sheet img").evaluate((image, name) => getComputedStyle(image)[name], property);

@@ -1,8 +1,8 @@
-// What the page takes away, under node: node tests/gallery/take.mjs ATLAS [PROGRAM]
+// Tests the exports of the page under node: node tests/gallery/export.mjs ATLAS [PROGRAM]
 //
-// ATLAS is the folder of a rendered atlas with a gallery. With PROGRAM, the binary, what it exports of the
-// atlas's manifest (MANIFEST, in the environment) is compared too. Exit 0 with a line of what was compared, 1
-// where something is wrong.
+// ATLAS is the folder of a rendered atlas with a gallery. With PROGRAM, the binary, the exports are also
+// compared with its exports of the atlas's manifest (MANIFEST, in the environment). Exits with 0 and a line
+// of counts, or with 1 if there are differences.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -24,18 +24,19 @@ import { svgOfCurve } from "../../src/gallery/script/take/svg.js";
 import { fileStem, namedCase, takenCurve } from "../../src/gallery/script/take/taken.js";
 import { crc32OfBytes, zipOfFiles } from "../../src/gallery/script/take/zip.js";
 import { curveKey } from "../../src/gallery/script/data/family.js";
-import { compareMeasures } from "./measured.mjs";
-import { entitiesOf, familyOf, filesOfZip, pointsOf } from "./taken.mjs";
+import { compareMeasures } from "./compare-measures.mjs";
+import { entitiesOf, familyOf, filesOfZip, pointsOf } from "./export-data.mjs";
 
 const [atlas, binary] = process.argv.slice(2);
-// Run from other folders, too.
+// The tests may be run from any folder.
 const program = binary && resolve(binary);
 const here = dirname(fileURLToPath(import.meta.url));
-const told = JSON.parse(readFileSync(join(atlas, "index.html"), "utf8").match(/id="atlas">([\s\S]*?)<\/script>/)[1]);
-const measures = told.measures.map(({ name }) => name);
-// A few curves of each family: the first, the last, and some between.
+const data = JSON.parse(readFileSync(join(atlas, "index.html"), "utf8").match(/id="atlas">([\s\S]*?)<\/script>/)[1]);
+const measures = data.measures.map(({ name }) => name);
+// The number of curves tested of each family: the first, the last, and some between.
 const CURVES_OF_EACH = 6;
-// Of a place, by the size of the curve's places: the page's solver agrees with the program's so far.
+// The tolerance of a position, by the size of the curve, to which the page's solver agrees with the
+// program's.
 const PLACE = 1e-11;
 
 const seen = { beside: 0, curves: 0, rows: 0, same: 0, columns: 0, polylines: 0, circles: 0, arcs: 0, files: 0, identical: 0 };
@@ -57,9 +58,9 @@ function distanceTo(p, a, b) {
   return Math.hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
-function comparedTable(name, taken, { header, rows }) {
-  // Of further columns there is a test of their own.
-  const [own, ...lines] = csvOfCurve({ ...taken, family: { ...taken.family, columns: [] } }).trimEnd().split("\n");
+function comparedTable(name, exported, { header, rows }) {
+  // Further columns have a separate test.
+  const [own, ...lines] = csvOfCurve({ ...exported, family: { ...exported.family, columns: [] } }).trimEnd().split("\n");
   const recorded = rows.get(name.split(":")[1]);
   assert.ok(header.startsWith(own), `${name}: ${own}`);
   assert.equal(lines.length, recorded.length, name);
@@ -80,11 +81,11 @@ function comparedTable(name, taken, { header, rows }) {
   return places.filter(([x, y]) => Number.isFinite(x + y));
 }
 
-// Rates to 1e-9 of their size and of the table's: near a limit, where they grow without bounds, so does what
-// rounding makes of them.
-function comparedColumns(name, taken, { header, rows }) {
-  const family = { ...taken.family, columns: header.split(",").slice(header.split(",").indexOf("y") + 1) };
-  const [own, ...lines] = csvOfCurve({ ...taken, family }).trimEnd().split("\n").map((line) => line.split(","));
+// Compares rates to 1e-9 of their size and of the table's: near a limit rates and their rounding errors grow
+// without bounds.
+function comparedColumns(name, exported, { header, rows }) {
+  const family = { ...exported.family, columns: header.split(",").slice(header.split(",").indexOf("y") + 1) };
+  const [own, ...lines] = csvOfCurve({ ...exported, family }).trimEnd().split("\n").map((line) => line.split(","));
   const recorded = rows.get(name.split(":")[1]).map((line) => line.split(","));
   for (const column of family.columns) {
     const [mine, theirs] = [own.indexOf(column), header.split(",").indexOf(column)];
@@ -99,8 +100,8 @@ function comparedColumns(name, taken, { header, rows }) {
   }
 }
 
-function comparedDrawing(name, taken, places) {
-  const entities = entitiesOf(dxfOfCurve(taken, told.program));
+function comparedDrawing(name, exported, places) {
+  const entities = entitiesOf(dxfOfCurve(exported, data.program));
   const on = (layer) => entities.filter(({ groups }) => groups.get(8) === layer);
   const [curve, ...more] = on("CURVE");
   assert.equal(more.length, 0, name);
@@ -140,17 +141,17 @@ function comparedFamily({ id }) {
   const family = familyOf(atlas, id);
   const table = pointsOf(atlas, id);
   for (const name of namesOf(family)) {
-    const taken = takenCurve(family, name);
-    const places = comparedTable(name, taken, table);
-    comparedColumns(name, taken, table);
-    comparedDrawing(name, taken, places);
-    const json = JSON.parse(jsonOfCurve(taken, measures));
+    const exported = takenCurve(family, name);
+    const places = comparedTable(name, exported, table);
+    comparedColumns(name, exported, table);
+    comparedDrawing(name, exported, places);
+    const json = JSON.parse(jsonOfCurve(exported, measures));
     const [x, y] = ["x", "y"].map((column) => json.columns.indexOf(column));
     assert.deepEqual(json.points.map((row) => [row[x], row[y]]).filter(([x]) => x !== null), places, name);
     assert.deepEqual(Object.keys(json.measures), measures, name);
-    assertWellFormed(name, svgOfCurve(taken));
-    assert.ok(!svgOfCurve(taken).includes("<animate"), name);
-    const moving = movingSvgOfCurve(taken);
+    assertWellFormed(name, svgOfCurve(exported));
+    assert.ok(!svgOfCurve(exported).includes("<animate"), name);
+    const moving = movingSvgOfCurve(exported);
     assertWellFormed(name, moving);
     assert.ok(moving.includes("<animate") && !moving.includes("<script"), name);
     seen.curves += 1;
@@ -184,7 +185,7 @@ function testNumbersAndWords(families) {
   assert.match(fragment, /# Of evans:1\.1\.1\?p=3&M\.along=1, M\.along = 1 is for a \[\[linkage\]\]/);
 }
 
-// The fragment of everything is a manifest's own, says the program.
+// The program accepts the fragment of every family as part of a manifest.
 function testAgainstProgram(families) {
   const folder = mkdtempSync(join(tmpdir(), "taken-"));
   const names = families.filter(({ linkage }) => CATALOGUE.includes(linkage)).flatMap((family) => namesOf(family).map((name) => [family, name]));
@@ -198,8 +199,7 @@ function testAgainstProgram(families) {
   rmSync(folder, { recursive: true });
 }
 
-// Every further column there is, of every linkage of the catalogue, over all its circuits, as it is and
-// mirrored.
+// Tests every further column of every linkage of the catalogue, over all its circuits, as it is and mirrored.
 function testEveryColumn(folder, fragment) {
   const listed = execFileSync(program, ["list", "columns"], { encoding: "utf8" }).trimEnd().split("\n");
   assert.deepEqual(columnNames(), listed.map((line) => line.split(" ")[0]), "the columns");
@@ -223,8 +223,8 @@ function testEveryColumn(folder, fragment) {
   assert.deepEqual(columnNames().filter((name) => !columnsWithNumbers.has(name)), [], "columns without a number");
 }
 
-// Circuits that the atlas does not have: what the page makes of them, the program does of their fragment, by
-// the names told with it; but for those names, the same.
+// Tests circuits that the atlas does not have: the page and the program, from the exported fragment, give the
+// same results except for names.
 function testBesideAtlas(folder, families) {
   const curves = families
     .filter(({ linkage, template, curves: { count } }) => CATALOGUE.includes(linkage) && template.circuits === "start" && count > 0)
@@ -232,28 +232,28 @@ function testBesideAtlas(folder, families) {
     .filter(({ family, name }) => isThere(family, name));
   const names = namesInManifest(curves);
   writeFileSync(join(folder, "circuits.toml"), `[atlas]\ntitle = "T"\n${manifestOfCurves(curves)}`);
-  const told = commandBesideAtlas(curves.map(({ name }) => name), names).trimEnd().split("\n").at(-1).replaceAll("'", "");
-  assert.equal(told.match(/ export (.*) --format/)[1], ["circuits.toml", ...names].join(" "));
+  const command = commandBesideAtlas(curves.map(({ name }) => name), names).trimEnd().split("\n").at(-1).replaceAll("'", "");
+  assert.equal(command.match(/ export (.*) --format/)[1], ["circuits.toml", ...names].join(" "));
   execFileSync(program, ["export", "circuits.toml", ...names, "--format", "csv,json", "-o", "curves"], { cwd: folder, stdio: "ignore" });
   const beside = curves.filter(({ name }) => !name.endsWith("circuit=1"));
   assert.ok(beside.length >= 10, `${beside.length} further circuits`);
   curves.forEach(({ family, name }, k) => {
-    const taken = takenCurve(family, name);
-    assert.match(fileStem(taken), /-\d+-\d+-circuit-\d$/);
+    const exported = takenCurve(family, name);
+    assert.match(fileStem(exported), /-\d+-\d+-circuit-\d$/);
     const [cell, trace, circuit] = names[k].split(":")[1].split(".");
     const theirs = (ending) => readFileSync(join(folder, "curves", `${names[k].replace(/[:.]/g, "-")}.${ending}`), "utf8");
-    const [header, ...rows] = csvOfCurve(taken).split("\n");
+    const [header, ...rows] = csvOfCurve(exported).split("\n");
     const renamed = rows.map((row) => row.replace(/^\d+,\d+,\d+/, `${cell},${trace},${circuit}`));
     assert.ok(isAlike([header, ...renamed].join("\n"), theirs("csv")), `${name}: the table`);
     const apart = ({ helpers, measures, ...rest }) => [JSON.stringify(rest), measures];
     const renamedJson = { curve: names[k], family: names[k].split(":")[0], cell: Number(cell) };
-    const [own, ownMeasures] = apart({ ...JSON.parse(jsonOfCurve(taken, measures)), ...renamedJson });
+    const [own, ownMeasures] = apart({ ...JSON.parse(jsonOfCurve(exported, measures)), ...renamedJson });
     const [wanted, values] = apart(JSON.parse(theirs("json")));
     assert.ok(isAlike(own, wanted), `${name}: JSON`);
-    // What neither has, or is without bound, is null in both.
+    // Missing and infinite values are null in both.
     for (const word of measures) if (ownMeasures[word] === null && values[word] === null) delete values[word];
     const complain = (where, sentence) => assert.fail(`${name}: ${sentence}`);
-    const { linkage, motion, family: { straight } } = taken;
+    const { linkage, motion, family: { straight } } = exported;
     compareMeasures({ name, measures: [{ trace: Number(trace), circuit: Number(circuit), values }], straight }, linkage, motion, complain);
     seen.beside += 1;
   });
@@ -273,9 +273,9 @@ function comparedExports(folder, manifest, families) {
   execFileSync(program, ["export", manifest, ...words, "--format", "csv,dxf,json,toml", "-o", join(folder, "taken")], { stdio: "ignore" });
   const off = [];
   for (const [family, name] of [...names, [families.find(({ id }) => id === "evans"), words[words.length - 1]]]) {
-    const taken = takenCurve(family, name);
+    const exported = takenCurve(family, name);
     const stem = name.replace("?", "&").split("&").map((part, k) => (k === 0 ? part.replace(/[:.]/g, "-") : part.replace("=", "-"))).join("-");
-    const made = { csv: csvOfCurve(taken), json: jsonOfCurve(taken, measures), dxf: dxfOfCurve(taken, told.program) };
+    const made = { csv: csvOfCurve(exported), json: jsonOfCurve(exported, measures), dxf: dxfOfCurve(exported, data.program) };
     for (const [ending, mine] of Object.entries(made)) {
       const theirs = readFileSync(join(folder, "taken", `${stem}.${ending}`), "utf8");
       seen.files += 1;
@@ -287,7 +287,7 @@ function comparedExports(folder, manifest, families) {
   assert.deepEqual(off, [], "files that are not the program's");
 }
 
-// The same text but for the last digits of its numbers.
+// Whether texts are the same except for the last digits of numbers.
 function isAlike(mine, theirs) {
   const parts = (text) => text.split(/([-+]?\d+(?:\.\d+)?(?:e-?\d+)?)/);
   const [a, b] = [parts(mine), parts(theirs)];
@@ -295,7 +295,7 @@ function isAlike(mine, theirs) {
   return a.length === b.length && a.every((part, k) => part === b[k] || (k % 2 === 1 && near(Number(part), Number(b[k]))));
 }
 
-const families = told.families.filter(({ script, curves }) => script && curves > 0).map(comparedFamily);
+const families = data.families.filter(({ script, curves }) => script && curves > 0).map(comparedFamily);
 testNumbersAndWords(families);
 if (program) testAgainstProgram(families);
 console.log(Object.entries(seen).map(([what, count]) => `${count} ${what}`).join(", "));
