@@ -1,4 +1,4 @@
-// Tests Find, By shape and Compare in Chromium: node tests/gallery/finding.mjs SMALL-ATLAS LARGE-ATLAS
+// Tests Find, By shape and Compare in Chromium: node tests/gallery/search.mjs SMALL-ATLAS LARGE-ATLAS
 //
 // The first folder is an atlas of several families with "evans" and "watt" among them, the second one of
 // thousands of curves.
