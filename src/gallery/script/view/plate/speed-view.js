@@ -1,7 +1,7 @@
 // The graph of the traced point's speed over the circuit.
 
 import { pixel } from "../../draw/path-data.js";
-import { shownSpeed, speedData, speedsOfPath } from "../../draw/speed-graph.js";
+import { maxShownSpeed, speedData, speedsOfPath } from "../../draw/speed-graph.js";
 import { h, s } from "../dom.js";
 import { partOfInput, turningParts } from "./timeline.js";
 import { formatDecimals } from "./study.js";
@@ -69,7 +69,7 @@ export class SpeedView {
       while (k < path.starts.length - 1 && i >= path.starts[k + 1]) k += 1;
       parts.push(partOfInput(timeline, k, at));
     });
-    this.top = shownSpeed(speeds);
+    this.top = maxShownSpeed(speeds);
     this.unit = isLength ? "unit of input" : "radian of input";
     this.line.setAttribute("d", speedData(parts, speeds, this.top, SPEED_FRAME));
     this.limits.setAttribute(
