@@ -43,10 +43,10 @@ export const COMPARING = [
       const wide = (k) => facts["greatest x"][k] - facts["least x"][k];
       const [first, second] = await boxesSideBySide(page);
       assert.ok(Math.abs(second[2] / first[2] / (wide(1) / wide(0)) - 1) < 0.02, "as they are, at one scale");
-      await page.getByLabel("Alignment").selectOption("place");
+      await page.getByLabel("Alignment", { exact: true }).selectOption("place");
       const [a, b] = await boxesSideBySide(page);
       assert.ok(Math.abs(a[0] + a[2] / 2 - b[0] - b[2] / 2) < 1, "middles are at one place");
-      await page.getByLabel("Alignment").selectOption("size");
+      await page.getByLabel("Alignment", { exact: true }).selectOption("size");
       const [c, d] = await boxesSideBySide(page);
       assert.ok(Math.abs(Math.hypot(c[2], c[3]) / Math.hypot(d[2], d[3]) - 1) < 0.02, "sizes are alike");
       await gallery.close();
@@ -66,7 +66,7 @@ export const COMPARING = [
       await eventually(async () => (await pin.textContent()) === "Pin", "it is another curve");
       await pin.click();
       const [swing] = await page
-        .locator(".measures tr", { hasText: "swing of the output" })
+        .locator(".measures tr", { hasText: "output swing" })
         .locator("td.now")
         .allTextContents();
       // A linkage that cannot be assembled cannot be pinned.

@@ -50,7 +50,7 @@ export const FILTERING = [
       const { page } = gallery;
       const table = page.locator(".results-table");
       await eventually(async () => (await table.locator("tbody th").count()) > 15, "all are there");
-      assert.match(await table.locator("thead").innerText(), /curve\s+first input of the straight/);
+      assert.match(await table.locator("thead").innerText(), /curve\s+start input of the straight/);
       const rows = await table
         .locator("tbody tr")
         .evaluateAll((lines) => lines.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));

@@ -317,7 +317,7 @@ const tests = [
       assert.equal(strayed, 0, "letters stay in the frame");
       const deviation = async () => parseFloat(await page.locator(".deviation").first().innerText());
       const fitted = await deviation();
-      await page.getByLabel("Alignment").selectOption("none");
+      await page.getByLabel("Alignment", { exact: true }).selectOption("none");
       assert.ok((await deviation()) >= fitted);
       assert.match(await gallery.fragment(), /view=over.*align=none/);
       await page.getByRole("button", { name: "Move A back" }).click();
