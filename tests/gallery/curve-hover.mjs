@@ -41,12 +41,12 @@ addTest(
   startAt(large, "/hrones-nelson/100"),
   async (g, page) => {
     assert.ok(await pointAt(page, "hrones-nelson", "43.49.1"));
-    const beside = await page.locator(".page-panel").innerText();
-    assert.match(beside, /A\s=\s2\.00\s+B\s=\s2\.00\s+C\s=\s1\.50/);
-    assert.match(beside, /curve 43\.49\.1\s+point 49\s+crank-rocker/);
+    const panelText = await page.locator(".page-panel").innerText();
+    assert.match(panelText, /A\s=\s2\.00\s+B\s=\s2\.00\s+C\s=\s1\.50/);
+    assert.match(panelText, /curve 43\.49\.1\s+point 49\s+crank-rocker/);
     // 14.4° to 77.4° on the page itself.
-    assert.match(beside, /least transmission angle[\s\S]*14\.36°/);
-    assert.match(beside, /greatest transmission angle[\s\S]*77\.36°/);
+    assert.match(panelText, /least transmission angle[\s\S]*14\.36°/);
+    assert.match(panelText, /greatest transmission angle[\s\S]*77\.36°/);
     const term = page.locator(".page-measures dt", { hasText: "time ratio" });
     assert.match(await term.getAttribute("title"), /slower stroke to that of its faster/);
     await page.locator(".page-panel").getByRole("button", { name: "Pin" }).click();

@@ -193,7 +193,7 @@ function testAgainstProgram(families) {
   writeFileSync(join(folder, "atlas.toml"), `[atlas]\ntitle = "T"\n${fragment}`);
   execFileSync(program, ["validate"], { cwd: folder });
   testEveryColumn(folder, fragment);
-  testBesideAtlas(folder, families);
+  testFurtherCircuits(folder, families);
   const manifest = process.env.MANIFEST;
   if (manifest) comparedExports(folder, manifest, families);
   rmSync(folder, { recursive: true });
@@ -225,7 +225,7 @@ function testEveryColumn(folder, fragment) {
 
 // Tests circuits that the atlas does not have: the page and the program, from the exported fragment, give the
 // same results except for names.
-function testBesideAtlas(folder, families) {
+function testFurtherCircuits(folder, families) {
   const curves = families
     .filter(({ linkage, template, curves: { count } }) => CATALOGUE.includes(linkage) && template.circuits === "start" && count > 0)
     .flatMap((family) => [1, 2, 3].map((k) => manifestCase(family, `${namesOf(family).at(-1)}?circuit=${k}`)))
@@ -235,8 +235,8 @@ function testBesideAtlas(folder, families) {
   const command = extraCircuitsCommand(curves.map(({ name }) => name), names).trimEnd().split("\n").at(-1).replaceAll("'", "");
   assert.equal(command.match(/ export (.*) --format/)[1], ["circuits.toml", ...names].join(" "));
   execFileSync(program, ["export", "circuits.toml", ...names, "--format", "csv,json", "-o", "curves"], { cwd: folder, stdio: "ignore" });
-  const beside = curves.filter(({ name }) => !name.endsWith("circuit=1"));
-  assert.ok(beside.length >= 10, `${beside.length} further circuits`);
+  const further = curves.filter(({ name }) => !name.endsWith("circuit=1"));
+  assert.ok(further.length >= 10, `${further.length} further circuits`);
   curves.forEach(({ family, name }, k) => {
     const exported = solveNamedCurve(family, name);
     assert.match(fileStem(exported), /-\d+-\d+-circuit-\d$/);

@@ -91,7 +91,7 @@ const TESTS = [
       const first = await firefox.evaluate(input);
       await firefox.eventually(
         (was) => document.querySelector(".input-now").textContent !== was,
-        "it stands still",
+        "it does not move",
         first,
       );
       await firefox.evaluate(() => {
@@ -112,7 +112,7 @@ const TESTS = [
         field.select();
       });
       await firefox.keys("2.5\uE007");
-      await firefox.eventually(() => window.location.hash.endsWith("?p=2.5"), "the parameter is not taken");
+      await firefox.eventually(() => window.location.hash.endsWith("?p=2.5"), "the parameter is not applied");
       assert.notEqual(
         await firefox.evaluate(() => document.querySelector(".dashes").getAttribute("d")),
         path,

@@ -19,10 +19,10 @@ const evans = ([p, r, a, s, k]) => ({
   trace: [4],
 });
 
-function measured(template, joint, sampling = { step: 2 }, asked = {}) {
+function measured(template, joint, sampling = { step: 2 }, options = {}) {
   const linkage = linkageOf(template, []);
   const motion = motionOf(linkage, sampling);
-  return { linkage, motion, found: measuresOf(linkage, motion, motion.circuits[0], joint, asked) };
+  return { linkage, motion, found: measuresOf(linkage, motion, motion.circuits[0], joint, options) };
 }
 
 const close = (a, b, tolerance, what) =>

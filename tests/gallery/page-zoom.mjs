@@ -113,7 +113,7 @@ addTest("1.8", "two fingers zoom in", startAt(large, "/hrones-nelson/5", PHONE),
   await touch("touchStart", 30);
   for (let apart = 32; apart <= 90; apart += 4) await touch("touchMove", apart);
   await touch("touchEnd", null);
-  await eventually(async () => (await zoomPercent(page)) > 250, "two fingers bring the page nearer");
+  await eventually(async () => (await zoomPercent(page)) > 250, "two fingers zoom in");
 });
 
 addTest(
@@ -121,21 +121,21 @@ addTest(
   "the centre of the view is kept when the window is resized, and on the next page",
   startAt(large, "/hrones-nelson/123?zoom=20.00&at=200.0,120.0"),
   async (g, page) => {
-    const asked = async () => {
+    const zoomInAddress = async () => {
       const [, zoom, x, y] = (await g.fragment()).match(/zoom=([\d.]+)&at=([\d.]+),([\d.]+)/) ?? [];
       return [zoom, x, y].map(Number);
     };
     await page.setViewportSize({ width: 1024, height: 700 });
-    await eventually(async () => Math.abs((await asked())[0] - 20) > 1, "the address says how near it is");
-    const [zoom, x, y] = await asked();
+    await eventually(async () => Math.abs((await zoomInAddress())[0] - 20) > 1, "the address has the zoom");
+    const [zoom, x, y] = await zoomInAddress();
     assert.ok(zoom <= 32, "no nearer than can be");
     assert.ok(Math.hypot(x - 200, y - 120) < 0.25, `the middle is at ${x}, ${y}`);
     await page.keyboard.press("n");
     await eventually(
       async () => (await g.fragment()).startsWith("/hrones-nelson/124?zoom="),
-      "the address of the next page is as near",
+      "the address of the next page has the same zoom",
     );
-    assert.deepEqual(await asked(), [zoom, x, y]);
+    assert.deepEqual(await zoomInAddress(), [zoom, x, y]);
   },
 );
 

@@ -19,7 +19,7 @@ export const MOTION = [
       await page.waitForTimeout(200);
       assert.equal(await inputNow(page), paused);
       await page.keyboard.press("Space");
-      await eventually(async () => (await inputNow(page)) !== paused, "it does not go on");
+      await eventually(async () => (await inputNow(page)) !== paused, "it does not continue");
       await plate.close();
     },
   ],

@@ -22,7 +22,7 @@ export const PARAMETERS = [
       assert.match(
         await page.locator(".sliders > .note").innerText(),
         /^frame p, crank r,/,
-        "letters are told",
+        "invalid text is reported",
       );
       const before = await page.locator(".dashes").getAttribute("d");
       await sliderOf(page, "p").fill("2.5");

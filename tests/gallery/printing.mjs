@@ -102,19 +102,19 @@ export const PRINTING = [
     "7.k",
     "the curves are printed within the edges of the paper, the controls are not",
     async ({ browser }) => {
-      for (const [room, there, gone] of [
+      for (const [address, there, gone] of [
         ["/find?family=evans,watt", ".results > li", ".find-panel, .export, .toolbar"],
         ["/find?show=table&family=evans", ".results-table", ".find-panel, .results-table .pin"],
         ["/shape?like=evans:2.1.1", ".matches > li", ".shape-options, .acts, textarea"],
         ["/compare?c=evans:1.1.1,watt:2.1.1", ".pinned-tiles > li", ".acts, .toolbar"],
       ]) {
-        const gallery = await openGallery(browser, small, room, { colorScheme: "dark" });
+        const gallery = await openGallery(browser, small, address, { colorScheme: "dark" });
         const { page } = gallery;
         await page.locator(there).first().waitFor({ timeout: 20000 });
         await page.emulateMedia({ media: "print" });
-        assert.equal(await page.locator(gone).filter({ visible: true }).count(), 0, room);
-        assert.ok(await page.locator(there).first().isVisible(), room);
-        assert.deepEqual(await strayedOnPaper(page), [], room);
+        assert.equal(await page.locator(gone).filter({ visible: true }).count(), 0, address);
+        assert.ok(await page.locator(there).first().isVisible(), address);
+        assert.deepEqual(await strayedOnPaper(page), [], address);
         await gallery.close();
       }
     },

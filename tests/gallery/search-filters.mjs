@@ -16,7 +16,7 @@ export const FILTERING = [
       const gallery = await openGallery(browser, small, "/find?mu_worst_deg=60..&class=drag-link");
       const { page } = gallery;
       const message = () => page.locator(".found").innerText();
-      await eventually(async () => /No curve passes/.test(await message()), "it is told");
+      await eventually(async () => /No curve passes/.test(await message()), "it is reported");
       assert.equal(await counted(page), "0 of 323 curves");
       const without = page.getByRole("button", { name: /^Remove class: / });
       const left = (await without.innerText()).match(/(\d+) curves?$/)[1];

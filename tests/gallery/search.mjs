@@ -335,19 +335,19 @@ const tests = [
     "no view overflows a narrow screen, light or dark",
     async ({ browser }) => {
       for (const colorScheme of ["light", "dark"]) {
-        for (const room of [
+        for (const address of [
           "/find",
           "/find?show=table",
           "/shape?like=evans:2.1.1",
           "/compare?c=evans:2.1.1,watt:3.1.1&view=over",
         ]) {
-          const gallery = await openGallery(browser, small, room, {
+          const gallery = await openGallery(browser, small, address, {
             viewport: { width: 360, height: 800 },
             colorScheme,
           });
           await gallery.page.waitForTimeout(500);
           const wide = await gallery.page.evaluate(() => document.documentElement.scrollWidth);
-          assert.ok(wide <= 360, `${room}: ${wide} wide`);
+          assert.ok(wide <= 360, `${address}: ${wide} wide`);
           const unnamed = await gallery.page.evaluate(() =>
             [...document.querySelectorAll("main :is(button, input, select, textarea, [role=slider])")]
               .filter(
