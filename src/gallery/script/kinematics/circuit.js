@@ -13,16 +13,16 @@ import { wrapIntoSpan } from "./span.js";
 export function findCircuits(linkage) {
   const { intervals, shortfall: reason } = findIntervals(linkage);
   const { travel } = linkage;
-  let wanted = intervals.map((_, k) => k);
+  let selected = intervals.map((_, k) => k);
   let shortfall = intervals.length === 0 ? reason : null;
   if (travel.circuits !== "all") {
     const found = startInterval(linkage, intervals);
-    wanted = found.interval === undefined ? [] : [found.interval];
+    selected = found.interval === undefined ? [] : [found.interval];
     if (found.reason) shortfall = reason ?? found.reason;
   }
   const seen = new Set();
   const routes = [];
-  for (const interval of wanted) {
+  for (const interval of selected) {
     if (!seen.has(interval)) routes.push(traceCircuit(linkage, intervals, interval, seen));
   }
   if (travel.range && shortfall === null) {
@@ -140,14 +140,14 @@ function nextInterval({ travel }, intervals, { interval, rising }) {
 }
 
 // The passes with a continuous input, started where a circuit starts.
-function normalizePasses(passes, closed, asked, period) {
+function normalizePasses(passes, closed, isRequestedRange, period) {
   const turns = passes.some((pass) => inputDirection(pass) !== inputDirection(passes[0]));
   let best = null;
   for (const way of [passes, [...passes].reverse().map(reversedPass)]) {
     const direction = closed && !turns ? cutAtZero(way, period) : way;
     for (let start = 0; start < (closed ? direction.length : 1); start++) {
       const rotated = [...direction.slice(start), ...direction.slice(0, start)];
-      const candidate = makeContinuous(joinPasses(rotated), turns, asked, period);
+      const candidate = makeContinuous(joinPasses(rotated), turns, isRequestedRange, period);
       const fallsFirst =
         inputDirection(candidate[0]) < 0 && candidate.some((pass) => inputDirection(pass) > 0);
       if (closed && fallsFirst) continue;
@@ -190,7 +190,7 @@ function joinPasses(passes) {
 // Shifts passes by whole turns so that each begins where the one before ends, and the whole lies where it
 // should: the middle of a rocking circuit in (-180, 180], the start of a turning one in the first period, a
 // requested range as given.
-function makeContinuous(passes, turns, asked, period) {
+function makeContinuous(passes, turns, isRequestedRange, period) {
   const out = [passes[0]];
   for (const pass of passes.slice(1)) {
     const gap = out[out.length - 1].to - pass.from;
@@ -198,7 +198,8 @@ function makeContinuous(passes, turns, asked, period) {
   }
   const [low, high] = inputRangeOfPasses(out);
   let whole = 0;
-  if (!asked && (turns || high - low < period)) whole = Math.floor(0.5 - (low + high) / (2 * period));
-  else if (!asked) whole = -Math.floor(out[0].from / period);
+  if (!isRequestedRange && (turns || high - low < period))
+    whole = Math.floor(0.5 - (low + high) / (2 * period));
+  else if (!isRequestedRange) whole = -Math.floor(out[0].from / period);
   return out.map((pass) => shiftedPass(pass, whole * period));
 }

@@ -19,29 +19,29 @@ export function extentFromBaseLength(onArm, toFixed, [low, high]) {
   return {
     towards: directionQuotient(toFixed, onArm),
     extent: [nearest, furthest],
-    room: [nearest - low, high - furthest],
-    // Differences of squares are taken apart: exact factors, and accurate when small.
+    margins: [nearest - low, high - furthest],
+    // Differences of squares are factored: the factors are exact, and the product is accurate when small.
     versines: [low, isFinite ? high : furthest].map((bound) => [
       ((bound - nearest) * (bound + nearest)) / product,
       ((furthest - bound) * (furthest + bound)) / product,
     ]),
-    hope: [high - nearest, furthest - low],
+    overlaps: [high - nearest, furthest - low],
     tolerance,
     mayVanish: nearest <= tolerance,
   };
 }
 
-/** `beside` less the projection of an arm on a fixed direction, both [x, y]. */
-export function extentFromProjection(onArm, normal, beside, [low, high]) {
+/** `offset` less the projection of an arm on a fixed direction, both [x, y]. */
+export function extentFromProjection(onArm, normal, offset, [low, high]) {
   const arm = vectorLength(onArm);
-  const [least, greatest] = [beside - arm, beside + arm];
+  const [least, greatest] = [offset - arm, offset + arm];
   return {
     towards: directionQuotient(normal, onArm),
     extent: [least, greatest],
-    room: [least - low, high - greatest],
+    margins: [least - low, high - greatest],
     versines: [low, high].map((bound) => [(bound - least) / arm, (greatest - bound) / arm]),
-    hope: [high - least, greatest - low],
-    tolerance: lengthTolerance(Math.abs(beside) + arm + high),
+    overlaps: [high - least, greatest - low],
+    tolerance: lengthTolerance(Math.abs(offset) + arm + high),
     mayVanish: false,
   };
 }
@@ -51,8 +51,8 @@ export function extentFromProjection(onArm, normal, beside, [low, high]) {
  * lengths with a sum of lengths; equal within their rounding, they make a change point.
  */
 export function closedFormSpans(swing, dyad, nextId) {
-  if (swing.hope.some((hope) => hope <= swing.tolerance)) return [];
-  const [fold, stretch] = swing.room.map((room) => boundState(room, swing.tolerance));
+  if (swing.overlaps.some((overlap) => overlap <= swing.tolerance)) return [];
+  const [fold, stretch] = swing.margins.map((margin) => boundState(margin, swing.tolerance));
   // The smaller of 1 - cos and 1 + cos is the exact one, and both make the sine.
   const direction = ([minus, plus]) => [
     minus < plus ? 1 - minus : plus - 1,
@@ -109,9 +109,9 @@ function inputOfExtent({ towards: [tx, ty] }, cos, sin) {
 
 // Whether a dyad can pass the shortest or the longest its base can be: where it is touched it lies flat, and
 // can.
-function boundState(room, tolerance) {
-  if (Math.abs(room) <= tolerance) return "touched";
-  return room > 0 ? "open" : "shut";
+function boundState(margin, tolerance) {
+  if (Math.abs(margin) <= tolerance) return "touched";
+  return margin > 0 ? "open" : "shut";
 }
 
 function vectorLength([x, y]) {

@@ -76,9 +76,9 @@ export function fixedFrameDerivatives(linkage, stop, signs, flat, inwards, terms
   return all.map(({ x, y }) => ({ x: x.slice(0, TERMS_TO_JERK), y: y.slice(0, TERMS_TO_JERK) }));
 }
 
-// How a dyad's joint stands off from where it is when the dyad lies flat: where to, along a slider's line or
-// square to a base of any length; the square of how far, in lengths of that; and the size of the terms that
-// the square is made of.
+// The offset of a dyad's joint from its flat position: its direction, along a slider's line or square to a
+// base of any length; the square of its length, in lengths of that direction; and the size of the terms that
+// the square is computed from.
 function dyadHeight(step, at, terms) {
   const squareTo = ([p, q]) => {
     const base = planarDifference(at[q], at[p]);

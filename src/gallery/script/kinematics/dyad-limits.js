@@ -31,7 +31,7 @@ export function closingSpans(linkage, index, span, signs, nextId) {
 function dyadOf(linkage, index) {
   const joint = linkage.joints.findIndex(({ step }) => step.index === index && step.kind !== "directed");
   const { step } = linkage.joints[joint];
-  // Whether its joint has no place of its own where its base vanishes: it goes on as it comes there.
+  // Whether its joint is not determined where its base vanishes: it is placed by continuity there.
   const vanishes = step.kind === "dyad" || (step.kind === "slot" && step.offset === 0);
   const dyad = { joint, index, step, bounds: boundsOfStep(step), vanishes };
   return { ...dyad, swing: swingOfDyad(linkage, dyad) };
@@ -91,8 +91,8 @@ function swingOfSlide({ from, line, offset }, bounds, frame, arm, pivot) {
   const [dx, dy] = [q.x - p.x, q.y - p.y];
   const d = Math.sqrt(dx * dx + dy * dy);
   const [ux, uy] = [dx / d, dy / d];
-  const beside = offset - (ux * (pivot.y - p.y) - uy * (pivot.x - p.x));
-  return extentFromProjection([onArm.x, onArm.y], [-uy, ux], beside, bounds);
+  const distance = offset - (ux * (pivot.y - p.y) - uy * (pivot.x - p.x));
+  return extentFromProjection([onArm.x, onArm.y], [-uy, ux], distance, bounds);
 }
 
 /** Why a linkage is not assembled if its positions, or their squares, overflow. */

@@ -5,7 +5,7 @@
 // to one dyad, and has one number by which the intervals that meet there are recognised.
 //
 // An end is { at, cos, sin, cause, flat, flips, bound, id }: the input; its cause, "limit" where a dyad is
-// extended or folded and the motion cannot continue, "change" where it can, or "asked" where the requested
+// extended or folded and the motion cannot continue, "change" where it can, or "range" where the requested
 // range ends; the dyads that lie flat; those of them that change sides when the motion continues smoothly;
 // those that must, because their bases vanish. A span is { lower, upper }, two ends at most a period apart,
 // or both null: the whole period.
@@ -25,7 +25,7 @@ export function intervalEnd({ span }, rising) {
  * whether the input then rises; null where the motion ends.
  */
 export function nextMode(end, signs, rising, { coincident, continuation }) {
-  if (end.cause === "asked") return null;
+  if (end.cause === "range") return null;
   if (end.cause === "change" && continuation === "branch") return { signs: signs ^ end.bound, rises: rising };
   let flips = end.flips;
   if (coincident === "first") flips = firstDyad(flips) | end.bound;
@@ -60,10 +60,10 @@ export function findIntervals(linkage) {
 
 // The whole range of the input that is requested.
 function requestedSpan({ input, travel: { range } }) {
-  const asked = (at, id) => rangeEnd(inputPosition(input, at), id);
+  const endAt = (at, id) => rangeEnd(inputPosition(input, at), id);
   if (range && range[1] - range[0] < input.period)
-    return { lower: asked(range[0], 0), upper: asked(range[1], 1) };
-  if (input.isLength) return { lower: asked(0, 0), upper: asked(Number.MAX_VALUE / 16, 1) };
+    return { lower: endAt(range[0], 0), upper: endAt(range[1], 1) };
+  if (input.isLength) return { lower: endAt(0, 0), upper: endAt(Number.MAX_VALUE / 16, 1) };
   return { lower: null, upper: null };
 }
 

@@ -77,7 +77,7 @@ function extentsAt({ linkage, dyad, span, signs, pass }, ats) {
   const columns = newPositions(linkage.joints.length, ats.length);
   placeJoints(linkage, [0, dyad.joint], inputs, dyadSigns(signs, 0, linkage.dyads), columns, 0, ats.length);
   ats.forEach((at, i) => {
-    // Where the base of an earlier dyad vanishes, this one hangs on what goes on there.
+    // Where the base of an earlier dyad vanishes, this one depends on joints placed by continuity.
     if (span.lower && pass.from === at) placeAtEnd(linkage, pass, true, inputs, columns, i);
     if (span.lower && pass.to === at) placeAtEnd(linkage, pass, false, inputs, columns, i);
   });
@@ -92,10 +92,11 @@ function extentOfColumns({ kind, base, from, line, offset }, { x, y }, i) {
   return offset - ((dx / d) * (y[from][i] - y[p][i]) - (dy / d) * (x[from][i] - x[p][i]));
 }
 
-// What is left to stretch or to fold, whichever is less; negative where the dyad does not close.
+// The margin of an extent within its bounds: its distance from the nearer one; negative where the dyad does
+// not close.
 function extentMargin({ bounds: [low, high] }, extent) {
-  const room = Math.min(high - extent, extent - low);
-  return Number.isNaN(room) ? -1 : room;
+  const margin = Math.min(high - extent, extent - low);
+  return Number.isNaN(margin) ? -1 : margin;
 }
 
 function marginAt(search, at) {
@@ -122,7 +123,7 @@ function toleranceOf({ bounds: [low, high] }, extents) {
 function bracketLimits(search) {
   const inputs = scanInputs(search);
   const extents = extentsAt(search, inputs);
-  const rooms = extents.map((extent) => extentMargin(search.dyad, extent));
+  const margins = extents.map((extent) => extentMargin(search.dyad, extent));
   const [turning, touched] = [[], []];
   const last = inputs.length - 1;
   for (let i = 0; i <= last; i++) {
@@ -130,9 +131,9 @@ function bracketLimits(search) {
     if (isSeam && search.span.lower) continue;
     // On a whole turn the first input is the last: the extent may turn on either side of it.
     const [before, after] = i === 0 ? [last - 1, 1] : i === last ? [last - 1, 1] : [i - 1, i + 1];
-    if (!mayCross(rooms[before], rooms[i], rooms[after], search.tolerance)) continue;
+    if (!mayCross(margins[before], margins[i], margins[after], search.tolerance)) continue;
     const bracket = [i === 0 ? 0 : inputs[i - 1], i === last ? inputs[last] : inputs[i + 1]];
-    const found = inspectBracket(search, bracket, rooms[i] >= -search.tolerance, isSeam);
+    const found = inspectBracket(search, bracket, margins[i] >= -search.tolerance, isSeam);
     if (found?.turning !== undefined) turning.push(found.turning);
     if (found?.touch !== undefined) touched.push(found.touch);
   }
@@ -156,8 +157,8 @@ function scanInputs({ linkage, span, ends: [from, to] }) {
   );
 }
 
-// Whether the room, least at an open place among three or greatest at a shut one, may change its sign beside
-// it.
+// Whether the margin may change its sign next to the middle one of three inputs, where it is least among them
+// if the dyad closes there, or greatest if it does not.
 function mayCross(before, here, after, tolerance) {
   const isOpen = here >= -tolerance;
   if (before >= -tolerance !== isOpen || after >= -tolerance !== isOpen) return false;
@@ -170,18 +171,18 @@ function mayCross(before, here, after, tolerance) {
 // What a bracket hides: a dip or a rise that passes a bound, or one that touches it.
 function inspectBracket(search, [from, to], isOpen, isSeam) {
   const sign = isOpen ? 1 : -1;
-  // Near where a bound is touched the room is as flat as its rounding: the rate determines the place.
+  // Near where a bound is touched the margin varies by less than its rounding: its rate gives the input.
   const level = stationaryInput(search, from, to);
   if (level === null && isSeam) return null;
   const at = level ?? goldenSectionMinimum(from, to, (input) => sign * marginAt(search, input));
-  const room = marginAt(search, at);
-  if (isOpen ? room < -search.tolerance : room >= -search.tolerance) return { turning: at };
-  // On both sides of a touch the room grows; where it does not, the extent lies along the bound.
+  const margin = marginAt(search, at);
+  if (isOpen ? margin < -search.tolerance : margin >= -search.tolerance) return { turning: at };
+  // On both sides of a touch the margin grows; where it does not, the extent stays at the bound.
   const [start, end] = search.ends;
   const aside = 1e-5 * (end - start);
   const grows = (input) => start <= input && input <= end && marginAt(search, input) > 100 * search.tolerance;
   const isTouch =
-    isOpen && level !== null && room <= search.tolerance && grows(at - aside) && grows(at + aside);
+    isOpen && level !== null && margin <= search.tolerance && grows(at - aside) && grows(at + aside);
   return isTouch ? { touch: at } : null;
 }
 
@@ -245,14 +246,14 @@ function joinArcs(search, arcs) {
   return arcs.map(([lower, upper]) => (lower && upper ? { lower, upper } : { lower: null, upper: null }));
 }
 
-// The end of the span, where this dyad lies flat too if there is no room left.
+// The end of the span, where this dyad lies flat too if its margin is zero.
 function endOfSpan(search, end) {
   const [extent] = extentsAt(search, [end.at]);
-  if (end.cause === "asked" || Math.abs(extentMargin(search.dyad, extent)) > search.tolerance) return end;
+  if (end.cause === "range" || Math.abs(extentMargin(search.dyad, extent)) > search.tolerance) return end;
   return endWithFlatDyad(end, search.dyad.index, search.dyad.vanishes && extent <= search.tolerance);
 }
 
-// The spans with the one that an end lies inside of parted there.
+// The spans, of which the one that contains an end is split there.
 function splitSpans(spans, end, { period }) {
   return spans.flatMap((span) => {
     if (!span.lower) return [{ lower: end, upper: shiftedEnd(end, period) }];

@@ -35,12 +35,12 @@ function settleFlatJoints(pose) {
     const isFlat = step.index !== undefined && ((end.flat >> step.index) & 1) === 1;
     let place = null;
     if (isFlat && step.kind === "dyad") place = flatDyad(pose, step);
-    // A slot without offset whose joint is on its pivot: the line goes on as it comes.
+    // A slot without offset whose joint is on its pivot: the line keeps its direction.
     else if (isFlat && step.kind === "directed" && step.lineIs === "turned") place = vanishedLine(pose, step);
     if (place) {
       [columns.x[id][sample], columns.y[id][sample]] = place;
     } else {
-      // What hangs on a joint that was placed here is placed anew.
+      // Joints that depend on one placed here are placed again.
       placeJoints(linkage, [id, id + 1], inputs, modes, columns, sample, sample + 1);
     }
   });

@@ -42,7 +42,7 @@ export function inputPosition(input, at) {
 
 /** The angle in degrees of a crank geared to the input. */
 export function gearedAngle(at, [turns, of], phase) {
-  // Whole periods are taken off first: the ratio of what is left is the more exact.
+  // Whole periods are subtracted first: the ratio of what is left is the more exact.
   return ((at % (360 * of)) * turns) / of + phase;
 }
 

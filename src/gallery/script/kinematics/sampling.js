@@ -163,7 +163,7 @@ function fullPeriod(sampler, input) {
 function cumulativeLengths(linkage, sampler, passes) {
   if (sampler.spacing !== "arc" || linkage.traced.length === 0) return [];
   const mileages = passes.map((pass) => cumulativeLength(linkage, pass, linkage.traced[0]));
-  // A joint that does not does not move has no length: the input is used then.
+  // The path of a joint that does not move has no length: the input is used then.
   return mileages.every(({ whole }) => whole > 0) ? mileages : [];
 }
 

@@ -4,7 +4,7 @@ import { remainderOf } from "./angles.js";
 
 /** An end of the requested range, at an input { at, cos, sin }. */
 export function rangeEnd({ at, cos, sin }, id) {
-  return { at, cos, sin, cause: "asked", flat: 0, flips: 0, bound: 0, id };
+  return { at, cos, sin, cause: "range", flat: 0, flips: 0, bound: 0, id };
 }
 
 /** An end where one dyad lies flat. */
@@ -37,7 +37,7 @@ function isOneInput(a, b, input) {
 // Two ends at one input. Where one of them is a limit the motion turns round, and the dyads that would have
 // gone on keep their sides.
 function mergedEnds(a, b) {
-  const isOther = a.cause === "asked" || (b.cause === "limit" && a.cause === "change");
+  const isOther = a.cause === "range" || (b.cause === "limit" && a.cause === "change");
   const { cause, flips } = isOther ? b : a;
   const together = a.cause === b.cause ? a.flips | b.flips : flips;
   return { ...a, cause, flips: together, flat: a.flat | b.flat, bound: a.bound | b.bound };

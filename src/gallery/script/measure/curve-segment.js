@@ -210,7 +210,7 @@ function firstBeyond(row, first, last, value) {
   return low;
 }
 
-// Where a function goes from below nothing to nothing or more between two places: by secants that keep it
+// Where a function changes from negative to zero or positive between two places: by secants that keep it
 // between them.
 function placeOfValue(from, to, f) {
   let [low, high, below, above] = [from, to, f(from), f(to)];

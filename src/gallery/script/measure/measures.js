@@ -18,14 +18,14 @@ import { outputSwing, timeRatio, transmissionRange } from "./transmission.js";
  * The measures of a joint's curve on a circuit, { name: number | string }; those that do not apply are
  * absent.
  *
- * @param asked { straight: { tolerance | input | length }, portions }: the criterion of the straight portion (a
- *   tolerance of 0.001 by default); with `portions` false the straight and the circular portion are left out,
+ * @param options { straight: { tolerance | input | length }, portions }: the criterion of the straight portion
+ *   (a tolerance of 0.001 by default); with `portions` false the straight and the circular portion are left out,
  *   which take most of the time
  */
-export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
+export function measuresOf(linkage, motion, circuit, joint, options = {}) {
   const tracedCurve = tracedCurveOf(linkage, motion, circuit, joint);
   const { curve } = tracedCurve;
-  const portions = asked.portions === false ? {} : portionMeasures(tracedCurve, asked.straight ?? {});
+  const portions = options.portions === false ? {} : portionMeasures(tracedCurve, options.straight ?? {});
   const found = {
     ...fourBarMeasures(tracedCurve),
     ...inputMeasures(circuit),
@@ -115,11 +115,11 @@ function symmetryMeasures(tracedCurve) {
   };
 }
 
-// Portions are looked for along a segment; curves that have no place at most of their samples have none.
-function portionMeasures({ curve }, asked) {
+// The straight and the circular portion; curves without a position at most of their samples have none.
+function portionMeasures({ curve }, criterion) {
   if (curve.count < 5) return {};
   const segment = wholeCurve(curve);
-  const straight = straightPortion(segment, asked);
+  const straight = straightPortion(segment, criterion);
   const dwell = circularPortion(segment);
   const found = {};
   if (straight) {

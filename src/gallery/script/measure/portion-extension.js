@@ -46,8 +46,7 @@ export function extendPortion(segment, ends, beginning) {
 }
 
 // The furthest end, of those between two, up to which a portion fits, and its size there, { end, size };
-// where none does, the end at which it fits best, and for its size by how much it does not, less than
-// nothing.
+// where none does, the end at which it fits best, with a negative size: by how much it does not fit.
 function furthestFittingEnd(near, [from, to], fit) {
   let [low, high] = [from, to];
   let first = fit(low);

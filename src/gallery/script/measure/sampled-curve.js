@@ -104,7 +104,7 @@ function arcAfter(curve, i) {
   const next = neighbourSample(curve, i, 1);
   const chord = chordLengthAfter(curve, i);
   const bend = (curve.curvatures[i] + curve.curvatures[next]) / 2;
-  // The sine of half the arc's angle. Where the samples are too far apart for their bend, at a cusp, the
+  // The sine of half the arc's angle. Where the samples are too far apart for the curvature, at a cusp, the
   // chord does.
   const sine = (bend * chord) / 2;
   if (Math.abs(sine) > 0.5 || chord === 0) return { length: chord, area: 0 };

@@ -142,10 +142,10 @@ export function maxCurvature(tracedCurve, cusps) {
   const sample = curve.samples[sharpest];
   let [a, b] = neighbourInputs(tracedCurve, sample);
   const here = circuit.input[sample];
-  // At a limit the path bends as it does elsewhere, but its rates do not give the curvature.
+  // At a limit the path is as smooth as elsewhere, but its rates do not give the curvature.
   if (limits.some((at) => Math.abs(at - here) <= Math.abs(b - a))) return maxCurvatureNear(curve, sharpest);
   const at = (input) => speedAndCurvature(tracedCurve, sample, input)[1];
-  // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.
+  // To a thousandth of the way between samples: near its maximum the curvature changes little.
   for (let round = 0; round < 18; round++) {
     const [c, d] = [a + (b - a) / 3, b - (b - a) / 3];
     if (at(c) > at(d)) b = d;

@@ -27,23 +27,27 @@ import { extendPortion } from "./portion-extension.js";
 import { straightestEnds } from "./straightest.js";
 import { triangleHeight, enclosingStrip, stripByExchange } from "./strip.js";
 
-// How often a portion of few points is looked for again among many, and how few say little.
+// How often a portion of few points is searched again with more points, and how few are too few.
 const STRAIGHT_DEPTH = 4;
 const FEW_POINTS = 8;
-// What fits only between two points is found by asking the points for a little less.
+// What fits only between two points is found among the points by a slightly looser requirement.
 const LOOSER_PART = 1.02;
 
 /**
  * The straight portion of a segment by a criterion { tolerance | input | length }: { length, deviation,
  * start, input, x, y }, with its points; null if there is none so long.
  */
-export function straightPortion(segment, asked) {
+export function straightPortion(segment, criterion) {
   let ends;
-  if (asked.input !== undefined) {
-    ends = straightestEnds(segment, (from, isRough) => endAfterInput(segment, from, asked.input, isRough));
-  } else if (asked.length !== undefined) {
-    ends = straightestEnds(segment, (from, isRough) => endAfterLength(segment, from, asked.length, isRough));
-  } else ends = longestPortion({ segment, tolerance: asked.tolerance ?? 0.001, least: 1 });
+  if (criterion.input !== undefined) {
+    ends = straightestEnds(segment, (from, isRough) =>
+      endAfterInput(segment, from, criterion.input, isRough),
+    );
+  } else if (criterion.length !== undefined) {
+    ends = straightestEnds(segment, (from, isRough) =>
+      endAfterLength(segment, from, criterion.length, isRough),
+    );
+  } else ends = longestPortion({ segment, tolerance: criterion.tolerance ?? 0.001, least: 1 });
   if (!ends) return null;
   const { x, y } = portionPoints(segment, ends);
   const { width, length } = enclosingStrip(x, y, 0, x.length);
@@ -71,8 +75,8 @@ function longestPortion(search) {
   const byPoints = longestBetweenPoints(search, LOOSER_PART);
   if (!byPoints) return flattest()?.ends ?? null;
   const { ends: found, width } = byPoints;
-  // So few points say little: they may only be far apart. Likelier is a portion where the curve is flattest,
-  // or one of more points that is shorter than those seem.
+  // So few points are no evidence: they may only be far apart. Likelier is a portion where the curve is
+  // flattest, or one of more points that is shorter than those seem.
   if (found[1] - found[0] < FEW_POINTS) {
     const byMore = longestBetweenPoints({ ...search, least: FEW_POINTS }, LOOSER_PART);
     const more = byMore && refinePortion(search, byMore.ends, STRAIGHT_DEPTH);
@@ -121,7 +125,7 @@ function longestAround(search, point) {
 // The points at the ends of the longest portion, for a part of the tolerance, and the width no portion may
 // have more of.
 function longestBetweenPoints({ segment, tolerance, least }, part) {
-  // The sooner something long is found, the less has to be looked at: first from points so far apart.
+  // The sooner a long portion is found, the fewer points are tested: first those this far apart.
   const STRIDE = 16;
   const { x, y, starts, longestChord } = segment;
   const search = { segment, tolerance: tolerance * part };
@@ -161,7 +165,7 @@ function longestFromPoint({ segment, tolerance }, [from, begun], further, widest
       [best, found] = [far, { to, length: far }];
       to += 1;
     } else if (width >= widest) break;
-    // What goes further is as wide at least, and has to be as long as that asks for.
+    // What goes further is as wide at least, and has to be as long as that width requires.
     else to = Math.max(firstPointBeyond(segment, from, width / tolerance - more), to + 1);
   }
   return found;

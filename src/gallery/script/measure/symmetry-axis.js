@@ -33,7 +33,7 @@ export function mirroredPoint({ through, along }, x, y) {
  * order decide.
  */
 export function axisByMoments(curve) {
-  // What is less than this part of what it might be is taken for nothing.
+  // A moment that is less than this part of its greatest possible value counts as zero.
   const NONE = 1e-3;
   const { centre, all, cubes, second, third, threefold } = curveMoments(curve);
   const axis = (deg) => axisThrough(centre, cosSinOfDegrees(deg));

@@ -29,12 +29,12 @@ export function findSymmetry(tracedCurve) {
   const { curve, fourBar } = tracedCurve;
   const extent = curve.count < 3 ? 0 : hullDiameter(convexHull(curve.x, curve.y, 0, curve.count));
   if (!(extent > 0)) return null;
-  const told = axisByTheorem(tracedCurve);
+  const known = axisByTheorem(tracedCurve);
   // Of a linkage with two circuits each may be the mirror image of the other: not so where it is roughly its
   // own.
-  if (told && (fourBar.class === "triple-rocker" || roughResidual(curve, told.axis) <= APART * extent)) {
-    const most = residualBySextic(tracedCurve, told.axis) ?? refineAxis(curve, told.axis, true).most;
-    return { axis: told.axis, residual: most / extent, theorem: told.theorem };
+  if (known && (fourBar.class === "triple-rocker" || roughResidual(curve, known.axis) <= APART * extent)) {
+    const most = residualBySextic(tracedCurve, known.axis) ?? refineAxis(curve, known.axis, true).most;
+    return { axis: known.axis, residual: most / extent, theorem: known.theorem };
   }
   const axis = axisByMoments(curve);
   if (!axis) return { axis: null, residual: 0, theorem: null };
