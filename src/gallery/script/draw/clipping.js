@@ -36,10 +36,10 @@ export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
     [-dy, y0 - low],
     [dy, high - y0],
   ];
-  for (const [rate, room] of edges) {
-    if (rate === 0 && room < 0) return null;
+  for (const [rate, distance] of edges) {
+    if (rate === 0 && distance < 0) return null;
     if (rate === 0) continue;
-    const at = room / rate;
+    const at = distance / rate;
     if (rate < 0) from = Math.max(from, at);
     else to = Math.min(to, at);
   }

@@ -176,10 +176,10 @@ function wheelsOf({ joints }, circuit) {
           circuit.x[pivot][0] - circuit.x[first][0],
           circuit.y[pivot][0] - circuit.y[first][0],
         ];
-        const room = ((turns < 0 ? 1 : 0.8) * Math.hypot(dx, dy)) / (Math.abs(turns) + Math.abs(of));
+        const unit = ((turns < 0 ? 1 : 0.8) * Math.hypot(dx, dy)) / (Math.abs(turns) + Math.abs(of));
         return [
-          { joint: pivot, radius: room * Math.abs(of) },
-          { joint: first, radius: room * Math.abs(turns) },
+          { joint: pivot, radius: unit * Math.abs(of) },
+          { joint: first, radius: unit * Math.abs(turns) },
         ];
       },
     );

@@ -49,11 +49,11 @@ class OutlinePairing {
       { length: this.count },
       (_, n) => given.start + (given.span * n) / this.steps,
     );
-    const room = 2 * (this.count + Math.ceil(2 * this.places) + 2);
+    const capacity = 2 * (this.count + Math.ceil(2 * this.places) + 2);
     [this.from, this.to, this.along] = [
-      new Float64Array(room),
-      new Float64Array(room),
-      new Float64Array(room),
+      new Float64Array(capacity),
+      new Float64Array(capacity),
+      new Float64Array(capacity),
     ];
     this.foot = { place: 0, square: 0, x: 0, y: 0, ex: 0, ey: 0 };
     this.used = 0;

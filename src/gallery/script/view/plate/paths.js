@@ -21,10 +21,10 @@ function dashPeriod(family, { linkage, circuit }) {
 }
 
 /**
- * Path data { dashes, lead, others, band } of a study's curve, from its path and the stretch of its straight
- * portion. `on` has the names of the selected overlays.
+ * Path data { dashes, lead, others, band } of a study's curve, from its path and its straight portion. `on`
+ * has the names of the selected overlays.
  */
-export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
+export function pathsOfStudy(family, study, path, portion, { on, isRough }) {
   const { circuit, others } = study;
   const grid = roundingGrid(study.size);
   const shown = on.has("others") ? others : [];
@@ -33,7 +33,7 @@ export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
     dashes: dashData(path, dashPattern(dashPeriod(family, study))),
     lead: polylineData(path.points),
     others: shown.map((joint) => sampledPathData(circuit, joint, stride, grid)).join(""),
-    band: stretch ? polylineData(stretch.points) : "",
+    band: portion ? polylineData(portion.points) : "",
   };
 }
 
@@ -59,10 +59,10 @@ export function straightSummary({ linkage }, family, curve, measures) {
 }
 
 /**
- * The straight portion of a study's curve (draw/circuit-portion.js), from the computed measures { name: value },
- * or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
+ * The straight portion of a study's curve (draw/circuit-portion.js), from the computed measures { name: value
+ * }, or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
  */
-export function straightStretch(study, family, curve, measures) {
+export function visibleStraightPortion(study, family, curve, measures) {
   const { linkage, circuit, joint, curveBox } = study;
   const of = (name) => (measures ? measures[name] : measureValue(family, curve, name));
   const [start, span, length] = ["straight_start_deg", "straight_input_deg", "straight_length"].map(of);

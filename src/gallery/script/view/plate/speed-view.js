@@ -9,7 +9,7 @@ import { formatDecimals } from "./study.js";
 const SPEED_FRAME = { width: 300, height: 84 };
 
 /**
- * The graph: `show(study, path, stretch)`, then `update(part, speed)`; calls `choose(part)` when it is
+ * The graph: `show(study, path, portion)`, then `update(part, speed)`; calls `choose(part)` when it is
  * pressed.
  */
 export class SpeedView {
@@ -59,8 +59,8 @@ export class SpeedView {
     this.unit = "";
   }
 
-  /** `stretch` is the range of parts [from, to] of the straight portion, or null. */
-  show({ linkage, timeline }, path, stretch) {
+  /** `portion` is the range of parts [from, to] of the straight portion, or null. */
+  show({ linkage, timeline }, path, portion) {
     const { isLength } = linkage.input;
     const { inputs, speeds } = speedsOfPath(path, isLength ? 1 : 180 / Math.PI);
     const parts = [];
@@ -78,7 +78,7 @@ export class SpeedView {
         .map((part) => `M${pixel(part * SPEED_FRAME.width)} 0V${SPEED_FRAME.height}`)
         .join(""),
     );
-    this.band.setAttribute("d", stretch ? bandData(stretch) : "");
+    this.band.setAttribute("d", portion ? bandData(portion) : "");
     const finite = speeds.filter(Number.isFinite);
     const [least, most] = [Math.min(...finite), Math.max(...finite)];
     const isCut = most > this.top * 1.05;

@@ -69,10 +69,7 @@ export class Stage {
   impossible(reason) {
     this.element.classList.toggle("impossible", reason !== null);
     this.reason.hidden = reason === null;
-    fill(
-      this.reason,
-      reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
-    );
+    fill(this.reason, reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`);
   }
 
   /** Moves the linkage into a pose [x0, y0, …] of the plane. */
