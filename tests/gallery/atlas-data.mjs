@@ -5,13 +5,13 @@ import { join } from "node:path";
 
 import { FamilyReader } from "../../src/gallery/script/data/family.js";
 
-/** What the page of an atlas says of it, and all its families: { told, families }. */
+/** The data in the page of an atlas, and all its families: { data, families }. */
 export function atlasOf(folder) {
   const page = readFileSync(join(folder, "index.html"), "utf8");
-  const told = JSON.parse(page.match(/<script type="application\/json" id="atlas">([\s\S]*?)<\/script>/)[1]);
+  const data = JSON.parse(page.match(/<script type="application\/json" id="atlas">([\s\S]*?)<\/script>/)[1]);
   return {
-    told,
-    families: told.families
+    data,
+    families: data.families
       .filter(({ script }) => script)
       .map(({ script }) => familyOf(join(folder, script))),
   };
@@ -34,8 +34,11 @@ function familyOf(file) {
   return family;
 }
 
-/** Runs a generator to its end: { value, longest: of its steps in milliseconds, whole }. */
-export function finished(generator) {
+/**
+ * Runs a generator to its end: { value, longest, whole }, the longest step and the whole time in
+ * milliseconds.
+ */
+export function runToEnd(generator) {
   const began = performance.now();
   let longest = 0;
   for (;;) {
@@ -46,8 +49,8 @@ export function finished(generator) {
   }
 }
 
-/** Numbers from 0 to 1, the same of the same seed (a linear congruence of Numerical Recipes). */
-export function randoms(seed) {
+/** Pseudorandom numbers from 0 to 1 from a seed (a linear congruential generator of Numerical Recipes). */
+export function randomNumbers(seed) {
   let state = seed >>> 0;
   return () => {
     state = (Math.imul(state, 1664525) + 1013904223) >>> 0;

@@ -1,22 +1,20 @@
-// Opens the gallery of an atlas in Chromium, as a designer opens it from disk, and watches over what it must
-// never do.
+// Opens the gallery of an atlas in Chromium from disk, and collects errors.
 //
-// Taken from the environment: PLAYWRIGHT_CORE, the path of the package playwright-core (its folder or its
-// index.mjs), and CHROMIUM, that of the browser. No test runs without them: `browserIsThere()` says whether
-// they are given.
+// From the environment: PLAYWRIGHT_CORE, the path of the package playwright-core (its folder or its index.mjs), and
+// CHROMIUM, that of the browser. Tests are skipped without them; see `hasBrowser()`.
 
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-/** Whether there is a browser to test in. */
-export function browserIsThere() {
+/** Whether a browser is given in the environment. */
+export function hasBrowser() {
   return Boolean(process.env.PLAYWRIGHT_CORE && process.env.CHROMIUM && existsSync(process.env.CHROMIUM));
 }
 
 /** Starts Chromium without a window; `close()` it. */
-export async function launched() {
+export async function launchBrowser() {
   const place = resolve(process.env.PLAYWRIGHT_CORE);
   const module = statSync(place).isDirectory() ? join(place, "index.mjs") : place;
   const { chromium } = await import(pathToFileURL(module).href);
@@ -28,15 +26,14 @@ export async function launched() {
 }
 
 /**
- * Opens `index.html` of the folder of an atlas at a fragment ("/evans/1"), and collects whatever goes wrong
- * in it.
+ * Opens `index.html` of the folder of an atlas at a fragment ("/evans/1"), and collects its errors.
  *
  * Options are those of a browser's context: viewport, colorScheme, reducedMotion, hasTouch, isMobile,
  * deviceScaleFactor; `before(page)` is called before anything is loaded. Returns { page, folder, troubles,
  * requests (their addresses), go(fragment), fragment(), settled(), close() }: `close` asserts that there were
  * no console errors, no warnings of the policy, and no request but for files of the atlas.
  */
-export async function opened(browser, folder, fragment = "/", { before, ...options } = {}) {
+export async function openGallery(browser, folder, fragment = "/", { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
   const page = await context.newPage();
   const home = pathToFileURL(join(resolve(folder), "/")).href;
@@ -52,7 +49,7 @@ export async function opened(browser, folder, fragment = "/", { before, ...optio
     if (!isOwn) troubles.push(`request: ${request.url()}`);
   });
   page.on("requestfailed", (request) => {
-    // A picture that has left the page before it was read was not wanted any more.
+    // A picture that was removed before it was loaded is not an error.
     if (request.failure()?.errorText !== "net::ERR_ABORTED") troubles.push(`failed: ${request.url()}`);
   });
   await before?.(page);
@@ -65,7 +62,7 @@ export async function opened(browser, folder, fragment = "/", { before, ...optio
     requests,
     go: (next) => goTo(page, next),
     fragment: () => page.evaluate(() => window.location.hash.slice(1)),
-    settled: () => settled(page),
+    settled: () => waitUntilSettled(page),
     close: async () => {
       await context.close();
       assert.deepEqual(troubles, [], "the page is not quiet");
@@ -73,16 +70,16 @@ export async function opened(browser, folder, fragment = "/", { before, ...optio
   };
 }
 
-/** Goes to another fragment, as a link does, and waits until the room is there. */
+/** Goes to another fragment, as a link does, and waits until the view is open. */
 async function goTo(page, fragment) {
   await page.evaluate((next) => {
     window.location.hash = next;
   }, fragment);
-  await settled(page);
+  await waitUntilSettled(page);
 }
 
-/** Waits until the room is open and has been painted. */
-export async function settled(page) {
+/** Waits until the view is open and has been painted. */
+export async function waitUntilSettled(page) {
   await page.waitForFunction(() => !document.querySelector("main").hasAttribute("aria-busy"));
   await page.evaluate(
     () =>
@@ -92,7 +89,7 @@ export async function settled(page) {
   );
 }
 
-/** Waits until `check()` holds, which throws or is false until then; at most `within` milliseconds. */
+/** Waits until `check()` neither throws nor is false, at most `within` milliseconds. */
 export async function eventually(check, sentence, within = 5000) {
   const end = Date.now() + within;
   for (;;) {
@@ -114,11 +111,11 @@ export async function eventually(check, sentence, within = 5000) {
  * where there is no browser.
  */
 export async function runTests(tests, context = {}) {
-  if (!browserIsThere()) {
+  if (!hasBrowser()) {
     console.log("skipped: PLAYWRIGHT_CORE and CHROMIUM name no browser");
     return;
   }
-  const browser = await launched();
+  const browser = await launchBrowser();
   const only = process.env.ONLY;
   let failed = 0;
   for (const [point, sentence, test] of tests.filter(([point]) => !only || point.startsWith(only))) {
@@ -140,12 +137,11 @@ export async function runTests(tests, context = {}) {
 }
 
 /**
- * The relative luminances' contrast of the text of an element with what lies behind it, as WCAG has it; 1 to
- * 21.
+ * The contrast ratio of WCAG of the text of an element to its background, 1 to 21.
  */
 export function contrastOf(locator) {
   return locator.evaluate((element) => {
-    // Colours of any notation are read off a canvas.
+    // A canvas converts colours of any notation.
     const context = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
     const rgba = (color) => {
       context.clearRect(0, 0, 1, 1);

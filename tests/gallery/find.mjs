@@ -1,4 +1,4 @@
-// Tries filters, counts, histograms and orders: node tests/gallery/find.mjs ATLAS…
+// Tests filters, counts, histograms and orders: node tests/gallery/find.mjs ATLAS…
 
 import assert from "node:assert/strict";
 
@@ -12,7 +12,7 @@ import { CurveTable } from "../../src/gallery/script/find/table.js";
 import { address, parseAddress } from "../../src/gallery/script/data/address.js";
 import { atlasOf } from "./atlas-data.mjs";
 
-/* A scale and its bins. */
+// Scales and bins.
 
 {
   const linear = histogramOf(Float64Array.of(0, 1, 2, 3, NaN, 4));
@@ -21,7 +21,7 @@ import { atlasOf } from "./atlas-data.mjs";
   assert.equal(
     linear.counts.reduce((sum, count) => sum + count, 0),
     5,
-    "what is missing is in no bin",
+    "missing values are in no bin",
   );
   assert.equal(linear.bins[5], BINS - 1);
   const spread = histogramOf(Float64Array.from({ length: 100 }, (_, k) => 10 ** (k / 20)));
@@ -35,7 +35,7 @@ import { atlasOf } from "./atlas-data.mjs";
   assert.equal(single.counts[0], 2);
 }
 
-/* A question and its address. */
+// Queries and their addresses.
 
 {
   const fragment =
@@ -52,16 +52,16 @@ import { atlasOf } from "./atlas-data.mjs";
   assert.equal(parseFindQuery(parseAddress("#/find").query).families, null);
 }
 
-/* Filters of atlases, against the plainest reckoning. */
+// Filters of atlases, compared with a direct computation.
 
 for (const folder of process.argv.slice(2)) {
-  const { told, families } = atlasOf(folder);
+  const { data, families } = atlasOf(folder);
   const table = new CurveTable(families);
   assert.equal(
     table.count,
-    told.families.reduce((sum, { curves }) => sum + curves, 0),
+    data.families.reduce((sum, { curves }) => sum + curves, 0),
   );
-  const columns = filterColumns(table, told.measures);
+  const columns = filterColumns(table, data.measures);
   const numbers = columns.filter(({ kind }) => kind === "numbers");
   const filters = new Filters(table);
   const at = (row, name) => measureValue(families[table.family[row]], table.curve[row], name);

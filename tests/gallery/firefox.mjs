@@ -1,21 +1,22 @@
-// The gallery in Firefox, from disk: FIREFOX=/usr/bin/firefox node tests/gallery/firefox.mjs ATLAS HRONES-NELSON
+// Tests the gallery in Firefox, from disk: FIREFOX=/usr/bin/firefox node tests/gallery/firefox.mjs ATLAS
+// HRONES-NELSON
 //
-// Every room is opened and does what it is for, and the browser's console stays empty. How they do it is tried in
-// pages.mjs, plate.mjs, finding.mjs and taking.mjs; here it is what engines of the web differ in: events, sizes, the
-// policy, what is saved. Skipped where FIREFOX names no browser.
+// Opens and uses every view, and checks that the browser's console stays empty. The details are tested in
+// pages.mjs, plate.mjs, search.mjs and export-menu.mjs; here it is what browser engines differ in: events,
+// sizes, the policy, downloads. Skipped if FIREFOX names no browser.
 
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-import { firefoxThere, startedFirefox } from "./marionette.mjs";
+import { firefoxPath, startFirefox } from "./marionette.mjs";
 
 const [atlas, large] = process.argv
   .slice(2)
   .map((folder) => pathToFileURL(join(resolve(folder), "index.html")).href);
 
-/** Opens an address of an atlas, from an empty page, and waits for its room. */
+/** Opens an address of an atlas, from an empty page, and waits for its view. */
 async function at(firefox, home, fragment) {
   await firefox.open("about:blank");
   await firefox.open(`${home}#${fragment}`);
@@ -35,7 +36,7 @@ const hash = () => window.location.hash;
 
 const TESTS = [
   [
-    "families and their pages are drawn, thousands of them as they are scrolled to",
+    "families and their pages are drawn, thousands of them when they are scrolled to",
     async (firefox) => {
       await at(firefox, atlas, "/");
       await firefox.eventually(countOf, "no family is drawn", ".families .tile-picture path");
@@ -49,7 +50,7 @@ const TESTS = [
     },
   ],
   [
-    "a page comes nearer by the wheel, its curves forward under the pointer, and stays where it is",
+    "the wheel zooms a page, and the curve under the pointer is highlighted without moving the page",
     async (firefox) => {
       await at(firefox, large, "/hrones-nelson/100");
       await firefox.eventually(() => document.querySelector(".page-sheet img")?.complete, "no picture");
@@ -62,14 +63,14 @@ const TESTS = [
         if (await firefox.evaluate(countOf, ".viewport.dimmed")) break;
       }
       assert.match(await firefox.evaluate(() => document.querySelector(".reading").innerText), /input\s+\d/);
-      // What is said beside it may need a bar to scroll by: the sheet must not move under the hand for it.
+      // The text next to it may need a scroll bar: the sheet must not move under the pointer.
       assert.equal((await boxOf(firefox, ".viewport")).width, before.width);
       await firefox.wheel([x, spot.top], -300);
       await firefox.eventually(() => window.location.hash.includes("zoom=1."), "the wheel does nothing");
     },
   ],
   [
-    "every curve of a page has a place, one drawn as a straight line too",
+    "every curve of a page has a target, also one that is a straight line",
     async (firefox) => {
       await at(firefox, atlas, "/scotch-yoke/1");
       await firefox.eventually(countOf, "no curves", ".overlay .link-area");
@@ -83,14 +84,14 @@ const TESTS = [
     },
   ],
   [
-    "the plate moves by itself, by the slider and by the hand, and is recomputed by a parameter",
+    "the plate moves by itself, by the slider and by dragging, and is recomputed by a parameter",
     async (firefox) => {
       await at(firefox, atlas, "/evans/curve/1.1.1");
       const input = () => document.querySelector(".input-now").textContent;
       const first = await firefox.evaluate(input);
       await firefox.eventually(
         (was) => document.querySelector(".input-now").textContent !== was,
-        "it stands still",
+        "it does not move",
         first,
       );
       await firefox.evaluate(() => {
@@ -111,7 +112,7 @@ const TESTS = [
         field.select();
       });
       await firefox.keys("2.5\uE007");
-      await firefox.eventually(() => window.location.hash.endsWith("?p=2.5"), "the parameter is not taken");
+      await firefox.eventually(() => window.location.hash.endsWith("?p=2.5"), "the parameter is not applied");
       assert.notEqual(
         await firefox.evaluate(() => document.querySelector(".dashes").getAttribute("d")),
         path,
@@ -119,7 +120,7 @@ const TESTS = [
     },
   ],
   [
-    "curves are found by a measure, and by a shape that is drawn",
+    "curves are found by a measure and by a drawn shape",
     async (firefox) => {
       await at(firefox, large, "/find?mu_worst_deg=30..");
       await firefox.eventually(
@@ -140,7 +141,7 @@ const TESTS = [
     },
   ],
   [
-    "curves are compared, and what is taken away is saved",
+    "curves are compared, and exports are saved",
     async (firefox) => {
       await at(firefox, atlas, "/compare?c=evans:1.1.1,watt:3.1.1");
       await firefox.eventually(countOf, "no curves side by side", "main svg path");
@@ -184,9 +185,9 @@ async function tried(firefox) {
   console.log("ok the browser's console is empty");
 }
 
-const program = firefoxThere();
+const program = firefoxPath();
 if (program) {
-  const firefox = await startedFirefox(program);
+  const firefox = await startFirefox(program);
   try {
     await tried(firefox);
   } finally {

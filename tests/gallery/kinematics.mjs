@@ -1,14 +1,19 @@
-// The page's solver against closed forms and independent reckoning: node tests/gallery/kinematics.mjs
+// Tests the page's solver against closed forms and independent computations: node
+// tests/gallery/kinematics.mjs
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { cosSinOfDegrees, radiansOf } from "../../src/gallery/script/kinematics/angles.js";
-import { LinkageError } from "../../src/gallery/script/kinematics/assembly.js";
+import { LinkageError } from "../../src/gallery/script/kinematics/linkage-builder.js";
 import { cognatePins, cognatesOf } from "../../src/gallery/script/kinematics/cognates.js";
 import { evaluateExpression } from "../../src/gallery/script/kinematics/expression.js";
 import { fourBarOf, transmissionAt } from "../../src/gallery/script/kinematics/four-bar.js";
-import { fixedCentrode, movingCentrode, poleAt } from "../../src/gallery/script/kinematics/instant.js";
+import {
+  fixedCentrode,
+  movingCentrode,
+  poleAt,
+} from "../../src/gallery/script/kinematics/instantaneous-motion.js";
 import { motionOf } from "../../src/gallery/script/kinematics/motion.js";
 import { finePath } from "../../src/gallery/script/kinematics/path.js";
 import { poseAt, ratesAt } from "../../src/gallery/script/kinematics/poses.js";
@@ -29,7 +34,7 @@ const fourBar = ([frame, crank, coupler, rocker], travel = {}) => ({
   ...travel,
 });
 
-// A six-bar: a second dyad on the coupler point, that is not on crank and frame.
+// A six-bar: a second dyad on the coupler point, which does not connect crank and frame.
 const sixBar = () => {
   const template = fourBar([4, 1, 3, 3.5]);
   template.joints.push(
@@ -56,7 +61,7 @@ test("expressions are programs for a stack machine", () => {
   assert.equal(evaluateExpression([1, NaN, "^"], []), 1);
 });
 
-test("quarter turns are exact and multiples are what the decimals say", () => {
+test("quarter turns are exact, and multiples are correctly rounded decimals", () => {
   assert.deepEqual(
     [0, 90, 180, 270, -90, 810]
       .map(cosSinOfDegrees)
@@ -68,7 +73,7 @@ test("quarter turns are exact and multiples are what the decimals say", () => {
   assert.deepEqual(multiplesOf(2, -3, 3), [-2, 0, 2]);
 });
 
-test("circuits of four-bars of every class are those of their limits", () => {
+test("circuits of four-bars of every class agree with their limits", () => {
   const passes = (lengths, travel) =>
     motionOf(linkageOf(fourBar(lengths, travel), []), { samples: 12 }).circuits.map(
       ({ passes: all, branch }) => [
@@ -95,7 +100,7 @@ test("circuits of four-bars of every class are those of their limits", () => {
       ],
     ],
   );
-  // Stretched at 180: smoothly two turns, else a turn on each branch.
+  // Extended at 180: two turns if continued smoothly, else a turn on each branch.
   assert.deepEqual(
     passes([3, 1, 2, 2]).map(([all]) => all),
     [
@@ -139,7 +144,7 @@ test("at a limit the dyad lies flat", () => {
   close((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0, 4e-15);
 });
 
-test("a limit that is searched for lies flat too, and nothing closes beyond it", () => {
+test("at a limit found by search the dyad lies flat, and nothing closes beyond it", () => {
   const template = sixBar();
   // The second dyad is too short to follow all the way round.
   template.joints[6].lengths = [1.2, 1.4];
@@ -161,7 +166,7 @@ test("a limit that is searched for lies flat too, and nothing closes beyond it",
   }
 });
 
-test("at a change point rates are as they are beside it", () => {
+test("at a change point rates are the limits of those next to it", () => {
   let compared = 0;
   for (const lengths of [
     [3, 1, 2, 2],
@@ -175,7 +180,7 @@ test("at a change point rates are as they are beside it", () => {
         compared += 1;
         const h = 0.03 * Math.sign(pass.from - pass.to);
         const [at, one, two, three] = [0, 1, 2, 3].map((k) => ratesAt(linkage, pass, pass.to + k * h));
-        // Drawn on from three places beside it, nearer to which rounding would have too great a part.
+        // Extrapolated from three positions next to it; nearer ones would have too large rounding errors.
         const drawnOn = (name, k) => 3 * one[name][k] - 3 * two[name][k] + three[name][k];
         for (let k = 0; k < at.place.length; k++) {
           close(at.velocity[k], drawnOn("velocity", k), 1e-6, "velocity");
@@ -187,7 +192,7 @@ test("at a change point rates are as they are beside it", () => {
   assert.ok(compared > 4);
 });
 
-test("rates are what differences come to", () => {
+test("rates agree with differences", () => {
   const linkage = linkageOf(sixBar(), []);
   const { circuits } = motionOf(linkage, { samples: 40 });
   for (const circuit of circuits) {
@@ -203,13 +208,13 @@ test("rates are what differences come to", () => {
       close(velocity[k], rate, 1e-10 * Math.max(1, Math.abs(rate)), "velocity");
       const second =
         (16 * (next[k] + near[k]) - (beyond[k] + far[k]) - 30 * here[k]) / (12 * radiansOf(h) ** 2);
-      // What rounding of places makes of second differences: 60 units in the last place of 5, over 12 h^2.
+      // The rounding error of second differences: 60 units in the last place of 5, over 12 h^2.
       close(acceleration[k], second, 1e-6 * Math.max(1, Math.abs(second)), "acceleration");
     }
   }
 });
 
-test("the coupler's point at the pole stands still, and its centrodes meet there", () => {
+test("the coupler's point at the pole is at rest, and its centrodes touch there", () => {
   const linkage = linkageOf(fourBar([4, 1, 3, 3.5]), []);
   const [circuit] = motionOf(linkage, { step: 10 }).circuits;
   const [fixed, { points, frame }] = [
@@ -236,7 +241,7 @@ test("the coupler's point at the pole stands still, and its centrodes meet there
   }
 });
 
-test("points of the inflection circle go straight", () => {
+test("points of the inflection circle have no curvature", () => {
   const linkage = linkageOf(fourBar([4, 1, 3, 3.5]), []);
   const [{ passes }] = motionOf(linkage, { step: 90 }).circuits;
   for (const input of [20, 110, 205, 300]) {
@@ -265,7 +270,7 @@ test("points of the inflection circle go straight", () => {
   }
 });
 
-test("cognates keep their links and carry the same point", () => {
+test("cognates keep their link lengths and have the same coupler point", () => {
   const template = fourBar([4, 1, 3, 3.5], { placement: { mirror: true, cos: 0.6, sin: 0.8 } });
   const linkage = linkageOf(template, []);
   const { cognates } = cognatesOf(linkage, 4);
@@ -295,12 +300,12 @@ test("the transmission angle is that of the law of cosines", () => {
   const [{ passes }] = motionOf(linkage, { step: 90 }).circuits;
   for (const input of [0, 33, 180, 271]) {
     const diagonal2 = 17 - 8 * Math.cos(radiansOf(input));
-    const wanted = (Math.acos((9 + 12.25 - diagonal2) / 21) * 180) / Math.PI;
-    close(transmissionAt(linkage, bar, poseAt(linkage, passes[0], input)).mu, wanted, 1e-11);
+    const expected = (Math.acos((9 + 12.25 - diagonal2) / 21) * 180) / Math.PI;
+    close(transmissionAt(linkage, bar, poseAt(linkage, passes[0], input)).mu, expected, 1e-11);
   }
 });
 
-test("a fine path is within its tolerance of the curve", () => {
+test("a path is within its tolerance of the curve", () => {
   const linkage = linkageOf(fourBar([4, 2, 2, 2]), []);
   const [circuit] = motionOf(linkage, { samples: 60 }).circuits;
   for (const tolerance of [1e-2, 1e-4]) {
@@ -319,7 +324,7 @@ test("a fine path is within its tolerance of the curve", () => {
   }
 });
 
-test("what cannot be a linkage is told in a sentence", () => {
+test("an invalid linkage is reported in a sentence", () => {
   const wrong = (change, sentence) => {
     const template = fourBar([4, 1, 3, 3.5]);
     change(template);

@@ -1,5 +1,5 @@
-// Drives Firefox by Marionette, the protocol that is built into it: JSON over a local socket, and so neither a
-// package nor another program is needed. https://firefox-source-docs.mozilla.org/testing/marionette/Protocol.html
+// Drives Firefox by Marionette, its built-in protocol: JSON over a local socket, which needs neither a
+// package nor another program. https://firefox-source-docs.mozilla.org/testing/marionette/Protocol.html
 
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -8,16 +8,18 @@ import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
-// The browser is given this long to start and to answer, in milliseconds.
+// The time limit for the browser to start and to answer, in milliseconds.
 const PATIENCE = 60000;
 
-/** The Firefox that the environment names, FIREFOX; null where there is none. */
-export function firefoxThere() {
+/** The path of Firefox, from FIREFOX in the environment; null if there is none. */
+export function firefoxPath() {
   const { FIREFOX } = process.env;
   return FIREFOX && existsSync(FIREFOX) ? FIREFOX : null;
 }
 
-/** What the browser prefers: a port of its own choice, nothing from the network, what is saved in one folder. */
+/**
+ * The preferences of the browser: any free port, no network, and downloads in one folder.
+ */
 const preferences = (saved) => ({
   "marionette.port": 0,
   "browser.download.dir": saved,
@@ -34,8 +36,8 @@ const preferences = (saved) => ({
   "network.connectivity-service.enabled": false,
 });
 
-/** Starts Firefox without a window, with a profile that goes when it is closed. */
-export async function startedFirefox(program) {
+/** Starts Firefox without a window, with a temporary profile. */
+export async function startFirefox(program) {
   const home = mkdtempSync(join(tmpdir(), "gallery-firefox-"));
   const saved = join(home, "saved");
   const profile = join(home, "profile");
@@ -128,13 +130,15 @@ class Firefox {
     return this.asks("WebDriver:Navigate", { url });
   }
 
-  /** What a function gives in the page, or a promise of it; it is sent as text, with its arguments. */
+  /**
+   * Evaluates a function, which may return a promise, in the page; it is sent as text, with its arguments.
+   */
   async evaluate(wanted, ...args) {
     const script = `return (${wanted})(...arguments);`;
     return (await this.asks("WebDriver:ExecuteScript", { script, args, sandbox: null })).value;
   }
 
-  /** Moves the mouse through places [x, y] of the window, with its button held down if `pressed`. */
+  /** Moves the mouse through points [x, y] of the window, with its button down if `pressed`. */
   async mouse(places, pressed = false) {
     const moves = places.map(([x, y]) => ({
       type: "pointerMove",
@@ -163,7 +167,9 @@ class Firefox {
     await this.asks("WebDriver:PerformActions", { actions: [{ type: "key", id: "keys", actions }] });
   }
 
-  /** What the browser's own console has from pages of a folder: errors, warnings, reports of the policy. */
+  /**
+   * The messages of the browser's console from pages of a folder: errors, warnings, reports of the policy.
+   */
   async complaints(home) {
     await this.asks("Marionette:SetContext", { value: "chrome" });
     const messages = await this.evaluate(() =>
@@ -178,7 +184,7 @@ class Firefox {
       .map(([source, text]) => `${source}: ${text}`);
   }
 
-  /** Waits until a function gives something true in the page, and gives that. */
+  /** Waits until a function returns a truthy value in the page, and returns it. */
   async eventually(wanted, sentence, ...args) {
     const until = Date.now() + PATIENCE / 4;
     for (;;) {

@@ -1,4 +1,4 @@
-// The page's measures against closed forms: node tests/gallery/measures.mjs
+// Tests the page's measures against closed forms: node tests/gallery/measures.mjs
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -19,10 +19,10 @@ const evans = ([p, r, a, s, k]) => ({
   trace: [4],
 });
 
-function measured(template, joint, sampling = { step: 2 }, asked = {}) {
+function measured(template, joint, sampling = { step: 2 }, options = {}) {
   const linkage = linkageOf(template, []);
   const motion = motionOf(linkage, sampling);
-  return { linkage, motion, found: measuresOf(linkage, motion, motion.circuits[0], joint, asked) };
+  return { linkage, motion, found: measuresOf(linkage, motion, motion.circuits[0], joint, options) };
 }
 
 const close = (a, b, tolerance, what) =>
@@ -30,7 +30,8 @@ const close = (a, b, tolerance, what) =>
 
 test("a circle is measured exactly", () => {
   const { found } = measured(evans([4, 1.5, 4, 4.5, 2]), 2);
-  // Over a degree the rounding of a place is a part in 1e14 of the way, and of how it bends a part in 1e12.
+  // Over a degree the rounding of a position is a part in 1e14 of the length, and of the curvature a part in
+  // 1e12.
   close(found.length, 3 * Math.PI, 1e-12);
   close(found.area, 2.25 * Math.PI, 1e-12);
   close(found.curvature_max, 1 / 1.5, 1e-12);
@@ -57,7 +58,7 @@ test("a crank-rocker has the class, the angles and the time ratio of its triangl
   assert.deepEqual([found.class, found.type, found.shortest], ["crank-rocker", "crank-rocker", "crank"]);
 });
 
-test("a straight portion fits its tolerance, and no longer one about it does", () => {
+test("a straight portion fits its tolerance, and no longer one around it does", () => {
   const tolerance = 0.001;
   const { linkage, motion, found } = measured(evans([2, 1, 2.59, 2.59, 2]), 4);
   close((2 * found.straight_deviation) / found.straight_length, tolerance, 1e-6);
@@ -76,7 +77,8 @@ test("a straight portion fits its tolerance, and no longer one about it does", (
   }
 });
 
-// The narrowest band of a nearly straight row, by turning its direction: it is convex in the angle there.
+// The narrowest band of a nearly straight row, by varying its direction: the width is convex in the angle
+// there.
 function narrowestBand(x, y) {
   const chord = Math.atan2(y[y.length - 1] - y[0], x[x.length - 1] - x[0]);
   const reach = (cos, sin) => {
@@ -93,14 +95,15 @@ function narrowestBand(x, y) {
   return { width: width(a), length: reach(Math.cos(a), Math.sin(a)) };
 }
 
-test("a circular portion fits its ring", () => {
+test("a circular portion fits its annulus", () => {
   const { linkage, motion, found } = measured(evans([4, 1, 3, 3.5, 0.5]), 4);
   const [{ passes, x, y, count }] = motion.circuits;
   let extent = 0;
   for (let i = 0; i < count; i++) {
     for (let j = 0; j < i; j++) extent = Math.max(extent, Math.hypot(x[4][i] - x[4][j], y[4][i] - y[4][j]));
   }
-  // The ring is as wide as it may be; the extent is known to the flatness of its samples.
+  // The annulus has the greatest allowed width; the extent is exact to second order in the spacing of
+  // samples.
   close(found.dwell_deviation / extent, 0.0005, 1e-6);
   const step = found.dwell_input_deg / 500;
   const places = posesAt(
@@ -110,12 +113,13 @@ test("a circular portion fits its ring", () => {
   );
   places.x[4].forEach((at, k) => {
     const radius = Math.hypot(at - found.dwell_x, places.y[4][k] - found.dwell_y);
-    // Between the points it was found by the curve leaves the ring by a few parts in a thousand at most.
+    // Between the points used in the search the curve leaves the annulus by a few parts in a thousand at
+    // most.
     assert.ok(Math.abs(radius - found.dwell_radius) <= 1.005 * found.dwell_deviation, `part ${k}`);
   });
 });
 
-test("a straight portion of a span or of a length has it", () => {
+test("a straight portion of a given span or length has it", () => {
   const span = measured(evans([2, 1, 2.59, 2.59, 2]), 4, { step: 2 }, { straight: { input: 90 } }).found;
   close(span.straight_input_deg, 90, 1e-9);
   const length = measured(evans([2, 1, 2.59, 2.59, 2]), 4, { step: 2 }, { straight: { length: 1.5 } }).found;
@@ -129,7 +133,7 @@ test("Evans's curve is symmetrical by theorem 2", () => {
   close(found.symmetry_residual, 0, 1e-12);
 });
 
-test("measures go with the size of a linkage", () => {
+test("measures scale with the size of a linkage", () => {
   const one = measured(evans([4, 1, 3, 3.5, 0.5]), 4).found;
   const ten = measured(evans([40, 10, 30, 35, 0.5]), 4).found;
   for (const name of ["length", "bbox_x_max", "straight_length", "dwell_radius"]) {

@@ -1,11 +1,11 @@
-// An atlas of odd families, made from a rendered one: what the gallery must bear although a good manifest
-// seldom asks for it.
+// Makes an atlas with unusual families from a rendered one: cases that the gallery must handle although they
+// are rare.
 
 import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
-/** A title that is markup to whoever would take it for that. */
+/** A title that looks like markup. */
 export const MARKED_TITLE = '<b>Evans</b> & <img src=x onerror="throw 1">';
 
 /** Why the third linkage of the family "evans" could not be assembled. */
@@ -13,14 +13,14 @@ export const ODD_REASON = "the links p and a do not reach <one> another";
 
 const DARK_PAPER = "#14171c";
 
-// A white dot: the least PNG there is.
+// The smallest PNG: a white dot.
 const WHITE_DOT =
   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=";
 
 /**
  * Copies the atlas of a folder to a temporary one: "evans" with a title in markup, no pictures of its pages,
- * and its third linkage not assembled; "watt" with a PNG on dark paper; and one more, called "find" as a room is, with what
- * "roberts" has. Returns { folder, remove() }.
+ * and its third linkage not assembled; "watt" with a PNG on dark paper; and one more, with the name
+ * "find" of a view and the data of "roberts". Returns { folder, remove() }.
  */
 export function oddAtlas(from) {
   const folder = mkdtempSync(join(tmpdir(), "coupler-atlas-odd-"));

@@ -1,18 +1,29 @@
-// The plate of a curve: its parameters.
+// Tests the parameters of the plate of a curve.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened } from "./browser.mjs";
-import { still, fieldOf, sliderOf, changed, measureNow, near } from "./plate-screen.mjs";
+import { eventually, openGallery } from "./browser.mjs";
+import {
+  REDUCED_MOTION,
+  fieldOf,
+  sliderOf,
+  changeParameter,
+  measureNow,
+  assertNear,
+} from "./plate-support.mjs";
 
 export const PARAMETERS = [
   [
     "3.10",
-    "a slider recomputes curve and measures at once, and the address tells it",
+    "a slider recomputes curve and measures at once, and the address changes",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
-      assert.match(await page.locator(".sliders > .note").innerText(), /^frame p, crank r,/, "letters are told");
+      assert.match(
+        await page.locator(".sliders > .note").innerText(),
+        /^frame p, crank r,/,
+        "invalid text is reported",
+      );
       const before = await page.locator(".dashes").getAttribute("d");
       await sliderOf(page, "p").fill("2.5");
       await page.waitForTimeout(400);
@@ -22,10 +33,10 @@ export const PARAMETERS = [
       const at = (d) => (Math.acos((2 * 2.59 * 2.59 - d * d) / (2 * 2.59 * 2.59)) * 180) / Math.PI;
       const [, least] = await measureNow(page, "least transmission angle");
       const [, most] = await measureNow(page, "greatest transmission angle");
-      near(Number(least), at(1.5), 0.006, "mu min");
-      near(Number(most), at(3.5), 0.006, "greatest transmission angle");
+      assertNear(Number(least), at(1.5), 0.006, "mu min");
+      assertNear(Number(most), at(3.5), 0.006, "greatest transmission angle");
       const [recorded, , change] = await measureNow(page, "least transmission angle");
-      near(Number(change), at(1.5) - Number(recorded), 0.02, "the change");
+      assertNear(Number(change), at(1.5) - Number(recorded), 0.02, "the change");
       await page.getByRole("button", { name: "Reset all" }).click();
       await eventually(
         async () => (await plate.fragment()) === "/evans/curve/1.1.1",
@@ -37,9 +48,9 @@ export const PARAMETERS = [
   ],
   [
     "3.10",
-    "an address with changed parameters opens so",
+    "an address with changed parameters opens with them",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=2.5&k=1.9", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1?p=2.5&k=1.9", REDUCED_MOTION);
       assert.equal(await fieldOf(plate.page, "p").inputValue(), "2.5");
       await plate.page.locator(".locked-parameters > summary").evaluate((summary) => {
         summary.parentElement.open = true;
@@ -51,39 +62,39 @@ export const PARAMETERS = [
   ],
   [
     "3.10",
-    "what is derived follows, and can be set free",
+    "derived values follow, and can be unlinked",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       // The coupler point is k a along the coupler.
       await page.locator(".locked-parameters").evaluate((details) => {
         details.open = true;
       });
       assert.equal(await fieldOf(page, "M.along").inputValue(), "5.18");
-      await changed(page, "k", 1.5);
+      await changeParameter(page, "k", 1.5);
       assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
       await page.getByRole("button", { name: /Unlink: M\.along/ }).click();
-      await changed(page, "k", 2);
+      await changeParameter(page, "k", 2);
       assert.equal(await fieldOf(page, "M.along").inputValue(), "3.885");
       await plate.close();
     },
   ],
   [
     "3.11",
-    "a linkage that cannot be assembled says why, and the last one stays in view",
+    "a linkage that cannot be assembled shows the reason, and the last one stays visible",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
-      await changed(page, "p", 9);
+      await changeParameter(page, "p", 9);
       const reason = page.locator(".stage .reason");
       assert.ok(await reason.isVisible());
       assert.match(await reason.textContent(), /^Cannot be assembled: .{10,}/);
       assert.ok(await page.getByRole("button", { name: "Play" }).isDisabled());
       assert.ok((await page.locator(".link").count()) > 2);
-      await changed(page, "p", -1);
+      await changeParameter(page, "p", -1);
       assert.match(await reason.textContent(), /must be more than 0/);
       assert.equal(await fieldOf(page, "p").getAttribute("aria-invalid"), "true");
-      await changed(page, "p", 2);
+      await changeParameter(page, "p", 2);
       assert.ok(await reason.isHidden());
       assert.ok(await page.getByRole("button", { name: "Play" }).isEnabled());
       await plate.close();
@@ -91,9 +102,9 @@ export const PARAMETERS = [
   ],
   [
     "3.11",
-    "an address of a linkage that cannot be assembled says why, before the one of the atlas",
+    "an address of a linkage that cannot be assembled shows the reason and the linkage of the atlas",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1?p=9", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1?p=9", REDUCED_MOTION);
       const { page } = plate;
       assert.match(await page.locator(".stage .reason").textContent(), /cannot be placed/);
       assert.ok((await page.locator(".dashes").getAttribute("d")).length > 100);

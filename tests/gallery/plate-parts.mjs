@@ -1,16 +1,16 @@
-// What a plate is made of, without a browser: node tests/gallery/plate-parts.mjs FOLDER
+// Tests the parts of a plate without a browser: node tests/gallery/plate-parts.mjs FOLDER
 //
-// FOLDER is that of the atlas of atlas.toml. A line for each test; exit 1 if one fails.
+// FOLDER is that of the atlas of atlas.toml. Prints a line for each test; exits with 1 if one fails.
 
 import assert from "node:assert/strict";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-import { stretchOfCircuit } from "../../src/gallery/script/draw/band.js";
+import { circuitPortion } from "../../src/gallery/script/draw/circuit-portion.js";
 import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clipping.js";
-import { dashData, dashesOfPeriod } from "../../src/gallery/script/draw/dashes.js";
-import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/paper-view.js";
-import { changedValues } from "../../src/gallery/script/kinematics/changes.js";
+import { dashData, dashPattern } from "../../src/gallery/script/draw/dashes.js";
+import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/plane-view.js";
+import { changedValues } from "../../src/gallery/script/kinematics/parameter-changes.js";
 import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
 import {
   timelineOf,
@@ -24,7 +24,7 @@ import { changeableParameters, roundedToGrain } from "../../src/gallery/script/v
 import { plateCurveName } from "../../src/gallery/script/view/plate/plate-query.js";
 import { PoseSolver } from "../../src/gallery/script/view/plate/pose-solver.js";
 import { studyOf } from "../../src/gallery/script/view/plate/study.js";
-import { familyOf } from "./taken.mjs";
+import { familyOf } from "./export-data.mjs";
 
 const [folder] = process.argv.slice(2);
 const ids = readdirSync(folder).filter((id) => existsSync(join(folder, id, "gallery.js")));
@@ -64,7 +64,7 @@ const tests = [
   [
     "a dash is the first 3 of every 5 degrees, from input 0",
     () => {
-      const lines = linesOf(dashData(straightPath(0, 360), dashesOfPeriod(5)));
+      const lines = linesOf(dashData(straightPath(0, 360), dashPattern(5)));
       assert.equal(lines.length, 72);
       lines.forEach((line, k) => {
         // Numbers are written in seven digits.
@@ -74,7 +74,7 @@ const tests = [
     },
   ],
   [
-    "on the way back dashes are at the same inputs",
+    "dashes are at the same inputs when the input falls",
     () => {
       const spans = (data) =>
         linesOf(data).map((line) =>
@@ -83,10 +83,10 @@ const tests = [
             .sort((a, b) => a - b)
             .join(),
         );
-      const there = spans(dashData(straightPath(-40, 40), dashesOfPeriod(5)));
-      const back = spans(dashData(straightPath(40, -40), dashesOfPeriod(5)));
+      const there = spans(dashData(straightPath(-40, 40), dashPattern(5)));
+      const back = spans(dashData(straightPath(40, -40), dashPattern(5)));
       assert.deepEqual([...back].sort(), [...there].sort());
-      assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashesOfPeriod(5))), [...there, ...back]);
+      assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashPattern(5))), [...there, ...back]);
     },
   ],
   [
@@ -99,7 +99,7 @@ const tests = [
     },
   ],
   [
-    "a view fits a box, keeps the place it zooms about, and is undone",
+    "a view fits a box, keeps the point it zooms about, and can be inverted",
     () => {
       const view = fittedView([-1, 2, 3, 4], { width: 400, height: 400, margin: 40 });
       assert.equal(view.scale, 80);
@@ -112,7 +112,7 @@ const tests = [
     },
   ],
   [
-    "a crank goes on from turn to turn, and inputs with it",
+    "a crank continues from turn to turn, and the input with it",
     () => {
       const timeline = timelineOf({ passes: [pass(0, 360)], closed: true });
       const place = { pass: 0, input: 350 };
@@ -143,7 +143,7 @@ const tests = [
     },
   ],
   [
-    "the ends of an open timeline hold",
+    "the ends of an open timeline are kept",
     () => {
       const timeline = timelineOf({ passes: [pass(10, 80)], closed: false });
       const place = { pass: 0, input: 30 };
@@ -155,7 +155,7 @@ const tests = [
     },
   ],
   [
-    "places by part and by input are the same, on every linkage, and so are poses",
+    "positions by fraction and by input agree on every linkage, and so do poses",
     () => {
       for (const id of ids) {
         const study = studyOf(familyOf(folder, id), 0, new Map());
@@ -188,13 +188,13 @@ const tests = [
     },
   ],
   [
-    "what is derived follows its expression",
+    "a derived value follows its expression",
     () => {
       const family = familyOf(folder, "evans-straight");
       const slots = family.derived.filter(([, expression]) => typeof expression !== "number");
       assert.ok(slots.length > 0);
       const recorded = changedValues(family, 3, new Map());
-      // With a parameter changed to what it is, everything follows to what it was.
+      // With a parameter changed to its own value, all values stay the same.
       const name = family.names[family.free[0]];
       const same = changedValues(family, 3, new Map([[name, recorded[family.free[0]]]]));
       recorded.forEach((value, slot) =>
@@ -207,7 +207,7 @@ const tests = [
     },
   ],
   [
-    "what is taken away is of the circuit that is shown, by its number where the atlas does not have it",
+    "an export is of the circuit that is shown, by its number if the atlas does not have it",
     () => {
       const one = familyOf(folder, "evans");
       const all = { ...one, template: { ...one.template, circuits: "all" } };
@@ -225,7 +225,7 @@ const tests = [
     },
   ],
   [
-    "ranges hold what the atlas has, and no value out of bounds",
+    "ranges contain the values of the atlas, and no value out of bounds",
     () => {
       for (const id of ids) {
         const family = familyOf(folder, id);
@@ -253,7 +253,7 @@ const tests = [
       const family = familyOf(folder, "peaucellier-lipkin");
       const { linkage, circuit, joint, timeline } = studyOf(family, 0, new Map());
       const { from, to } = timeline.passes[0];
-      const { points } = stretchOfCircuit(linkage, circuit, joint, {
+      const { points } = circuitPortion(linkage, circuit, joint, {
         start: from,
         span: to - from,
         length: family.curves.measures.straight_length[0],

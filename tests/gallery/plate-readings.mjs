@@ -1,36 +1,36 @@
-// The plate of a curve: what is read off it.
+// Tests the quantities shown on the plate of a curve.
 
 import assert from "node:assert/strict";
 
-import { opened } from "./browser.mjs";
-import { still, near } from "./plate-screen.mjs";
+import { openGallery } from "./browser.mjs";
+import { REDUCED_MOTION, assertNear } from "./plate-support.mjs";
 
 export const READINGS = [
   [
     "3.5",
     "the dial shows the transmission angle and its range",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       await page.getByRole("slider", { name: "Position on the circuit" }).fill("0");
       // At input 0 the crank lies on the frame: coupler and rocker close a triangle with p - r = 1.
       const mu = (Math.acos((2 * 2.59 * 2.59 - 1) / (2 * 2.59 * 2.59)) * 180) / Math.PI;
-      near(
+      assertNear(
         Number((await page.locator(".dial-now").textContent()).replace("°", "")),
         mu,
         0.051,
         "the angle now",
       );
-      const told = await page.locator(".dial-gauge .note").textContent();
-      assert.match(told, /least 22\.3°, greatest 70\.8°/);
+      const note = await page.locator(".dial-gauge .note").textContent();
+      assert.match(note, /least 22\.3°, greatest 70\.8°/);
       await plate.close();
     },
   ],
   [
     "3.6",
-    "the speed is told, with an arrow where it is wanted",
+    "the speed is shown, on request with an arrow",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/scotch-yoke/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/scotch-yoke/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       assert.ok((await page.locator(".speed-line").getAttribute("d")).length > 200);
       assert.equal(await page.locator(".moving .velocity").getAttribute("d"), "");
@@ -42,9 +42,9 @@ export const READINGS = [
   ],
   [
     "3.7",
-    "the straight portion is marked as long as the atlas has it",
+    "the marked straight portion has the length recorded in the atlas",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/evans/curve/1.1.1", still);
+      const plate = await openGallery(browser, folder, "/evans/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
       const [length, scale] = await page.evaluate(() => {
         const band = document.querySelector(".band");
@@ -58,7 +58,7 @@ export const READINGS = [
           Number(document.querySelector(".scale-label").textContent);
         return [Math.hypot(numbers[n - 2] - numbers[0], numbers[n - 1] - numbers[1]), bar];
       });
-      near(length, 1.71034663, 2e-3, "the band");
+      assertNear(length, 1.71034663, 2e-3, "the band");
       assert.ok(scale > 10);
       await plate.close();
     },
@@ -67,7 +67,7 @@ export const READINGS = [
     "3.8",
     "the cognates draw the same curve",
     async ({ browser, folder }) => {
-      const plate = await opened(browser, folder, "/cognates/curve/2.1.1", still);
+      const plate = await openGallery(browser, folder, "/cognates/curve/2.1.1", REDUCED_MOTION);
       const { page } = plate;
       await page.getByRole("checkbox", { name: "Cognates" }).check();
       for (const part of ["0.1", "0.5", "0.85"]) {
@@ -94,13 +94,13 @@ export const READINGS = [
   ],
   [
     "3.9",
-    "the centrodes touch at the pole, which is where crank and rocker meet",
+    "the centrodes touch at the pole, where crank and rocker intersect",
     async ({ browser, folder }) => {
-      const plate = await opened(
+      const plate = await openGallery(
         browser,
         folder,
         "/evans/curve/1.1.1?show=names,centrodes,inflection",
-        still,
+        REDUCED_MOTION,
       );
       const { page } = plate;
       const found = await page.evaluate(() => {
@@ -128,8 +128,8 @@ export const READINGS = [
           .map(Number);
         return { meet: [o[0] + t * u[0], o[1] + t * u[1]], pole: [pole[0] + 6, pole[1]] };
       });
-      near(found.pole[0], found.meet[0], 1.5, "the pole's x");
-      near(found.pole[1], found.meet[1], 1.5, "the pole's y");
+      assertNear(found.pole[0], found.meet[0], 1.5, "the pole's x");
+      assertNear(found.pole[1], found.meet[1], 1.5, "the pole's y");
       for (const name of [".centrode.fixed", ".centrode.moving", ".inflection"]) {
         assert.ok((await page.locator(name).getAttribute("d")).length > 30, name);
       }

@@ -1,14 +1,15 @@
-// What is found, and contact sheets, on paper.
+// Tests the printing of search results and contact sheets.
 
 import assert from "node:assert/strict";
 
-import { eventually, opened } from "./browser.mjs";
+import { eventually, openGallery } from "./browser.mjs";
 
 const [small, large] = process.argv.slice(2);
 
 /**
- * Prints a page as PDF: { sheets: how many of paper, line: on how much is printed, places: of the tiles that
- * are, counted from 1, drawn: how many of them are, rows: how many of a table }.
+ * Prints a page as PDF: { sheets, line, places, drawn, rows }: the number of sheets of paper, the line about
+ * the extent of the print, the positions of the printed tiles, counted from 1, the number of drawn tiles, and
+ * the number of rows of a table.
  */
 async function printed(page) {
   await page.evaluate(() => {
@@ -27,7 +28,9 @@ async function printed(page) {
   return { sheets, ...(await page.evaluate(() => window.toldOnPaper)) };
 }
 
-/** What in print goes over the right edge of the paper, or may be split between two sheets. */
+/**
+ * The elements that in print extend beyond the right edge of the paper, or may be split between two sheets.
+ */
 async function strayedOnPaper(page) {
   const { width, height } = page.viewportSize();
   await page.emulateMedia({ media: "print" });
@@ -49,9 +52,9 @@ async function strayedOnPaper(page) {
 export const PRINTING = [
   [
     "7.i",
-    "the first tiles are printed whole, wherever the window is, and counted",
+    "the first tiles are printed completely at any scroll position, and counted",
     async ({ browser }) => {
-      const gallery = await opened(browser, large, "/find");
+      const gallery = await openGallery(browser, large, "/find");
       const { page } = gallery;
       await eventually(async () => (await page.locator(".results > li").count()) > 20, "tiles come", 20000);
       await page.evaluate(() => window.scrollTo(0, 40000));
@@ -77,9 +80,9 @@ export const PRINTING = [
   ],
   [
     "7.j",
-    "all that a filter leaves is printed, as tiles and as a table",
+    "all results of a filter are printed, as tiles and as a table",
     async ({ browser }) => {
-      const gallery = await opened(browser, small, "/find?family=evans,watt");
+      const gallery = await openGallery(browser, small, "/find?family=evans,watt");
       const { page } = gallery;
       await eventually(async () => (await page.locator(".results > li").count()) === 24, "tiles come");
       assert.equal((await printed(page)).line, "Printed: all 24 curves");
@@ -97,21 +100,21 @@ export const PRINTING = [
   ],
   [
     "7.k",
-    "on paper are the curves, not the controls, within its edges",
+    "the curves are printed within the edges of the paper, the controls are not",
     async ({ browser }) => {
-      for (const [room, there, gone] of [
+      for (const [address, there, gone] of [
         ["/find?family=evans,watt", ".results > li", ".find-panel, .export, .toolbar"],
         ["/find?show=table&family=evans", ".results-table", ".find-panel, .results-table .pin"],
         ["/shape?like=evans:2.1.1", ".matches > li", ".shape-options, .acts, textarea"],
         ["/compare?c=evans:1.1.1,watt:2.1.1", ".pinned-tiles > li", ".acts, .toolbar"],
       ]) {
-        const gallery = await opened(browser, small, room, { colorScheme: "dark" });
+        const gallery = await openGallery(browser, small, address, { colorScheme: "dark" });
         const { page } = gallery;
         await page.locator(there).first().waitFor({ timeout: 20000 });
         await page.emulateMedia({ media: "print" });
-        assert.equal(await page.locator(gone).filter({ visible: true }).count(), 0, room);
-        assert.ok(await page.locator(there).first().isVisible(), room);
-        assert.deepEqual(await strayedOnPaper(page), [], room);
+        assert.equal(await page.locator(gone).filter({ visible: true }).count(), 0, address);
+        assert.ok(await page.locator(there).first().isVisible(), address);
+        assert.deepEqual(await strayedOnPaper(page), [], address);
         await gallery.close();
       }
     },

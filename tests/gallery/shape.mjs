@@ -1,14 +1,14 @@
-// Tries the search by shape: node tests/gallery/shape.mjs ATLAS…
+// Tests the search by shape: node tests/gallery/shape.mjs ATLAS…
 //
-// Of each atlas, curves are turned, scaled, mirrored, begun elsewhere, passed the other way, sampled anew and disturbed; the
-// search must find them again. Times are printed, not asserted: they depend on the machine.
+// Curves of each atlas are rotated, scaled, mirrored, started elsewhere, reversed, resampled and disturbed by
+// noise; the search must find them again. Times are printed, not asserted: they depend on the machine.
 
 import assert from "node:assert/strict";
 
 import { curveKey, curvePoints } from "../../src/gallery/script/data/family.js";
-import { askedShape } from "../../src/gallery/script/shape/asked.js";
-import { decodedShape, encodedShape } from "../../src/gallery/script/shape/encode.js";
-import { indexing, indexingWindows } from "../../src/gallery/script/shape/indexing.js";
+import { queryShape } from "../../src/gallery/script/shape/query-shape.js";
+import { decodeShape, encodeShape } from "../../src/gallery/script/shape/encode.js";
+import { buildIndex, addWindows } from "../../src/gallery/script/shape/shape-index.js";
 import {
   extentOf,
   lengthsAlong,
@@ -16,16 +16,16 @@ import {
   resampled,
   reversedOutline,
 } from "../../src/gallery/script/shape/outline.js";
-import { quieted } from "../../src/gallery/script/shape/quiet.js";
-import { shapeIn } from "../../src/gallery/script/shape/parse.js";
-import { searching } from "../../src/gallery/script/shape/search.js";
-import { composed, fitted, inverted, placed } from "../../src/gallery/script/shape/similarity.js";
-import { fourier } from "../../src/gallery/script/shape/spectrum.js";
-import { atlasOf, finished, randoms } from "./atlas-data.mjs";
+import { smoothed } from "../../src/gallery/script/shape/smoothing.js";
+import { parseShape } from "../../src/gallery/script/shape/parse.js";
+import { searchByShape } from "../../src/gallery/script/shape/search.js";
+import { composed, fitted, inverted, transformed } from "../../src/gallery/script/shape/similarity.js";
+import { fourier } from "../../src/gallery/script/shape/fourier.js";
+import { atlasOf, runToEnd, randomNumbers } from "./atlas-data.mjs";
 
 const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, `${what}: ${a}, not ${b}`);
 
-/* The parts, against closed forms. */
+// The parts, compared with closed forms.
 
 {
   const circle = Float64Array.from({ length: 800 }, (_, k) =>
@@ -37,7 +37,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   assert.deepEqual([...reversedOutline(Float64Array.of(0, 0, 1, 0, 1, 1), true)], [0, 0, 1, 1, 1, 0]);
 
   const { forward, inverse } = fourier(16);
-  const random = randoms(1);
+  const random = randomNumbers(1);
   const [re, im] = [0, 1].map(() => Float64Array.from({ length: 16 }, random));
   const [x, y] = [re.slice(), im.slice()];
   forward(x, y);
@@ -53,22 +53,22 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   re.forEach((value, k) => near(x[k], value, 1e-14, "there and back"));
 
   const similarity = { mirror: true, re: 0.6, im: -1.1, x: 3, y: -2 };
-  const there = placed(similarity, even);
-  placed(inverted(similarity), there).forEach((value, k) =>
+  const there = transformed(similarity, even);
+  transformed(inverted(similarity), there).forEach((value, k) =>
     near(value, even[k], 1e-13, "inverse of a similarity"),
   );
-  placed(composed(inverted(similarity), similarity), even).forEach((value, k) =>
+  transformed(composed(inverted(similarity), similarity), even).forEach((value, k) =>
     near(value, even[k], 1e-13, "composition"),
   );
   const turned = { mirror: false, re: 0.3, im: 2, x: 1, y: 1 };
-  const fit = fitted(even, placed(turned, even));
+  const fit = fitted(even, transformed(turned, even));
   for (const part of ["re", "im", "x", "y"]) near(fit[part], turned[part], 1e-12, `fit, ${part}`);
 }
 
-/* What trembles is smoothed, and what does not is left alone. */
+// Noisy outlines are smoothed, others are not changed.
 
 {
-  const random = randoms(3);
+  const random = randomNumbers(3);
   const circle = (count, noise) =>
     Float64Array.from(
       { length: 2 * count },
@@ -76,21 +76,21 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
         (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / count) + noise * (2 * random() - 1),
     );
   for (const points of [circle(300, 0), circle(12, 0), Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)])
-    assert.equal(quieted(points, true), points);
+    assert.equal(smoothed(points, true), points);
   const line = Float64Array.of(0, 0, 1, 0, 5, 1);
-  assert.equal(quieted(line, false), line);
+  assert.equal(smoothed(line, false), line);
   const length = (points) => lengthsAlong(points, true).at(-1) / (2 * Math.PI);
   for (const count of [100, 200, 400]) {
     const given = circle(count, 0.02);
     assert.ok(length(given) > 1.02, "noise adds to the length");
-    near(length(quieted(given, true)), 1, 0.02, "the length of a quiet circle");
+    near(length(smoothed(given, true)), 1, 0.02, "the length of a quiet circle");
   }
 }
 
-/* What is pasted. */
+// Pasted text.
 
 {
-  const read = (text) => shapeIn(text);
+  const read = (text) => parseShape(text);
   assert.deepEqual([...read("x,y\n0,0\n1,0\n1,2").points], [0, 0, 1, 0, 1, 2]);
   assert.deepEqual([...read("# mm\n0 0\n1\t0\n2  3\n").points].slice(-2), [2, 3]);
   assert.deepEqual([...read("1,5;2,5\n3;4,25").points], [1.5, 2.5, 3, 4.25]);
@@ -112,7 +112,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   for (let k = 0; k < arc.length; k += 2) near(Math.hypot(arc[k], arc[k + 1]), 1, 1e-12, "arc of a circle");
   assert.ok(
     arc.some((value, k) => k % 2 && value > 0.99),
-    "swept the way that SVG sweeps",
+    "swept in the direction of SVG",
   );
   assert.deepEqual(
     [...read("M10 10a5 5 0 1110 0").points.slice(-2)],
@@ -130,11 +130,11 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     assert.throws(() => read(wrong), Error, wrong);
 }
 
-/* What SVG draws, where its transforms put it. */
+// Outlines of SVG with transforms.
 
 {
   const near2 = (svg, expected, what) => {
-    const { points } = shapeIn(svg);
+    const { points } = parseShape(svg);
     assert.equal(points.length, expected.length, what);
     // y points down in SVG.
     expected.forEach((value, k) => near(points[k], k % 2 ? -value : value, 1e-12, what));
@@ -150,7 +150,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   moved("skewX(45)", [1, 0, 3, 0, 4, 1]);
   moved("skewY(45)", [1, 1, 3, 3, 3, 4]);
   moved("matrix(1 2 3 4 5 6)", [6, 8, 8, 12, 11, 16]);
-  // The last of a list is done first, and what is within before what is about it.
+  // The last transform of a list is applied first, and inner ones before outer ones.
   moved("translate(5,0) , scale(2)rotate(90)", [5, 2, 5, 6, 3, 6]);
   moved("none", [1, 0, 3, 0, 3, 1]);
   near2(
@@ -159,7 +159,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     [7, 0, 11, 0, 11, 2],
     "nested",
   );
-  // A transform that is closed again is over, and the longest is that which is drawn longest.
+  // A transform ends with its element, and the longest outline is the longest after transforms.
   near2(`<g transform="scale(2)"/>${line}`, [1, 0, 3, 0, 3, 1], "a sibling");
   near2(`<g transform="scale(9)"><path d="M0 0H1V1"/></g>${line}`, [0, 0, 9, 0, 9, 9], "drawn larger");
   near2('<path d="M0 0H99" display="none"/><path d="M0 0H1"/>', [0, 0, 1, 0], "hidden");
@@ -174,7 +174,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     ['<g transform="scale(2,1) translate(2 1)"><ellipse rx="3" ry="3"/></g>', "ellipse"],
     ['<rect x="-1" y="-2" width="6" height="6" rx="3" transform="scale(2 1)"/>', "rounded rectangle"],
   ]) {
-    const { points, closed } = shapeIn(round);
+    const { points, closed } = parseShape(round);
     assert.equal(closed, true, what);
     for (let k = 0; k < points.length; k += 2)
       near(((points[k] - 4) / 6) ** 2 + ((points[k + 1] + 1) / 3) ** 2, 1, 1e-12, what);
@@ -194,28 +194,31 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     ["<svg><text>M0 0L9 9</text></svg>", /draws no path/],
     [`<g transform="scale(0)">${line}</g>`, /Fewer than two/],
   ])
-    assert.throws(() => shapeIn(wrong), { message: sentence }, wrong);
+    assert.throws(() => parseShape(wrong), { message: sentence }, wrong);
 }
 
-/* In the address. */
+// Shapes in addresses.
 
 {
   const points = Float64Array.from({ length: 600 }, (_, k) =>
     k % 2 ? 3 * Math.sin((k - 1) / 95.5) : 5 * Math.cos(k / 95.5),
   );
-  const word = encodedShape(points, true);
+  const word = encodeShape(points, true);
   assert.equal(word.length, 1 + 48 * 4);
   assert.match(word, /^[\w-]+$/);
-  const { points: again, closed } = decodedShape(word);
+  const { points: again, closed } = decodeShape(word);
   assert.equal(closed, true);
   for (let k = 0; k < again.length; k += 2)
     near(((again[k] - 50) / 50) ** 2 + ((again[k + 1] - 30) / 30) ** 2, 1, 0.01, "on the ellipse");
-  for (const wrong of ["", "x", "cAA", "oAAAA", "c!AAAAAAA"]) assert.equal(decodedShape(wrong), null);
+  for (const wrong of ["", "x", "cAA", "oAAAA", "c!AAAAAAA"]) assert.equal(decodeShape(wrong), null);
 }
 
-/* The curves of atlases, found again. */
+// Curves of atlases are found again.
 
-/** A curve as another hand might give it; `noise` displaces each point by up to so much of the extent. */
+/**
+ * A curve transformed, resampled and disturbed; `noise` displaces each point by up to this part of the
+ * extent.
+ */
 function disturbed(points, closed, random, { count, noise }) {
   const start = closed ? random() : 0;
   const even = portion(points, closed, start, closed ? start + 1 - 1 / count : 1, count).points;
@@ -234,16 +237,20 @@ function disturbed(points, closed, random, { count, noise }) {
     x: 10 * random(),
     y: -5 * random(),
   };
-  const placedThere = placed(similarity, moved);
+  const placedThere = transformed(similarity, moved);
   return random() < 0.5 ? reversedOutline(placedThere, closed) : placedThere;
 }
 
-// Deviations that differ by less, of the extent, are as near: chords of the samples depart as much from the curve.
+// Deviations that differ by less than this, by the extent, count as equal: the chords of the samples deviate
+// as much from the curve.
 const AS_NEAR = 3e-4;
 
-/** Searches for curves of an atlas, disturbed; { first, five } are how many came first, and among the first five. */
+/**
+ * Searches for disturbed curves of an atlas; { first, five } are the numbers of those found first and among
+ * the first five.
+ */
 function trial(indexes, families, { label, tries, part, ...disturbance }) {
-  const random = randoms(20);
+  const random = randomNumbers(20);
   const curves = families.flatMap((family) =>
     Array.from({ length: family.curves.count }, (_, curve) => ({ family, curve })),
   );
@@ -255,7 +262,7 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
     const own = curvePoints(family, curve);
     const from = closed ? random() : random() * (1 - part);
     const points = part < 1 ? portion(own, closed, from, from + part, 300).points : own;
-    const shape = askedShape(
+    const shape = queryShape(
       disturbed(points, closed && part === 1, random, disturbance),
       closed && part === 1,
     );
@@ -263,9 +270,9 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
       value,
       longest: step,
       whole,
-    } = finished(searching(indexes, shape, { part: part < 1, least: 0.15 }));
+    } = runToEnd(searchByShape(indexes, shape, { part: part < 1, least: 0.15 }));
     const name = `${family.id}:${curveKey(family, curve)}`;
-    // The same curve is drawn by cognates, and by families that overlap: what is as near shares its place.
+    // Cognates and overlapping families draw the same curve: results with equal deviations share a rank.
     const at = value.findIndex((one) => one.name === name);
     ranks.push(at < 0 ? Infinity : value.filter(({ rms }) => rms < value[at].rms - AS_NEAR).length + 1);
     if (at === 0) alone += 1;
@@ -282,9 +289,9 @@ function trial(indexes, families, { label, tries, part, ...disturbance }) {
 
 for (const folder of process.argv.slice(2)) {
   const { families } = atlasOf(folder);
-  const made = families.map((family) => finished(indexing(family)));
+  const made = families.map((family) => runToEnd(buildIndex(family)));
   const indexes = made.map(({ value }) => value);
-  const windows = indexes.map((index) => finished(indexingWindows(index, 0.15)));
+  const windows = indexes.map((index) => runToEnd(addWindows(index, 0.15)));
   const sum = (runs) => Math.round(runs.reduce((whole, run) => whole + run.whole, 0));
   console.log(`${folder}: index ${sum(made)} ms, windows ${sum(windows)} ms`);
   const tries = 100;
@@ -297,10 +304,10 @@ for (const folder of process.argv.slice(2)) {
     count: 200,
     noise: 0.01,
   });
-  // Neighbours in a dense atlas differ by less than such noise hides.
+  // Neighbours in a dense atlas differ by less than this noise.
   assert.ok(noised.first >= 0.85 && noised.five >= 0.95, "noised curves come first");
   const third = trial(indexes, families, { label: "a third", tries, part: 1 / 3, count: 80, noise: 0 });
-  // Thirds without a feature, arcs nearly of circles, are drawn by very many curves.
+  // Thirds without features, nearly circular arcs, are drawn by very many curves.
   assert.ok(third.five >= 0.85, "thirds of curves come among the first five");
   const rough = trial(indexes, families, {
     label: "a third, 1 % of noise",
@@ -309,21 +316,21 @@ for (const folder of process.argv.slice(2)) {
     count: 80,
     noise: 0.01,
   });
-  // Of thousands of curves hundreds have a third that is as near to another's as such noise tells.
+  // Of thousands of curves hundreds have a third that differs from another's by less than this noise.
   assert.ok(rough.five >= 0.4, "noised thirds come among the first five as often as not");
   unmirrored(indexes, families[0]);
 }
 
-/** With mirror images left out, none is found; the deviation of what is found is as its overlay has it. */
+/** Tests that no mirror image is found if they are excluded, and that deviations agree with the overlays. */
 function unmirrored(indexes, family) {
   const points = curvePoints(family, 0);
   const closed = family.curves.closed[0] === 1;
-  const shape = askedShape(points, closed);
-  const { value } = finished(searching(indexes, shape, { mirror: false }));
+  const shape = queryShape(points, closed);
+  const { value } = runToEnd(searchByShape(indexes, shape, { mirror: false }));
   assert.ok(value.every(({ similarity }) => !similarity.mirror));
   assert.ok(value[0].rms < 1e-3);
   value.slice(1).forEach(({ rms }, k) => assert.ok(rms >= value[k].rms, "ranked by deviation"));
-  const byGreatest = finished(searching(indexes, shape, { by: "greatest" })).value;
+  const byGreatest = runToEnd(searchByShape(indexes, shape, { by: "greatest" })).value;
   byGreatest.slice(1).forEach(({ greatest }, k) => assert.ok(greatest >= byGreatest[k].greatest));
 }
 console.log("shape: as it should be");

@@ -3,7 +3,7 @@
 // CASES.json is an array of
 //   { name,
 //     template, values, sampling,
-//         as the data of index.html has them: a family's template, the values of its names in a cell,
+//         as in the data of index.html: a family's template, the values of its names in a cell,
 //         { step } or { samples, spacing } in degrees or lengths
 //     straight,
 //         { tolerance | input | length }; absent or null for a tolerance of 0.001
@@ -19,20 +19,20 @@
 //         of a traced joint and a circuit, both counted from 1; null where one does not apply; may be left out
 //     rates: [{ trace, circuit, values: { column: [number | "inf" | "-inf" | null] } }] }
 //         further columns of points.csv, by samples; may be left out
-// Exit 0 with a line of the greatest deviations, 1 with a line for each disagreement.
+// Exits with 0 and a line of the greatest deviations, or with 1 and a line for each disagreement.
 
 import { readFileSync } from "node:fs";
 
-import { LinkageError } from "../../src/gallery/script/kinematics/assembly.js";
+import { LinkageError } from "../../src/gallery/script/kinematics/linkage-builder.js";
 import { motionOf } from "../../src/gallery/script/kinematics/motion.js";
 import { linkageOf } from "../../src/gallery/script/kinematics/template.js";
-import { sideOf } from "../../src/gallery/script/kinematics/signs.js";
-import { compareMeasures, measuresTold } from "./measured.mjs";
-import { compareRates, ratesTold } from "./rated.mjs";
+import { sideOf } from "../../src/gallery/script/kinematics/assembly-mode.js";
+import { compareMeasures, measureSummary } from "./compare-measures.mjs";
+import { compareRates, rateSummary } from "./compare-rates.mjs";
 
-// Of a place, by the size of the linkage.
+// The tolerance of a position, by the size of the linkage.
 const PLACE_TOLERANCE = 1e-12;
-// Of an input: limits that are found by bisection are as good as their last bits.
+// The tolerance of an input: limits found by bisection are exact to their last bits.
 const INPUT_TOLERANCE = 1e-11;
 
 const greatest = { place: 0, placeAt: "", input: 0, inputAt: "", samples: 0, circuits: 0 };
@@ -63,41 +63,41 @@ function compareCase(given) {
   if ((found.shortfall ?? null) !== (motion.shortfall ?? null)) {
     complain(name, `"${found.shortfall}", not "${motion.shortfall}"`);
   }
-  motion.circuits.forEach((wanted, k) =>
-    compareCircuit(`${name}, circuit ${k + 1}`, given, linkage, found.circuits[k], wanted),
+  motion.circuits.forEach((expected, k) =>
+    compareCircuit(`${name}, circuit ${k + 1}`, given, linkage, found.circuits[k], expected),
   );
   if (given.measures) compareMeasures(given, linkage, found, complain);
   if (given.rates) compareRates(given, linkage, found, complain);
 }
 
-function compareCircuit(name, { columns }, linkage, circuit, wanted) {
+function compareCircuit(name, { columns }, linkage, circuit, expected) {
   greatest.circuits += 1;
-  if (circuit.count !== wanted.input.length) {
-    complain(name, `${circuit.count} samples, not ${wanted.input.length}`);
+  if (circuit.count !== expected.input.length) {
+    complain(name, `${circuit.count} samples, not ${expected.input.length}`);
     return;
   }
-  if (wanted.closed !== undefined && wanted.closed !== circuit.closed)
+  if (expected.closed !== undefined && expected.closed !== circuit.closed)
     complain(name, `closed is ${circuit.closed}`);
-  if (wanted.passes) comparePasses(name, linkage, circuit, wanted.passes);
-  wanted.input.forEach((at, i) => {
+  if (expected.passes) comparePasses(name, linkage, circuit, expected.passes);
+  expected.input.forEach((at, i) => {
     const off = Math.abs(circuit.input[i] - at) / Math.max(1, Math.abs(at));
     if (off > greatest.input) Object.assign(greatest, { input: off, inputAt: `${name}, sample ${i}` });
     if (!(off <= INPUT_TOLERANCE)) complain(name, `input ${circuit.input[i]} of sample ${i}, not ${at}`);
-    wanted.branch[i].forEach((side, dyad) => {
+    expected.branch[i].forEach((side, dyad) => {
       if (dyad < linkage.dyads && circuit.branch(i, dyad) !== side)
         complain(name, `branch ${-side} of dyad ${dyad} at sample ${i}`);
     });
   });
   const rows = columns === "traced" ? linkage.traced : linkage.joints.map((_, joint) => joint);
-  comparePlaces(name, rows, linkage, circuit, wanted);
+  comparePlaces(name, rows, linkage, circuit, expected);
 }
 
-function comparePasses(name, { dyads }, { passes }, wanted) {
-  if (passes.length !== wanted.length) {
-    complain(name, `${passes.length} passes, not ${wanted.length}`);
+function comparePasses(name, { dyads }, { passes }, expected) {
+  if (passes.length !== expected.length) {
+    complain(name, `${passes.length} passes, not ${expected.length}`);
     return;
   }
-  wanted.forEach(({ from, to, signs }, k) => {
+  expected.forEach(({ from, to, signs }, k) => {
     const off =
       Math.max(Math.abs(passes[k].from - from), Math.abs(passes[k].to - to)) / Math.max(1, Math.abs(from));
     if (!(off <= INPUT_TOLERANCE)) complain(name, `pass ${k + 1} from ${passes[k].from} to ${passes[k].to}`);
@@ -106,18 +106,18 @@ function comparePasses(name, { dyads }, { passes }, wanted) {
   });
 }
 
-function comparePlaces(name, rows, linkage, circuit, wanted) {
+function comparePlaces(name, rows, linkage, circuit, expected) {
   const finite = (value) => value !== null && Number.isFinite(value);
   let size = 0;
-  for (const row of [...wanted.x, ...wanted.y])
+  for (const row of [...expected.x, ...expected.y])
     for (const at of row) if (finite(at)) size = Math.max(size, Math.abs(at));
   rows.forEach((joint, row) => {
     for (let i = 0; i < circuit.count; i++) {
       greatest.samples += 1;
       for (const axis of ["x", "y"]) {
-        const [here, there] = [circuit[axis][joint][i], wanted[axis][row][i]];
+        const [here, there] = [circuit[axis][joint][i], expected[axis][row][i]];
         if (!finite(there) && !Number.isFinite(here)) continue;
-        // A place that only one of the two has is as far off as can be.
+        // A position that only one of the two has is infinitely far off.
         const off = finite(there) ? Math.abs(here - there) / size : Infinity;
         if (off > greatest.place) Object.assign(greatest, { place: off, placeAt: `${name}, sample ${i}` });
         if (off <= PLACE_TOLERANCE) continue;
@@ -141,6 +141,6 @@ if (problems > 60) console.log(`and ${problems - 60} more`);
 console.log(`${cases.length} cases, ${circuits} circuits, ${samples} places: ${problems} disagreements`);
 console.log(`places to ${place.toExponential(1)} of the size (${placeAt})`);
 console.log(`inputs to ${input.toExponential(1)} (${inputAt})`);
-console.log(measuresTold());
-console.log(ratesTold());
+console.log(measureSummary());
+console.log(rateSummary());
 process.exit(problems > 0 ? 1 : 0);

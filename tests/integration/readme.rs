@@ -62,13 +62,8 @@ fn the_readmes_further_joints_can_be_read() {
              {a}\nX = {joint}\n{}\n",
             rest.join("\n")
         );
-<<<<<<< HEAD
         let (own, problems) = manifest::parse_linkages(&text);
-        assert!(own.len() == 1 && problems.is_empty(), "{}", report(&problems, "README.md", &text, false));
-=======
-        let (own, problems) = manifest::linkages(&text);
         assert!(own.len() == 1 && problems.is_empty(), "{}", report(&problems, "docs/manifest.md", &text, false));
->>>>>>> docs-words
     }
 }
 

@@ -159,11 +159,11 @@ fn the_pages_solver_and_measures_keep_to_closed_forms() {
     node("measures.mjs", &[]);
 }
 
-/// Plates, filters and what is taken away, of the families of the committed atlas.
+/// Tests plates, filters and exports with the families of the committed atlas.
 #[test]
 fn the_page_reckons_with_the_committed_atlas() {
     let atlas = Path::new(env!("CARGO_MANIFEST_DIR")).join("output");
-    for script in ["plate-parts.mjs", "find.mjs", "take.mjs"] {
+    for script in ["plate-parts.mjs", "find.mjs", "export.mjs"] {
         node(script, &[&atlas]);
     }
 }

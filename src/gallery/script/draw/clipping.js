@@ -1,9 +1,10 @@
-// Polylines cut to a box: centrodes run to infinity.
+// Clips polylines to a box: centrodes extend to infinity.
 
 import { dataNumber } from "./path-data.js";
 
 /**
- * Path data of what of a polyline [x, y, …] is in a box [x0, y0, x1, y1]; points that are not finite part it.
+ * Path data of the part of a polyline [x, y, …] in a box [x0, y0, x1, y1]; it is interrupted at points that
+ * are not finite.
  */
 export function clippedData(points, box, digits = 6) {
   const number = (x) => dataNumber(x, digits);
@@ -21,7 +22,10 @@ export function clippedData(points, box, digits = 6) {
   return data;
 }
 
-/** The part of a segment in a box, [x0, y0, x1, y1], after Liang and Barsky; null where none is. */
+/**
+ * The part of a segment in a box, [x0, y0, x1, y1], by the algorithm of Liang and Barsky; null if there is
+ * none.
+ */
 export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   if (!Number.isFinite(dx + dy)) return null;
@@ -32,10 +36,10 @@ export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
     [-dy, y0 - low],
     [dy, high - y0],
   ];
-  for (const [rate, room] of edges) {
-    if (rate === 0 && room < 0) return null;
+  for (const [rate, distance] of edges) {
+    if (rate === 0 && distance < 0) return null;
     if (rate === 0) continue;
-    const at = room / rate;
+    const at = distance / rate;
     if (rate < 0) from = Math.max(from, at);
     else to = Math.min(to, at);
   }

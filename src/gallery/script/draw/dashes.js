@@ -1,16 +1,17 @@
-// A curve in dashes that show its speed: a dash is the first part of every so much input, so that fast
-// stretches have long dashes. Dash k starts at the input k times the period, and on the way back ends there.
+// Draws a curve in dashes that show its speed: each dash covers the same amount of input, so that dashes are
+// long where the point is fast. Dash k starts at the input k times the period, or ends there if the input
+// falls.
 
 import { dataNumber } from "./path-data.js";
 
-/** What the first 3 of every 5 degrees of input are called. */
-export function dashesOfPeriod(period) {
+/** The dash pattern of a period: the first three fifths are drawn, such as 3 of every 5 degrees of input. */
+export function dashPattern(period) {
   return { period, drawn: 0.6 * period };
 }
 
 /**
- * Path data of the dashes of a path { points: [x, y, …], inputs, starts } (kinematics/path.js), passes apart:
- * `starts` has the first point of each. `dashes` is { period, drawn } in the unit of the inputs.
+ * Path data of the dashes of a path { points: [x, y, …], inputs, starts } (kinematics/path.js), separate for
+ * each pass: `starts` has the first point of each. `dashes` is { period, drawn } in the unit of the inputs.
  */
 export function dashData({ points, inputs, starts }, dashes, digits = 7) {
   const data = [];
@@ -24,7 +25,7 @@ export function dashData({ points, inputs, starts }, dashes, digits = 7) {
 function dashesOfPass(points, inputs, first, last, { period, drawn }, digits, data) {
   const number = (x) => dataNumber(x, digits);
   const isDrawn = (at) => at - Math.floor(at / period) * period < drawn;
-  // The next border of a dash beyond an input, in the direction of the pass.
+  // The next end of a dash after an input, in the direction of the pass.
   const heading = inputs[last] >= inputs[first] ? 1 : -1;
   const border = (at) => {
     const k = Math.floor(at / period);

@@ -1,8 +1,8 @@
-// The dial of the transmission angle: half a circle from 0 on the right to 180 on the left.
+// Draws the dial of the transmission angle: a half circle from 0 on the right to 180 on the left.
 
 import { pixel } from "./path-data.js";
 
-/** The place of an angle in degrees at a radius about the dial's centre, [X, Y], y down. */
+/** The position of an angle in degrees at a radius about the dial's centre, [X, Y], y down. */
 function dialPlace([cx, cy], radius, deg) {
   const angle = (deg * Math.PI) / 180;
   return [cx + radius * Math.cos(angle), cy - radius * Math.sin(angle)];
@@ -15,14 +15,14 @@ export function dialArc(centre, radius, from, to) {
   return `M${x0} ${y0}A${radius} ${radius} 0 ${to - from > 180 ? 1 : 0} 0 ${x1} ${y1}`;
 }
 
-/** Path data of a stroke along a radius. */
+/** Path data of a line along a radius. */
 export function dialStroke(centre, inner, outer, deg) {
   const [x0, y0] = dialPlace(centre, inner, deg).map(pixel);
   const [x1, y1] = dialPlace(centre, outer, deg).map(pixel);
   return `M${x0} ${y0}L${x1} ${y1}`;
 }
 
-/** Path data of the field between two angles and two radii. */
+/** Path data of the sector between two angles and two radii. */
 export function dialField(centre, inner, outer, from, to) {
   const [x1, y1] = dialPlace(centre, inner, to).map(pixel);
   const [x0, y0] = dialPlace(centre, inner, from).map(pixel);

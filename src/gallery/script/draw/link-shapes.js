@@ -1,11 +1,11 @@
-// The parts of a linkage as path data on the screen. `at` is the places of all joints in pixels, [X0, Y0, X1,
-// Y1, …].
+// Draws the parts of a linkage as path data on the screen. `at` has the positions of all joints in pixels,
+// [X0, Y0, X1, Y1, …].
 
 import { pixel } from "./path-data.js";
 
 const SLIDER_BLOCK = { long: 11, wide: 7 };
 
-/** Path data through joints, closed round a plate. */
+/** Path data through joints, closed for a plate. */
 export function linkData(joints, at, isPlate) {
   let data = "";
   for (let k = 0; k < joints.length; k++) {
@@ -15,7 +15,7 @@ export function linkData(joints, at, isPlate) {
   return isPlate ? `${data}Z` : data;
 }
 
-/** Path data of a sliding block about a place, along a direction. */
+/** Path data of a sliding block centred at a point, along a direction. */
 export function blockData(x, y, dx, dy) {
   const size = Math.hypot(dx, dy);
   const [ux, uy] = size > 0 ? [dx / size, dy / size] : [1, 0];
@@ -28,15 +28,17 @@ export function blockData(x, y, dx, dy) {
   );
 }
 
-/** Path data of the cylinder of an actuator, on the nearer half of it; its rod goes from end to end. */
+/**
+ * Path data of the cylinder of an actuator, on the half nearer to its first end; its rod goes from end to
+ * end.
+ */
 export function cylinderData(x0, y0, x1, y1) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   return boxData(x0 + 0.1 * dx, y0 + 0.1 * dy, x0 + 0.6 * dx, y0 + 0.6 * dy, 5.5);
 }
 
 /**
- * Path data of a slot's hole from end to end, as wide as a block, with round ends and room for a block's
- * length.
+ * Path data of a slot from end to end, as wide as a block, with round ends beyond the ends of a block.
  */
 export function slotData(x0, y0, x1, y1) {
   const size = Math.hypot(x1 - x0, y1 - y0);
@@ -51,14 +53,14 @@ export function slotData(x0, y0, x1, y1) {
 }
 
 /**
- * Where the ends of a slot (mechanism.js) are on the screen, [X0, Y0, X1, Y1], at so many pixels to a unit,
- * into `out`.
+ * Writes the ends of a slot (mechanism.js) on the screen, [X0, Y0, X1, Y1], to `out`; `scale` is in pixels
+ * per unit.
  */
 export function slotEnds({ foot, base: [from, to], near, far }, at, scale, out) {
   const [bx, by] = [at[2 * to] - at[2 * from], at[2 * to + 1] - at[2 * from + 1]];
   const size = Math.hypot(bx, by);
   const [ux, uy] = size > 0 ? [bx / size, by / size] : [1, 0];
-  // On the screen y is down: left of a direction is the other way round.
+  // On the screen y is down, which exchanges left and right of a direction.
   [near, far].forEach(([along, left], k) => {
     out[2 * k] = at[2 * foot] + scale * (along * ux + left * uy);
     out[2 * k + 1] = at[2 * foot + 1] + scale * (along * uy - left * ux);
@@ -66,7 +68,7 @@ export function slotEnds({ foot, base: [from, to], near, far }, at, scale, out) 
   return out;
 }
 
-/** Path data of an arrow from a place, as long as dx, dy. */
+/** Path data of an arrow from a point along dx, dy. */
 export function arrowData(x, y, dx, dy) {
   const size = Math.hypot(dx, dy);
   if (!(size > 1)) return "";

@@ -1,17 +1,17 @@
-// What of a linkage is drawn: bars and plates, pivots and pins, sliders with their guides, slots, actuators,
-// wheels.
+// Finds the parts of a linkage to draw: bars and plates, pivots and pins, sliders with their guides, slots,
+// actuators and gears.
 
 import { groundOf, placeOnLink } from "../kinematics/linkage.js";
-import { emptyBox, widenedBox } from "./paper-view.js";
+import { emptyBox, widenedBox } from "./plane-view.js";
 
 /**
- * The parts of a linkage over a sampled circuit (kinematics/motion.js), joints by their places: { bars:
+ * The parts of a linkage over a sampled circuit (kinematics/motion.js), joints by their indices: { bars:
  * [[joints]], plates: [[joints]], frame: [joints], fixed: [joints], pins: [joints], blocks: [{ at, line: [p,
  * q] }], slots: [{ foot, through, base: [from, to], near: [x, y], far: [x, y] }], actuators: [[pivot,
- * joint]], guides: [[x0, y0, x1, y1]], wheels: [{ joint, radius }] } Plates are links with three joints or
- * more that are not in line, in the order of their outline. The ends of a slot are from its foot, in the
- * frame whose x-axis goes from `base[0]` to `base[1]`. Of the points of a grid only the one `traced` is on
- * its plate.
+ * joint]], guides: [[x0, y0, x1, y1]], wheels: [{ joint, radius }] }. Plates are links with three joints or
+ * more that are not in line, in the order of their outline. The ends of a slot are relative to its foot, in
+ * the frame whose x-axis goes from `base[0]` to `base[1]`. Of the points of a grid only the one `traced` is
+ * on its plate.
  */
 export function mechanismOf(linkage, circuit, traced) {
   const { joints } = linkage;
@@ -46,14 +46,14 @@ export function mechanismOf(linkage, circuit, traced) {
   };
 }
 
-/** The joints of the link at rest that something moves about. */
+/** The joints of the ground link that other links are connected to. */
 function groundPivots(linkage) {
   const ground = groundOf(linkage);
   const isPivot = (joint) => linkage.links.some((link) => link !== ground && placeOnLink(link, joint));
   return ground.map(({ joint }) => joint).filter(isPivot);
 }
 
-/** The box round all that a mechanism sweeps over a circuit, and the paths of further joints. */
+/** The bounding box of a mechanism over a circuit, and of the paths of further joints. */
 export function sweptBox(mechanism, circuit, further = []) {
   const box = emptyBox();
   const { pins, frame, slots, guides, wheels } = mechanism;
@@ -75,7 +75,7 @@ function movingOutlines(linkage, traced) {
 
 // The joints of a link along a bar or round a plate.
 function linkOutline({ joints }, link, traced) {
-  // The points of a grid stand side by side, under one name.
+  // The points of a grid are consecutive joints with one name.
   const isGrid = (id) =>
     id !== traced &&
     joints[id].step.kind === "rigid" &&
@@ -93,7 +93,7 @@ function linkOutline({ joints }, link, traced) {
   return { joints: order.map(({ joint }) => joint), isPlate };
 }
 
-// Whether places lie on one line, to a thousandth of their extent.
+// Whether points lie on one line, to a thousandth of their extent.
 function isFlatOutline(places) {
   const [x0, y0, x1, y1] = widenedBox(
     emptyBox(),
@@ -106,7 +106,7 @@ function isFlatOutline(places) {
   return rest.every((a) => rest.every((b) => Math.abs(area(a, b)) <= 1e-3 * size2));
 }
 
-// What a slider uses of a line on the frame, [x0, y0, x1, y1].
+// The part of a line on the frame that a slider moves along, [x0, y0, x1, y1].
 function guideOf(linkage, circuit, id) {
   const { step } = linkage.joints[id];
   if (step.kind !== "slide" && step.kind !== "yoke") return null;
@@ -120,8 +120,8 @@ function guideOf(linkage, circuit, id) {
   return [circuit.x[id][least], circuit.y[id][least], circuit.x[id][most], circuit.y[id][most]];
 }
 
-// What a joint uses of the line it slides along, on a link that moves. The line's direction follows the base:
-// that of a slot its pivot and foot, that of a yoke its guide, that of a slot without offset the line itself.
+// The part of a line on a moving link that a joint slides along. The line has the direction of a base: the
+// pivot and foot of a slot, the guide of a yoke, or the line itself for a slot without offset.
 function slotOf(linkage, circuit, id) {
   const { step } = linkage.joints[id];
   let base = null;
@@ -144,7 +144,7 @@ function slotOf(linkage, circuit, id) {
   return { foot: id, through, base, near: arms[least], far: arms[most] };
 }
 
-// Where a function of whole numbers up to `count` is least and where it is greatest; -1 where it has no
+// The arguments, integers below `count`, at which a function is least and greatest; -1 if it has no finite
 // value.
 function extremeSamples(count, value) {
   let [least, most] = [-1, -1];
@@ -157,8 +157,8 @@ function extremeSamples(count, value) {
   return [least, most];
 }
 
-// The pitch circles of gears, on the pivots of both cranks. Wheels that turn the same way mesh over an idler,
-// which is not drawn: they are kept apart. The slower wheel is the larger.
+// The pitch circles of gears, on the pivots of both cranks. Gears that turn in the same direction mesh
+// through an idler, which is not drawn: their circles do not touch. The slower gear is the larger.
 function wheelsOf({ joints }, circuit) {
   const crank = joints.find(({ step }) => step.kind === "crank");
   if (!crank) return [];
@@ -176,10 +176,10 @@ function wheelsOf({ joints }, circuit) {
           circuit.x[pivot][0] - circuit.x[first][0],
           circuit.y[pivot][0] - circuit.y[first][0],
         ];
-        const room = ((turns < 0 ? 1 : 0.8) * Math.hypot(dx, dy)) / (Math.abs(turns) + Math.abs(of));
+        const unit = ((turns < 0 ? 1 : 0.8) * Math.hypot(dx, dy)) / (Math.abs(turns) + Math.abs(of));
         return [
-          { joint: pivot, radius: room * Math.abs(of) },
-          { joint: first, radius: room * Math.abs(turns) },
+          { joint: pivot, radius: unit * Math.abs(of) },
+          { joint: first, radius: unit * Math.abs(turns) },
         ];
       },
     );

@@ -1,21 +1,21 @@
-// Path data of SVG, made from numbers.
+// Writes SVG path data.
 
-/** A number in so many significant digits, as short as it can be written; 0 where it is not finite. */
+/** A number rounded to significant digits, in its shortest form; 0 if it is not finite. */
 export function dataNumber(x, digits = 7) {
   return Number.isFinite(x) ? String(Number(x.toPrecision(digits))) : "0";
 }
 
 /**
- * The power of ten by which numbers of a size are multiplied to be whole where they are good to 1e-4 of it.
+ * The number of grid steps per unit, a power of ten, for coordinates exact to 1e-4 of a size.
  */
-export function gridOfSize(size) {
+export function roundingGrid(size) {
   return 10 ** Math.min(Math.max(Math.ceil(4 - Math.log10(size)), -12), 12);
 }
 
 /**
- * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`; points that are
- * not finite part it. Empty of fewer than two points. With a `grid` numbers are rounded to one part of it,
- * else to `digits`.
+ * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`, interrupted at
+ * points that are not finite; empty for fewer than two points. Numbers are rounded to 1 / `grid` if it is
+ * given, else to `digits`.
  */
 export function polylineData(
   points,
@@ -43,12 +43,12 @@ export function circleData(x, y, radius, digits = 7) {
   return `M${from} ${dataNumber(y, digits)}a${r} ${r} 0 1 0 ${to} 0a${r} ${r} 0 1 0 -${to} 0Z`;
 }
 
-/** A number in 1/100 pixel, as short as it can be written. */
+/** A number of pixels rounded to 1/100. */
 export function pixel(x) {
   return Math.round(x * 100) / 100;
 }
 
-/** Path data, or none of what has no place: a joint may be undefined where its base vanishes. */
-export function placedData(data) {
+/** Path data, or none if it has undefined coordinates: a joint may be undefined where its base vanishes. */
+export function definedData(data) {
   return data.includes("NaN") || data.includes("Infinity") ? "" : data;
 }

@@ -1,10 +1,10 @@
-// The speed of a traced point over its circuit.
+// Draws the graph of the speed of a traced point over its circuit.
 
 import { clippedData } from "./clipping.js";
 
 /**
- * The speeds on a path { points, inputs }, by chords: { inputs, speeds }, in units of length to `perInput` of
- * input (a radian in degrees, or 1), each at the middle of its chord.
+ * The speeds on a path { points, inputs }, by chords: { inputs, speeds }, in units of length per `perInput`
+ * of input (a radian in degrees, or 1), each at the middle of its chord.
  */
 export function speedsOfPath({ points, inputs }, perInput) {
   const at = [];
@@ -19,9 +19,9 @@ export function speedsOfPath({ points, inputs }, perInput) {
 }
 
 /**
- * The greatest speed a graph shows: towards limits speeds grow without bound, and the graph is of the rest.
+ * The greatest speed that a graph shows; speeds grow without bound towards limits, and are cut off there.
  */
-export function shownSpeed(speeds) {
+export function maxShownSpeed(speeds) {
   const finite = speeds.filter(Number.isFinite).sort((a, b) => a - b);
   if (finite.length === 0) return 1;
   const most = finite[finite.length - 1];
@@ -30,8 +30,8 @@ export function shownSpeed(speeds) {
 }
 
 /**
- * Path data of speeds over parts of the circuit (0 to 1) in a frame { width, height }, 0 at its foot, `top`
- * at its top.
+ * Path data of speeds over fractions of the circuit (0 to 1) in a frame { width, height }, with 0 at its
+ * bottom and `top` at its top.
  */
 export function speedData(parts, speeds, top, { width, height }) {
   const points = [];

@@ -1,6 +1,6 @@
 // The optional columns of points.csv.
 
-import { poleOfRates } from "../kinematics/instant.js";
+import { poleFromRates } from "../kinematics/instantaneous-motion.js";
 import {
   betaAt,
   distanceAt,
@@ -11,7 +11,7 @@ import {
   psiRatioAt,
   slideAt,
   solvabilityAt,
-} from "../kinematics/loop-angles.js";
+} from "../kinematics/position-analysis.js";
 import { ratesToJerkAt } from "../kinematics/poses.js";
 
 /**
@@ -67,7 +67,7 @@ export function columnsAtSample(names, linkage, circuitSamples, joint, sample) {
     velocity: ofJoint(rates.velocity),
     acceleration: ofJoint(rates.acceleration),
     jerk: ofJoint(rates.jerk),
-    pole: () => poleOfRates(linkage, rates, joint),
+    pole: () => poleFromRates(linkage, rates, joint),
   };
   return names.map((name) => COLUMN_VALUES.get(name)(at) ?? NaN);
 }

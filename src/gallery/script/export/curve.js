@@ -1,7 +1,7 @@
 // Looks up a curve by its name and solves it for export, sampled as in the atlas.
 
-import { LinkageError } from "../kinematics/assembly.js";
-import { changedValues, templateWithChanges } from "../kinematics/changes.js";
+import { LinkageError } from "../kinematics/linkage-builder.js";
+import { changedValues, templateWithChanges } from "../kinematics/parameter-changes.js";
 import { motionOf } from "../kinematics/motion.js";
 import { linkageOf } from "../kinematics/template.js";
 import { measuresOf } from "../measure/measures.js";

@@ -1,7 +1,7 @@
 // Writes everything known about a curve as JSON; docs/export.md describes the format.
 
-import { headingOf } from "../kinematics/pass.js";
-import { sideOf } from "../kinematics/signs.js";
+import { inputDirection } from "../kinematics/pass.js";
+import { sideOf } from "../kinematics/assembly-mode.js";
 import { pointColumns, pointRows } from "./csv.js";
 import { prettyJson } from "./pretty-json.js";
 import { measuresOfCurve } from "./curve.js";
@@ -58,5 +58,5 @@ function circuitInJson(linkage, circuitSamples) {
 // Whether the input reverses at the end of a pass.
 function turnsAfterPass({ passes, closed }, k) {
   const isLast = k + 1 === passes.length;
-  return (!isLast || closed) && headingOf(passes[k]) !== headingOf(passes[(k + 1) % passes.length]);
+  return (!isLast || closed) && inputDirection(passes[k]) !== inputDirection(passes[(k + 1) % passes.length]);
 }

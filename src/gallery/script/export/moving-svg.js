@@ -1,6 +1,6 @@
 // Writes an animated plate.
 
-import { samplerOf, sampledCircuit } from "../kinematics/sampling.js";
+import { newSampler, sampleCircuit } from "../kinematics/sampling.js";
 import { passLength } from "../kinematics/pass.js";
 import { svgOfPoses } from "./svg.js";
 
@@ -16,7 +16,7 @@ export function movingSvgOfCurve(exported) {
   const turned = circuitSamples.passes.reduce((sum, pass) => sum + passLength(pass) / 360, 0);
   const turns = linkage.input.isLength ? 1 : Math.max(turned, 0.25);
   const samples = Math.ceil((turns * 360) / STEP_DEG);
-  const frames = sampledCircuit(linkage, samplerOf({ samples, spacing: "smooth" }), circuitSamples);
+  const frames = sampleCircuit(linkage, newSampler({ samples, spacing: "smooth" }), circuitSamples);
   const pose = (k) => linkage.joints.map((_, joint) => ({ x: frames.x[joint][k], y: frames.y[joint][k] }));
   const isDefined = (places) => places.every(({ x, y }) => Number.isFinite(x) && Number.isFinite(y));
   const poses = Array.from({ length: frames.count }, (_, k) => pose(k)).filter(isDefined);

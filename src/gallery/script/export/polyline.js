@@ -1,6 +1,6 @@
 // Approximates the path of an exported curve by a polyline with few points, as the program does.
 
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
 import { passLength } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 import { distanceToChord } from "../kinematics/path.js";
@@ -11,7 +11,7 @@ import { distanceToChord } from "../kinematics/path.js";
  * simplification.
  */
 export function polylineOfCurve({ linkage, circuitSamples, joint }, tolerance) {
-  const alone = linkageWithOnePoint(linkage, joint);
+  const alone = singlePointLinkage(linkage, joint);
   const out = [];
   for (const pass of circuitSamples.passes) {
     const points = refinePass(alone.linkage, pass, alone.joint, tolerance / 2);

@@ -1,9 +1,9 @@
 // Draws a plate of an exported curve and its linkage as SVG: 200 by 150 mm, in quarter millimetres.
 
 import { finePath } from "../kinematics/path.js";
-import { dashData, dashesOfPeriod } from "../draw/dashes.js";
+import { dashData, dashPattern } from "../draw/dashes.js";
 import { mechanismOf, sweptBox } from "../draw/mechanism.js";
-import { fittedView, roundBelow } from "../draw/paper-view.js";
+import { fittedView, roundBelow } from "../draw/plane-view.js";
 import { circleData, polylineData } from "../draw/path-data.js";
 import { passLength } from "../kinematics/pass.js";
 import { shortestDigits } from "./digits.js";
@@ -76,7 +76,7 @@ function staticShapes(exported, { frame, guides, wheels }, view) {
   const points = Float64Array.from(fine.points, (v, k) =>
     k % 2 === 0 ? view.x + view.scale * v : view.y - view.scale * v,
   );
-  const dashes = dashesOfPeriod(dashPeriodOfCurve(family, linkage, circuitSamples));
+  const dashes = dashPattern(dashPeriodOfCurve(family, linkage, circuitSamples));
   const through = (places, closed) => polylineData(places.flat(), { closed });
   const parts = [
     [through(frame.map(at), frame.length > 2), hair],

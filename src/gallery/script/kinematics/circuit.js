@@ -1,40 +1,43 @@
-// From intervals to circuits: which interval follows which, where a circuit starts, and in what order they
-// come.
+// Joins intervals into circuits: finds which interval follows which, where each circuit starts, and the order
+// of the circuits.
 
 import { cosSinOfDegrees, remainderOf } from "./angles.js";
-import { endOfInterval, intervalsOf, onwardFrom } from "./interval.js";
-import { headingOf, passBetween, passOfInterval, passRange, reversedPass, shiftedPass } from "./pass.js";
-import { compareSigns, sideOf } from "./signs.js";
-import { turnedIntoSpan } from "./span.js";
+import { intervalEnd, findIntervals, nextMode } from "./interval.js";
+import { inputDirection, passBetween, passOfInterval, passRange, reversedPass, shiftedPass } from "./pass.js";
+import { compareModes, sideOf } from "./assembly-mode.js";
+import { wrapIntoSpan } from "./span.js";
 
-/** The circuits that a linkage's travel asks for, in order: { routes: [{ passes, closed }], shortfall }. */
-export function routesOf(linkage) {
-  const { intervals, shortfall: reason } = intervalsOf(linkage);
+/**
+ * The circuits selected by a linkage's motion options, in order: { routes: [{ passes, closed }], shortfall }.
+ */
+export function findCircuits(linkage) {
+  const { intervals, shortfall: reason } = findIntervals(linkage);
   const { travel } = linkage;
-  let wanted = intervals.map((_, k) => k);
+  let selected = intervals.map((_, k) => k);
   let shortfall = intervals.length === 0 ? reason : null;
   if (travel.circuits !== "all") {
     const found = startInterval(linkage, intervals);
-    wanted = found.interval === undefined ? [] : [found.interval];
+    selected = found.interval === undefined ? [] : [found.interval];
     if (found.reason) shortfall = reason ?? found.reason;
   }
   const seen = new Set();
   const routes = [];
-  for (const interval of wanted) {
-    if (!seen.has(interval)) routes.push(walkedRoute(linkage, intervals, interval, seen));
+  for (const interval of selected) {
+    if (!seen.has(interval)) routes.push(traceCircuit(linkage, intervals, interval, seen));
   }
   if (travel.range && shortfall === null) {
-    shortfall = routes.map((route) => routeShortfall(route, linkage)).find((short) => short !== null) ?? null;
+    shortfall =
+      routes.map((route) => incompleteReason(route, linkage)).find((short) => short !== null) ?? null;
   }
   const isRight = ({ passes }) => (sideOf(passes[0].signs, 0) < 0 ? 1 : 0);
   routes.sort((a, b) => isRight(a) - isRight(b) || a.passes[0].from - b.passes[0].from);
   return { routes, shortfall };
 }
 
-// What a route lacks of the range asked for.
-function routeShortfall({ passes }, { input, travel: { range } }) {
+// What a route lacks of the requested range.
+function incompleteReason({ passes }, { input, travel: { range } }) {
   const [from, to] = range;
-  const [low, high] = extentOfPasses(passes);
+  const [low, high] = inputRangeOfPasses(passes);
   if ((low <= from && high >= to) || high - low >= input.period) return null;
   const unit = input.isLength ? "" : " deg";
   const short = (at) => Math.round(at * 1e4) / 1e4 + 0;
@@ -42,7 +45,7 @@ function routeShortfall({ passes }, { input, travel: { range } }) {
   return `${reached}, of the ${from} to ${to}${unit} asked for`;
 }
 
-function extentOfPasses(passes) {
+function inputRangeOfPasses(passes) {
   const ends = passes.flatMap((pass) => [pass.from, pass.to]);
   return [Math.min(...ends), Math.max(...ends)];
 }
@@ -60,7 +63,7 @@ function startInterval(linkage, intervals) {
       return { reason: `its start, an input of ${at}, is not in the range asked for, from ${from} to ${to}` };
     }
   }
-  const interval = ours.find((k) => turnedIntoSpan(intervals[k].span, at, period) !== null);
+  const interval = ours.find((k) => wrapIntoSpan(intervals[k].span, at, period) !== null);
   return interval === undefined
     ? { reason: `it cannot be assembled at the start, an input of ${at}` }
     : { interval };
@@ -94,26 +97,26 @@ function joinedPair(ranges, period) {
 
 // The circuit through an interval: on to what follows its upper end, and, where that ends, back from its
 // lower.
-function walkedRoute(linkage, intervals, first, seen) {
+function traceCircuit(linkage, intervals, first, seen) {
   seen.add(first);
   const { input, travel } = linkage;
   const begun = passOfInterval(intervals[first], true, input.period);
   if (!intervals[first].span.lower) return { passes: [begun], closed: true };
   let passes = [begun];
-  const closed = followedPasses(linkage, intervals, { interval: first, rising: true }, passes, seen);
+  const closed = appendFollowing(linkage, intervals, { interval: first, rising: true }, passes, seen);
   if (!closed) {
     const before = [passOfInterval(intervals[first], false, input.period)];
-    followedPasses(linkage, intervals, { interval: first, rising: false }, before, seen);
+    appendFollowing(linkage, intervals, { interval: first, rising: false }, before, seen);
     passes = [...before.slice(1).reverse().map(reversedPass), ...passes];
   }
-  return { passes: normalPasses(passes, closed, travel.range !== null, input.period), closed };
+  return { passes: normalizePasses(passes, closed, travel.range !== null, input.period), closed };
 }
 
 // Appends the passes that follow; whether they come back to where they began.
-function followedPasses(linkage, intervals, begun, passes, seen) {
+function appendFollowing(linkage, intervals, begun, passes, seen) {
   let at = begun;
   for (;;) {
-    const next = intervalAfter(linkage, intervals, at);
+    const next = nextInterval(linkage, intervals, at);
     if (!next) return false;
     if (next.interval === begun.interval && next.rising === begun.rising) return true;
     // Only where several dyads lie flat at once does a third interval meet two that are already joined.
@@ -125,28 +128,28 @@ function followedPasses(linkage, intervals, begun, passes, seen) {
 }
 
 // The interval that follows, and whether the input rises on it.
-function intervalAfter({ travel }, intervals, { interval, rising }) {
+function nextInterval({ travel }, intervals, { interval, rising }) {
   const from = intervals[interval];
-  const end = endOfInterval(from, rising);
-  const onward = end && onwardFrom(end, from.signs, rising, travel);
+  const end = intervalEnd(from, rising);
+  const onward = end && nextMode(end, from.signs, rising, travel);
   if (!onward) return null;
   // It begins where this one ends: falling from the same upper end, or rising from the same lower one.
-  const begins = (other) =>
-    other.signs === onward.signs && endOfInterval(other, !onward.rises)?.id === end.id;
+  const begins = (other) => other.signs === onward.signs && intervalEnd(other, !onward.rises)?.id === end.id;
   const next = intervals.findIndex(begins);
   return next < 0 ? null : { interval: next, rising: onward.rises };
 }
 
 // The passes with a continuous input, started where a circuit starts.
-function normalPasses(passes, closed, asked, period) {
-  const turns = passes.some((pass) => headingOf(pass) !== headingOf(passes[0]));
+function normalizePasses(passes, closed, isRequestedRange, period) {
+  const turns = passes.some((pass) => inputDirection(pass) !== inputDirection(passes[0]));
   let best = null;
   for (const way of [passes, [...passes].reverse().map(reversedPass)]) {
     const direction = closed && !turns ? cutAtZero(way, period) : way;
     for (let start = 0; start < (closed ? direction.length : 1); start++) {
       const rotated = [...direction.slice(start), ...direction.slice(0, start)];
-      const candidate = continuousPasses(rejoinedPasses(rotated), turns, asked, period);
-      const fallsFirst = headingOf(candidate[0]) < 0 && candidate.some((pass) => headingOf(pass) > 0);
+      const candidate = makeContinuous(joinPasses(rotated), turns, isRequestedRange, period);
+      const fallsFirst =
+        inputDirection(candidate[0]) < 0 && candidate.some((pass) => inputDirection(pass) > 0);
       if (closed && fallsFirst) continue;
       if (!best || precedesRoute(candidate, best)) best = candidate;
     }
@@ -156,8 +159,8 @@ function normalPasses(passes, closed, asked, period) {
 
 // Whether a circuit that starts as `a` does is to be preferred: rising, from a lower input, on branch 1.
 function precedesRoute([a], [b]) {
-  const falls = (pass) => (headingOf(pass) < 0 ? 1 : 0);
-  return (falls(a) - falls(b) || a.from - b.from || compareSigns(a.signs, b.signs)) < 0;
+  const falls = (pass) => (inputDirection(pass) < 0 ? 1 : 0);
+  return (falls(a) - falls(b) || a.from - b.from || compareModes(a.signs, b.signs)) < 0;
 }
 
 // A motion that never turns round starts at input 0: a pass over it is cut in two there.
@@ -173,7 +176,7 @@ function cutAtZero(passes, period) {
 }
 
 // The passes with those made one that were cut and a circuit does not start at.
-function rejoinedPasses(passes) {
+function joinPasses(passes) {
   const out = [];
   for (const pass of passes) {
     const last = out[out.length - 1];
@@ -186,16 +189,17 @@ function rejoinedPasses(passes) {
 
 // Shifts passes by whole turns so that each begins where the one before ends, and the whole lies where it
 // should: the middle of a rocking circuit in (-180, 180], the start of a turning one in the first period, a
-// range asked for as asked.
-function continuousPasses(passes, turns, asked, period) {
+// requested range as given.
+function makeContinuous(passes, turns, isRequestedRange, period) {
   const out = [passes[0]];
   for (const pass of passes.slice(1)) {
     const gap = out[out.length - 1].to - pass.from;
     out.push(shiftedPass(pass, Math.round(gap / period) * period));
   }
-  const [low, high] = extentOfPasses(out);
+  const [low, high] = inputRangeOfPasses(out);
   let whole = 0;
-  if (!asked && (turns || high - low < period)) whole = Math.floor(0.5 - (low + high) / (2 * period));
-  else if (!asked) whole = -Math.floor(out[0].from / period);
+  if (!isRequestedRange && (turns || high - low < period))
+    whole = Math.floor(0.5 - (low + high) / (2 * period));
+  else if (!isRequestedRange) whole = -Math.floor(out[0].from / period);
   return out.map((pass) => shiftedPass(pass, whole * period));
 }

@@ -1,12 +1,12 @@
-// The three four-bars that draw one coupler curve (S. Roberts 1875, Chebyshev 1878).
+// The cognates of a four-bar: the three four-bars with one coupler curve (S. Roberts 1875, Chebyshev 1878).
 
 import { fourBarOf, isOnCoupler } from "./four-bar.js";
 import { handednessOf, lengthTolerance, placeOnLink } from "./linkage.js";
 
 /**
- * The four-bar of a linkage with one of its joints for coupler point, and its two cognates: { thirdPivot: [x,
- * y], cognates: [three] } in the plane the linkage is reported in, itself first; or null where it is no
- * four-bar, the joint is not on its coupler, or is a pin.
+ * The four-bar of a linkage with one of its joints as coupler point, and its two cognates: { thirdPivot: [x,
+ * y], cognates: [three] } in the plane the linkage is reported in, the original first; null if it is not a
+ * four-bar, or if the joint is not on its coupler or is a pin.
  *
  * A cognate is { pivots: [[x, y], [x, y]], lengths: { frame, crank, coupler, rocker }, point: [along, left],
  * turnsAs: [crank, coupler, rocker as "crank" | "coupler" | "rocker"], arms }: the pivots of its crank and
@@ -14,7 +14,7 @@ import { handednessOf, lengthTolerance, placeOnLink } from "./linkage.js";
  * its own turn as.
  *
  * With lambda = (M - A) / (B - A) as complex numbers the third pivot is Q = O + lambda (C - O), and one loop
- * stands on O and Q with links lambda (B - A), lambda (A - O), lambda (B - C), the other on C and Q.
+ * has the pivots O and Q and the links lambda (B - A), lambda (A - O), lambda (B - C), the other C and Q.
  */
 export function cognatesOf(linkage, joint) {
   const original = placedFourBar(linkage, joint);
@@ -68,7 +68,7 @@ export function cognatePins(linkage, { pivots, turnsAs, arms }, pose) {
   return [...pin(0, turnsAs[0]), ...pin(1, turnsAs[2])];
 }
 
-// The four-bar where it stands in the plane, and its coupler point.
+// The four-bar at its position in the plane, and its coupler point.
 function placedFourBar(linkage, joint) {
   const fourBar = fourBarOf(linkage);
   if (!fourBar || !isOnCoupler(linkage, fourBar, joint)) return null;

@@ -1,6 +1,7 @@
-// The kernels: one joint at many inputs, in columns. Each takes places of earlier joints as { x, y } columns
-// and writes x[i], y[i] for `first` up to, not with, `last`. `mode` is what a dyad's height is multiplied by:
-// 1 to the left of its base, -1 to the right, 0 where it lies flat. Bases beyond a dyad's reach lay it flat.
+// Places one joint at many inputs, in columns. Each function takes positions of earlier joints as { x, y }
+// columns and writes x[i], y[i] for `first` up to, not with, `last`. `mode` is what a dyad's height is
+// multiplied by: 1 to the left of its base, -1 to the right, 0 where it lies flat. A dyad whose base is too
+// long or too short is placed flat.
 
 /** On a crank about `pivot`. */
 export function placeCrank(pivot, length, cos, sin, x, y, first, last) {
@@ -105,11 +106,11 @@ export function placeYoke(a, p, q, offset, lean, x, y, first, last) {
 }
 
 /**
- * A point of a body that keeps a line's direction. The line goes through q and beside p: its direction is
+ * A point of a body aligned with a line. The line goes through q and past p at an offset: its direction is
  * that from p to q, turned to the right by the angle whose sine is offset / d. `known` has how far along it q
  * is, where that is known.
  */
-export function placeDirected(a, p, q, offset, known, along, across, x, y, first, last) {
+export function placeAligned(a, p, q, offset, known, along, across, x, y, first, last) {
   const { x: ax, y: ay } = a;
   const { x: px, y: py } = p;
   const { x: qx, y: qy } = q;
@@ -128,7 +129,7 @@ export function placeDirected(a, p, q, offset, known, along, across, x, y, first
 }
 
 /** The fourth corner of a parallelogram. */
-export function placeCorner(p, q, r, x, y, first, last) {
+export function placeParallelogram(p, q, r, x, y, first, last) {
   for (let i = first; i < last; i++) {
     x[i] = p.x[i] + (r.x[i] - q.x[i]);
     y[i] = p.y[i] + (r.y[i] - q.y[i]);

@@ -1,11 +1,11 @@
-// Expressions as programs for a stack machine.
+// Evaluates expressions, which are programs for a stack machine.
 
 import { degreesOf, radiansOf } from "./angles.js";
 
 /**
  * The value of an expression: a number, or a program in an array (numbers are pushed, [slot] pushes
- * values[slot], strings are operators, or functions with their number of arguments: "atan2/2"). Truths are 1
- * or 0; NaN where it is not defined.
+ * values[slot], strings are operators, or functions with their number of arguments: "atan2/2"). Booleans are
+ * 1 or 0; an undefined value is NaN.
  */
 export function evaluateExpression(expression, values) {
   if (typeof expression === "number") return expression;

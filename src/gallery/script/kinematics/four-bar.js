@@ -6,7 +6,7 @@ import { lengthTolerance, linkLength, placeOnLink } from "./linkage.js";
 /**
  * The four-bar in a linkage, { frame, crank, coupler, rocker, class, type, shortest, joints: { o, a, b, c }
  * }, the joints being crank pivot, crank pin, rocker pin and rocker pivot; null where its moving joints are
- * other than a crank, one dyad on crank pin and frame, rigid points, and parallelograms hung on them.
+ * other than a crank, one dyad on crank pin and frame, rigid points, and parallelograms attached to them.
  *
  * Seen from another link than the fixed one, that link is the frame, the link opposite it the coupler, and
  * the crank the link at the origin of the view. `class` is Grashof's (Natesan, table 3.1), `type` McCarthy's
@@ -85,7 +85,7 @@ function mccarthyType({ frame: g, crank: a, coupler: h, rocker: b }) {
   return types[signs.map((sign) => (sign > 0 ? "+" : "-")).join("")];
 }
 
-/** Whether a four-bar is driven by its coupler: then the transmission angles at both its pins tell. */
+/** Whether a four-bar is driven by its coupler; then the transmission angles at both its pins count. */
 export function isCouplerDriven(linkage, { joints: { a, b } }) {
   return linkage.joints.some(({ step }, id) => {
     const ends = [step.pivot, id];

@@ -1,13 +1,13 @@
-// A linkage in numbers, and what is asked of it.
+// A linkage in numbers, with its motion options, and queries of it.
 //
 // { joints: [{name, step}], links: [[{joint, x, y}]], traced: [joint], seenFrom: [origin, end]|null,
 //   placement: {mirror, cos, sin}, dyads, input: {isLength, period},
 //   travel: {signs, start, range, circuits, continuation, coincident, arc} }
 //
 // Joints are in the order they are placed: each step refers to earlier joints only. The first link is the
-// frame. A step is { kind, … } as LinkageAssembly makes it; `index` is a two-valued joint's place among them.
+// frame. A step is { kind, … } as LinkageBuilder makes it; `index` is a two-valued joint's place among them.
 
-/** Where a joint is in a link's own frame, { joint, x, y }; undefined where it is not on it. */
+/** The position of a joint in a link's own frame, { joint, x, y }; undefined if it is not on the link. */
 export function placeOnLink(link, joint) {
   return link.find((place) => place.joint === joint);
 }
@@ -32,12 +32,14 @@ export function lengthTolerance(sum) {
   return 4 * Number.EPSILON * sum;
 }
 
-/** 1, or -1 where the placement makes left right: what angles are multiplied by. */
+/** The factor of angles: 1, or -1 if the placement mirrors the linkage. */
 export function handednessOf(linkage) {
   return linkage.placement.mirror ? -1 : 1;
 }
 
-/** What drives joints: { isLength, period }, the period in degrees until every joint is where it was. */
+/**
+ * The input of joints: { isLength, period }, the period in degrees after which every joint is where it was.
+ */
 export function inputOfJoints(joints) {
   let turns = 1;
   for (const { step } of joints) {
@@ -54,11 +56,11 @@ export function greatestDivisor(a, b) {
 }
 
 /**
- * The linkage without the points at its end that nothing stands on, but for a joint, as { linkage, joint }:
- * what is asked of one point of many at many inputs need not place the others. The joints before those points
- * keep their places.
+ * The linkage reduced to one of the points at its end that no other joint depends on, as { linkage, joint }:
+ * to compute one point of many at many inputs without placing the others. The joints before those points keep
+ * their indices.
  */
-export function linkageWithOnePoint(linkage, joint) {
+export function singlePointLinkage(linkage, joint) {
   let first = linkage.joints.length;
   let base = linkage.seenFrom ? Math.max(...linkage.seenFrom) : 0;
   while (first > 0 && linkage.joints[first - 1].step.kind === "rigid") {

@@ -1,13 +1,13 @@
-// All that a linkage does as its input travels.
+// Solves the motion of a linkage: all its circuits.
 
-import { routesOf } from "./circuit.js";
-import { LENGTHS_TOO_EXTREME } from "./reach.js";
-import { excessOfRoute, sampledCircuit, samplerOf } from "./sampling.js";
+import { findCircuits } from "./circuit.js";
+import { OUT_OF_RANGE_REASON } from "./dyad-limits.js";
+import { excessReason, sampleCircuit, newSampler } from "./sampling.js";
 
 /**
- * The circuits of a linkage, sampled as `sampling` says ({ step } or { samples, spacing }, as sampling.js has
- * it): { circuits, shortfall }. The shortfall says in a sentence why it is not assembled at all, or not over
- * the whole range asked for; null where nothing is short.
+ * The circuits of a linkage, sampled by `sampling` ({ step } or { samples, spacing }, see sampling.js): {
+ * circuits, shortfall }. The shortfall says in a sentence why the linkage is not assembled at all, or not
+ * over the whole requested range; null if it is.
  *
  * A circuit is { passes, closed, count, input, pass, x, y, signs(sample), branch(sample, dyad) }: its passes
  * (pass.js), the number of samples, the input of each (degrees, continuous and never wrapped, or lengths),
@@ -16,19 +16,19 @@ import { excessOfRoute, sampledCircuit, samplerOf } from "./sampling.js";
  * the end of a pass, that of the pass it ends.
  */
 export function motionOf(linkage, sampling) {
-  const { routes, shortfall } = routesOf(linkage);
-  const sampler = samplerOf(sampling);
-  const excess = routes.map((route) => excessOfRoute(sampler, route)).find((reason) => reason !== null);
+  const { routes, shortfall } = findCircuits(linkage);
+  const sampler = newSampler(sampling);
+  const excess = routes.map((route) => excessReason(sampler, route)).find((reason) => reason !== null);
   if (excess) return { circuits: [], shortfall: excess };
-  const circuits = routes.map((route) => sampledCircuit(linkage, sampler, route));
-  if (circuits.some((circuit) => linkage.traced.some((joint) => isLost(circuit, joint)))) {
-    return { circuits: [], shortfall: LENGTHS_TOO_EXTREME };
+  const circuits = routes.map((route) => sampleCircuit(linkage, sampler, route));
+  if (circuits.some((circuit) => linkage.traced.some((joint) => isNowhereDefined(circuit, joint)))) {
+    return { circuits: [], shortfall: OUT_OF_RANGE_REASON };
   }
   return { circuits, shortfall };
 }
 
 // Whether a joint has no place at any sample.
-function isLost({ x, y, count }, joint) {
+function isNowhereDefined({ x, y, count }, joint) {
   for (let i = 0; i < count; i++)
     if (Number.isFinite(x[joint][i]) && Number.isFinite(y[joint][i])) return false;
   return true;

@@ -10,11 +10,11 @@ export function passBetween(begin, end, signs) {
 }
 
 /** 1 where the input rises on a pass, -1 where it falls. */
-export function headingOf(pass) {
+export function inputDirection(pass) {
   return pass.to >= pass.from ? 1 : -1;
 }
 
-/** How far the input goes. */
+/** How much the input changes over a pass. */
 export function passLength(pass) {
   return Math.abs(pass.to - pass.from);
 }
@@ -28,7 +28,7 @@ export function reversedPass(pass) {
   return passBetween(pass.end, pass.begin, pass.signs);
 }
 
-/** The same so much further on, by whole turns. */
+/** The same pass shifted by whole turns. */
 export function shiftedPass({ begin, end, signs }, by) {
   return passBetween({ ...begin, at: begin.at + by }, { ...end, at: end.at + by }, signs);
 }

@@ -1,18 +1,18 @@
-// The path a joint draws, refined to a chord error.
+// Computes the path of a joint to a chord tolerance.
 
-import { linkageWithOnePoint } from "./linkage.js";
+import { singlePointLinkage } from "./linkage.js";
 import { passLength } from "./pass.js";
 import { posesAt } from "./poses.js";
-import { smoothInput } from "./spacing.js";
+import { easedInput } from "./spacing.js";
 
 /**
  * The path of a joint over a circuit as { points: Float64Array [x, y, …], inputs: Float64Array, starts:
  * [index] }: from its beginning to its end, each limit once; `starts` has the place of each pass's first
  * point, the last of the pass before. No chord is further than `tolerance` (in the plane's unit) from the
- * curve, as judged at its middle.
+ * curve, measured at its middle.
  */
 export function finePath(linkage, circuit, joint, tolerance) {
-  const alone = linkageWithOnePoint(linkage, joint);
+  const alone = singlePointLinkage(linkage, joint);
   const [points, inputs, starts] = [[], [], []];
   for (const pass of circuit.passes) {
     const nodes = refinedNodes(alone.linkage, pass, alone.joint, tolerance);
@@ -51,7 +51,7 @@ function refinedNodes(linkage, pass, joint, tolerance) {
 }
 
 function placedNodes(linkage, pass, joint, parts) {
-  const at = (part) => (part === 0 ? pass.from : part === 1 ? pass.to : smoothInput(pass, part));
+  const at = (part) => (part === 0 ? pass.from : part === 1 ? pass.to : easedInput(pass, part));
   const inputs = parts.map(at);
   const { x, y } = posesAt(linkage, pass, inputs);
   return parts.map((part, k) => ({ part, at: inputs[k], x: x[joint][k], y: y[joint][k], isOpen: false }));

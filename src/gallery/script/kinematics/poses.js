@@ -1,22 +1,30 @@
-// Where every joint is at inputs of a pass, as seen from the linkage's own view.
+// Computes the poses and rates of all joints at inputs of a pass, in the linkage's view frame.
 
-import { inputColumns, newColumns, placeJoints, seeColumns, stopAt } from "./columns.js";
-import { placeEnd } from "./ends.js";
-import { jetsOnPass } from "./jets.js";
-import { modesOf } from "./signs.js";
+import { inputColumns, newPositions, placeJoints, convertToViewFrame, inputPosition } from "./positions.js";
+import { placeAtEnd } from "./pass-ends.js";
+import { derivativesOnPass } from "./derivatives.js";
+import { dyadSigns } from "./assembly-mode.js";
 
 /** All joints at many inputs of a pass, in columns; at its ends exactly as the circuit has them. */
 export function posesAt(linkage, pass, ats) {
-  const stops = Array.from(ats, (at) => stopAt(linkage.input, at));
+  const stops = Array.from(ats, (at) => inputPosition(linkage.input, at));
   const inputs = inputColumns(stops);
   const joints = linkage.joints.length;
-  const columns = newColumns(joints, stops.length);
-  placeJoints(linkage, [0, joints], inputs, modesOf(pass.signs, 0, linkage.dyads), columns, 0, stops.length);
+  const columns = newPositions(joints, stops.length);
+  placeJoints(
+    linkage,
+    [0, joints],
+    inputs,
+    dyadSigns(pass.signs, 0, linkage.dyads),
+    columns,
+    0,
+    stops.length,
+  );
   stops.forEach(({ at }, i) => {
-    if (at === pass.from && pass.begin.flat !== 0) placeEnd(linkage, pass, true, inputs, columns, i);
-    if (at === pass.to && pass.end.flat !== 0) placeEnd(linkage, pass, false, inputs, columns, i);
+    if (at === pass.from && pass.begin.flat !== 0) placeAtEnd(linkage, pass, true, inputs, columns, i);
+    if (at === pass.to && pass.end.flat !== 0) placeAtEnd(linkage, pass, false, inputs, columns, i);
   });
-  seeColumns(linkage, columns);
+  convertToViewFrame(linkage, columns);
   return columns;
 }
 
@@ -35,13 +43,13 @@ export function poseAt(linkage, pass, input) {
  * makes them so.
  */
 export function ratesAt(linkage, pass, input) {
-  const jets = jetsOnPass(linkage, pass, input);
+  const jets = derivativesOnPass(linkage, pass, input);
   return { place: rateOfJets(jets, 0), velocity: rateOfJets(jets, 1), acceleration: rateOfJets(jets, 2) };
 }
 
 /** The same with the third derivatives of the places, { place, velocity, acceleration, jerk }. */
 export function ratesToJerkAt(linkage, pass, input) {
-  const jets = jetsOnPass(linkage, pass, input, 4);
+  const jets = derivativesOnPass(linkage, pass, input, 4);
   const [place, velocity, acceleration, jerk] = [0, 1, 2, 3].map((order) => rateOfJets(jets, order));
   return { place, velocity, acceleration, jerk };
 }

@@ -1,6 +1,6 @@
-// The beginnings of Taylor series in the input: arrays of the coefficients of 1, t, t^2 and so on. Sums,
-// products, quotients and roots are exact to their order, so that what comes out are derivatives in closed
-// form, not differences. A planar series is { x, y }.
+// Truncated Taylor series in the input: arrays of the coefficients of 1, t, t^2 and so on. Sums, products,
+// quotients and roots are exact to their order, so that the results are derivatives in closed form, not
+// differences. A planar series is { x, y }.
 
 /** The series of a constant. */
 export function constantSeries(value, terms) {
@@ -44,7 +44,7 @@ export function quotientOfSeries(a, b) {
   return quotient;
 }
 
-/** The root; of what rounding makes negative, 0. */
+/** The square root; 0 where rounding makes the square negative. */
 export function rootOfSeries(a) {
   const root = new Array(a.length);
   root[0] = Math.sqrt(Math.max(a[0], 0));
@@ -64,20 +64,20 @@ export function scaledSeries(a, by) {
  * The root of a square that touches zero where the series begins, with the sign it has beyond; null where it
  * goes through zero. One term fewer is known of it than of the square: that one is not a number.
  */
-export function touchingRoot(square, size) {
+export function sqrtAtTouch(square, size) {
   // A touch has no first term but rounding; at a limit that is as near one as 1e-12 it is 1e-6.
   if (!(Math.abs(square[1]) <= 1e-9 * size && square[2] > 0)) return null;
   const root = rootOfSeries(square.map((_, n) => square[n + 2] ?? NaN));
   return square.map((_, n) => (n === 0 ? 0 : root[n - 1]));
 }
 
-/** A place that stays, as a planar series. */
+/** A constant position as a planar series. */
 export function constantPlace(x, y, terms) {
   return { x: constantSeries(x, terms), y: constantSeries(y, terms) };
 }
 
 /** A direction that turns `by` radians to a radian of input. */
-export function turningDirection(cos, sin, by, terms) {
+export function rotatingUnit(cos, sin, by, terms) {
   const [x, y] = [[cos], [sin]];
   for (let n = 1; n < terms; n++) {
     const rate = by / n;

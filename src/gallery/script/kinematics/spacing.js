@@ -1,4 +1,4 @@
-// Samples that are not even in the input: dense towards limits, or even along the path.
+// Spaces samples unevenly in the input: dense towards limits, or even along the path.
 
 import { passLength } from "./pass.js";
 import { posesAt } from "./poses.js";
@@ -7,7 +7,7 @@ import { posesAt } from "./poses.js";
  * The input at a part of a pass, dense towards the ends where a dyad lies flat: there a joint's place goes
  * with the root of the input, and this makes it go evenly.
  */
-export function smoothInput(pass, part) {
+export function easedInput(pass, part) {
   const [fromFlat, toFlat] = [pass.begin.flat !== 0, pass.end.flat !== 0];
   let eased = part;
   if (fromFlat && toFlat) eased = (1 - Math.cos(Math.PI * part)) / 2;
@@ -17,16 +17,16 @@ export function smoothInput(pass, part) {
 }
 
 /**
- * How far a joint has come along its path over a pass, by chords: { whole, part(share) }, the length, and the
- * part of the pass, as smoothInput takes it, at which so much of the length is behind.
+ * The cumulative length of a joint's path over a pass, by chords: { whole, part(share) }, the total length,
+ * and the part of the pass, an argument of easedInput, at which a share of that length is reached.
  */
-export function mileageOf(linkage, pass, joint) {
+export function cumulativeLength(linkage, pass, joint) {
   const CHORDS = 2048;
   const parts = Array.from({ length: CHORDS + 1 }, (_, i) => i / CHORDS);
   const places = posesAt(
     linkage,
     pass,
-    parts.map((part) => smoothInput(pass, part)),
+    parts.map((part) => easedInput(pass, part)),
   );
   const [x, y] = [places.x[joint], places.y[joint]];
   const lengths = [0];

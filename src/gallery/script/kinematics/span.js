@@ -1,26 +1,26 @@
-// Ends of intervals of the input, and parts of spans; what they are is told in interval.js.
+// Ends of intervals of the input, and parts of spans; see interval.js for their fields.
 
 import { remainderOf } from "./angles.js";
 
-/** An end of the range asked for, at a stop { at, cos, sin }. */
-export function askedEnd({ at, cos, sin }, id) {
-  return { at, cos, sin, cause: "asked", flat: 0, flips: 0, bound: 0, id };
+/** An end of the requested range, at an input { at, cos, sin }. */
+export function rangeEnd({ at, cos, sin }, id) {
+  return { at, cos, sin, cause: "range", flat: 0, flips: 0, bound: 0, id };
 }
 
 /** An end where one dyad lies flat. */
-export function flatEnd({ at, cos, sin }, cause, dyad, id) {
+export function endFromFlatDyad({ at, cos, sin }, cause, dyad, id) {
   return { at, cos, sin, cause, flat: 1 << dyad, flips: 1 << dyad, bound: 0, id };
 }
 
 /** The same end where another dyad lies flat too; it changes its side together with the others. */
-export function endWithFlat(end, dyad, vanishes) {
+export function endWithFlatDyad(end, dyad, vanishes) {
   const bit = 1 << dyad;
   const bound = vanishes ? end.bound | bit : end.bound;
   return { ...end, flat: end.flat | bit, flips: end.flips | bit, bound };
 }
 
-/** The same end so much further on, by whole turns. */
-export function turnedEnd(end, by) {
+/** The same end shifted by whole turns. */
+export function shiftedEnd(end, by) {
   return { ...end, at: end.at + by };
 }
 
@@ -37,7 +37,7 @@ function isOneInput(a, b, input) {
 // Two ends at one input. Where one of them is a limit the motion turns round, and the dyads that would have
 // gone on keep their sides.
 function mergedEnds(a, b) {
-  const isOther = a.cause === "asked" || (b.cause === "limit" && a.cause === "change");
+  const isOther = a.cause === "range" || (b.cause === "limit" && a.cause === "change");
   const { cause, flips } = isOther ? b : a;
   const together = a.cause === b.cause ? a.flips | b.flips : flips;
   return { ...a, cause, flips: together, flat: a.flat | b.flat, bound: a.bound | b.bound };
@@ -50,8 +50,8 @@ function laterEnd(earlierDyads, own, way, input) {
   return (own.at - earlierDyads.at) * way > 0 ? own : earlierDyads;
 }
 
-/** The parts of a span that are in one of `allowed`, which may be up to so many turns off. */
-export function intersectedSpan(span, allowed, turns, input) {
+/** The parts of a span that are in one of `allowed`, which may be shifted by up to `turns` turns. */
+export function intersectSpans(span, allowed, turns, input) {
   if (!span.lower) return allowed;
   const out = [];
   for (const piece of allowed) {
@@ -60,8 +60,8 @@ export function intersectedSpan(span, allowed, turns, input) {
       continue;
     }
     for (let turn = -turns; turn <= turns; turn++) {
-      const lower = laterEnd(span.lower, turnedEnd(piece.lower, 360 * turn), 1, input);
-      const upper = laterEnd(span.upper, turnedEnd(piece.upper, 360 * turn), -1, input);
+      const lower = laterEnd(span.lower, shiftedEnd(piece.lower, 360 * turn), 1, input);
+      const upper = laterEnd(span.upper, shiftedEnd(piece.upper, 360 * turn), -1, input);
       if (lower.at < upper.at) out.push({ lower, upper });
     }
   }
@@ -69,7 +69,7 @@ export function intersectedSpan(span, allowed, turns, input) {
 }
 
 /** The input that differs from `at` by whole periods and lies in a span; null where none does. */
-export function turnedIntoSpan({ lower, upper }, at, period) {
+export function wrapIntoSpan({ lower, upper }, at, period) {
   if (!lower) return remainderOf(at, period);
   const over = remainderOf(at - lower.at, period);
   const length = upper.at - lower.at;

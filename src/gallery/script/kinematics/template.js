@@ -1,11 +1,11 @@
-// From a template and values to a linkage.
+// Builds a linkage from a template and values.
 
-import { LinkageAssembly, LinkageError } from "./assembly.js";
+import { LinkageBuilder, LinkageError } from "./linkage-builder.js";
 import { evaluateExpression } from "./expression.js";
 import { inputOfJoints } from "./linkage.js";
 
 /** What is wrong with the value of a parameter of a template, in a sentence; null where nothing is. */
-function parameterObjection({ name, min, max }, value) {
+function valueError({ name, min, max }, value) {
   if (!Number.isFinite(value)) return `\`${name}\` is ${value}, which is not a finite number`;
   if (min === 0 && value <= 0) return `\`${name}\` is ${value}, and must be more than 0`;
   if (min !== null && min !== undefined && value < min) {
@@ -21,17 +21,17 @@ function parameterObjection({ name, min, max }, value) {
 /**
  * The linkage of a parameter set.
  *
- * @param template a template as the data has it
+ * @param template a template as in the data of the page
  * @param values the values of its parameters, in their order; more may follow
  * @returns a linkage, as linkage.js has it
  * @throws {LinkageError} a value out of bounds, a number that is not finite, a joint that cannot be placed
  */
 export function linkageOf(template, values) {
   template.parameters?.forEach((parameter, k) => {
-    const objection = parameterObjection(parameter, values[k]);
+    const objection = valueError(parameter, values[k]);
     if (objection) throw new LinkageError(objection);
   });
-  const assembly = new LinkageAssembly();
+  const assembly = new LinkageBuilder();
   // Where each joint of the template has gone: a grid of points makes several.
   const made = [];
   for (const joint of template.joints) made.push(placedJoints(assembly, joint, made, values));
@@ -39,7 +39,7 @@ export function linkageOf(template, values) {
   if (seenFrom) assembly.seenFrom(seenFrom);
   const { joints, links, signs, dyads } = assembly;
   const input = inputOfJoints(joints);
-  const travel = { signs, ...travelOf(template, values, input) };
+  const travel = { signs, ...motionOptions(template, values, input) };
   const placement = template.placement ?? { mirror: false, cos: 1, sin: 0 };
   const traced = template.trace.flatMap((joint) => made[joint]);
   return { joints, links, traced, seenFrom, placement, travel, dyads, input };
@@ -95,7 +95,7 @@ function coordinateValues(coordinate, number) {
   return Array.from({ length: count }, (_, k) => from + (to - from) * (count === 1 ? 0 : k / (count - 1)));
 }
 
-function travelOf(template, values, input) {
+function motionOptions(template, values, input) {
   const number = (expression) => evaluateExpression(expression, values);
   const finite = (what, expression) => {
     const value = number(expression);

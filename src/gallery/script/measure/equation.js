@@ -1,5 +1,5 @@
-// The equation of a coupler curve, a polynomial of the sixth degree (Samuel Roberts; Natesan 6.5 and 7.1 with
-// the sign of y^2 put right), in the frame with its origin at the crank's pivot and x towards the rocker's.
+// The equation of a coupler curve, a sextic (Samuel Roberts; Natesan 6.5 and 7.1 with the sign of y^2
+// corrected), in the frame with its origin at the crank's pivot and x towards the rocker's.
 
 /**
  * The equation for a point [along, left] of the coupler: coefficients c[i][j] of x^i y^j, that of x^6 being

@@ -1,12 +1,12 @@
-// Extremes of a quantity of the pose over a circuit.
+// Finds the extremes of a quantity of the pose over a circuit.
 
 import { passRange } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 
 /**
  * The least and the greatest value over a circuit of a quantity of the pose: quantity(at), with at(joint) ->
- * [x, y], of joints that something stands on. By its samples, and then by parabolas between them: an extreme
- * is as flat as it is smooth, and what a parabola misses of its place is missed twice over in its value.
+ * [x, y], of joints that others depend on. By its samples, and then by parabolas between them: near a smooth
+ * extreme the error of the value is of second order in that of the position.
  */
 export function extremesOver(linkage, circuit, quantity) {
   const values = Float64Array.from({ length: circuit.count }, (_, i) =>
@@ -35,7 +35,7 @@ export function extremesOver(linkage, circuit, quantity) {
   });
 }
 
-// The inputs of a sample and beside it on a pass; null where the sample is not on it.
+// The inputs of a sample and its neighbours on a pass; null where the sample is not on it.
 function inputsAbout(circuit, pass, best) {
   const [low, high] = passRange(pass);
   const middle = circuit.input[best];

@@ -4,7 +4,7 @@
  * The corners of the convex hull of the points `first` up to, not with, `last` of a row, counter-clockwise:
  * { x, y, count } in arrays of numbers.
  */
-export function hullOfPoints(px, py, first, last) {
+export function convexHull(px, py, first, last) {
   const order = [];
   for (let i = first; i < last; i++) order.push(i);
   // Points of a nearly straight portion are in order along x or y already, and sorting them again costs
@@ -38,7 +38,7 @@ export function hullOfPoints(px, py, first, last) {
 }
 
 /** The greatest distance between two corners of a convex polygon. */
-export function diameterOfHull({ x, y, count }) {
+export function hullDiameter({ x, y, count }) {
   const next = (i) => (i + 1 < count ? i + 1 : 0);
   const square = (i, j) => (x[i] - x[j]) * (x[i] - x[j]) + (y[i] - y[j]) * (y[i] - y[j]);
   let [far, most] = [next(0), 0];

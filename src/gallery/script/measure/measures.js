@@ -1,40 +1,40 @@
-// Numbers read off a motion, under the names and definitions of the columns of cells.csv.
+// Computes the measures of a curve, with the names and definitions of the columns of cells.csv.
 
 import { fourBarOf } from "../kinematics/four-bar.js";
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
-import { headingOf } from "../kinematics/pass.js";
-import { finelySampled } from "../kinematics/sampling.js";
-import { courseOfTrail } from "./course.js";
-import { crossingsOfTrail } from "./crossings.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
+import { inputDirection } from "../kinematics/pass.js";
+import { refinedCircuit } from "../kinematics/sampling.js";
+import { wholeCurve } from "./curve-segment.js";
+import { findCrunodes } from "./crossings.js";
 import { circularPortion } from "./dwell.js";
-import { axisDegrees } from "./mirror.js";
-import { cuspsOf, extentTowards, sharpestBend, speedRatioOf } from "./shape.js";
+import { axisDirectionDeg } from "./symmetry-axis.js";
+import { countCusps, extentMeasure, maxCurvature, speedRatio } from "./shape.js";
 import { straightPortion } from "./straight.js";
-import { SYMMETRY_NEAR, symmetryOf } from "./symmetry.js";
-import { areaOfTrail, inflectionsOfTrail, lengthOfTrail, trailOf } from "./trail.js";
+import { SYMMETRY_TOLERANCE, findSymmetry } from "./symmetry.js";
+import { enclosedArea, inflectionCount, curveLength, sampledCurveOf } from "./sampled-curve.js";
 import { outputSwing, timeRatio, transmissionRange } from "./transmission.js";
 
 /**
  * The measures of a joint's curve on a circuit, { name: number | string }; those that do not apply are
  * absent.
  *
- * @param asked { straight: { tolerance | input | length }, portions }: what is asked of the straight portion
- *   (a tolerance of 0.001 where nothing is); without `portions` (false) the straight and the circular portion
- *   are left out, which take the most of the time
+ * @param options { straight: { tolerance | input | length }, portions }: the criterion of the straight portion
+ *   (a tolerance of 0.001 by default); with `portions` false the straight and the circular portion are left out,
+ *   which take most of the time
  */
-export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
-  const subject = subjectOf(linkage, motion, circuit, joint);
-  const { trail } = subject;
-  const portions = asked.portions === false ? {} : portionMeasures(subject, asked.straight ?? {});
+export function measuresOf(linkage, motion, circuit, joint, options = {}) {
+  const tracedCurve = tracedCurveOf(linkage, motion, circuit, joint);
+  const { curve } = tracedCurve;
+  const portions = options.portions === false ? {} : portionMeasures(tracedCurve, options.straight ?? {});
   const found = {
-    ...fourBarMeasures(subject),
+    ...fourBarMeasures(tracedCurve),
     ...inputMeasures(circuit),
-    length: lengthOfTrail(trail),
-    area: areaOfTrail(trail),
-    ...boxMeasures(subject),
-    ...shapeMeasures(subject),
-    ...symmetryMeasures(subject),
-    speed_ratio: speedRatioOf(subject),
+    length: curveLength(curve),
+    area: enclosedArea(curve),
+    ...boxMeasures(tracedCurve),
+    ...shapeMeasures(tracedCurve),
+    ...symmetryMeasures(tracedCurve),
+    speed_ratio: speedRatio(tracedCurve),
     ...portions,
   };
   const applies = ([, value]) => value !== null && !Number.isNaN(value);
@@ -42,21 +42,21 @@ export function measuresOf(linkage, motion, circuit, joint, asked = {}) {
 }
 
 /**
- * What measures are taken of: a joint on a circuit of a linkage's motion, by as many samples as tell of its
- * curves, with its trail, made once for all of them. A measure is one of the curve, however few its samples
- * are.
+ * The curve to be measured: a joint on a circuit of a linkage's motion, sampled densely enough to
+ * interpolate, with its sampled curve, computed once for all measures. Measures do not depend on how few
+ * samples were given.
  */
-function subjectOf(linkage, motion, sampled, joint) {
-  const circuit = finelySampled(linkage, sampled);
-  const trail = trailOf(circuit, joint, linkage.input);
+function tracedCurveOf(linkage, motion, sampled, joint) {
+  const circuit = refinedCircuit(linkage, sampled);
+  const curve = sampledCurveOf(circuit, joint, linkage.input);
   return {
     linkage,
     motion,
     circuit,
     joint,
-    trail,
+    curve,
     fourBar: fourBarOf(linkage),
-    alone: linkageWithOnePoint(linkage, joint),
+    alone: singlePointLinkage(linkage, joint),
   };
 }
 
@@ -76,14 +76,14 @@ function fourBarMeasures({ linkage, circuit, fourBar }) {
 
 // The least and the greatest input; none on a full turn.
 function inputMeasures({ passes, closed }) {
-  const turnsRound = passes.some((pass) => headingOf(pass) !== headingOf(passes[0]));
+  const turnsRound = passes.some((pass) => inputDirection(pass) !== inputDirection(passes[0]));
   if (closed && !turnsRound) return {};
   const ends = passes.flatMap((pass) => [pass.from, pass.to]);
   return { input_min_deg: Math.min(...ends), input_max_deg: Math.max(...ends) };
 }
 
-function boxMeasures(subject) {
-  const reach = (x, y) => extentTowards(subject, [x, y]);
+function boxMeasures(tracedCurve) {
+  const reach = (x, y) => extentMeasure(tracedCurve, [x, y]);
   // The least is the furthest the other way.
   const least = (extent) => (extent === null ? null : -extent);
   return {
@@ -94,33 +94,33 @@ function boxMeasures(subject) {
   };
 }
 
-function shapeMeasures(subject) {
-  const cusps = cuspsOf(subject);
+function shapeMeasures(tracedCurve) {
+  const cusps = countCusps(tracedCurve);
   return {
     cusps,
-    crunodes: crossingsOfTrail(subject.trail).length,
-    inflections: inflectionsOfTrail(subject.trail),
-    curvature_max: sharpestBend(subject, cusps),
+    crunodes: findCrunodes(tracedCurve.curve).length,
+    inflections: inflectionCount(tracedCurve.curve),
+    curvature_max: maxCurvature(tracedCurve, cusps),
   };
 }
 
-function symmetryMeasures(subject) {
-  const symmetry = symmetryOf(subject);
+function symmetryMeasures(tracedCurve) {
+  const symmetry = findSymmetry(tracedCurve);
   if (!symmetry) return {};
   const { axis, residual, theorem } = symmetry;
   return {
-    symmetry: theorem ?? (residual <= SYMMETRY_NEAR ? "other" : null),
-    symmetry_deg: axis ? axisDegrees(axis) : null,
+    symmetry: theorem ?? (residual <= SYMMETRY_TOLERANCE ? "other" : null),
+    symmetry_deg: axis ? axisDirectionDeg(axis) : null,
     symmetry_residual: residual,
   };
 }
 
-// Portions are looked for along a course; curves that have no place at most of their samples have none.
-function portionMeasures({ trail }, asked) {
-  if (trail.count < 5) return {};
-  const course = courseOfTrail(trail);
-  const straight = straightPortion(course, asked);
-  const dwell = circularPortion(course);
+// The straight and the circular portion; curves without a position at most of their samples have none.
+function portionMeasures({ curve }, criterion) {
+  if (curve.count < 5) return {};
+  const segment = wholeCurve(curve);
+  const straight = straightPortion(segment, criterion);
+  const dwell = circularPortion(segment);
   const found = {};
   if (straight) {
     found.straight_length = straight.length;

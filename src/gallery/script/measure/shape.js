@@ -1,37 +1,37 @@
-// The shape of a path: its box, its cusps, its sharpest bend, and how evenly it is gone through.
+// Measures the shape of a path: its box, cusps, greatest curvature and speed ratio.
 
 import { degreesOf } from "../kinematics/angles.js";
-import { stopAt } from "../kinematics/columns.js";
-import { jetsAtStop } from "../kinematics/jets.js";
+import { inputPosition } from "../kinematics/positions.js";
+import { derivativesAtInput } from "../kinematics/derivatives.js";
 import { passRange } from "../kinematics/pass.js";
 import { posesAt } from "../kinematics/poses.js";
 import { isCorner } from "../kinematics/sampling.js";
-import { curvatureNear, reachOfTrail } from "./between.js";
-import { arcsOfTrail, sampleAfter, topOfTrail, turnsFurther } from "./trail.js";
+import { maxCurvatureNear, maxExtent } from "./interpolation.js";
+import { curveArcs, neighbourSample, furthestSample, turnsBeyond } from "./sampled-curve.js";
 
 const GOLDEN_PART = 0.6180339887498949;
 
-/** The greatest extent of a subject's curve in a direction along an axis. */
-export function extentTowards(subject, direction) {
-  const { trail } = subject;
-  const top = topOfTrail(trail, direction);
+/** The greatest extent of a curve in a direction along an axis. */
+export function extentMeasure(tracedCurve, direction) {
+  const { curve } = tracedCurve;
+  const top = furthestSample(curve, direction);
   if (top < 0) return null;
-  // About a limit samples lie far apart: there the linkage itself is asked.
-  if (!isNearLimit(subject, top)) return reachOfTrail(trail, direction, top);
-  const height = direction[0] * trail.x[top] + direction[1] * trail.y[top];
-  return Math.max(height, posedExtent(subject, direction, top));
+  // About a limit samples lie far apart: there the linkage itself is solved.
+  if (!isNearLimit(tracedCurve, top)) return maxExtent(curve, direction, top);
+  const height = direction[0] * curve.x[top] + direction[1] * curve.y[top];
+  return Math.max(height, extentByPoses(tracedCurve, direction, top));
 }
 
 // Whether a limit is no more than two samples away.
-function isNearLimit({ trail, circuit }, i) {
-  const limits = flatInputs(circuit);
+function isNearLimit({ curve, circuit }, i) {
+  const limits = limitInputs(circuit);
   return [-2, -1, 0, 1, 2].some((off) => {
-    const k = sampleAfter(trail, i, off);
-    return k >= 0 && limits.includes(trail.inputs[k]);
+    const k = neighbourSample(curve, i, off);
+    return k >= 0 && limits.includes(curve.inputs[k]);
   });
 }
 
-function flatInputs({ passes }) {
+function limitInputs({ passes }) {
   return passes
     .flatMap(({ begin, end }) => [begin, end])
     .filter(({ flat }) => flat !== 0)
@@ -39,19 +39,19 @@ function flatInputs({ passes }) {
 }
 
 // The greatest extent in a direction between a sample and its neighbours, by the poses there.
-function posedExtent({ trail, circuit, alone }, [dx, dy], top) {
+function extentByPoses({ curve, circuit, alone }, [dx, dy], top) {
   let most = -Infinity;
   for (const [from, to] of [
-    [sampleAfter(trail, top, -1), top],
-    [top, sampleAfter(trail, top, 1)],
+    [neighbourSample(curve, top, -1), top],
+    [top, neighbourSample(curve, top, 1)],
   ]) {
     if (from < 0 || to < 0) continue;
     // The way to a sample has the sides that it has itself, be it the end of a pass.
     const [low, high] = [
-      Math.min(trail.inputs[from], trail.inputs[to]),
-      Math.max(trail.inputs[from], trail.inputs[to]),
+      Math.min(curve.inputs[from], curve.inputs[to]),
+      Math.max(curve.inputs[from], curve.inputs[to]),
     ];
-    const signs = circuit.signs(trail.samples[to]);
+    const signs = circuit.signs(curve.samples[to]);
     const pass = circuit.passes.find((other) => {
       const [first, last] = passRange(other);
       return other.signs === signs && first <= low && high <= last;
@@ -74,15 +74,16 @@ function posedExtent({ trail, circuit, alone }, [dx, dy], top) {
 
 // Speed and curvature of the path at an input of the pass that a sample is on.
 function speedAndCurvature({ circuit, alone: { linkage, joint } }, sample, input) {
-  const { x, y } = jetsAtStop(linkage, stopAt(linkage.input, input), circuit.signs(sample))[joint];
+  const at = inputPosition(linkage.input, input);
+  const { x, y } = derivativesAtInput(linkage, at, circuit.signs(sample))[joint];
   const bounded = (rate) => (Number.isNaN(rate) ? Infinity : rate);
   const [vx, vy, ax, ay] = [x[1], y[1], 2 * x[2], 2 * y[2]].map(bounded);
   const speed = Math.sqrt(vx * vx + vy * vy);
   return [speed, Math.abs((vx * ay - vy * ax) / (speed * speed * speed))];
 }
 
-// The inputs beside a sample on its own pass.
-function inputsBeside({ circuit: { input } }, sample) {
+// The inputs next to a sample on its own pass.
+function neighbourInputs({ circuit: { input } }, sample) {
   const [here, before, after] = [input[sample], input[sample - 1], input[sample + 1]];
   const other = after ?? before;
   const step = other === undefined ? 0 : Math.abs(other - here);
@@ -90,18 +91,18 @@ function inputsBeside({ circuit: { input } }, sample) {
   return [here - off(before), here + off(after)];
 }
 
-/** How often a subject's path stands still and turns back: slower than a millionth of its fastest. */
-export function cuspsOf(subject) {
-  const { trail, circuit, linkage } = subject;
-  const turns = trail.samples.map((_, i) => i).filter((i) => trail.sharp[i]);
+/** The number of cusps, where the path stops and turns back: slower than a millionth of its fastest. */
+export function countCusps(tracedCurve) {
+  const { curve, circuit, linkage } = tracedCurve;
+  const turns = curve.samples.map((_, i) => i).filter((i) => curve.sharp[i]);
   if (turns.length === 0) return 0;
-  const longest = arcsOfTrail(trail).reduce((most, { length }) => Math.max(most, length), 0);
+  const longest = curveArcs(curve).reduce((most, { length }) => Math.max(most, length), 0);
   const found = [];
   for (const i of turns) {
-    const sample = trail.samples[i];
-    let [a, b] = inputsBeside(subject, sample);
+    const sample = curve.samples[i];
+    let [a, b] = neighbourInputs(tracedCurve, sample);
     const step = Math.abs(b - a);
-    const speed = (input) => speedAndCurvature(subject, sample, input)[0];
+    const speed = (input) => speedAndCurvature(tracedCurve, sample, input)[0];
     for (let round = 0; round < 60; round++) {
       const [c, d] = [a + (b - a) / 3, b - (b - a) / 3];
       if (speed(c) < speed(d)) b = d;
@@ -116,35 +117,35 @@ export function cuspsOf(subject) {
   return circuit.count > 0 ? found.length : 0;
 }
 
-// The sample at which a trail bends most, but for corners: what two samples on either side tell of the bend.
-function sharpestSample(trail, circuit) {
-  const corners = trail.samples.map((sample) => isCorner(circuit, sample));
-  const isByCorner = (i) => [-2, -1, 0, 1, 2].some((off) => corners[sampleAfter(trail, i, off)]);
+// The sample with the greatest curvature, except corners: two samples on either side determine it.
+function sharpestSample(curve, circuit) {
+  const corners = curve.samples.map((sample) => isCorner(circuit, sample));
+  const isByCorner = (i) => [-2, -1, 0, 1, 2].some((off) => corners[neighbourSample(curve, i, off)]);
   let sharpest = -1;
-  trail.bends.forEach((bend, i) => {
-    if ((sharpest < 0 || Math.abs(bend) >= Math.abs(trail.bends[sharpest])) && !isByCorner(i)) sharpest = i;
+  curve.curvatures.forEach((bend, i) => {
+    const isSharper = sharpest < 0 || Math.abs(bend) >= Math.abs(curve.curvatures[sharpest]);
+    if (isSharper && !isByCorner(i)) sharpest = i;
   });
   return sharpest;
 }
 
-/** The greatest curvature of a subject's path; infinite at a cusp, null of no points. */
-export function sharpestBend(subject, cusps) {
-  const { trail, circuit } = subject;
-  if (trail.count === 0) return null;
-  const limits = flatInputs(circuit);
+/** The greatest curvature of a path; infinite at a cusp, null if it has no points. */
+export function maxCurvature(tracedCurve, cusps) {
+  const { curve, circuit } = tracedCurve;
+  if (curve.count === 0) return null;
+  const limits = limitInputs(circuit);
   // Where it goes back the way it came.
-  const turnsBack = (_, i) => limits.includes(trail.inputs[i]) && turnsFurther(trail, i, -0.9);
-  if (cusps > 0 || trail.samples.some(turnsBack)) return Infinity;
-  const sharpest = sharpestSample(trail, circuit);
+  const turnsBack = (_, i) => limits.includes(curve.inputs[i]) && turnsBeyond(curve, i, -0.9);
+  if (cusps > 0 || curve.samples.some(turnsBack)) return Infinity;
+  const sharpest = sharpestSample(curve, circuit);
   if (sharpest < 0) return null;
-  const sample = trail.samples[sharpest];
-  let [a, b] = inputsBeside(subject, sample);
+  const sample = curve.samples[sharpest];
+  let [a, b] = neighbourInputs(tracedCurve, sample);
   const here = circuit.input[sample];
-  // At a limit the path bends as it does elsewhere, but its rates do not tell.
-  if (limits.some((at) => Math.abs(at - here) <= Math.abs(b - a)))
-    return curvatureNear(trail, sharpest);
-  const at = (input) => speedAndCurvature(subject, sample, input)[1];
-  // To a thousandth of the way between samples: the greatest bend is as flat as it is smooth.
+  // At a limit the path is as smooth as elsewhere, but its rates do not give the curvature.
+  if (limits.some((at) => Math.abs(at - here) <= Math.abs(b - a))) return maxCurvatureNear(curve, sharpest);
+  const at = (input) => speedAndCurvature(tracedCurve, sample, input)[1];
+  // To a thousandth of the way between samples: near its maximum the curvature changes little.
   for (let round = 0; round < 18; round++) {
     const [c, d] = [a + (b - a) / 3, b - (b - a) / 3];
     if (at(c) > at(d)) b = d;
@@ -155,10 +156,10 @@ export function sharpestBend(subject, cusps) {
 }
 
 /**
- * The longest dash to the shortest: the first 3 of every 5 degrees of input, from input 0, without those that
- * a pass's end cuts. Null of what is driven by a length, or has no dashes.
+ * The ratio of the longest dash to the shortest: the first 3 of every 5 degrees of input, from input 0,
+ * without those cut by the end of a pass. Null if the input is a length or there are no dashes.
  */
-export function speedRatioOf({ linkage, circuit, alone }) {
+export function speedRatio({ linkage, circuit, alone }) {
   const [PERIOD, DRAWN, PLACES] = [5, 3, 5];
   if (linkage.input.isLength) return null;
   let [least, greatest] = [Infinity, 0];

@@ -1,24 +1,24 @@
-// The straightest portion of a given span or length: of those that begin at points of a course, and then
-// between them.
+// Finds the straightest portion of a given span or length, first from the points of a segment, then between
+// them.
 
-import { clampedPlaces, portionOfCourse } from "./course.js";
-import { heightOfTriangle, stripOfPoints } from "./strip.js";
+import { clampEnds, portionPoints } from "./curve-segment.js";
+import { triangleHeight, enclosingStrip } from "./strip.js";
 
 /**
- * The ends of the portion with the narrowest strip, of those that begin anywhere on a course and end where
- * `endAfter(from)` has it, null where it has none; endAfter(from, true) is the last point that is not beyond
- * that.
+ * The ends of the portion with the narrowest strip, of those that begin anywhere on a segment and end at
+ * `endAfter(from)`, which is null if there is no such end; endAfter(from, true) is the last point not beyond
+ * it.
  */
-export function straightestEnds(course, endAfter) {
+export function straightestEnds(segment, endAfter) {
   const RIVALS = 3;
-  const { starts } = course;
+  const { starts } = segment;
   const width = (from) => {
     const to = endAfter(from);
     if (to === null) return Infinity;
-    const { x, y } = portionOfCourse(course, [from, to]);
-    return stripOfPoints(x, y, 0, x.length).width;
+    const { x, y } = portionPoints(segment, [from, to]);
+    return enclosingStrip(x, y, 0, x.length).width;
   };
-  const widths = widthsAtPoints(course, endAfter, width);
+  const widths = widthsAtPoints(segment, endAfter, width);
   const least = [];
   for (let k = 0; k < starts; k++) {
     const isLeast = widths[k] <= widths[(k + starts - 1) % starts] && widths[k] <= widths[(k + 1) % starts];
@@ -27,7 +27,7 @@ export function straightestEnds(course, endAfter) {
   least.sort((a, b) => widths[a] - widths[b]);
   let best = { width: Infinity, from: 0 };
   for (const k of least.slice(0, RIVALS)) {
-    const refined = refinedBeginning(course, k, width);
+    const refined = refineStart(segment, k, width);
     if (refined.width < best.width) best = refined;
   }
   return Number.isFinite(best.width) ? [best.from, endAfter(best.from)] : null;
@@ -36,9 +36,9 @@ export function straightestEnds(course, endAfter) {
 // The widths of portions from each point. One of which three points show that it is wider than the narrowest
 // so far need not be measured; widely spaced ones are first, for the sooner something narrow is found, the
 // more is spared.
-function widthsAtPoints(course, endAfter, width) {
+function widthsAtPoints(segment, endAfter, width) {
   const STRIDE = 16;
-  const { x, y, starts, count } = course;
+  const { x, y, starts, count } = segment;
   const widths = new Float64Array(starts).fill(Infinity);
   let narrowest = Infinity;
   for (let begin = 0; begin < STRIDE; begin++) {
@@ -48,7 +48,7 @@ function widthsAtPoints(course, endAfter, width) {
       if (to === null) continue;
       const last = Math.min(Math.floor(to), count - 1);
       const at = (part) => from + Math.floor(((last - from) * part) / 4);
-      const height = (a, b, c) => heightOfTriangle(x, y, at(a), at(b), at(c));
+      const height = (a, b, c) => triangleHeight(x, y, at(a), at(b), at(c));
       widths[from] = Math.max(height(0, 2, 4), height(0, 1, 3), height(1, 3, 4));
       if (widths[from] > 2 * narrowest) continue;
       widths[from] = width(from);
@@ -59,10 +59,10 @@ function widthsAtPoints(course, endAfter, width) {
 }
 
 // By golden sections of the way to the points on either side.
-function refinedBeginning(course, k, width) {
+function refineStart(segment, k, width) {
   const [PART, ROUNDS] = [0.6180339887498949, 26];
-  let [a, b] = clampedPlaces(course, [k - 1, k + 1]);
-  const at = a > k ? k + course.starts : k;
+  let [a, b] = clampEnds(segment, [k - 1, k + 1]);
+  const at = a > k ? k + segment.starts : k;
   b = Math.min(b, a + 2);
   let [c, d] = [b - PART * (b - a), a + PART * (b - a)];
   let [atC, atD] = [width(c), width(d)];

@@ -1,26 +1,26 @@
-// The narrowest band between two parallel lines that holds some points, { width, length, along }: across, how
-// far the points reach along it, and the direction it runs in. Rows of points are arrays x and y, from
-// `first` up to, not with, `last`.
+// Computes the narrowest strip between two parallel lines that encloses points: { width, length, along }, its
+// width, the length of the points' projection on it, and its direction. Rows of points are arrays x and y,
+// from `first` up to, not with, `last`.
 
-import { exchangedTurns } from "./exchange.js";
-import { hullOfPoints } from "./hull.js";
+import { exchangePoint } from "./remez.js";
+import { convexHull } from "./hull.js";
 
-/** Of at least one point. */
-export function stripOfPoints(x, y, first, last) {
-  return stripOfCorners(hullOfPoints(x, y, first, last));
+/** The strip of at least one point. */
+export function enclosingStrip(x, y, first, last) {
+  return stripOfHull(convexHull(x, y, first, last));
 }
 
 /**
- * Of a row of points that goes one way in the main; null, perhaps, if it is wider than `most`. One edge goes
- * through two of three points, and the other through the one between: three are exchanged for others until no
- * point is outside. Begun with `three`, which are those of the strip afterwards.
+ * The strip of a row of points in roughly one direction; may be null if it is wider than `most`. One edge
+ * goes through two of three points, and the other through the one between: three are exchanged for others
+ * until no point is outside. Begun with `three`, which are those of the strip afterwards.
  */
-export function stripOfRow(x, y, first, last, three, most) {
+export function stripByExchange(x, y, first, last, three, most) {
   // Of wider strips, by their length, the narrowest may go through other points.
   const [ROUNDS, THIN] = [12, 1 / 300];
   for (let round = 0; round < ROUNDS; round++) {
     const [a, b, c] = three;
-    const least = heightOfTriangle(x, y, a, b, c);
+    const least = triangleHeight(x, y, a, b, c);
     if (least > most) return null;
     const [sx, sy, ax, ay] = [x[c] - x[a], y[c] - y[a], x[a], y[a]];
     const length = Math.sqrt(sx * sx + sy * sy);
@@ -33,23 +33,23 @@ export function stripOfRow(x, y, first, last, three, most) {
     const width = (high - low) / length;
     if (width <= least * (1 + 1e-12) || (Number.isFinite(most) && width <= most)) {
       const along = [sx / length, sy / length];
-      const reach = reachAlong(x, y, first, last, along);
+      const reach = lengthAlong(x, y, first, last, along);
       if (width > THIN * reach) break;
       return { width, length: reach, along };
     }
     // The one that is furthest outside.
     const own = sx * (y[b] - ay) - sy * (x[b] - ax);
     const isHigh = high - Math.max(own, 0) > Math.min(own, 0) - low;
-    const fresh = isHigh ? highest : lowest;
+    const added = isHigh ? highest : lowest;
     const outside = isHigh ? high : low;
-    const next = exchangedTurns(three, fresh, (k) => (k === 1) === (outside > 0 === own > 0));
+    const next = exchangePoint(three, added, (k) => (k === 1) === (outside > 0 === own > 0));
     for (let k = 0; k < 3; k++) three[k] = next[k];
   }
-  const strip = stripOfPoints(x, y, first, last);
+  const strip = enclosingStrip(x, y, first, last);
   return strip.width <= most ? strip : null;
 }
 
-function reachAlong(x, y, first, last, [ux, uy]) {
+function lengthAlong(x, y, first, last, [ux, uy]) {
   let [low, high] = [Infinity, -Infinity];
   for (let i = first; i < last; i++) {
     const at = ux * (x[i] - x[first]) + uy * (y[i] - y[first]);
@@ -60,7 +60,7 @@ function reachAlong(x, y, first, last, [ux, uy]) {
 }
 
 // Of a convex polygon: one of its sides lies on an edge of the strip.
-function stripOfCorners({ x, y, count }) {
+function stripOfHull({ x, y, count }) {
   const [ex, ey] = [x[count - 1] - x[0], y[count - 1] - y[0]];
   if (count <= 2) {
     // A line, or a point.
@@ -81,11 +81,11 @@ function stripOfCorners({ x, y, count }) {
     // Sides of a hull have a length.
     if (width < best.width) best = { width, along: [sx / length, sy / length] };
   }
-  return { ...best, length: reachAlong(x, y, 0, count, best.along) };
+  return { ...best, length: lengthAlong(x, y, 0, count, best.along) };
 }
 
 /** The least height of a triangle of three points of a row. */
-export function heightOfTriangle(x, y, a, b, c) {
+export function triangleHeight(x, y, a, b, c) {
   const [ux, uy, vx, vy] = [x[b] - x[a], y[b] - y[a], x[c] - x[a], y[c] - y[a]];
   const [wx, wy] = [x[c] - x[b], y[c] - y[b]];
   const longest = Math.max(ux * ux + uy * uy, wx * wx + wy * wy, vx * vx + vy * vy);

@@ -1,4 +1,4 @@
-// The transmission angle, the output's swing and the time ratio of a four-bar over a circuit.
+// Computes the transmission angles, the output's swing and the time ratio of a four-bar over a circuit.
 
 import { cosSinOfDegrees, degreesOf, remainderOf } from "../kinematics/angles.js";
 import { isCouplerDriven } from "../kinematics/four-bar.js";
@@ -17,11 +17,11 @@ export function transmissionRange(linkage, circuit, fourBar) {
     return range.map((side) => oppositeAngle(side, coupler, rocker));
   }
   const angle = (from, to, x, y) => {
-    const apart = (at) => {
+    const spacing = (at) => {
       const [p, q] = [at(from), at(to)];
       return Math.sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]));
     };
-    return extremesOver(linkage, circuit, apart).map((side) => oppositeAngle(side, x, y));
+    return extremesOver(linkage, circuit, spacing).map((side) => oppositeAngle(side, x, y));
   };
   const atRocker = angle(a, c, coupler, rocker);
   if (!isCouplerDriven(linkage, fourBar)) return atRocker;
@@ -91,8 +91,8 @@ export function outputSwing(linkage, circuit, { joints: { b, c } }) {
 }
 
 /**
- * The crank angle of the rocker's slower stroke to that of its faster one; null but of a crank-rocker that
- * turns.
+ * The ratio of the crank angle of the rocker's slower stroke to that of its faster one; null unless it is a
+ * crank-rocker with a turning crank.
  */
 export function timeRatio(linkage, circuit, { frame, crank, coupler, rocker, type }) {
   const turns = circuit.closed && circuit.passes.length === 1;

@@ -1,11 +1,11 @@
-// How far two outlines are from one another as they lie.
+// Computes the deviation between two outlines in place.
 
 import { extentOf, resampled } from "./outline.js";
 
 const COMPARED_POINTS = 160;
 
 /**
- * The root of mean squares and the greatest of the distances from even points of each of two outlines, {
+ * The root mean square and the greatest of the distances from evenly spaced points of each of two outlines, {
  * points, closed }, to the other, by the extent of the first: { rms, greatest }.
  */
 export function deviationBetween(first, second) {

@@ -1,16 +1,16 @@
-// A drawn shape in a word of an address.
+// Encodes a drawn shape as a word of an address.
 
 import { lengthsAlong } from "./outline.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 // Twelve bits of a coordinate: one in 4,096 of the greater side of the shape's box.
-const GRAIN = 4095;
+const COORDINATE_MAX = 4095;
 
 /**
- * A shape of at most `most` points in letters of base64url: "c" for a closed one or "o", then four letters a
- * point.
+ * A shape, simplified to at most `most` points, in letters of base64url: "c" if it is closed or "o", then
+ * four letters for each point.
  */
-export function encodedShape(points, closed, most = 48) {
+export function encodeShape(points, closed, most = 48) {
   const few = simplified(points, closed, most);
   const xs = few.filter((_, k) => k % 2 === 0);
   const ys = few.filter((_, k) => k % 2 === 1);
@@ -18,27 +18,26 @@ export function encodedShape(points, closed, most = 48) {
   const side = Math.max(Math.max(...xs) - x0, Math.max(...ys) - y0) || 1;
   let word = closed ? "c" : "o";
   few.forEach((value, k) => {
-    const whole = Math.round(((value - (k % 2 ? y0 : x0)) / side) * GRAIN);
+    const whole = Math.round(((value - (k % 2 ? y0 : x0)) / side) * COORDINATE_MAX);
     word += LETTERS[whole >> 6] + LETTERS[whole & 63];
   });
   return word;
 }
 
-/** The shape of such a word, { points, closed }, with a side of 100; null if it is none. */
-export function decodedShape(word) {
+/** The shape of such a word, { points, closed }, with a side of 100; null if it is not valid. */
+export function decodeShape(word) {
   if (!/^[co](?:[\w-]{4}){2,}$/.test(word)) return null;
   const points = new Float64Array((word.length - 1) / 2);
   for (let k = 0; k < points.length; k += 1) {
     const at = 1 + 2 * k;
-    points[k] = (100 * (64 * LETTERS.indexOf(word[at]) + LETTERS.indexOf(word[at + 1]))) / GRAIN;
+    points[k] = (100 * (64 * LETTERS.indexOf(word[at]) + LETTERS.indexOf(word[at + 1]))) / COORDINATE_MAX;
   }
   return { points, closed: word[0] === "c" };
 }
 
 /**
- * The points of an outline without those that matter least: again and again the one goes that spans the
- * smallest triangle with its neighbours (Visvalingam and Whyatt 1993), until there are `most`. The ends of an
- * open outline stay.
+ * Simplifies an outline to `most` points: removes, one after another, the point with the smallest triangle
+ * with its neighbours (Visvalingam and Whyatt 1993). The ends of an open outline are kept.
  */
 export function simplified(points, closed, most) {
   const kept = Array.from({ length: points.length / 2 }, (_, k) => k);

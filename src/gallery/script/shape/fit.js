@@ -1,26 +1,29 @@
-// The exact comparison of two outlines: the best similarity, and how far they are then from one another.
+// Fits one outline to another by a similarity, and computes the deviation that remains.
 
-import { fitted, fittedToLines, placed } from "./similarity.js";
+import { fitted, fittedToLines, transformed } from "./similarity.js";
 
-// What a distance along the curve weighs against one across it.
+// The weight of a distance along the curve relative to one across it.
 const SLIP = 0.02;
 
 /**
- * Fits an outline to another of the same direction and about the same extent, 1.
+ * Fits `curve` to `query`, an outline of the same direction and about the same extent, 1.
  *
- * `asked` and `curve` are { points, closed }, evenly spaced; `start` and `span` say between which places of
- * `curve`, counted in its points, the whole of `asked` lies about. `whole`: all of `curve` is compared, not
- * only what lies between the ends of `asked`. `rounds` of pairing and fitting; `reach`: how far along the
- * other outline, by its length, the nearest place is sought from the one expected: far enough for a hand's
- * uneven pace, and not so far that one arm of a figure is taken for another. Gives { rms, greatest: of the
- * distances both ways, as `asked` measures, similarity: of `curve` to `asked`, from, to: the places of the
- * ends of `asked` on `curve`, start: where it begins by all of its points }.
+ * Both are { points, closed }, evenly spaced; `start` and `span` give the positions on `curve`, counted in
+ * its points, between which `query` approximately lies. With `whole`, all of `curve` is compared, not only
+ * the part between the ends of `query`. `rounds` is the number of rounds of pairing and fitting; `reach` is
+ * how far from its expected position the nearest point is searched, by the length of the other outline: far
+ * enough for the uneven speed of a drawing hand, and not so far that one arm of a figure is mistaken for
+ * another.
+ *
+ * Returns { rms, greatest, similarity, from, to, start }: the deviations of both outlines from each other in
+ * the units of `query`, the similarity from `curve` to `query`, the positions of the ends of `query` on
+ * `curve`, and its start estimated from all of its points.
  */
-export function closestFit(asked, curve, { start, span, whole, rounds, reach }) {
-  const match = new Matching(asked, curve, { start, span, whole, reach });
-  let similarity = fitted(match.expected(), asked.points);
+export function closestFit(query, curve, { start, span, whole, rounds, reach }) {
+  const match = new OutlinePairing(query, curve, { start, span, whole, reach });
+  let similarity = fitted(match.expected(), query.points);
   for (let round = 0; round < rounds; round += 1) {
-    match.pair(placed(similarity, curve.points));
+    match.pair(transformed(similarity, curve.points));
     const next = fittedToLines(match.from.subarray(0, match.used), match.to, match.along, SLIP);
     if (!next) break;
     const moved =
@@ -31,32 +34,32 @@ export function closestFit(asked, curve, { start, span, whole, rounds, reach }) 
     similarity = next;
     if (moved < 1e-5) break;
   }
-  match.pair(placed(similarity, curve.points));
+  match.pair(transformed(similarity, curve.points));
   return { ...match.deviation(), similarity, ...match.where() };
 }
 
-/** Which place of each outline is nearest to the points of the other. */
-class Matching {
-  constructor(asked, curve, given) {
-    Object.assign(this, { asked, curve }, given);
-    this.count = asked.points.length / 2;
-    this.steps = asked.closed ? this.count : this.count - 1;
+/** Pairs the points of each of two outlines with the nearest positions on the other. */
+class OutlinePairing {
+  constructor(query, curve, given) {
+    Object.assign(this, { query, curve }, given);
+    this.count = query.points.length / 2;
+    this.steps = query.closed ? this.count : this.count - 1;
     this.places = curve.points.length / 2;
     this.place = Float64Array.from(
       { length: this.count },
       (_, n) => given.start + (given.span * n) / this.steps,
     );
-    const room = 2 * (this.count + Math.ceil(2 * this.places) + 2);
+    const capacity = 2 * (this.count + Math.ceil(2 * this.places) + 2);
     [this.from, this.to, this.along] = [
-      new Float64Array(room),
-      new Float64Array(room),
-      new Float64Array(room),
+      new Float64Array(capacity),
+      new Float64Array(capacity),
+      new Float64Array(capacity),
     ];
     this.foot = { place: 0, square: 0, x: 0, y: 0, ex: 0, ey: 0 };
     this.used = 0;
   }
 
-  /** Where on the curve the points of `asked` are if both are passed evenly. */
+  /** The points of the curve at the expected positions of the points of `query`. */
   expected() {
     const out = new Float64Array(2 * this.count);
     for (let n = 0; n < this.count; n += 1) this.pointAt(this.place[n], out, 2 * n);
@@ -75,26 +78,26 @@ class Matching {
   }
 
   /**
-   * Pairs the points of both outlines with the other's nearest places, `moved` being the curve as it lies on
-   * `asked`.
+   * Pairs the points of both outlines with the other's nearest positions; `moved` is the curve transformed
+   * onto `query`.
    */
   pair(moved) {
-    const { asked, curve, foot, start, span, steps } = this;
+    const { query, curve, foot, start, span, steps } = this;
     this.used = this.forth = this.back = this.forthGreatest = this.backGreatest = 0;
     const near = Math.max(2, Math.ceil(this.reach * span));
     for (let n = 0; n < this.count; n += 1) {
-      nearest(
+      nearestPoint(
         moved,
         curve.closed,
         start + (span * n) / steps,
         near,
-        asked.points[2 * n],
-        asked.points[2 * n + 1],
+        query.points[2 * n],
+        query.points[2 * n + 1],
         foot,
       );
       this.place[n] = foot.place;
       this.pointAt(foot.place, this.from, this.used);
-      this.keep(asked.points[2 * n], asked.points[2 * n + 1]);
+      this.keep(query.points[2 * n], query.points[2 * n + 1]);
       this.forth += foot.square / this.count;
       this.forthGreatest = Math.max(this.forthGreatest, foot.square);
     }
@@ -102,7 +105,15 @@ class Matching {
     const around = Math.max(2, Math.ceil(this.reach * steps));
     for (let m = first; m <= last; m += 1) {
       const k = 2 * (((m % this.places) + this.places) % this.places);
-      nearest(asked.points, asked.closed, ((m - start) / span) * steps, around, moved[k], moved[k + 1], foot);
+      nearestPoint(
+        query.points,
+        query.closed,
+        ((m - start) / span) * steps,
+        around,
+        moved[k],
+        moved[k + 1],
+        foot,
+      );
       this.from[this.used] = curve.points[k];
       this.from[this.used + 1] = curve.points[k + 1];
       this.keep(foot.x, foot.y);
@@ -111,7 +122,9 @@ class Matching {
     }
   }
 
-  /** The first and the last of the curve's points that are compared, counted on round a closed one. */
+  /**
+   * The first and the last of the curve's points that are compared; the count continues round a closed curve.
+   */
   compared() {
     if (this.whole) return [0, this.places - 1];
     const first = Math.ceil(this.place[0]);
@@ -126,7 +139,7 @@ class Matching {
     this.used += 2;
   }
 
-  /** The places of both ends, and where on the curve the shape begins, of all its points' places. */
+  /** The positions of both ends of `query` on the curve, and its start estimated from all of its points. */
   where() {
     const { place, count, steps, span } = this;
     let start = 0;
@@ -143,10 +156,10 @@ class Matching {
 }
 
 /**
- * The nearest place to (x, y) on the segments of an outline within `reach` of a place: in `foot`, { place,
- * square: of the distance, x, y, ex, ey: the direction of the segment }.
+ * Writes the nearest position to (x, y) on the segments of an outline within `reach` of a position to `foot`,
+ * { place, square: of the distance, x, y, ex, ey: the direction of the segment }.
  */
-function nearest(points, closed, about, reach, x, y, foot) {
+function nearestPoint(points, closed, about, reach, x, y, foot) {
   const count = points.length / 2;
   let [first, last] = [Math.floor(about) - reach, Math.floor(about) + reach];
   if (!closed) {

@@ -1,21 +1,21 @@
-// SVG as it is written, as a tree of elements. The page's own parser is not asked: what is pasted never comes
-// near the document, and under node there is none.
+// Parses SVG markup into a tree of elements. The browser's own parser is not used: pasted text must not reach
+// the document, and node has none.
 
 // Comments, sections of characters, instructions, declarations; or a tag, with attributes that may hold ">".
-const PIECE =
+const TOKEN =
   /<!--[\s\S]*?-->|<!\[CDATA\[[\s\S]*?\]\]>|<\?[\s\S]*?\?>|<![^[>]*(?:\[[\s\S]*?\]\s*)?>|<(\/?)([A-Za-z_][\w:.-]*)((?:"[^"]*"|'[^']*'|[^"'>])*)>/g;
 const ATTRIBUTE = /([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|([^\s"'/>]+))/g;
 const CHARACTERS = { lt: "<", gt: ">", amp: "&", quot: '"', apos: "'" };
 
 /**
- * The elements in a text, [{ name, attributes: Map, children, parent }], within one that has no name: names
- * in small letters and without a prefix for SVG, attributes as they are written. Elements left open end with
- * the text.
+ * Parses a text to an element { name, attributes: Map, children, parent } without a name that contains all
+ * others: names are in lower case without the prefix of SVG, attributes as written. Unclosed elements end
+ * with the text.
  */
-export function markupTree(text) {
+export function parseMarkup(text) {
   const root = { name: "", attributes: new Map(), children: [], parent: null };
   let within = root;
-  for (const [, closes, tag, rest] of text.matchAll(PIECE)) {
+  for (const [, closes, tag, rest] of text.matchAll(TOKEN)) {
     if (tag === undefined) continue;
     const name = tag.toLowerCase().replace(/^svg:/, "");
     if (closes) within = afterEnd(within, name);
@@ -28,7 +28,7 @@ export function markupTree(text) {
   return root;
 }
 
-/** The element that goes on after an end tag; one that ends nothing is passed over. */
+/** The element that continues after an end tag; an unmatched end tag is ignored. */
 function afterEnd(within, name) {
   for (let up = within; up.parent; up = up.parent) if (up.name === name) return up.parent;
   return within;

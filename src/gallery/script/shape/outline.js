@@ -1,10 +1,10 @@
 // Outlines: polylines, open or closed, as flat arrays [x0, y0, x1, y1, …] without a repeated first point.
 
 /**
- * The points of an outline that are finite and not where their forerunner is; of a closed one, not where its
- * first is.
+ * The finite points of an outline without repetitions of the point before; of a closed one also without
+ * repetitions of the first point at its end.
  */
-export function cleaned(points, closed) {
+export function withoutDuplicates(points, closed) {
   const kept = [];
   for (let k = 0; k + 1 < points.length; k += 2) {
     const [x, y] = [points[k], points[k + 1]];
@@ -68,7 +68,7 @@ export function extentOf(points) {
   return Math.sqrt(greatest);
 }
 
-/** An outline with the opposite direction, of the same first point if it is closed. */
+/** An outline in the opposite direction, with the same first point if it is closed. */
 export function reversedOutline(points, closed) {
   const count = points.length / 2;
   const out = new Float64Array(points.length);
@@ -86,8 +86,8 @@ export function mirroredOutline(points) {
 }
 
 /**
- * Whether an outline comes back so near to its beginning that it is meant to close: within 12 % of its
- * extent.
+ * Whether an outline ends so near to its start, within 12 % of its extent, that it is probably meant to be
+ * closed.
  */
 export function looksClosed(points) {
   const end = points.length - 2;
@@ -96,8 +96,9 @@ export function looksClosed(points) {
 }
 
 /**
- * The portion of an outline between two fractions of its length as `count` even points; a closed one goes on
- * round its first point, an open one stops at its ends: { points, from, to } with the fractions that it has.
+ * The portion of an outline between two fractions of its length as `count` even points; on a closed one it
+ * may continue over the first point, on an open one it ends at the ends: { points, from, to }, the actual
+ * fractions.
  */
 export function portion(points, closed, from, to, count) {
   const along = lengthsAlong(points, closed);

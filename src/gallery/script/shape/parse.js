@@ -1,38 +1,39 @@
-// Points from what is pasted: CSV, JSON, numbers in lines, points.csv, SVG path data, a whole SVG.
+// Parses pasted points: CSV, JSON, numbers in lines, points.csv, SVG path data, or a whole SVG.
 
-import { drawnOutlines } from "./drawing.js";
+import { svgOutlines } from "./svg-outlines.js";
 import { hasLength } from "./encode.js";
 import { lengthsAlong, looksClosed } from "./outline.js";
-import { subpathsOf } from "./path.js";
+import { subpathsOf } from "./svg-path.js";
 
 /**
- * The shape in a text: { points: flat array, y up, closed, said: what was read }. Throws an Error with a
- * sentence.
+ * Parses the shape in a text: { points: flat array, y up, closed, said: a description of what was read }.
+ *
+ * @throws {Error} a sentence about what cannot be read
  */
-export function shapeIn(text) {
+export function parseShape(text) {
   const plain = text.trim();
   if (!plain) throw new Error("There is nothing to read.");
-  const found = readerOf(plain)(plain);
+  const found = parserFor(plain)(plain);
   if (!hasLength(found.points)) throw new Error("Fewer than two different points could be read.");
   return found;
 }
 
-/** What reads a text, by how it begins; SVG may be a piece, with other things about it. */
-function readerOf(text) {
-  if (/^[[{]/.test(text)) return jsonShape;
-  if (/<[a-z!?]/i.test(text)) return svgShape;
-  return /^m[\s,.\d+-]/i.test(text) ? pathShape : tableShape;
+/** The parser for a text, by how it begins; SVG may be a fragment within other text. */
+function parserFor(text) {
+  if (/^[[{]/.test(text)) return parseJson;
+  if (/<[a-z!?]/i.test(text)) return parseSvg;
+  return /^m[\s,.\d+-]/i.test(text) ? parsePath : parseTable;
 }
 
 /** The longest of the outlines of an SVG; its coordinates point down. */
-function svgShape(text) {
-  const outlines = drawnOutlines(text);
+function parseSvg(text) {
+  const outlines = svgOutlines(text);
   if (!outlines.length)
     throw new Error("The SVG draws no path, line, polygon, rectangle, circle or ellipse that could be read.");
   return longestShape(outlines);
 }
 
-function pathShape(data) {
+function parsePath(data) {
   const outlines = subpathsOf(data);
   if (!outlines.length) throw new Error("The path data could not be read: it begins with M and a point.");
   return longestShape(outlines);
@@ -49,7 +50,7 @@ function longestShape(outlines) {
   };
 }
 
-function jsonShape(text) {
+function parseJson(text) {
   let value;
   try {
     value = JSON.parse(text);
@@ -65,7 +66,7 @@ function jsonShape(text) {
   return { points, closed, said: `${points.length / 2} points of JSON` };
 }
 
-/** The first list of points in a value of JSON, looked for in depth, or null. */
+/** The first list of points in a JSON value, found by a depth-first search, or null. */
 function pointsWithin(value) {
   if (Array.isArray(value)) {
     const isPair = (one) => Array.isArray(one) && one.length >= 2 && one.slice(0, 2).every(Number.isFinite);
@@ -87,20 +88,20 @@ function pointsWithin(value) {
   return null;
 }
 
-/** Numbers in lines: two columns, or those headed x and y; of several curves the first. */
-function tableShape(text) {
+/** Parses numbers in lines: two columns, or those headed x and y; of several curves the first. */
+function parseTable(text) {
   const lines = text
     .split(/\r?\n/)
     .map((line) => line.replace(/#.*$/, "").trim())
     .filter(Boolean);
-  const cut = cutterOf(lines);
+  const cut = lineSplitter(lines);
   let rows = lines.map(cut);
   const isHead = (row) => row.some((word) => word !== "" && Number.isNaN(Number(word)));
   const head = isHead(rows[0]) ? rows[0].map((word) => word.replace(/^"|"$/g, "").toLowerCase()) : null;
   rows = rows
     .filter((row) => !isHead(row))
     .map((row) => row.map((word) => (word === "" ? NaN : Number(word))));
-  if (!head && rows.length <= 2 && rows.flat().length > 4) return listed(rows.flat());
+  if (!head && rows.length <= 2 && rows.flat().length > 4) return shapeOfList(rows.flat());
   const [x, y] =
     head && head.includes("x") && head.includes("y") ? [head.indexOf("x"), head.indexOf("y")] : [0, 1];
   const { kept, curves } = firstCurve(rows, head);
@@ -116,15 +117,18 @@ function tableShape(text) {
   };
 }
 
-function listed(numbers) {
+function shapeOfList(numbers) {
   const points = Float64Array.from(
     numbers.slice(0, 2 * Math.floor(numbers.length / 2)).filter(Number.isFinite),
   );
   return { points, closed: looksClosed(points), said: `${points.length / 2} points` };
 }
 
-/** What cuts a line into words: semicolons, with commas in the numbers; or commas; or blanks. */
-function cutterOf(lines) {
+/**
+ * The function that splits a line into words: at semicolons (numbers may have decimal commas), commas or
+ * blanks.
+ */
+function lineSplitter(lines) {
   const most = lines.slice(0, 20).join("\n");
   if (most.includes(";")) return (line) => line.split(";").map((word) => word.trim().replace(",", "."));
   if (lines.slice(0, 20).every((line) => line.includes("\t")))

@@ -1,40 +1,43 @@
-// The curves most like a shape, ranked by how far they truly are from it.
+// Finds the curves most like a shape, ranked by their deviation from it.
 
 import { curveKey } from "../data/family.js";
-import { evenShape, thereAndBack } from "./asked.js";
-import { partFit, wholeFit } from "./compared.js";
-import { likelyParts } from "./part.js";
+import { resampledShape, thereAndBack } from "./query-shape.js";
+import { partFit, wholeFit } from "./curve-fit.js";
+import { candidateParts } from "./part-search.js";
 import { composed, inverted } from "./similarity.js";
-import { likelyWhole } from "./whole.js";
+import { candidateCurves } from "./whole-search.js";
 
-// Curves that are compared roughly, those of them that are compared exactly, and the points of the shape for
-// each.
+// The number of curves compared roughly, of those compared exactly, and of points of the shape for each.
 const ROUGH = 320;
 const EXACT = 64;
 const ROUGH_POINTS = 32;
 const EXACT_POINTS = 96;
 
 /**
- * Searches indexes, step by step, for the curves most like a shape. `part`: a portion of a curve, no shorter
- * than `least` of it, may be like the shape; `mirror`: mirror images count as alike; `by`: "rms" or
- * "greatest", the deviation that ranks.
+ * Searches indexes, step by step, for the curves most like a shape. With `part`, portions of curves, no
+ * shorter than `least` of them, are searched; with `mirror`, mirror images count as alike; `by` is the
+ * deviation to rank by, "rms" or "greatest".
  *
- * The generator's value is [{ name, family, curve, rms, greatest, similarity, from, to }], the nearest first:
- * deviations by the extent of the shape, the similarity from the curve to the shape as it was given, and
- * between which fractions of the curve's length it was compared (`to` beyond 1 goes on round the first point;
- * 0 and 1 for a whole curve).
+ * The generator returns [{ name, family, curve, rms, greatest, similarity, from, to }], the nearest first:
+ * the deviations by the extent of the shape, the similarity from the curve to the given shape, and the
+ * fractions of the curve's length between which it was compared (`to` beyond 1 continues over the first
+ * point; 0 and 1 for a whole curve).
  */
-export function* searching(indexes, shape, { part = false, mirror = true, least = 0.15, by = "rms" } = {}) {
-  const likely = [];
+export function* searchByShape(
+  indexes,
+  shape,
+  { part = false, mirror = true, least = 0.15, by = "rms" } = {},
+) {
+  const candidates = [];
   for (const index of indexes) {
     const found = yield* part
-      ? likelyParts(index, shape, { mirror, least, most: ROUGH })
-      : likelyWhole(index, shape, { mirror, most: ROUGH });
-    likely.push(...found);
+      ? candidateParts(index, shape, { mirror, least, most: ROUGH })
+      : candidateCurves(index, shape, { mirror, most: ROUGH });
+    candidates.push(...found);
   }
-  likely.sort((a, b) => b.value - a.value);
+  candidates.sort((a, b) => b.value - a.value);
   const rough = outlinesOf(shape, part, ROUGH_POINTS);
-  const chosen = yield* (part ? chosenParts : roughlyCompared)(likely.slice(0, ROUGH), rough, shape);
+  const chosen = yield* (part ? chooseParts : chooseByRoughFit)(candidates.slice(0, ROUGH), rough, shape);
   const outlines = outlinesOf(shape, part, EXACT_POINTS);
   const results = [];
   for (const { index, curve, seed } of chosen) {
@@ -46,49 +49,48 @@ export function* searching(indexes, shape, { part = false, mirror = true, least 
 }
 
 /**
- * The likeliest curves by rough comparisons, each with its best seed, begun where the comparison found it to
- * begin.
+ * Chooses the curves with the best rough fits, each with its best seed, starting where the rough fit starts.
  */
-function* roughlyCompared(likely, outlines) {
+function* chooseByRoughFit(candidates, outlines) {
   const fits = [];
-  for (const { index, curve, seeds } of likely) {
+  for (const { index, curve, seeds } of candidates) {
     for (const seed of seeds) {
       const { rms, start } = wholeFit(index, curve, outlines, seed, "rough");
       fits.push({ index, curve, rms, seed: { ...seed, start } });
     }
     if (fits.length % 8 < seeds.length) yield;
   }
-  return nearestOnce(fits, EXACT);
+  return nearestPerCurve(fits, EXACT);
 }
 
 /**
- * The likeliest portions: their places are settled already, better than a rough comparison would. What a
- * trembling shape's noise does along a curve spoils likeness, though, but not distances from the curve: half
- * of them are those that a rough comparison brings nearest.
+ * Chooses the best portions, whose ends are already refined better than by a rough fit. The noise of a shape
+ * along a curve affects correlations, but not distances from the curve: for a noisy shape, half of the
+ * portions are those with the best rough fits.
  */
-function* chosenParts(likely, outlines, { trembles }) {
-  const settled = likely.map(({ index, curve, seeds: [seed] }) => ({ index, curve, seed }));
-  if (!trembles) return settled.slice(0, EXACT);
+function* chooseParts(candidates, outlines, { isNoisy }) {
+  const refined = candidates.map(({ index, curve, seeds: [seed] }) => ({ index, curve, seed }));
+  if (!isNoisy) return refined.slice(0, EXACT);
   const fits = [];
-  for (const { index, curve, seed } of settled.slice(EXACT / 2)) {
+  for (const { index, curve, seed } of refined.slice(EXACT / 2)) {
     const { rms } = partFit(index, curve, outlines, seed, "rough");
     fits.push({ index, curve, rms, seed });
     if (fits.length % 16 === 0) yield;
   }
-  return [...settled.slice(0, EXACT / 2), ...nearestOnce(fits, EXACT / 2)];
+  return [...refined.slice(0, EXACT / 2), ...nearestPerCurve(fits, EXACT / 2)];
 }
 
-/** A shape in even points, as it is compared with closed curves and with open ones. */
+/** A shape in even points, for comparisons with closed curves and with open ones. */
 function outlinesOf(shape, part, count) {
-  if (part) return { open: evenShape(shape, count, true) };
+  if (part) return { open: resampledShape(shape, count, true) };
   return {
-    open: evenShape(shape, count),
-    closed: evenShape(shape.closed ? shape : thereAndBack(shape), count),
+    open: resampledShape(shape, count),
+    closed: resampledShape(shape.closed ? shape : thereAndBack(shape), count),
   };
 }
 
 /** The best fit of each curve, of the `most` curves with the best. */
-function nearestOnce(fits, most) {
+function nearestPerCurve(fits, most) {
   const found = [];
   const seen = new Set();
   for (const fit of fits.sort((a, b) => a.rms - b.rms)) {

@@ -1,13 +1,13 @@
-// The best few of many.
+// Keeps the best few of many offers.
 
-/** A list of the `most` offers of the greatest `value`. */
+/** The `most` offers with the greatest `value`. */
 export class Shortlist {
   constructor(most) {
     this.most = most;
     this.kept = [];
   }
 
-  /** What an offer must exceed to be kept. */
+  /** The value that an offer must exceed to be kept. */
   least() {
     return this.kept.length < this.most ? -Infinity : this.kept[this.kept.length - 1].value;
   }
@@ -20,7 +20,7 @@ export class Shortlist {
     if (this.kept.length > this.most) this.kept.pop();
   }
 
-  /** The offers kept, the best first. */
+  /** The kept offers, the best first. */
   best() {
     return this.kept;
   }

@@ -1,15 +1,15 @@
-// Similarities of the plane: a turn and a scale, a shift, and a mirror image before them if there is one.
+// Similarities of the plane: an optional reflection, then a rotation, a scaling and a translation.
 
 /**
- * The similarity that changes nothing. { mirror, re, im, x, y }: z -> (re + i·im) z̃ + (x + iy), z̃ the
- * conjugate if mirrored.
+ * The identity. A similarity is { mirror, re, im, x, y }: z -> (re + i·im) z̃ + (x + iy), where z̃ is the
+ * conjugate of z if mirrored, else z.
  */
 export function identity() {
   return { mirror: false, re: 1, im: 0, x: 0, y: 0 };
 }
 
-/** A flat array of points under a similarity. */
-export function placed({ mirror, re, im, x, y }, points) {
+/** A flat array of points transformed by a similarity. */
+export function transformed({ mirror, re, im, x, y }, points) {
   const out = new Float64Array(points.length);
   for (let k = 0; k < points.length; k += 2) {
     const [u, v] = [points[k], mirror ? -points[k + 1] : points[k + 1]];
@@ -19,7 +19,7 @@ export function placed({ mirror, re, im, x, y }, points) {
   return out;
 }
 
-/** The similarity that undoes another. */
+/** The inverse of a similarity. */
 export function inverted({ mirror, re, im, x, y }) {
   const size = re * re + im * im;
   // w = f z̃ + t gives z = conj((w − t) / f) if mirrored, (w − t) / f if not.
@@ -28,7 +28,7 @@ export function inverted({ mirror, re, im, x, y }) {
   return mirror ? { mirror, re: a, im: -b, x: c, y: -d } : { mirror, re: a, im: b, x: c, y: d };
 }
 
-/** The similarity that does `first`, then `second`. */
+/** The composition of two similarities: `first`, then `second`. */
 export function composed(second, first) {
   const [u, v] = [first.re, second.mirror ? -first.im : first.im];
   const [s, t] = [first.x, second.mirror ? -first.y : first.y];
@@ -42,9 +42,8 @@ export function composed(second, first) {
 }
 
 /**
- * The similarity without mirror image that carries points nearest to others, one by one, in the sense of
- * least squares of their distances: { mirror: false, re, im, x, y }. Points that are all one are only
- * shifted.
+ * The similarity without reflection that best maps points to others, one by one, by least squares: { mirror:
+ * false, re, im, x, y }. Points that all coincide are only translated.
  */
 export function fitted(from, to) {
   const count = from.length / 2;
@@ -67,9 +66,10 @@ export function fitted(from, to) {
 }
 
 /**
- * The similarity without mirror image that brings points nearest to lines through others, by least squares of
- * the distances `from`-`to` across the line of direction `along` (unit vectors), those along it weighed with
- * `slip`: what slides along a curve is no deviation from it. Null where the points do not say.
+ * The similarity without reflection that best maps points to lines through others, by least squares of the
+ * distances `from`-`to` across the line of direction `along` (unit vectors), and of those along it weighted
+ * with `slip`: a displacement along a curve is not a deviation from it. Null if the points do not determine
+ * it.
  */
 export function fittedToLines(from, to, along, slip) {
   const rows = new Float64Array(20);
@@ -85,14 +85,14 @@ export function fittedToLines(from, to, along, slip) {
     add(-ey * u + ex * v, ey * v + ex * u, -ey, ex, -ey * p + ex * q, 1);
     add(ex * u + ey * v, -ex * v + ey * u, ex, ey, ex * p + ey * q, slip);
   }
-  const solution = solvedFour(rows);
+  const solution = solveFour(rows);
   return solution && { mirror: false, re: solution[0], im: solution[1], x: solution[2], y: solution[3] };
 }
 
 /**
  * Solves four equations, each of four coefficients and a right side, in place; null where they are singular.
  */
-function solvedFour(rows) {
+function solveFour(rows) {
   for (let i = 0; i < 4; i += 1) {
     let pivot = i;
     for (let k = i + 1; k < 4; k += 1)

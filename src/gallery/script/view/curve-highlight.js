@@ -191,10 +191,7 @@ export class CurveHighlight {
     } = this.drawnOf(this.curve);
     const [x, y] = [origin[0] + scale * at.place[0], origin[1] - scale * at.place[1]];
     page.overlay.point([x, y], 4 / page.zoom.scale);
-    const rows = readingRows(at, this.solved).map(([name, text]) => [
-      h("dt", {}, name),
-      h("dd", {}, text),
-    ]);
+    const rows = readingRows(at, this.solved).map(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
     fill(page.reading, h("dl", {}, rows));
     const { clientWidth, clientHeight } = page.viewport;
     const [across, down] = [page.zoom.x + page.zoom.scale * x, page.zoom.y + page.zoom.scale * y];

@@ -1,9 +1,9 @@
 // The readings of a curve at a point: input, speed, transmission angle, from the page's solver.
 
 import { cellValues } from "../data/family.js";
-import { routesOf } from "../kinematics/circuit.js";
+import { findCircuits } from "../kinematics/circuit.js";
 import { fourBarOf, transmissionAt } from "../kinematics/four-bar.js";
-import { linkageWithOnePoint } from "../kinematics/linkage.js";
+import { singlePointLinkage } from "../kinematics/linkage.js";
 import { finePath } from "../kinematics/path.js";
 import { poseAt, ratesAt } from "../kinematics/poses.js";
 import { linkageOf } from "../kinematics/template.js";
@@ -23,8 +23,8 @@ function solveCurve(family, curve, tolerance) {
   const whole = linkageOf(family.template, cellValues(family, cell[curve]));
   const traced = whole.traced[trace[curve] - 1];
   if (traced === undefined) return null;
-  const { linkage, joint } = linkageWithOnePoint(whole, traced);
-  const route = routesOf(linkage).routes[circuit[curve] - 1];
+  const { linkage, joint } = singlePointLinkage(whole, traced);
+  const route = findCircuits(linkage).routes[circuit[curve] - 1];
   if (!route) return null;
   const path = finePath(linkage, route, joint, tolerance);
   const fourBar = fourBarOf(linkage);

@@ -1,11 +1,11 @@
 // Aligns curves with the first of them.
 
 import { curvePoints } from "../../data/family.js";
-import { askedShape } from "../../shape/asked.js";
-import { indexing } from "../../shape/indexing.js";
+import { queryShape } from "../../shape/query-shape.js";
+import { buildIndex } from "../../shape/shape-index.js";
 import { deviationBetween } from "../../shape/deviation.js";
-import { searching } from "../../shape/search.js";
-import { identity, placed } from "../../shape/similarity.js";
+import { searchByShape } from "../../shape/search.js";
+import { identity, transformed } from "../../shape/similarity.js";
 
 /**
  * Aligns a curve, { family, curve }, with the first: { points, closed, similarity, rms, greatest };
@@ -18,15 +18,15 @@ export function alignCurve(first, one, align) {
   const base = curvePoints(first.family, first.curve);
   const baseClosed = first.family.curves.closed[first.curve] === 1;
   if (align === "similar" || align === "mirrored") {
-    const shape = askedShape(base, baseClosed);
+    const shape = queryShape(base, baseClosed);
     const found = shape && compareWithShape(shape, one, align === "mirrored");
     if (found) {
       const { similarity, rms, greatest } = found;
-      return { points: placed(similarity, own), closed, similarity, rms, greatest };
+      return { points: transformed(similarity, own), closed, similarity, rms, greatest };
     }
   }
   const similarity = boxAlignment(base, own, align);
-  const points = placed(similarity, own);
+  const points = transformed(similarity, own);
   const deviation = deviationBetween({ points: base, closed: baseClosed }, { points, closed });
   return { points, closed, similarity, ...deviation };
 }
@@ -34,8 +34,8 @@ export function alignCurve(first, one, align) {
 /** Compares one curve with a shape, as the search by shape does. */
 function compareWithShape(shape, { family, curve }, mirror) {
   const alone = { ...family, curves: { ...family.curves, count: 1, ...onlyCurve(family.curves, curve) } };
-  const index = runToEnd(indexing(alone));
-  return runToEnd(searching([index], shape, { mirror }))[0];
+  const index = runToEnd(buildIndex(alone));
+  return runToEnd(searchByShape([index], shape, { mirror }))[0];
 }
 
 function onlyCurve(curves, curve) {

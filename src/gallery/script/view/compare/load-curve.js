@@ -1,7 +1,7 @@
 // Loads the curves to compare, from the atlas or with parameters changed on a plate.
 
 import { findCurve } from "../../data/family.js";
-import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { parseCurveName, solveNamedCurve, measuresOfCurve } from "../../export/curve.js";
 
 /**

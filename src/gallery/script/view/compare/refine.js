@@ -1,6 +1,6 @@
 // Redraws compared curves from the page's solver, in place of the stored points.
 
-import { placed } from "../../shape/similarity.js";
+import { transformed } from "../../shape/similarity.js";
 import { solveCurveOrNull } from "../curve-reading.js";
 
 // The chord error of a curve, in picture pixels.
@@ -18,7 +18,7 @@ export function refinePicture(picture, curves, aligned) {
     const { similarity } = aligned[k];
     const enlarged = picture.scale * Math.hypot(similarity.re, similarity.im);
     const solved = solveCurveOrNull(family, curve, REFINED_ERROR / enlarged);
-    if (solved) picture.redraw(k, placed(similarity, solved.path.points));
+    if (solved) picture.redraw(k, transformed(similarity, solved.path.points));
     if (k + 1 < curves.length) waiting = window.setTimeout(() => next(k + 1));
   };
   if (curves.length) waiting = window.setTimeout(() => next(0));

@@ -110,9 +110,7 @@ class FindView {
     const listed = requestedFamilies(app.atlas, query.families);
     fill(
       this.families,
-      familyChooser(app.atlas, listed, (families) =>
-        this.setQuery({ ...this.query, families }),
-      ),
+      familyChooser(app.atlas, listed, (families) => this.setQuery({ ...this.query, families })),
     );
     this.stop = loadFamilies(
       app.atlas,
@@ -216,8 +214,7 @@ class FindView {
     const list = show === "table" ? this.list : this.tiles;
     if (list.element.parentElement !== this.results) fill(this.results, list.element);
     if (show === "table") this.list.setRows(this.table, this.rows, this.shownColumns(column), sort);
-    else
-      this.tiles.setRows(this.table, this.rows, (row) => (column ? this.valueText(column, row) : null));
+    else this.tiles.setRows(this.table, this.rows, (row) => (column ? this.valueText(column, row) : null));
   }
 
   /** Sorted and filtered columns come first, so that they are visible. */

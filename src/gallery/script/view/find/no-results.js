@@ -15,11 +15,7 @@ export function noResults(filters, without) {
     return h(
       "li",
       {},
-      h(
-        "button",
-        { type: "button", onclick: () => without(name) },
-        `Remove ${columnLabel(name)}: ${left}`,
-      ),
+      h("button", { type: "button", onclick: () => without(name) }, `Remove ${columnLabel(name)}: ${left}`),
     );
   };
   const sentence =

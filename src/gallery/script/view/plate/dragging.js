@@ -1,8 +1,8 @@
 // Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the
 // picture.
 
-import { linkageWithOnePoint } from "../../kinematics/linkage.js";
-import { planePoint } from "../../draw/paper-view.js";
+import { singlePointLinkage } from "../../kinematics/linkage.js";
+import { planePoint } from "../../draw/plane-view.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";
 import { PoseSolver } from "./pose-solver.js";
 
@@ -119,7 +119,7 @@ function dragCrank(plate, pivot, pin, pointer) {
 
 // Any other joint moves along its path to the point nearest to the pointer.
 function dragJoint(plate, joint, pointer) {
-  const alone = linkageWithOnePoint(plate.study.linkage, joint);
+  const alone = singlePointLinkage(plate.study.linkage, joint);
   const poser = new PoseSolver(alone.linkage);
   const { pose } = plate;
   const [offX, offY] = [pose[2 * joint] - pointer[0], pose[2 * joint + 1] - pointer[1]];

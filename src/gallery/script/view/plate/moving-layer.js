@@ -1,7 +1,7 @@
 // The moving parts of a plate: links, pins, sliders and the traced point, in screen pixels.
 
 import { arrowData, blockData, cylinderData, linkData, slotData, slotEnds } from "../../draw/link-shapes.js";
-import { pixel, placedData } from "../../draw/path-data.js";
+import { pixel, definedData } from "../../draw/path-data.js";
 import { s } from "../dom.js";
 import { JointNames } from "./joint-names.js";
 
@@ -86,11 +86,11 @@ export class MovingLayer {
       at[k + 1] = y - scale * pose[k + 1];
     }
     for (const part of this.parts)
-      part.element.setAttribute("d", placedData(part.data(at, scale, this.ends, part)));
+      part.element.setAttribute("d", definedData(part.data(at, scale, this.ends, part)));
     for (const { element, joint } of this.circles) putCircle(element, at, joint);
     for (const { element, joint } of this.grips) putCircle(element, at, joint);
     for (const { element, joints } of this.crankGrips)
-      element.setAttribute("d", placedData(linkData(joints, at, false)));
+      element.setAttribute("d", definedData(linkData(joints, at, false)));
     putCircle(this.tracer, at, this.study.joint);
     this.#otherPoints();
     this.names.pose(at);

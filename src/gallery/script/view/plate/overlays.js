@@ -2,12 +2,12 @@
 // circle, the velocity of the point, names, the straight portion, and the curves of other points.
 
 import { cognatePins, cognatesOf } from "../../kinematics/cognates.js";
-import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instant.js";
-import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
+import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instantaneous-motion.js";
+import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
 import { clippedData } from "../../draw/clipping.js";
 import { linkData } from "../../draw/link-shapes.js";
-import { circleData, pixel, placedData } from "../../draw/path-data.js";
-import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { circleData, pixel, definedData } from "../../draw/path-data.js";
+import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
 
 /** The overlays, { name, label, isOn (the default), there(study) }. */
@@ -72,7 +72,7 @@ export class Overlays {
     const { linkage, joint, size } = study;
     const circuit = isRough
       ? study.circuit
-      : sampledCircuit(linkage, samplerOf({ samples: 1440, spacing: "smooth" }), study.circuit);
+      : sampleCircuit(linkage, newSampler({ samples: 1440, spacing: "smooth" }), study.circuit);
     const moving = movingCentrode(linkage, circuit, joint);
     if (!moving.frame) return;
     const [x0, y0, x1, y1] = study.box;
@@ -119,12 +119,12 @@ export class Overlays {
       const at = [o, [ax, ay], [bx, by], c, point].flatMap(([px, py]) => [x + scale * px, y - scale * py]);
       this.cognates[k].setAttribute(
         "d",
-        placedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`),
+        definedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`),
       );
       for (const joint of [1, 2]) pins += circleData(at[2 * joint], at[2 * joint + 1], 3.5, 6);
       for (const joint of [0, 3]) pins += circleData(at[2 * joint], at[2 * joint + 1], 5, 6);
     });
-    this.cognatePins.setAttribute("d", placedData(pins));
+    this.cognatePins.setAttribute("d", definedData(pins));
   }
 
   // The moving centrode is drawn in the frame of its link and moved by a transform.

@@ -1,7 +1,7 @@
-// The parameters of a linkage that can be changed on its plate (changes as in kinematics/changes.js).
+// The parameters of a linkage that can be changed on its plate, as in kinematics/parameter-changes.js.
 
-import { changedValues, tracedPoint } from "../../kinematics/changes.js";
-import { roundBelow } from "../../draw/paper-view.js";
+import { changedValues, tracedPoint } from "../../kinematics/parameter-changes.js";
+import { roundBelow } from "../../draw/plane-view.js";
 
 /**
  * The parameters that can be changed: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind`

@@ -1,10 +1,10 @@
 // The curves of a study as path data in the plane.
 
 import { measureValue } from "../../data/family.js";
-import { stretchOfCircuit } from "../../draw/band.js";
-import { dashData, dashesOfPeriod } from "../../draw/dashes.js";
-import { gridOfSize, polylineData } from "../../draw/path-data.js";
-import { roundBelow } from "../../draw/paper-view.js";
+import { circuitPortion } from "../../draw/circuit-portion.js";
+import { dashData, dashPattern } from "../../draw/dashes.js";
+import { roundingGrid, polylineData } from "../../draw/path-data.js";
+import { roundBelow } from "../../draw/plane-view.js";
 import { formatLength } from "./speed-view.js";
 import { formatDecimals } from "./study.js";
 
@@ -21,19 +21,19 @@ function dashPeriod(family, { linkage, circuit }) {
 }
 
 /**
- * Path data { dashes, lead, others, band } of a study's curve, from its path and the stretch of its straight
- * portion. `on` has the names of the selected overlays.
+ * Path data { dashes, lead, others, band } of a study's curve, from its path and its straight portion. `on`
+ * has the names of the selected overlays.
  */
-export function pathsOfStudy(family, study, path, stretch, { on, isRough }) {
+export function pathsOfStudy(family, study, path, portion, { on, isRough }) {
   const { circuit, others } = study;
-  const grid = gridOfSize(study.size);
+  const grid = roundingGrid(study.size);
   const shown = on.has("others") ? others : [];
   const stride = others.length > MANY_POINTS ? (isRough ? 4 : 2) : 1;
   return {
-    dashes: dashData(path, dashesOfPeriod(dashPeriod(family, study))),
+    dashes: dashData(path, dashPattern(dashPeriod(family, study))),
     lead: polylineData(path.points),
     others: shown.map((joint) => sampledPathData(circuit, joint, stride, grid)).join(""),
-    band: stretch ? polylineData(stretch.points) : "",
+    band: portion ? polylineData(portion.points) : "",
   };
 }
 
@@ -59,14 +59,14 @@ export function straightSummary({ linkage }, family, curve, measures) {
 }
 
 /**
- * The straight portion of a study's curve as a stretch (draw/band.js), from the computed measures { name:
- * value }, or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
+ * The straight portion of a study's curve (draw/circuit-portion.js), from the computed measures { name: value
+ * }, or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
  */
-export function straightStretch(study, family, curve, measures) {
+export function visibleStraightPortion(study, family, curve, measures) {
   const { linkage, circuit, joint, curveBox } = study;
   const of = (name) => (measures ? measures[name] : measureValue(family, curve, name));
   const [start, span, length] = ["straight_start_deg", "straight_input_deg", "straight_length"].map(of);
   const extent = Math.max(curveBox[2] - curveBox[0], curveBox[3] - curveBox[1]);
   if (![start, span, length].every(Number.isFinite) || length < 0.02 * extent) return null;
-  return stretchOfCircuit(linkage, circuit, joint, { start, span, length });
+  return circuitPortion(linkage, circuit, joint, { start, span, length });
 }

@@ -10,7 +10,7 @@ import { plateLayout } from "./layout.js";
 import { measuresOfStudy } from "./study-measures.js";
 import { Overlays } from "./overlays.js";
 import { changeableParameters } from "./parameters.js";
-import { pathsOfStudy, straightStretch, straightSummary } from "./paths.js";
+import { pathsOfStudy, visibleStraightPortion, straightSummary } from "./paths.js";
 import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
 import { PoseSolver } from "./pose-solver.js";
 import { Sliders } from "./sliders.js";
@@ -152,7 +152,7 @@ export class Plate {
     this.transport.show(study, circuitTitle(study.linkage, study.routes[study.shown]));
     this.dial.show(study);
     const partOf = ({ pass, input }) => clampPart(drive.timeline, partOfInput(drive.timeline, pass, input));
-    this.speed.show(study, path, this.stretch && [partOf(this.stretch.from), partOf(this.stretch.to)]);
+    this.speed.show(study, path, this.portion && [partOf(this.portion.from), partOf(this.portion.to)]);
     this.stage.keepInFrame();
     this.#draw();
   }
@@ -162,12 +162,12 @@ export class Plate {
     const { study, family, curve } = this;
     this.measured = this.isRecorded || isRough ? null : measuresOfStudy(family, study);
     const isKnown = this.isRecorded || !isRough;
-    this.stretch = isKnown ? straightStretch(study, family, curve, this.measured) : null;
+    this.portion = isKnown ? visibleStraightPortion(study, family, curve, this.measured) : null;
     this.transport.showStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
   }
 
   #paths(isRough) {
-    return pathsOfStudy(this.family, this.study, this.path, this.stretch, { on: this.on, isRough });
+    return pathsOfStudy(this.family, this.study, this.path, this.portion, { on: this.on, isRough });
   }
 
   #change(make) {

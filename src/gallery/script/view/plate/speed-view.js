@@ -1,7 +1,7 @@
 // The graph of the traced point's speed over the circuit.
 
 import { pixel } from "../../draw/path-data.js";
-import { shownSpeed, speedData, speedsOfPath } from "../../draw/speed-graph.js";
+import { maxShownSpeed, speedData, speedsOfPath } from "../../draw/speed-graph.js";
 import { h, s } from "../dom.js";
 import { partOfInput, turningParts } from "./timeline.js";
 import { formatDecimals } from "./study.js";
@@ -9,7 +9,7 @@ import { formatDecimals } from "./study.js";
 const SPEED_FRAME = { width: 300, height: 84 };
 
 /**
- * The graph: `show(study, path, stretch)`, then `update(part, speed)`; calls `choose(part)` when it is
+ * The graph: `show(study, path, portion)`, then `update(part, speed)`; calls `choose(part)` when it is
  * pressed.
  */
 export class SpeedView {
@@ -59,8 +59,8 @@ export class SpeedView {
     this.unit = "";
   }
 
-  /** `stretch` is the range of parts [from, to] of the straight portion, or null. */
-  show({ linkage, timeline }, path, stretch) {
+  /** `portion` is the range of parts [from, to] of the straight portion, or null. */
+  show({ linkage, timeline }, path, portion) {
     const { isLength } = linkage.input;
     const { inputs, speeds } = speedsOfPath(path, isLength ? 1 : 180 / Math.PI);
     const parts = [];
@@ -69,7 +69,7 @@ export class SpeedView {
       while (k < path.starts.length - 1 && i >= path.starts[k + 1]) k += 1;
       parts.push(partOfInput(timeline, k, at));
     });
-    this.top = shownSpeed(speeds);
+    this.top = maxShownSpeed(speeds);
     this.unit = isLength ? "unit of input" : "radian of input";
     this.line.setAttribute("d", speedData(parts, speeds, this.top, SPEED_FRAME));
     this.limits.setAttribute(
@@ -78,7 +78,7 @@ export class SpeedView {
         .map((part) => `M${pixel(part * SPEED_FRAME.width)} 0V${SPEED_FRAME.height}`)
         .join(""),
     );
-    this.band.setAttribute("d", stretch ? bandData(stretch) : "");
+    this.band.setAttribute("d", portion ? bandData(portion) : "");
     const finite = speeds.filter(Number.isFinite);
     const [least, most] = [Math.min(...finite), Math.max(...finite)];
     const isCut = most > this.top * 1.05;

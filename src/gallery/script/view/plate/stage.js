@@ -1,7 +1,7 @@
 // The stage of a plate: a static layer with the curves and the ground, and above it a layer with the moving
 // linkage, so that each frame repaints the linkage only. Line widths are in screen pixels at any zoom.
 
-import { fittedView, viewBetween, zoomedView } from "../../draw/paper-view.js";
+import { fittedView, interpolatedView, zoomedView } from "../../draw/plane-view.js";
 import { fill, h } from "../dom.js";
 import { MovingLayer } from "./moving-layer.js";
 import { StaticLayer } from "./static-layer.js";
@@ -69,10 +69,7 @@ export class Stage {
   impossible(reason) {
     this.element.classList.toggle("impossible", reason !== null);
     this.reason.hidden = reason === null;
-    fill(
-      this.reason,
-      reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`,
-    );
+    fill(this.reason, reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`);
   }
 
   /** Moves the linkage into a pose [x0, y0, …] of the plane. */
@@ -135,7 +132,7 @@ export class Stage {
     const { view, aim } = this;
     const isThere =
       Math.abs(aim.scale / view.scale - 1) < 2e-3 && Math.hypot(aim.x - view.x, aim.y - view.y) < 0.5;
-    this.view = isThere ? aim : viewBetween(view, aim, 0.22);
+    this.view = isThere ? aim : interpolatedView(view, aim, 0.22);
     this.gliding = isThere ? 0 : window.requestAnimationFrame(() => this.#glide());
     this.#place();
   }

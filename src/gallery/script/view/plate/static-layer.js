@@ -1,9 +1,9 @@
 // The static parts of a plate: the dashed curve, other curves, guides, wheels, the straight portion, the
 // fixed centrode, the ground, and a scale bar.
 
-import { groundData } from "../../draw/hatching.js";
+import { groundData } from "../../draw/ground.js";
 import { circleData, pixel, polylineData } from "../../draw/path-data.js";
-import { roundBelow } from "../../draw/paper-view.js";
+import { roundBelow } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
 import { turningParts } from "./timeline.js";
 

@@ -1,24 +1,24 @@
 // The study of a linkage: the assembled linkage, all its circuits, and the one shown.
 
-import { changedValues, templateWithChanges } from "../../kinematics/changes.js";
-import { routesOf } from "../../kinematics/circuit.js";
-import { LinkageError } from "../../kinematics/assembly.js";
+import { changedValues, templateWithChanges } from "../../kinematics/parameter-changes.js";
+import { findCircuits } from "../../kinematics/circuit.js";
+import { LinkageError } from "../../kinematics/linkage-builder.js";
 import { fourBarOf, isOnCoupler } from "../../kinematics/four-bar.js";
 import { linkageOf } from "../../kinematics/template.js";
 import { finePath } from "../../kinematics/path.js";
-import { sampledCircuit, samplerOf } from "../../kinematics/sampling.js";
-import { sideOf } from "../../kinematics/signs.js";
+import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
+import { sideOf } from "../../kinematics/assembly-mode.js";
 import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
-import { emptyBox, widenedBox } from "../../draw/paper-view.js";
+import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { timelineOf } from "./timeline.js";
 
 // The number of samples of a circuit for other points and for rough updates.
 const STUDY_SAMPLES = 240;
 
 /**
- * The study of a curve of a family with changes (kinematics/changes.js): { values, reason } if it cannot be
- * assembled, with `reason` a sentence; otherwise { values, linkage, routes, home, shown, shortfall, circuit,
- * joint, others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
+ * The study of a curve of a family with changes (kinematics/parameter-changes.js): { values, reason } if it
+ * cannot be assembled, with `reason` a sentence; otherwise { values, linkage, routes, home, shown, shortfall,
+ * circuit, joint, others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
  *
  * `routes` are all circuits { passes, closed }; `home` is the index of the one that the address names,
  * `shown` of the one that is shown, which is `requested` if it exists; -1 if there is none. `circuit` is the
@@ -36,11 +36,11 @@ export function studyOf(family, curve, changes, requested = null, isRough = fals
     if (!(error instanceof LinkageError)) throw error;
     return { values, reason: error.message };
   }
-  const recorded = routesOf(linkage);
+  const recorded = findCircuits(linkage);
   const all =
     isRough && requested === null
       ? recorded
-      : routesOf({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
+      : findCircuits({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
   const { routes } = all;
   if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows assembly" };
   const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
@@ -64,9 +64,9 @@ export function studyOf(family, curve, changes, requested = null, isRough = fals
 }
 
 function studyShownCircuit({ linkage, routes, shown }, trace) {
-  const circuit = sampledCircuit(
+  const circuit = sampleCircuit(
     linkage,
-    samplerOf({ samples: STUDY_SAMPLES, spacing: "smooth" }),
+    newSampler({ samples: STUDY_SAMPLES, spacing: "smooth" }),
     routes[shown],
   );
   const joint = linkage.traced[trace - 1];

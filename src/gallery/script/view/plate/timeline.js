@@ -4,7 +4,7 @@
 // Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
 // there.
 
-import { smoothInput } from "../../kinematics/spacing.js";
+import { easedInput } from "../../kinematics/spacing.js";
 
 /**
  * The timeline of a circuit { passes, closed }: { passes, closed, starts, whole }, where `starts` has the
@@ -29,7 +29,7 @@ export function placeAtPart({ passes, starts }, part, place) {
   place.pass = k;
   if (share <= 0) place.input = passes[k].from;
   else if (share >= 1) place.input = passes[k].to;
-  else place.input = smoothInput(passes[k], share);
+  else place.input = easedInput(passes[k], share);
   return place;
 }
 

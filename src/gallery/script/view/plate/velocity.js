@@ -1,12 +1,12 @@
 // The velocity of a study's traced point.
 
-import { linkageWithOnePoint } from "../../kinematics/linkage.js";
+import { singlePointLinkage } from "../../kinematics/linkage.js";
 import { ratesAt } from "../../kinematics/poses.js";
 
 /** Computes the velocity of one point, independent of other points. */
 export class PointVelocity {
   constructor({ linkage, joint }) {
-    this.alone = linkageWithOnePoint(linkage, joint);
+    this.alone = singlePointLinkage(linkage, joint);
   }
 
   /** [vx, vy] at an input of a pass, per radian of input or unit of length; infinite at limits. */

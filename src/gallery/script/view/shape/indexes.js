@@ -1,6 +1,6 @@
 // The shape indexes of families, cached while the page is open.
 
-import { indexing, indexingWindows } from "../../shape/indexing.js";
+import { buildIndex, addWindows } from "../../shape/shape-index.js";
 import { runInSlices } from "./slices.js";
 
 const SHAPE_INDEXES = new WeakMap();
@@ -11,11 +11,11 @@ const SHAPE_INDEXES = new WeakMap();
  */
 export async function shapeIndex(family, least, stopped) {
   if (!SHAPE_INDEXES.has(family)) {
-    const index = await runInSlices(indexing(family), stopped);
+    const index = await runInSlices(buildIndex(family), stopped);
     if (!index) return null;
     SHAPE_INDEXES.set(family, index);
   }
   const index = SHAPE_INDEXES.get(family);
-  if (least !== null) await runInSlices(indexingWindows(index, least), stopped);
+  if (least !== null) await runInSlices(addWindows(index, least), stopped);
   return stopped() ? null : index;
 }

@@ -7,7 +7,7 @@ import { formatCaption } from "../labels.js";
 import { pinButton } from "../pin-button.js";
 import { matchPicture } from "./match-picture.js";
 
-/** The list item of a result of `searching` for a shape with the options of a query (query.js). */
+/** The list item of a result of `searchByShape` for a shape with the options of a query (query.js). */
 export function matchItem(app, one, shape, { by, part }) {
   const { family, curve, name } = one;
   const caption = family.cells.caption[family.curves.cell[curve]];

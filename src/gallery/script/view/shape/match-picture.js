@@ -1,17 +1,17 @@
 // A curve with the best fit of a shape overlaid.
 
 import { curvePoints } from "../../data/family.js";
-import { inverted, placed } from "../../shape/similarity.js";
+import { inverted, transformed } from "../../shape/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { s } from "../dom.js";
 
 const MATCH_INSET = 6;
 
-/** The picture of a result of `searching` with the shape overlaid, `width` × `height` pixels. */
+/** The picture of a result of `searchByShape` with the shape overlaid, `width` × `height` pixels. */
 export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
-  const fitted = placed(inverted(similarity), shape.points);
+  const fitted = transformed(inverted(similarity), shape.points);
   const view = viewOfOutlines([points, fitted], width, height);
   const isPart = from !== 0 || to !== 1;
   const part = isPart ? portion(points, closed, from, to, 96).points : points;

@@ -1,6 +1,6 @@
 // A field for shapes from other programs.
 
-import { shapeIn } from "../../shape/parse.js";
+import { parseShape } from "../../shape/parse.js";
 import { fill, h } from "../dom.js";
 
 /**
@@ -17,7 +17,7 @@ export function pasteField(use) {
   const wrong = h("p", { class: "error", role: "alert" });
   const read = () => {
     try {
-      use(shapeIn(text.value));
+      use(parseShape(text.value));
       fill(wrong);
     } catch (error) {
       fill(wrong, error.message);

@@ -1,9 +1,9 @@
 // The view that finds curves by shape.
 
 import { findCurve, curvePoints } from "../../data/family.js";
-import { askedShape } from "../../shape/asked.js";
-import { decodedShape, encodedShape } from "../../shape/encode.js";
-import { searching } from "../../shape/search.js";
+import { queryShape } from "../../shape/query-shape.js";
+import { decodeShape, encodeShape } from "../../shape/encode.js";
+import { searchByShape } from "../../shape/search.js";
 import { fill, h } from "../dom.js";
 import { familyChooser } from "../find/families.js";
 import { requestedFamilies, loadFamilies } from "../find/loading.js";
@@ -118,7 +118,7 @@ class ShapeView {
   /** Loads the shape of the address: a drawn one, or a curve of the atlas. */
   async loadShape() {
     const { query, app } = this;
-    const drawn = query.d && decodedShape(query.d);
+    const drawn = query.d && decodeShape(query.d);
     if (drawn) this.setShape(drawn.points, drawn.closed);
     if (drawn || !query.like) return;
     const [id, key] = query.like.split(":");
@@ -130,15 +130,15 @@ class ShapeView {
 
   setShape(points, closed) {
     this.pad.show(points, closed);
-    this.shape = askedShape(points, closed);
+    this.shape = queryShape(points, closed);
     this.query.part ??= !closed;
     this.options.mark();
   }
 
   setDrawnShape(points, closed) {
-    this.shape = askedShape(points, closed);
+    this.shape = queryShape(points, closed);
     if (!this.shape) return;
-    Object.assign(this.query, { d: encodedShape(this.shape.points, closed), like: null, part: !closed });
+    Object.assign(this.query, { d: encodeShape(this.shape.points, closed), like: null, part: !closed });
     this.options.mark();
     this.submit();
   }
@@ -160,7 +160,7 @@ class ShapeView {
     }
     const began = performance.now();
     const found = await runInSlices(
-      searching(indexes, this.shape, { part: part === true, least, mirror, by }),
+      searchByShape(indexes, this.shape, { part: part === true, least, mirror, by }),
       stopped,
     );
     if (!found) return;

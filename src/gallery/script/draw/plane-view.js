@@ -1,0 +1,60 @@
+// Maps the plane to the screen by a view: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
+
+/** Extends a box [x0, y0, x1, y1], at first `emptyBox()`, to points in columns x[i], y[i], and returns it. */
+export function widenedBox(box, xs, ys, count = xs.length) {
+  for (let i = 0; i < count; i++) {
+    const [x, y] = [xs[i], ys[i]];
+    if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
+    if (x < box[0]) box[0] = x;
+    if (y < box[1]) box[1] = y;
+    if (x > box[2]) box[2] = x;
+    if (y > box[3]) box[3] = y;
+  }
+  return box;
+}
+
+/** The empty box. */
+export function emptyBox() {
+  return [Infinity, Infinity, -Infinity, -Infinity];
+}
+
+/**
+ * The view { scale, x, y } that fits a box of the plane into the middle of a frame, `margin` pixels from its
+ * edges.
+ */
+export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
+  const [w, h] = [Math.max(width - 2 * margin, 1), Math.max(height - 2 * margin, 1)];
+  const size = Math.max(x1 - x0, y1 - y0);
+  if (!Number.isFinite(size)) return { scale: 1, x: width / 2, y: height / 2 };
+  // A path that is a single point is centred too.
+  const least = size > 0 ? 1e-9 * size : 1;
+  const scale = Math.min(w / Math.max(x1 - x0, least), h / Math.max(y1 - y0, least));
+  return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
+}
+
+/** A view zoomed by a factor about a point on the screen. */
+export function zoomedView({ scale, x, y }, factor, [atX, atY]) {
+  return { scale: scale * factor, x: atX + (x - atX) * factor, y: atY + (y - atY) * factor };
+}
+
+/** The view between two others at a fraction (0 to 1). */
+export function interpolatedView(from, to, part) {
+  const between = (a, b) => a + (b - a) * part;
+  return {
+    scale: from.scale * (to.scale / from.scale) ** part,
+    x: between(from.x, to.x),
+    y: between(from.y, to.y),
+  };
+}
+
+/** The point of the plane at a point on the screen. */
+export function planePoint({ scale, x, y }, [atX, atY]) {
+  return [(atX - x) / scale, (y - atY) / scale];
+}
+
+/** The greatest round number, 1, 2 or 5 times a power of ten, that is at most `x`. */
+export function roundBelow(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  const part = x / power;
+  return (part >= 5 ? 5 : part >= 2 ? 2 : 1) * power;
+}
