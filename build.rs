@@ -1,4 +1,4 @@
-//! Lists the files of the gallery's page: its modules in an order in which each comes after those it imports.
+//! Generates the list of the gallery's style sheets and scripts; each script comes after those it imports.
 
 use std::fs;
 use std::io;
@@ -13,9 +13,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     visit(&root.join("script/main.js"), &mut Vec::new(), &mut scripts)?;
     let mut styles: Vec<PathBuf> =
         fs::read_dir(root.join("style"))?.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
-    // What all others build on comes first, and what has the last word when printing last.
-    let is = |path: &Path, name: &str| path.file_name().is_some_and(|file| file == name);
-    styles.sort_by_key(|path| (!is(path, "base.css"), is(path, "print.css"), path.clone()));
+    // The base styles come first; the print styles come last, since they override the others.
+    let has_name = |path: &Path, name: &str| path.file_name().is_some_and(|file| file == name);
+    styles.sort_by_key(|path| (!has_name(path, "base.css"), has_name(path, "print.css"), path.clone()));
     let list = |name: &str, files: &[PathBuf]| -> Result<String, Box<dyn std::error::Error>> {
         let mut text = format!("/// The page's {name}, in order.\npub const {}: &[Asset] = &[\n", name.to_uppercase());
         for file in files {
@@ -28,13 +28,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(fs::write(out, list("styles", &styles)? + &list("scripts", &scripts)?)?)
 }
 
-/// Puts a module after those it imports; `open` are those that are on the way to it.
+/// Adds a module to `found` after those it imports; `open` are the modules being visited, to detect cycles.
 fn visit(module: &Path, open: &mut Vec<PathBuf>, found: &mut Vec<PathBuf>) -> Result<(), Box<dyn std::error::Error>> {
     if found.iter().any(|known| known == module) {
         return Ok(());
     }
     if open.iter().any(|known| known == module) {
-        return Err(format!("{} imports itself, by way of others", module.display()).into());
+        return Err(format!("{} imports itself through other modules", module.display()).into());
     }
     open.push(module.to_owned());
     let text = fs::read_to_string(module).map_err(|error| format!("{}: {error}", module.display()))?;
@@ -54,7 +54,7 @@ fn visit(module: &Path, open: &mut Vec<PathBuf>, found: &mut Vec<PathBuf>) -> Re
     Ok(())
 }
 
-/// Where an import statement that ends on a line imports from.
+/// The path in an import statement that ends on this line.
 fn source(line: &str) -> Option<&str> {
     let is_end = line.starts_with("import {") || line.starts_with("} from ");
     let (_, rest) = line.split_once(" from \"").filter(|_| is_end)?;

@@ -1,7 +1,7 @@
-//! How many positions of a four-bar one core solves, and how many curves it measures: `cargo bench`.
+//! Benchmarks the positions of a four-bar, its motion and its measures, on one core: `cargo bench --bench kernel`.
 //!
-//! A position is a crank pin, a rocker pin and a coupler point. The table of sines and cosines is made beforehand, as
-//! it is for all cells of a family.
+//! A position has a crank pin, a rocker pin and a coupler point. The table of sines and cosines is computed beforehand,
+//! as it is for all cells of a family.
 
 use std::hint::black_box;
 
@@ -16,13 +16,13 @@ const SAMPLES: usize = 360;
 
 /// A crank-rocker with `points` coupler points.
 fn four_bar(points: usize) -> Linkage {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let c = assembly.fixed("C", [4.0, 0.0].into());
-    let a = assembly.crank("A", o, 1.0).expect("a crank");
-    let b = assembly.dyad("B", [a, c], [3.0, 3.5], Side::Left).expect("a dyad");
-    let traced = (0..points).map(|k| assembly.point("M", [a, b], 0.4 * k as f64, 1.0).expect("a point")).collect();
-    assembly.build(traced, None, MotionOptions::default()).expect("a four-bar")
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let c = builder.fixed("C", [4.0, 0.0].into());
+    let a = builder.crank("A", o, 1.0).expect("a crank");
+    let b = builder.dyad("B", [a, c], [3.0, 3.5], Side::Left).expect("a dyad");
+    let traced = (0..points).map(|k| builder.point("M", [a, b], 0.4 * k as f64, 1.0).expect("a point")).collect();
+    builder.build(traced, None, MotionOptions::default()).expect("a four-bar")
 }
 
 fn kernel(criterion: &mut Criterion) {
@@ -44,7 +44,7 @@ fn kernel(criterion: &mut Criterion) {
             });
         });
     }
-    // A circuit that does not turn fully is sampled at angles of its own: their sines are reckoned for each.
+    // A circuit between limits is sampled at its own angles, so sines and cosines are computed for each.
     let linkage = four_bar(1);
     let joints = linkage.joints.len();
     let mut out = JointPositions::new(joints, SAMPLES);
@@ -75,7 +75,7 @@ fn motion(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Random four-bars of every class, solved and measured.
+/// Solves and measures random four-bars of every class.
 fn measures(criterion: &mut Criterion) {
     let sampler = Sampler::new(Sampling::Samples(SAMPLES));
     // A linear congruential generator: the same linkages on every machine.
@@ -85,30 +85,30 @@ fn measures(criterion: &mut Criterion) {
         from + (to - from) * ((state >> 11) as f64 / (1_u64 << 53) as f64)
     };
     let linkage = |random: &mut dyn FnMut(f64, f64) -> f64| {
-        let mut assembly = LinkageBuilder::default();
-        let o = assembly.fixed("O", [0.0, 0.0].into());
-        let c = assembly.fixed("C", [random(0.5, 4.0), 0.0].into());
-        let a = assembly.crank("A", o, random(0.5, 3.0)).expect("a crank");
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", [0.0, 0.0].into());
+        let c = builder.fixed("C", [random(0.5, 4.0), 0.0].into());
+        let a = builder.crank("A", o, random(0.5, 3.0)).expect("a crank");
         let lengths = [random(0.5, 4.0), random(0.5, 4.0)];
-        let b = assembly.dyad("B", [a, c], lengths, Side::Left).expect("a dyad");
-        let m = assembly.point("M", [a, b], random(-2.0, 2.0), random(-2.0, 2.0)).expect("a point");
-        assembly.build(vec![m], None, MotionOptions::default()).expect("a four-bar")
+        let b = builder.dyad("B", [a, c], lengths, Side::Left).expect("a dyad");
+        let m = builder.point("M", [a, b], random(-2.0, 2.0), random(-2.0, 2.0)).expect("a point");
+        builder.build(vec![m], None, MotionOptions::default()).expect("a four-bar")
     };
     let linkages: Vec<Linkage> = (0..200).map(|_| linkage(&mut random)).collect();
     let mut group = criterion.benchmark_group("measures");
     group.throughput(Throughput::Elements(linkages.len() as u64));
     group.sample_size(20);
     let is_portion = |name: &str| name.starts_with("straight") || name.starts_with("dwell");
-    let mut bench = |title: &str, wanted: &dyn Fn(&str) -> bool| {
-        let wanted: Vec<_> = measure::ALL.iter().filter(|measure| wanted(measure.name)).collect();
+    let mut bench = |title: &str, is_included: &dyn Fn(&str) -> bool| {
+        let measures: Vec<_> = measure::ALL.iter().filter(|measure| is_included(measure.name)).collect();
         group.bench_function(title, |bencher| {
             bencher.iter(|| {
                 for linkage in &linkages {
                     let motion = Motion::solve(linkage, &sampler);
                     for circuit in &motion.circuits {
-                        let subject = TracedCurve::new(linkage, &motion, circuit, linkage.traced[0]);
-                        for measure in &wanted {
-                            black_box((measure.compute)(&subject));
+                        let curve = TracedCurve::new(linkage, &motion, circuit, linkage.traced[0]);
+                        for measure in &measures {
+                            black_box((measure.compute)(&curve));
                         }
                     }
                 }

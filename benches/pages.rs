@@ -1,4 +1,4 @@
-//! How many pages one core draws: a page of ten coupler curves, composed and rendered: `cargo bench --bench pages`.
+//! Benchmarks composing and rendering pages of ten coupler curves on one core: `cargo bench --bench pages`.
 
 use coupler_curves::solve;
 use std::hint::black_box;
@@ -11,12 +11,12 @@ use coupler_drawing::render::{self, TextMode};
 use coupler_drawing::scene::Scene;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// The pages of one cell of the atlas of Hrones and Nelson.
+/// Composes the pages of one cell of the atlas of Hrones and Nelson.
 fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
     let family = &plan.families[0].family;
     let pages = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
-    let of = pages.len();
-    let view = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
+    let page_count = pages.len();
+    let pose = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
     let sheet = |(page, shown)| {
         let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
         let facts = page::cell_facts(solved);
@@ -27,8 +27,8 @@ fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
             .with_atlas_title(&plan.title)
             .with_source(source)
             .with_symbols(symbols)
-            .with_page(page, of);
-        let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(view.clone());
+            .with_page(page, page_count);
+        let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose.clone());
         page::compose_coupler_grid(&CouplerGridPage { heading, panel, curve_indices: shown, labels: &[] }, &plan.page)
     };
     (1..).zip(pages).map(sheet).collect()

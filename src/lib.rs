@@ -8,8 +8,9 @@
 //! ```
 //!
 //! The modules are declared in reading order; none imports a later one. Each stage is one public function:
-//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`], [`coupler_drawing::page::compose_panels`],
-//! [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`], [`output::write_atlas`], [`check::check_atlas`].
+//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`],
+//! [`coupler_drawing::page::compose_panels`], [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`],
+//! [`output::write_atlas`], [`check::check_atlas`].
 
 pub mod sweep;
 
@@ -19,8 +20,9 @@ pub mod manifest;
 pub mod record;
 
 pub mod export;
-pub mod pipeline;
+mod pipeline;
 
+#[doc(hidden)]
 pub mod gallery;
 
 pub mod check;

@@ -1,9 +1,9 @@
-//! Any text as an expression, a quantity and a caption.
+//! Parses arbitrary text as an expression, a quantity and a caption.
 
 #![no_main]
 
 #[path = "../../tests/integration/corpus/checks.rs"]
-#[expect(dead_code, reason = "each target asks one of the checks")]
+#[expect(dead_code, reason = "each target uses one of the checks")]
 mod checks;
 
 libfuzzer_sys::fuzz_target!(|text: &str| checks::expression(text));

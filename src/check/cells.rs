@@ -1,4 +1,4 @@
-//! Rows of `cells.csv` held against those that come out now.
+//! Compares recorded rows of `cells.csv` with current ones.
 
 use std::collections::HashMap;
 
@@ -8,120 +8,137 @@ use crate::manifest::Tolerances;
 use crate::record::{Row, TableError};
 use coupler_curves::measure::{self, Measure};
 
-/// Where the columns of a `cells.csv` are, in a recorded one and in the present one.
+/// The indices of the columns of a recorded and of the current `cells.csv`.
 #[derive(Clone, Debug)]
 pub(super) struct CellColumns {
-    /// The keys of a row, status and reason.
+    /// The [`KEY_COLUMNS`] of the recorded table.
     recorded: [Option<usize>; 5],
+    /// The [`KEY_COLUMNS`] of the current table.
     current: [Option<usize>; 5],
-    /// Parameters that both have.
+    /// The parameters that both tables have.
     pub parameters: Vec<(String, [usize; 2])>,
-    /// Measures that both have.
+    /// The measures that both tables have.
     measures: Vec<(&'static Measure, [usize; 2])>,
 }
 
 const KEY_COLUMNS: [&str; 5] = ["cell", "trace", "circuit", "status", "reason"];
 
 impl CellColumns {
-    /// Of a recorded header, the present one, and the parameters of the linkage.
-    pub fn from_headers(was: &[String], is: &[String], parameters: &[String]) -> CellColumns {
-        let place = |header: &[String], name: &str| header.iter().position(|other| other == name);
-        let both = |name: &str| Some([place(was, name)?, place(is, name)?]);
+    /// Finds the columns in the recorded and current headers; `parameters` are those of the linkage.
+    pub fn from_headers(recorded: &[String], current: &[String], parameters: &[String]) -> CellColumns {
+        let index = |header: &[String], name: &str| header.iter().position(|other| other == name);
+        let both = |name: &str| Some([index(recorded, name)?, index(current, name)?]);
         let measure = |measure: &'static Measure| Some((measure, both(measure.name)?));
         CellColumns {
-            recorded: KEY_COLUMNS.map(|name| place(was, name)),
-            current: KEY_COLUMNS.map(|name| place(is, name)),
+            recorded: KEY_COLUMNS.map(|name| index(recorded, name)),
+            current: KEY_COLUMNS.map(|name| index(current, name)),
             parameters: parameters.iter().filter_map(|name| Some((name.clone(), both(name)?))).collect(),
             measures: measure::ALL.iter().filter_map(measure).collect(),
         }
     }
 
-    /// The names of recorded columns that the present table does not have, and of present ones that are not recorded.
-    pub fn unmatched_names(was: &[String], is: &[String]) -> [Vec<String>; 2] {
-        let without = |these: &[String], those: &[String]| {
-            these.iter().filter(|name| !those.contains(name)).cloned().collect::<Vec<_>>()
+    /// The names of recorded columns that the current table does not have, and of current ones that are not recorded.
+    pub fn unmatched_names(recorded: &[String], current: &[String]) -> [Vec<String>; 2] {
+        let without = |names: &[String], others: &[String]| {
+            names.iter().filter(|name| !others.contains(name)).cloned().collect::<Vec<_>>()
         };
-        [without(was, is), without(is, was)]
+        [without(recorded, current), without(current, recorded)]
     }
 
-    /// The recorded values of the common parameters.
+    /// The values of the common parameters in a recorded row.
+    ///
+    /// # Errors
+    /// A value is not a number.
     pub fn recorded_parameters(&self, row: &Row) -> Result<Vec<f64>, TableError> {
-        self.parameters.iter().map(|(name, [was, _])| row.number(*was, name)).collect()
+        self.parameters.iter().map(|(name, [recorded, _])| row.number(*recorded, name)).collect()
     }
 
-    /// In what the rows of a cell differ. `curves` are the pairs of curves that are held against each other: trace and
-    /// circuit, as recorded and as they are; `sizes` those of the present ones.
+    /// Compares the recorded and current rows of a cell, and appends the differences; `curves` are the pairs of curves
+    /// whose measures are compared.
+    ///
+    /// # Errors
+    /// A recorded value is not a number.
     pub fn compare_rows(
         &self,
-        place: &Location,
-        [was, is]: [&[Row]; 2],
+        location: &Location,
+        [recorded, current]: [&[Row]; 2],
         curves: &[CurvePair],
         tolerances: &Tolerances,
         findings: &mut Vec<Finding>,
     ) -> Result<(), TableError> {
-        let [Some(first), Some(now)] = [was.first(), is.first()] else { return Ok(()) };
+        let [Some(first_recorded), Some(first_current)] = [recorded.first(), current.first()] else { return Ok(()) };
         for (name, [a, b]) in &self.parameters {
-            let (was, is) = (first.number(*a, name)?, now.number(*b, name)?);
-            if relative_difference([was, is], 1.0) > tolerances.rtol.min(1e-9) {
-                findings.push(place.finding(Change::Parameter { name: name.clone(), recorded: was, current: is }));
+            let (recorded, current) = (first_recorded.number(*a, name)?, first_current.number(*b, name)?);
+            if relative_difference([recorded, current], 1.0) > tolerances.rtol.min(1e-9) {
+                findings.push(location.finding(Change::Parameter { name: name.clone(), recorded, current }));
             }
         }
-        let told = |row: &Row, at: [Option<usize>; 5]| {
-            let field = |k: usize| at[k].map_or("", |at| row.field(at)).to_owned();
+        let describe_status = |row: &Row, columns: [Option<usize>; 5]| {
+            let field = |k: usize| columns[k].map_or("", |column| row.field(column)).to_owned();
             let (status, reason) = (field(3), field(4));
             if reason.is_empty() { status } else { format!("{status} ({reason})") }
         };
-        let (was_status, is_status) = (told(first, self.recorded), told(now, self.current));
-        if was_status != is_status && self.recorded[3].is_some() {
-            findings.push(place.finding(Change::Status { recorded: was_status, current: is_status }));
+        let recorded_status = describe_status(first_recorded, self.recorded);
+        let current_status = describe_status(first_current, self.current);
+        if recorded_status != current_status && self.recorded[3].is_some() {
+            findings.push(location.finding(Change::Status { recorded: recorded_status, current: current_status }));
         }
-        let key = |row: &Row, at: [Option<usize>; 5]| [1, 2].map(|k| at[k].map_or("", |at| row.field(at)).to_owned());
-        let by_key = |rows: &[Row], at| -> HashMap<[String; 2], usize> {
-            rows.iter().enumerate().map(|(k, row)| (key(row, at), k)).collect()
+        let key = |row: &Row, columns: [Option<usize>; 5]| {
+            [1, 2].map(|k| columns[k].map_or("", |column| row.field(column)).to_owned())
         };
-        let (recorded, present) = (by_key(was, self.recorded), by_key(is, self.current));
-        let mut class_told = false;
+        let by_key = |rows: &[Row], columns| -> HashMap<[String; 2], usize> {
+            rows.iter().enumerate().map(|(k, row)| (key(row, columns), k)).collect()
+        };
+        let (recorded_rows, current_rows) = (by_key(recorded, self.recorded), by_key(current, self.current));
+        let mut is_class_reported = false;
         for pair in curves {
             let keys = [pair.recorded, pair.current].map(|(trace, circuit)| [trace.to_string(), circuit.to_string()]);
-            let (Some(&a), Some(&b)) = (recorded.get(&keys[0]), present.get(&keys[1])) else { continue };
-            let place = place.with_curve(pair.current.0, pair.current.1);
-            self.compare_measures(&place, [&was[a], &is[b]], pair.size, tolerances, &mut class_told, findings)?;
+            let (Some(&a), Some(&b)) = (recorded_rows.get(&keys[0]), current_rows.get(&keys[1])) else { continue };
+            let curve = location.with_curve(pair.current.0, pair.current.1);
+            self.compare_measures(
+                &curve,
+                [&recorded[a], &current[b]],
+                pair.size,
+                tolerances,
+                &mut is_class_reported,
+                findings,
+            )?;
         }
         Ok(())
     }
 
+    /// Compares the measures of a curve; a change of the class is reported once for the cell.
     fn compare_measures(
         &self,
-        place: &Location,
-        [was, is]: [&Row; 2],
+        location: &Location,
+        [recorded, current]: [&Row; 2],
         size: f64,
         tolerances: &Tolerances,
-        class_told: &mut bool,
+        is_class_reported: &mut bool,
         findings: &mut Vec<Finding>,
     ) -> Result<(), TableError> {
         for &(Measure { name, unit, is_word, .. }, [a, b]) in &self.measures {
-            let (old, new) = (was.field(a), is.field(b));
-            if old == new {
+            let [recorded_text, current_text] = [recorded.field(a), current.field(b)].map(str::to_owned);
+            if recorded_text == current_text {
                 continue;
             }
-            let (was_text, is_text) = (old.to_owned(), new.to_owned());
             if *name == "class" {
-                // All curves of a linkage have its class.
-                if !std::mem::replace(class_told, true) {
-                    let place = Location { trace: None, circuit: None, ..place.clone() };
-                    findings.push(place.finding(Change::Class { recorded: was_text, current: is_text }));
+                // All curves of a linkage have the same class.
+                if !std::mem::replace(is_class_reported, true) {
+                    let cell = Location { trace: None, circuit: None, ..location.clone() };
+                    findings.push(cell.finding(Change::Class { recorded: recorded_text, current: current_text }));
                 }
                 continue;
             }
             let relative = match is_word {
                 true => f64::INFINITY,
-                false => measure_difference([was.number(a, name)?, is.number(b, name)?], (name, unit), size),
+                false => measure_difference([recorded.number(a, name)?, current.number(b, name)?], (name, unit), size),
             };
             if relative > tolerances.measure_rtol {
-                findings.push(place.finding(Change::Measure {
+                findings.push(location.finding(Change::Measure {
                     name: (*name).to_owned(),
-                    recorded: was_text,
-                    current: is_text,
+                    recorded: recorded_text,
+                    current: current_text,
                     relative,
                 }));
             }
@@ -130,20 +147,23 @@ impl CellColumns {
     }
 }
 
-/// Curves that are held against each other: trace and circuit, as recorded and as they are.
+/// A recorded curve and the current curve it is compared with.
 pub(super) struct CurvePair {
+    /// The trace and circuit of the recorded curve.
     pub recorded: (usize, usize),
+    /// The trace and circuit of the current curve.
     pub current: (usize, usize),
-    /// The size of the present one.
+    /// The size of the current curve.
     pub size: f64,
 }
 
-/// By how much a measure differs: in parts of itself, of an angle also of one degree, of a place also of the curve's size.
+/// The relative difference of a measure, with a divisor of at least one degree for an angle, and of at least the
+/// curve's size for a coordinate.
 fn measure_difference(values: [f64; 2], (name, unit): (&str, &str), size: f64) -> f64 {
-    let is_place = ["_x", "_y", "_x_min", "_x_max", "_y_min", "_y_max"].iter().any(|end| name.ends_with(end));
+    let is_coordinate = ["_x", "_y", "_x_min", "_x_max", "_y_min", "_y_max"].iter().any(|end| name.ends_with(end));
     let least = match unit {
         "deg" => 1.0,
-        _ if is_place => size,
+        _ if is_coordinate => size,
         _ => 0.0,
     };
     relative_difference(values, least)

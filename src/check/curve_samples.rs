@@ -3,22 +3,22 @@ use std::collections::HashMap;
 use crate::record::{Row, TableError};
 use coupler_curves::geometry::{Bounds, Point};
 
-/// A curve as the rows of `points.csv` have it.
+/// A curve read from the rows of `points.csv`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CurveSamples {
     pub trace: usize,
     pub circuit: usize,
-    /// The numbers of the samples, as they are written.
+    /// The numbers of the samples, as in the table.
     pub sample_numbers: Vec<usize>,
     pub inputs: Vec<f64>,
     pub points: Vec<Point>,
-    /// The branch of the first two-valued joint, and of the further ones.
+    /// The branches of the two-valued joints, joint by joint.
     pub branches: Vec<Vec<i64>>,
     /// The values of the further columns, column by column.
     pub further_columns: Vec<Vec<f64>>,
 }
 
-/// Where the columns of a `points.csv` are.
+/// The indices of the columns of a `points.csv`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct PointColumns {
     trace: usize,
@@ -28,100 +28,101 @@ pub(super) struct PointColumns {
     x: usize,
     y: usize,
     branches: Vec<usize>,
-    /// The further columns that are compared, by name.
+    /// The names and indices of the further columns to compare.
     pub further_columns: Vec<(String, usize)>,
 }
 
 impl PointColumns {
-    /// Where they are in a header, of which the columns of another are to be compared.
+    /// Finds the columns in a header; `expected` are the columns to compare.
     ///
     /// # Errors
-    /// The names of columns without which nothing can be compared.
+    /// The names of required columns that are missing.
     pub fn from_header(header: &[String], expected: &[String]) -> Result<PointColumns, Vec<String>> {
-        let place = |name: &str| header.iter().position(|other| other == name);
+        let index = |name: &str| header.iter().position(|other| other == name);
         let is_input = |name: &&String| name.starts_with("input_");
         let input = expected.iter().find(is_input).map_or("input_deg", String::as_str);
-        let needed = ["trace", "circuit", "sample", input, "x", "y"];
-        let missing = || needed.iter().filter(|name| place(name).is_none()).map(|name| (*name).to_owned()).collect();
-        let [Some(trace), Some(circuit), Some(sample), Some(input), Some(x), Some(y)] = needed.map(place) else {
+        let required = ["trace", "circuit", "sample", input, "x", "y"];
+        let missing = || required.iter().filter(|name| index(name).is_none()).map(|name| (*name).to_owned()).collect();
+        let [Some(trace), Some(circuit), Some(sample), Some(input), Some(x), Some(y)] = required.map(index) else {
             return Err(missing());
         };
         let is_branch = |name: &str| name == "branch" || name.starts_with("branch_");
-        let common = || expected.iter().filter_map(|name| Some((name.clone(), place(name)?)));
-        let branches = common().filter(|(name, _)| is_branch(name)).map(|(_, at)| at).collect();
+        let common = || expected.iter().filter_map(|name| Some((name.clone(), index(name)?)));
+        let branches = common().filter(|(name, _)| is_branch(name)).map(|(_, column)| column).collect();
         let known: Vec<usize> = vec![trace, circuit, sample, input, x, y];
-        let further = common().filter(|(name, at)| !known.contains(at) && !is_branch(name) && name != "cell").collect();
+        let is_further =
+            |(name, column): &(String, usize)| !known.contains(column) && !is_branch(name) && name != "cell";
+        let further = common().filter(is_further).collect();
         Ok(PointColumns { trace, circuit, sample, input, x, y, branches, further_columns: further })
     }
 
-    /// The curves of some rows of one cell, in the order in which they begin.
+    /// The curves in some rows of one cell, in order of their first rows.
     ///
     /// # Errors
-    /// A row that has no number where one is due.
+    /// A field that should be a number is not.
     pub fn curves(&self, rows: &[Row]) -> Result<Vec<CurveSamples>, TableError> {
-        let mut tracks: Vec<CurveSamples> = Vec::new();
-        let mut places: HashMap<(usize, usize), usize> = HashMap::new();
+        let mut curves: Vec<CurveSamples> = Vec::new();
+        let mut indices: HashMap<(usize, usize), usize> = HashMap::new();
         for row in rows {
             let whole = |column, name: &str| -> Result<usize, TableError> {
-                let wrong =
-                    |value: i64| TableError::InvalidLine { line: row.line, reason: format!("{name} is {value}") };
                 let value = row.integer(column, name)?;
-                usize::try_from(value).map_err(|_| wrong(value))
+                let error = |_| TableError::InvalidLine { line: row.line, reason: format!("{name} is {value}") };
+                usize::try_from(value).map_err(error)
             };
             let [trace, circuit] = [whole(self.trace, "trace")?, whole(self.circuit, "circuit")?];
-            let at = *places.entry((trace, circuit)).or_insert_with(|| {
-                tracks.push(CurveSamples::new(trace, circuit, self));
-                tracks.len() - 1
+            let index = *indices.entry((trace, circuit)).or_insert_with(|| {
+                curves.push(CurveSamples::new(trace, circuit, self));
+                curves.len() - 1
             });
-            let track = &mut tracks[at];
-            track.sample_numbers.push(whole(self.sample, "sample")?);
-            track.inputs.push(row.number(self.input, "input")?);
-            track.points.push(Point::new(row.number(self.x, "x")?, row.number(self.y, "y")?));
-            for (column, values) in self.branches.iter().zip(&mut track.branches) {
+            let curve = &mut curves[index];
+            curve.sample_numbers.push(whole(self.sample, "sample")?);
+            curve.inputs.push(row.number(self.input, "input")?);
+            curve.points.push(Point::new(row.number(self.x, "x")?, row.number(self.y, "y")?));
+            for (column, values) in self.branches.iter().zip(&mut curve.branches) {
                 values.push(row.integer(*column, "branch")?);
             }
-            for ((name, column), values) in self.further_columns.iter().zip(&mut track.further_columns) {
+            for ((name, column), values) in self.further_columns.iter().zip(&mut curve.further_columns) {
                 values.push(row.number(*column, name)?);
             }
         }
-        Ok(tracks)
+        Ok(curves)
     }
 }
 
-/// What is wrong with the numbers of a curve's samples.
+/// The errors in the sample numbers of a curve.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct OrderErrors {
-    /// Whether they do not rise.
+    /// Whether they are not ascending.
     pub is_unordered: bool,
-    /// The first that stands there more than once.
+    /// The first number that occurs more than once.
     pub duplicate: Option<usize>,
-    /// Those that are missing between others.
+    /// The first few numbers missing between others.
     pub missing: Vec<usize>,
 }
 
 impl OrderErrors {
-    /// What is wrong, in words; of samples that are missing the comparison tells.
+    /// A message for each error, except for missing samples, which the comparison of the curves reports.
     pub fn messages(&self) -> Vec<String> {
-        let shuffled = self.is_unordered.then(|| "the rows of its samples are not in order".to_owned());
-        let twice = self.duplicate.map(|sample| format!("sample {sample} stands there twice"));
-        shuffled.into_iter().chain(twice).collect()
+        let unordered = self.is_unordered.then(|| "the rows of its samples are not in order".to_owned());
+        let duplicate = self.duplicate.map(|sample| format!("sample {sample} occurs more than once"));
+        unordered.into_iter().chain(duplicate).collect()
     }
 }
 
 impl CurveSamples {
-    fn new(trace: usize, circuit: usize, layout: &PointColumns) -> CurveSamples {
+    fn new(trace: usize, circuit: usize, columns: &PointColumns) -> CurveSamples {
         CurveSamples {
             trace,
             circuit,
             sample_numbers: Vec::new(),
             inputs: Vec::new(),
             points: Vec::new(),
-            branches: vec![Vec::new(); layout.branches.len()],
-            further_columns: vec![Vec::new(); layout.further_columns.len()],
+            branches: vec![Vec::new(); columns.branches.len()],
+            further_columns: vec![Vec::new(); columns.further_columns.len()],
         }
     }
 
-    /// Puts the samples in order, each once, and tells what was wrong with them.
+    /// Sorts the samples by number, removes duplicates, and returns the errors that were found.
     pub fn sort_samples(&mut self) -> OrderErrors {
         let is_in_order = self.sample_numbers.iter().enumerate().all(|(k, &sample)| k == sample);
         if is_in_order {
@@ -129,12 +130,12 @@ impl CurveSamples {
         }
         let mut order: Vec<usize> = (0..self.sample_numbers.len()).collect();
         order.sort_by_key(|&k| self.sample_numbers[k]);
-        let is_shuffled = order.windows(2).any(|pair| pair[0] > pair[1]);
-        let twice = order.windows(2).find(|pair| self.sample_numbers[pair[0]] == self.sample_numbers[pair[1]]);
-        let twice = twice.map(|pair| self.sample_numbers[pair[0]]);
+        let is_unordered = order.windows(2).any(|pair| pair[0] > pair[1]);
+        let duplicate = order.windows(2).find(|pair| self.sample_numbers[pair[0]] == self.sample_numbers[pair[1]]);
+        let duplicate = duplicate.map(|pair| self.sample_numbers[pair[0]]);
         order.dedup_by_key(|k| self.sample_numbers[*k]);
         self.select(&order);
-        /// So many are named.
+        /// At most this many missing samples are listed.
         const MAX_MISSING: usize = 10;
         let mut missing = Vec::new();
         let mut next = 0;
@@ -142,25 +143,25 @@ impl CurveSamples {
             missing.extend((next..sample).take(MAX_MISSING - missing.len()));
             next = sample.saturating_add(1);
         }
-        OrderErrors { is_unordered: is_shuffled, duplicate: twice, missing }
+        OrderErrors { is_unordered, duplicate, missing }
     }
 
-    /// The same with these of its samples, in this order.
+    /// Keeps the samples with these indices, in this order.
     pub fn select(&mut self, order: &[usize]) {
-        fn kept<T: Copy>(values: &[T], order: &[usize]) -> Vec<T> {
+        fn selected<T: Copy>(values: &[T], order: &[usize]) -> Vec<T> {
             order.iter().map(|&k| values[k]).collect()
         }
-        self.sample_numbers = kept(&self.sample_numbers, order);
-        self.inputs = kept(&self.inputs, order);
-        self.points = kept(&self.points, order);
-        self.branches.iter_mut().for_each(|values| *values = kept(values, order));
-        self.further_columns.iter_mut().for_each(|values| *values = kept(values, order));
+        self.sample_numbers = selected(&self.sample_numbers, order);
+        self.inputs = selected(&self.inputs, order);
+        self.points = selected(&self.points, order);
+        self.branches.iter_mut().for_each(|values| *values = selected(values, order));
+        self.further_columns.iter_mut().for_each(|values| *values = selected(values, order));
     }
 
-    /// The diagonal of the box round it, of the samples that have a place.
+    /// The size: the diagonal of the bounding box of the samples with finite coordinates.
     pub fn size(&self) -> f64 {
-        let placed = self.points.iter().copied().filter(|p| p.x.is_finite() && p.y.is_finite());
-        let diagonal = Bounds::from_points(placed).size().norm();
+        let finite = self.points.iter().copied().filter(|p| p.x.is_finite() && p.y.is_finite());
+        let diagonal = Bounds::from_points(finite).size().norm();
         if diagonal.is_finite() { diagonal } else { 0.0 }
     }
 
@@ -170,15 +171,15 @@ impl CurveSamples {
     }
 }
 
-/// How far two places are apart: nothing if both are none, infinitely if one of them is.
-pub(super) fn point_distance(was: Point, is: Point) -> f64 {
-    let is_none = |p: Point| p.x.is_nan() || p.y.is_nan();
-    match (is_none(was), is_none(is)) {
+/// The distance of two points: 0 if both have NaN coordinates, infinite if one of them has.
+pub(super) fn point_distance(recorded: Point, current: Point) -> f64 {
+    let is_nan = |p: Point| p.x.is_nan() || p.y.is_nan();
+    match (is_nan(recorded), is_nan(current)) {
         (true, true) => 0.0,
-        (false, false) if was == is => 0.0,
+        (false, false) if recorded == current => 0.0,
         (false, false) => {
-            let by = (is - was).norm();
-            if by.is_nan() { f64::INFINITY } else { by }
+            let distance = (current - recorded).norm();
+            if distance.is_nan() { f64::INFINITY } else { distance }
         }
         _ => f64::INFINITY,
     }

@@ -1,6 +1,5 @@
-//! A family as it comes off the press, held against what is recorded of it.
+//! Compares the output of a family's pipeline with its record.
 
-use coupler_curves::solve;
 use std::convert::Infallible;
 use std::path::Path;
 
@@ -16,9 +15,9 @@ use crate::manifest::Tolerances;
 use crate::pipeline::{FamilyPipeline, PageJob, Sink};
 use crate::record::{FamilyRecord, TableError, parse_rows};
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use coupler_curves::solve::{self, MeasuredCurve, SolvedCell};
 
-/// A family that is held against its record.
+/// Receives the output of a family's pipeline, and compares it with the record of the family.
 pub(super) struct FamilyCheck<'a> {
     pipeline: &'a FamilyPipeline<'a>,
     location: Location,
@@ -28,49 +27,56 @@ pub(super) struct FamilyCheck<'a> {
     numbering: CellNumbering,
 }
 
-/// What is found of some cells.
+/// The findings on a group of cells.
 #[derive(Default)]
 pub(super) struct CellFindings {
     pub findings: Vec<Finding>,
-    /// The cells that are not as they were.
+    /// The numbers of the cells with findings.
     pub changed_cells: Vec<usize>,
-    /// How many curves were held against recorded ones.
+    /// The number of curves compared with recorded ones.
     pub curve_count: usize,
 }
 
 impl<'a> FamilyCheck<'a> {
-    /// Opens what is recorded of a family, and tells what is wrong with it as a whole.
+    /// Opens the record of a family, and appends the findings on the family as a whole.
     pub fn open(
-        press: &'a FamilyPipeline<'a>,
+        pipeline: &'a FamilyPipeline<'a>,
         record: &'a FamilyRecord,
         output: &'a Path,
         tolerances: Tolerances,
         findings: &mut Vec<Finding>,
     ) -> FamilyCheck<'a> {
-        let family = &press.composer.planned.family;
-        let place = Location::in_family(&family.id);
+        let family = &pipeline.composer.planned.family;
+        let location = Location::in_family(&family.id);
         if record.linkage != family.template.id {
-            let (what, was, is) = ("the linkage".to_owned(), record.linkage.clone(), family.template.id.clone());
-            findings.push(place.finding(Change::FamilyChanged { what, recorded: was, current: is }));
+            let (recorded, current) = (record.linkage.clone(), family.template.id.clone());
+            findings.push(location.finding(Change::FamilyChanged {
+                what: "the linkage".to_owned(),
+                recorded,
+                current,
+            }));
         }
-        if record.pages != press.pagination.page_count {
-            findings
-                .push(place.finding(Change::Pages { recorded: record.pages, current: press.pagination.page_count }));
+        let page_count = pipeline.pagination.page_count;
+        if record.pages != page_count {
+            findings.push(location.finding(Change::Pages { recorded: record.pages, current: page_count }));
         }
-        let tables = Tables::open(press, record, output, findings);
-        let numbering = CellNumbering::from_tables(press, &tables, findings);
-        let pages = RecordedPages::new(press, record, output);
-        FamilyCheck { pipeline: press, location: place, tolerances, tables, pages, numbering }
+        let tables = Tables::open(pipeline, record, output, findings);
+        let numbering = CellNumbering::from_tables(pipeline, &tables, findings);
+        let pages = RecordedPages::new(pipeline, record, output);
+        FamilyCheck { pipeline, location, tolerances, tables, pages, numbering }
     }
 
-    /// Holds a cell against its recorded rows.
-    fn check_cell(&self, solved: &SolvedCell, held: &mut CellFindings) -> Result<(), TableError> {
+    /// Compares a cell with its recorded rows.
+    ///
+    /// # Errors
+    /// The recorded rows cannot be read.
+    fn check_cell(&self, solved: &SolvedCell, result: &mut CellFindings) -> Result<(), TableError> {
         let number = solved.cell.number;
-        let place = self.location.with_cell(number);
+        let location = self.location.with_cell(number);
         let recorded = match self.numbering.recorded_number(number) {
             RecordedNumber::Unknown => return Ok(()),
             RecordedNumber::Missing => {
-                held.findings.push(place.finding(Change::CellAdded));
+                result.findings.push(location.finding(Change::CellAdded));
                 return Ok(());
             }
             RecordedNumber::Known(recorded) => recorded,
@@ -78,66 +84,75 @@ impl<'a> FamilyCheck<'a> {
         let [points, cells] = self.tables.current_rows(solved);
         let is_same = self.tables.rows_match(recorded, [&points, &cells]);
         if is_same == [true, true] {
-            held.curve_count += solved.curves.len();
+            result.curve_count += solved.curves.len();
             return Ok(());
         }
         if recorded != number {
-            held.findings.push(place.finding(Change::CellRenumbered { recorded }));
+            result.findings.push(location.finding(Change::CellRenumbered { recorded }));
         }
         let curves = if is_same[0] {
-            let own = |curve: &MeasuredCurve| {
+            let same_curve = |curve: &MeasuredCurve| {
                 let key = (curve.trace, curve.circuit);
                 CurvePair { recorded: key, current: key, size: f64::NAN }
             };
-            solved.curves.iter().map(own).collect()
+            solved.curves.iter().map(same_curve).collect()
         } else {
-            self.check_points(&place, (solved, &points), recorded, held)?
+            self.check_points(&location, (solved, &points), recorded, result)?
         };
-        held.curve_count += curves.len();
+        result.curve_count += curves.len();
         if is_same[1] {
             return Ok(());
         }
-        let Some((columns, was)) = self.tables.cell_rows(recorded)? else { return Ok(()) };
-        let is = parse_rows(&cells, 1, self.tables.cell_column_count())?;
-        columns.compare_rows(&place, [&was, &is], &curves, &self.tolerances, &mut held.findings)
+        let Some((columns, recorded_rows)) = self.tables.cell_rows(recorded)? else { return Ok(()) };
+        let current_rows = parse_rows(&cells, 1, self.tables.cell_column_count())?;
+        let rows: [&[_]; 2] = [&recorded_rows, &current_rows];
+        columns.compare_rows(&location, rows, &curves, &self.tolerances, &mut result.findings)
     }
 
-    /// Holds the curves of a cell against its recorded points, and tells which was held against which.
+    /// Compares the curves of a cell with its recorded points; returns the pairs of curves that were compared.
+    ///
+    /// # Errors
+    /// The recorded rows cannot be read.
     fn check_points(
         &self,
-        place: &Location,
-        (solved, fresh): (&SolvedCell, &[u8]),
+        location: &Location,
+        (solved, points): (&SolvedCell, &[u8]),
         recorded: usize,
-        held: &mut CellFindings,
+        result: &mut CellFindings,
     ) -> Result<Vec<CurvePair>, TableError> {
-        let Some([mut was, is]) = self.tables.curves(recorded, fresh)? else { return Ok(Vec::new()) };
+        let Some([mut recorded_curves, current_curves]) = self.tables.curves(recorded, points)? else {
+            return Ok(Vec::new());
+        };
         let mut missing = Vec::new();
-        for track in &mut was {
-            let disorder = track.sort_samples();
-            let of = place.with_curve(track.trace, track.circuit);
-            for wrong in disorder.messages() {
-                held.findings.push(of.finding(Change::Damaged { message: wrong }));
+        for curve in &mut recorded_curves {
+            let order_errors = curve.sort_samples();
+            let curve_location = location.with_curve(curve.trace, curve.circuit);
+            for message in order_errors.messages() {
+                result.findings.push(curve_location.finding(Change::Damaged { message }));
             }
-            missing.push(disorder.missing);
+            missing.push(order_errors.missing);
         }
         let mut pairs = Vec::new();
-        let mut traces: Vec<usize> = was.iter().chain(&is).map(|track| track.trace).collect();
+        let mut traces: Vec<usize> = recorded_curves.iter().chain(&current_curves).map(|curve| curve.trace).collect();
         traces.sort_unstable();
         traces.dedup();
         for trace in traces {
-            let of = |tracks: &[CurveSamples]| -> Vec<usize> {
-                (0..tracks.len()).filter(|&k| tracks[k].trace == trace).collect()
+            let of_trace = |curves: &[CurveSamples]| -> Vec<usize> {
+                (0..curves.len()).filter(|&k| curves[k].trace == trace).collect()
             };
-            let (ours, theirs) = (of(&is), of(&was));
-            let tracks = |all: &[CurveSamples], places: &[usize]| -> Vec<CurveSamples> {
-                places.iter().map(|&k| all[k].clone()).collect()
+            let select = |curves: &[CurveSamples], indices: &[usize]| -> Vec<CurveSamples> {
+                indices.iter().map(|&k| curves[k].clone()).collect()
             };
-            let (olds, news) = (tracks(&was, &theirs), tracks(&is, &ours));
+            let recorded_indices = of_trace(&recorded_curves);
+            let olds = select(&recorded_curves, &recorded_indices);
+            let news = select(&current_curves, &of_trace(&current_curves));
             let matching = match_curves(&olds, &news);
-            let lost = matching.recorded_changes.into_iter().map(|(a, change)| (olds[a].circuit, change));
-            let found = matching.current_changes.into_iter().map(|(b, change)| (news[b].circuit, change));
-            held.findings
-                .extend(lost.chain(found).map(|(circuit, change)| place.with_curve(trace, circuit).finding(change)));
+            let recorded_changes = matching.recorded_changes.into_iter().map(|(a, change)| (olds[a].circuit, change));
+            let current_changes = matching.current_changes.into_iter().map(|(b, change)| (news[b].circuit, change));
+            let changes = recorded_changes.chain(current_changes);
+            result
+                .findings
+                .extend(changes.map(|(circuit, change)| location.with_curve(trace, circuit).finding(change)));
             for [a, b] in matching.pairs {
                 let (old, new) = (&olds[a], &news[b]);
                 pairs.push(CurvePair {
@@ -145,19 +160,20 @@ impl<'a> FamilyCheck<'a> {
                     current: (trace, new.circuit),
                     size: new.size(),
                 });
-                let is_ours = |curve: &&MeasuredCurve| curve.trace == trace && curve.circuit == new.circuit;
-                let Some(curve) = solved.curves.iter().find(is_ours) else { continue };
-                let fresh = CurrentCurve { samples: new, solved, curve };
-                let left_out = missing[theirs[a]].clone();
-                let changes = compare_curves(old, fresh, (left_out, self.tables.further_columns()), &self.tolerances);
-                let curve = place.with_curve(trace, new.circuit);
-                held.findings.extend(changes.into_iter().map(|change| curve.finding(change)));
+                let is_same = |curve: &&MeasuredCurve| curve.trace == trace && curve.circuit == new.circuit;
+                let Some(curve) = solved.curves.iter().find(is_same) else { continue };
+                let current = CurrentCurve { samples: new, solved, curve };
+                let missing = missing[recorded_indices[a]].clone();
+                let changes = compare_curves(old, current, (missing, self.tables.further_columns()), &self.tolerances);
+                let curve_location = location.with_curve(trace, new.circuit);
+                result.findings.extend(changes.into_iter().map(|change| curve_location.finding(change)));
             }
         }
         Ok(pairs)
     }
 
-    /// The recorded curves of a cell, by its present number, and that cell; nothing where they cannot be read.
+    /// The recorded curves of a cell, given by its current number, and the cell solved again; `None` if there are none
+    /// that can be read.
     pub fn recorded_and_current(&self, number: usize) -> Option<(Vec<CurveSamples>, SolvedCell)> {
         let RecordedNumber::Known(recorded) = self.numbering.recorded_number(number) else { return None };
         let family = &self.pipeline.composer.planned.family;
@@ -165,9 +181,9 @@ impl<'a> FamilyCheck<'a> {
         Some((self.tables.recorded_curves(recorded)?, solved))
     }
 
-    /// The findings on pages, when it is known which cells have changed.
-    pub fn page_findings(&self, pages: Vec<PageFindings>, changed: &[usize]) -> Vec<Finding> {
-        self.pages.findings(pages, changed)
+    /// The findings on pages that are not explained by the changed cells.
+    pub fn page_findings(&self, pages: Vec<PageFindings>, changed_cells: &[usize]) -> Vec<Finding> {
+        self.pages.findings(pages, changed_cells)
     }
 }
 
@@ -177,26 +193,26 @@ impl Sink for FamilyCheck<'_> {
     type Error = Infallible;
 
     fn receive_cells(&self, solved: &[SolvedCell]) -> Result<CellFindings, Infallible> {
-        let mut held = CellFindings::default();
+        let mut result = CellFindings::default();
         for solved in solved.iter().filter(|solved| !solved.is_left_out()) {
-            let before = held.findings.len();
-            if let Err(flaw) = self.check_cell(solved, &mut held) {
-                let place = self.location.with_cell(solved.cell.number);
-                held.findings.push(place.finding(Change::Damaged { message: flaw.to_string() }));
+            let before = result.findings.len();
+            if let Err(error) = self.check_cell(solved, &mut result) {
+                let location = self.location.with_cell(solved.cell.number);
+                result.findings.push(location.finding(Change::Damaged { message: error.to_string() }));
             }
-            if held.findings.len() > before {
-                held.changed_cells.push(solved.cell.number);
+            if result.findings.len() > before {
+                result.changed_cells.push(solved.cell.number);
             }
         }
-        Ok(held)
+        Ok(result)
     }
 
-    fn receive_page(&self, leaf: PageJob) -> Result<PageFindings, Infallible> {
-        // Pages tell of cells by the numbers under which they are recorded.
-        Ok(self.pages.check_page(leaf, |cell| self.tables.recorded_curves(cell)))
+    fn receive_page(&self, job: PageJob) -> Result<PageFindings, Infallible> {
+        // Recorded pages show the recorded numbers of cells.
+        Ok(self.pages.check_page(job, |cell| self.tables.recorded_curves(cell)))
     }
 
-    /// Two pages of text, and the rows of the cells on them.
+    /// The recorded and the current page, and the rows of the cells on them.
     fn bytes_per_page(&self) -> usize {
         4 << 20
     }

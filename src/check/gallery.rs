@@ -1,5 +1,5 @@
-//! The gallery's page and data, held against what is recorded of them: they have nothing that the tables have not, so that
-//! it is enough that nobody has changed them.
+//! Checks the files of the gallery. They contain only data of the tables and pages, so it is enough to check that they
+//! have not been edited since they were recorded.
 
 use std::io;
 use std::path::Path;
@@ -8,16 +8,16 @@ use super::finding::{Change, Finding, Location};
 use super::tables::file_change;
 use crate::record::{FileRecord, TableError, TextDigests, open_regular_file};
 
-/// What has become of a file of the gallery, by its name within the atlas's folder.
+/// The finding on a file of the gallery, if it has changed; `name` is its path in the folder of the atlas.
 pub(super) fn check_file(output: &Path, name: &str, record: &FileRecord) -> Option<Finding> {
     let change = match digests(&output.join(name)) {
         Ok(digests) => file_change(Some(record), &digests),
-        Err(flaw) => Some(Change::Damaged { message: flaw.to_string() }),
+        Err(error) => Some(Change::Damaged { message: error.to_string() }),
     };
     change.map(|change| Location::default().with_file(name).finding(change))
 }
 
-/// The digests of a file.
+/// The digests of a file: of its bytes, and of its text with plain line endings.
 fn digests(path: &Path) -> Result<[String; 2], TableError> {
     let mut digests = TextDigests::default();
     let read = io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digests);

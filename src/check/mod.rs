@@ -1,8 +1,8 @@
-//! A fresh run held against a recorded one: what has changed, where and by how much.
+//! Compares a fresh run of a manifest with a recorded atlas: what has changed, where and by how much.
 //!
-//! The manifest is run afresh in memory. What comes off the press is held against the recorded tables and pages: to the
-//! byte first, and what differs there by its numbers. A recorded atlas is input like any other: whatever is in it, there
-//! is a finding and no panic, and memory stays bounded.
+//! The manifest is run again in memory, and its output compared with the recorded tables and pages: first byte by byte,
+//! and where the bytes differ, number by number. The recorded atlas is not trusted: invalid files lead to findings,
+//! never to a panic, and memory stays bounded.
 
 mod cells;
 mod curve;
@@ -34,79 +34,80 @@ use crate::pipeline::{FamilyPipeline, Output};
 use crate::record::{FamilyRecord, LOCK_FILE_NAME, ReadError, RunRecord};
 use family::FamilyCheck;
 
-/// What is to be checked, and how strictly.
+/// The families to check, and the tolerances.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The families to check; all where empty.
+    /// The ids of the families to check; all if empty.
     pub only: Vec<String>,
-    /// Tolerances that count in place of the manifest's.
+    /// Tolerances that replace those of the manifest.
     pub tolerances: PartialTolerances,
 }
 
-/// Something that happened while checking.
+/// The progress of a check.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
-    /// A family with so many pages is begun.
+    /// The check of a family begins.
     Begin {
-        /// Its id.
+        /// The id of the family.
         family: &'a str,
-        /// Its pages.
+        /// The number of its pages.
         pages: usize,
     },
-    /// A page is done.
+    /// A page is family_check.
     Page,
-    /// A family is done.
+    /// The check of a family ends.
     End,
 }
 
-/// What a check has found.
+/// The result of a check.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
-    /// How many families were held against their records.
+    /// The number of families compared with their records.
     pub families: usize,
-    /// How many curves.
+    /// The number of curves compared with their records.
     pub curves: usize,
-    /// How many pages.
+    /// The number of pages compared with their records.
     pub pages: usize,
-    /// How many findings there are of each kind.
+    /// The number of findings of each kind.
     pub counts: BTreeMap<&'static str, usize>,
-    /// What was found, the worst first; of very many, the worst of each family.
+    /// The findings, the worst first; at most 20,000 of each family.
     pub findings: Vec<Finding>,
 }
 
-/// Why nothing could be checked.
+/// Why an atlas cannot be family_check.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The record of the atlas cannot be used.
     #[error("cannot use {}: {source}", path.display())]
     Record {
-        /// The record.
+        /// The path of the record.
         path: PathBuf,
         /// Why.
         source: ReadError,
     },
     /// A run is writing to the atlas.
-    #[error("a run is writing to {}: wait for its end", folder.display())]
+    #[error("a run is writing to {}: wait for it to end", folder.display())]
     Busy {
-        /// The atlas's folder.
+        /// The folder of the atlas.
         folder: PathBuf,
     },
 }
 
 impl Report {
-    /// Whether anything differs.
+    /// Whether any finding is a difference.
     pub fn has_differences(&self) -> bool {
         self.findings.iter().any(|finding| finding.change.is_difference())
     }
 
-    /// How many findings there are, those that are not kept among them.
+    /// The number of findings, including those that are not kept in `findings`.
     pub fn total(&self) -> usize {
         self.counts.values().sum()
     }
 
-    /// So many findings of a family are kept.
+    /// The number of findings of a family that are kept.
     const MAX_FINDINGS: usize = 20_000;
 
+    /// Counts the findings of a family, and keeps the worst of them.
     fn add_findings(&mut self, mut findings: Vec<Finding>) {
         for finding in &findings {
             *self.counts.entry(finding.change.kind()).or_default() += 1;
@@ -124,24 +125,24 @@ fn sort_worst_first(findings: &mut [Finding]) {
     });
 }
 
-/// Runs a plan and holds what comes of it against the atlas recorded in a folder.
+/// Runs a plan, and compares the result with the atlas recorded in a folder; calls `on_event` with the progress.
 ///
 /// # Errors
-/// A record of the atlas that cannot be read.
+/// The record of the atlas cannot be read, or a run is writing to its folder.
 pub fn check_atlas(
     plan: &Plan,
     recorded: &Path,
     options: &Options,
-    tell: &mut dyn FnMut(Event),
+    on_event: &mut dyn FnMut(Event),
 ) -> Result<Report, Error> {
     if is_locked(recorded) {
         return Err(Error::Busy { folder: recorded.to_owned() });
     }
     let path = recorded.join("run.json");
     let record = RunRecord::read(&path).map_err(|source| Error::Record { path, source })?;
-    let is_asked = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
+    let is_requested = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
     let mut report = Report::default();
-    for family in record.families.iter().filter(|family| is_asked(&family.id)) {
+    for family in record.families.iter().filter(|family| is_requested(&family.id)) {
         if plan.families.iter().all(|planned| planned.family.id != family.id) {
             report.add_findings(vec![Location::in_family(&family.id).finding(Change::FamilyRemoved)]);
         }
@@ -152,9 +153,11 @@ pub fn check_atlas(
     if let Some(page) = record.gallery.as_ref().filter(|_| options.only.is_empty()) {
         report.add_findings(gallery::check_file(recorded, PAGE_FILE, page).into_iter().collect());
     }
-    for planned in plan.families.iter().filter(|planned| is_asked(&planned.family.id)) {
+    for planned in plan.families.iter().filter(|planned| is_requested(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {
-            Some(of) => check_family(plan, planned, of, recorded, options, &mut report, tell),
+            Some(family_record) => {
+                check_family(plan, planned, family_record, recorded, options, &mut report, on_event);
+            }
             None => report.add_findings(vec![Location::in_family(&planned.family.id).finding(Change::FamilyAdded)]),
         }
     }
@@ -162,12 +165,13 @@ pub fn check_atlas(
     Ok(report)
 }
 
-/// Whether a run has locked a folder; a lock that is left behind locks nothing.
+/// Whether a run has locked a folder; the lock file of a run that was killed is not locked.
 fn is_locked(folder: &Path) -> bool {
     let lock = File::open(folder.join(LOCK_FILE_NAME));
     lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
+/// Checks a family, and adds the findings to the report.
 fn check_family(
     plan: &Plan,
     planned: &PlannedFamily,
@@ -175,37 +179,36 @@ fn check_family(
     recorded: &Path,
     options: &Options,
     report: &mut Report,
-    tell: &mut dyn FnMut(Event),
+    on_event: &mut dyn FnMut(Event),
 ) {
-    // Nobody stops this.
-    let Some(press) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { return };
-    tell(Event::Begin { family: &planned.family.id, pages: press.pagination.page_count });
+    // A check is not interrupted.
+    let Some(pipeline) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { return };
+    on_event(Event::Begin { family: &planned.family.id, pages: pipeline.pagination.page_count });
     let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
     let mut findings = Vec::new();
-    let checked = FamilyCheck::open(&press, record, recorded, tolerances, &mut findings);
-    let (mut changed, mut pages) = (Vec::new(), Vec::new());
-    let result = press.run(&checked, |off| {
-        match off {
-            Output::Cells(held) => {
-                findings.extend(held.findings);
-                changed.extend(held.changed_cells);
-                report.curves += held.curve_count;
+    let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut findings);
+    let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
+    let result = pipeline.run(&family_check, |output| {
+        match output {
+            Output::Cells(cells) => {
+                findings.extend(cells.findings);
+                changed_cells.extend(cells.changed_cells);
+                report.curves += cells.curve_count;
             }
             Output::Page(page) => {
                 pages.push(page);
-                tell(Event::Page);
+                on_event(Event::Page);
             }
         }
         Ok::<(), Infallible>(())
     });
-    // There is nothing that could go wrong.
     let Ok(()) = result;
     report.families += 1;
     report.pages += pages.len();
-    findings.extend(checked.page_findings(pages, &changed));
+    findings.extend(family_check.page_findings(pages, &changed_cells));
     if let Some(script) = record.files.iter().find(|file| file.name == SCRIPT_FILE) {
         findings.extend(gallery::check_file(recorded, &format!("{}/{SCRIPT_FILE}", planned.family.id), script));
     }
     report.add_findings(findings);
-    tell(Event::End);
+    on_event(Event::End);
 }

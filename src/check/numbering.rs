@@ -1,4 +1,4 @@
-//! Which recorded cell is which of those there are now.
+//! Matches recorded cells with current ones.
 
 use std::collections::{HashMap, HashSet};
 
@@ -6,35 +6,37 @@ use super::finding::{Change, Finding, Location};
 use super::tables::Tables;
 use crate::pipeline::FamilyPipeline;
 
-/// The recorded numbers of cells.
+/// The recorded numbers of the current cells.
 pub(super) struct CellNumbering {
-    /// Those that are recorded under another number.
+    /// The recorded numbers of the cells that are recorded under another number.
     renumbered: HashMap<usize, usize>,
-    /// The recorded cells; `None` where nothing is known of them.
+    /// The numbers of the recorded cells; `None` if no table can be read.
     recorded: Option<HashSet<usize>>,
-    /// Cells under whose number another cell is recorded.
+    /// The current cells that are not recorded, some under a number that another cell has in the record.
     added: HashSet<usize>,
 }
 
-/// Where a cell is recorded.
+/// The number under which a cell is recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RecordedNumber {
-    /// Under this number.
+    /// Its recorded number.
     Known(usize),
-    /// Not at all.
+    /// The cell is not recorded.
     Missing,
-    /// Nobody knows: no table can be read.
+    /// No table can be read.
     Unknown,
 }
 
 impl CellNumbering {
-    /// By parameters; a cell that is recorded under its own number with others has other parameters now, unless those it
-    /// had are another cell's. Tells of cells that are no more.
-    pub fn from_tables(press: &FamilyPipeline, tables: &Tables, findings: &mut Vec<Finding>) -> CellNumbering {
+    /// Matches cells by their parameters, and appends a finding for each recorded cell that no longer exists.
+    ///
+    /// A cell recorded under its number with other parameters counts as the same cell, unless those parameters are now
+    /// those of another cell.
+    pub fn from_tables(pipeline: &FamilyPipeline, tables: &Tables, findings: &mut Vec<Finding>) -> CellNumbering {
         let mut numbering = CellNumbering { renumbered: HashMap::new(), recorded: None, added: HashSet::new() };
         let Some(numbers) = tables.cell_numbers() else { return numbering };
-        let family = &press.composer.planned.family;
-        let values = |number: usize| -> Option<Vec<u64>> {
+        let family = &pipeline.composer.planned.family;
+        let recorded_values = |number: usize| -> Option<Vec<u64>> {
             let (columns, rows) = tables.cell_rows(number).ok()??;
             let values = columns.recorded_parameters(rows.first()?).ok()?;
             Some(values.into_iter().map(f64::to_bits).collect())
@@ -49,58 +51,62 @@ impl CellNumbering {
                 names.is_some_and(|names| names.iter().any(|(name, _)| *name == parameter.name)).then_some(slot)
             })
             .collect();
-        let now = |number: usize| -> Vec<u64> {
+        let current_values = |number: usize| -> Vec<u64> {
             let cell = family.cell(number - 1);
-            // As they are written: zero has no sign there.
+            // Adding 0 turns -0 into 0, as in the tables.
             slots.iter().map(|&slot| (cell.values[slot] + 0.0).to_bits()).collect()
         };
         let recorded: HashSet<usize> = numbers.iter().copied().collect();
-        let present: Vec<usize> = press.arrangement.kept.iter().map(|cell| cell + 1).collect();
-        // Those whose values are not what they were.
-        let differing: Vec<usize> = present
+        let current: Vec<usize> = pipeline.arrangement.kept.iter().map(|cell| cell + 1).collect();
+        // The cells recorded under their number with other values.
+        let differing: HashSet<usize> = current
             .iter()
             .copied()
-            .filter(|number| recorded.contains(number) && values(*number).is_some_and(|was| was != now(*number)))
+            .filter(|&number| {
+                recorded.contains(&number)
+                    && recorded_values(number).is_some_and(|values| values != current_values(number))
+            })
             .collect();
-        let differs: HashSet<usize> = differing.iter().copied().collect();
-        let kept: HashSet<usize> = present.iter().copied().collect();
-        // Recorded cells that are to be found under another number: as the values of one may be those of several, the first.
-        let mut free: HashMap<Vec<u64>, Vec<usize>> = HashMap::new();
-        for &number in numbers.iter().rev().filter(|number| !kept.contains(number) || differs.contains(number)) {
-            if let Some(values) = values(number) {
-                free.entry(values).or_default().push(number);
+        let kept: HashSet<usize> = current.iter().copied().collect();
+        // The recorded cells that may have another number now, by their values. Several may have the same values: they
+        // are assigned in order of their numbers.
+        let mut unmatched: HashMap<Vec<u64>, Vec<usize>> = HashMap::new();
+        for &number in numbers.iter().rev().filter(|number| !kept.contains(number) || differing.contains(number)) {
+            if let Some(values) = recorded_values(number) {
+                unmatched.entry(values).or_default().push(number);
             }
         }
-        let mut taken: HashSet<usize> = HashSet::new();
-        let mut open = Vec::new();
-        for &number in present.iter().filter(|number| !recorded.contains(number) || differs.contains(number)) {
-            match free.get_mut(&now(number)).filter(|_| !slots.is_empty()).and_then(Vec::pop) {
-                Some(was) => {
-                    numbering.renumbered.insert(number, was);
-                    taken.insert(was);
+        let mut matched: HashSet<usize> = HashSet::new();
+        let mut remaining = Vec::new();
+        for &number in current.iter().filter(|number| !recorded.contains(number) || differing.contains(number)) {
+            match unmatched.get_mut(&current_values(number)).filter(|_| !slots.is_empty()).and_then(Vec::pop) {
+                Some(recorded_number) => {
+                    numbering.renumbered.insert(number, recorded_number);
+                    matched.insert(recorded_number);
                 }
-                None => open.push(number),
+                None => remaining.push(number),
             }
         }
-        for number in open {
-            if recorded.contains(&number) && taken.insert(number) {
+        for number in remaining {
+            if recorded.contains(&number) && matched.insert(number) {
                 continue;
             }
             numbering.added.insert(number);
         }
-        let place = Location::in_family(&family.id);
-        let is_gone = |number: &&usize| !taken.contains(number) && (!kept.contains(number) || differs.contains(number));
-        findings
-            .extend(numbers.iter().filter(is_gone).map(|&number| place.with_cell(number).finding(Change::CellRemoved)));
+        let location = Location::in_family(&family.id);
+        let is_removed =
+            |number: &&usize| !matched.contains(number) && (!kept.contains(number) || differing.contains(number));
+        let removed = numbers.iter().filter(is_removed);
+        findings.extend(removed.map(|&number| location.with_cell(number).finding(Change::CellRemoved)));
         numbering.recorded = Some(recorded);
         numbering
     }
 
-    /// Where a cell is recorded.
+    /// The number under which the cell with the current `number` is recorded.
     pub fn recorded_number(&self, number: usize) -> RecordedNumber {
         match (&self.recorded, self.renumbered.get(&number)) {
             (None, _) => RecordedNumber::Unknown,
-            (_, Some(&other)) => RecordedNumber::Known(other),
+            (_, Some(&recorded_number)) => RecordedNumber::Known(recorded_number),
             (Some(_), None) if self.added.contains(&number) => RecordedNumber::Missing,
             (Some(recorded), None) if recorded.contains(&number) => RecordedNumber::Known(number),
             _ => RecordedNumber::Missing,

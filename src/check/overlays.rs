@@ -1,4 +1,4 @@
-//! Pages that show how curves have moved.
+//! Pages that show a recorded and a current curve, one over the other.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -14,75 +14,78 @@ use coupler_curves::motion::{self, DashPattern};
 use coupler_drawing::page::{self, OverlayPage};
 use coupler_drawing::render;
 
-/// A page that shows how a curve has moved.
+/// A page that shows a curve as recorded and as it is now.
 #[derive(Clone, Debug)]
 pub struct Overlay<'r> {
     /// The name of its file.
     pub name: String,
     /// Its SVG.
     pub svg: Vec<u8>,
-    /// What has been found of the curve.
+    /// The finding on the curve.
     pub finding: &'r Finding,
 }
 
-/// Draws a page for each curve that has moved, or is sampled otherwise, in a report on an atlas: of the worst, so many.
+/// Draws a page for each curve in a report that has moved or is sampled differently, at most `max_overlays` of the
+/// worst; calls `receive` with each.
 pub fn draw_overlays<'r>(
     plan: &Plan,
     recorded: &Path,
     (options, report): (&Options, &'r Report),
-    most: usize,
-    mut take: impl FnMut(Overlay<'r>),
+    max_overlays: usize,
+    mut receive: impl FnMut(Overlay<'r>),
 ) {
-    let is_of_a_curve = |finding: &&Finding| matches!(finding.change, Change::Moved(_) | Change::Samples { .. });
-    let mut wanted: Vec<&Finding> = report.findings.iter().filter(is_of_a_curve).collect();
-    // A curve that is sampled otherwise and has moved is one.
+    let is_on_curve = |finding: &&Finding| matches!(finding.change, Change::Moved(_) | Change::Samples { .. });
+    let mut findings: Vec<&Finding> = report.findings.iter().filter(is_on_curve).collect();
+    // A curve may have moved and be sampled differently: it is drawn once.
     let mut seen = HashSet::new();
-    wanted.retain(|finding| seen.insert(finding.location.to_string()));
-    wanted.truncate(most);
+    findings.retain(|finding| seen.insert(finding.location.to_string()));
+    findings.truncate(max_overlays);
     let Ok(run) = RunRecord::read(&recorded.join("run.json")) else { return };
     for planned in &plan.families {
-        let ours: Vec<&Finding> = wanted.iter().copied().filter(|f| f.location.family == planned.family.id).collect();
+        let family_findings: Vec<&Finding> =
+            findings.iter().copied().filter(|f| f.location.family == planned.family.id).collect();
         let record = run.families.iter().find(|record| record.id == planned.family.id);
-        let (Some(record), false) = (record, ours.is_empty()) else { continue };
-        // Nobody stops this.
-        let Some(press) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { continue };
+        let (Some(record), false) = (record, family_findings.is_empty()) else { continue };
+        // A check is not interrupted.
+        let Some(pipeline) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { continue };
         let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
-        let checked = FamilyCheck::open(&press, record, recorded, tolerances, &mut Vec::new());
-        for finding in ours {
-            if let Some(overlay) = draw_overlay(plan, &checked, finding) {
-                take(overlay);
+        let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut Vec::new());
+        for finding in family_findings {
+            if let Some(overlay) = draw_overlay(plan, &family_check, finding) {
+                receive(overlay);
             }
         }
     }
 }
 
-fn draw_overlay<'r>(plan: &Plan, checked: &FamilyCheck, finding: &'r Finding) -> Option<Overlay<'r>> {
-    let place = &finding.location;
-    let (cell, trace, circuit) = (place.cell?, place.trace?, place.circuit?);
-    let (tracks, solved) = checked.recorded_and_current(cell)?;
-    let was = tracks.into_iter().find(|track| track.trace == trace && track.circuit == circuit)?;
+/// Draws the page of a finding; `None` if the recorded or the current curve does not exist.
+fn draw_overlay<'r>(plan: &Plan, family_check: &FamilyCheck, finding: &'r Finding) -> Option<Overlay<'r>> {
+    let location = &finding.location;
+    let (cell, trace, circuit) = (location.cell?, location.trace?, location.circuit?);
+    let (recorded_curves, solved) = family_check.recorded_and_current(cell)?;
+    let recorded = recorded_curves.into_iter().find(|curve| curve.trace == trace && curve.circuit == circuit)?;
     let curve = solved.curves.iter().find(|curve| curve.trace == trace && curve.circuit == circuit)?;
     let sampled = solved.circuit(curve);
-    let is: Vec<Point> = sampled.points(curve.joint).collect();
-    let worst = match &finding.change {
-        Change::Moved(by) => vec![by.recorded.into(), by.current.into()],
+    let current: Vec<Point> = sampled.points(curve.joint).collect();
+    let worst_points = match &finding.change {
+        Change::Moved(displacement) => vec![displacement.recorded.into(), displacement.current.into()],
         _ => Vec::new(),
     };
-    // As fine as the paper shows it, as if the curve filled it.
-    let size = was.size().max(f64::MIN_POSITIVE);
+    // As fine as paper can show a curve that fills the page.
+    let size = recorded.size().max(f64::MIN_POSITIVE);
     let dashes = DashPattern { period: 360.0, dash_span: 360.0 };
     let path = motion::joint_paths(&solved.linkage, sampled, &[curve.joint], dashes, 5e-5 * size).pop()?.points;
-    let title = place.to_string();
+    let title = location.to_string();
     let sheet = OverlayPage {
         title: &title,
         details: vec![finding.change.to_string()],
         footer: &plan.title,
-        recorded: was.points,
-        current: is,
+        recorded: recorded.points,
+        current,
         current_path: path,
         is_closed: sampled.is_closed,
-        worst_points: worst,
+        worst_points,
     };
     let svg = render::svg(&page::compose_overlay(&sheet, &plan.page), plan.text_mode);
-    Some(Overlay { name: format!("{}-{cell}-{trace}-{circuit}.svg", place.family), svg, finding })
+    Some(Overlay { name: format!("{}-{cell}-{trace}-{circuit}.svg", location.family), svg, finding })
 }

@@ -22,13 +22,13 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Resu
     let mut known: Vec<Arc<Template>> = Vec::new();
     if let Some(path) = manifest {
         let text = output::read_manifest(path)?;
-        let (own, problems) = manifest::parse_linkages(&text);
+        let (templates, problems) = manifest::parse_linkages(&text);
         source::report_problems(path, &text, &problems);
-        known.extend(own);
+        known.extend(templates);
     }
     known.extend(catalogue::all().iter().cloned());
-    let found = known.iter().find(|template| template.id == name).cloned();
-    found.ok_or_else(|| {
+    let template = known.iter().find(|template| template.id == name).cloned();
+    template.ok_or_else(|| {
         let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
         InputError(format!("there is no linkage `{name}`: {}", suggestion(name, &ids))).into()
     })

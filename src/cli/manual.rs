@@ -12,7 +12,8 @@ use super::{Outcome, print};
 #[derive(Debug, Args)]
 pub struct Manual {}
 
-/// Print completions for a shell: coupler-atlas completions bash > ~/.local/share/bash-completion/completions/coupler-atlas
+/// Print completions for a shell: coupler-atlas completions bash >
+/// ~/.local/share/bash-completion/completions/coupler-atlas
 #[derive(Debug, Args)]
 pub struct Completions {
     /// The shell.

@@ -21,13 +21,13 @@ use clap::{Parser, Subcommand};
 use coupler_atlas::output;
 use format::pluralize;
 
-const EXIT_CODES: &str = "Exit codes: 0 success; 1 check found a difference, or render --strict a cell that is not assembled \
-                          over the whole range; 2 invalid input; 3 system error, or another run is writing to the folder; \
-                          130 interrupted.";
+const EXIT_CODES: &str = "Exit codes: 0 success; 1 check found a difference, or render --strict a cell that is not \
+                          assembled over the whole range; 2 invalid input; 3 system error, or another run is writing \
+                          to the folder; 130 interrupted.";
 
 /// Solve families of planar linkages, and draw their coupler curves as the pages of an atlas.
 #[derive(Debug, Parser)]
-#[command(name = "coupler-atlas", version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
+#[command(name = "coupler-atlas", version, disable_help_subcommand = true, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

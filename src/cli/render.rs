@@ -23,8 +23,8 @@ pub struct Arguments {
     /// The folder to write to [default: `output` of the manifest, relative to the manifest].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The formats of pages, instead of the manifest's: svg, png, pdf (one book); pages that an earlier run wrote in other
-    /// formats are kept.
+    /// The formats of pages, instead of the manifest's: svg, png, pdf (one book); pages that an earlier run wrote in
+    /// other formats are kept.
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = parse_format)]
     format: Option<Vec<Format>>,
     /// Render only this family, and leave the files of others unchanged; may be given more than once.

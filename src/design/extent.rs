@@ -1,21 +1,22 @@
-//! How much room a linkage takes.
+//! The extent of a linkage.
 
 use coupler_curves::geometry::{Point, Vector, trig};
 
-/// The greatest distance between any two of some points, by the pairs that are furthest apart in each of many directions,
-/// from the best of which on in the direction of the pair itself.
+/// The greatest distance between any two of some points. The pair that is furthest apart along each of 60 directions is
+/// found; from the best pair the search continues in the direction of the pair itself. Points that are not finite are
+/// ignored.
 pub(super) fn greatest_distance(points: &[Point]) -> f64 {
     const DIRECTIONS: usize = 60;
     let furthest = |along: Vector| {
         let mut low = (f64::INFINITY, Point::origin());
         let mut high = (f64::NEG_INFINITY, Point::origin());
         for p in points.iter().filter(|p| p.x.is_finite() && p.y.is_finite()) {
-            let at = along.dot(&p.coords);
-            if at < low.0 {
-                low = (at, *p);
+            let position = along.dot(&p.coords);
+            if position < low.0 {
+                low = (position, *p);
             }
-            if at > high.0 {
-                high = (at, *p);
+            if position > high.0 {
+                high = (position, *p);
             }
         }
         high.1 - low.1
@@ -44,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_furthest_pair_of_all() {
+    fn the_furthest_pair_is_found() {
         let spiral = |k: usize| {
             let (cos, sin) = trig::cos_sin_deg(37.0 * k as f64);
             Point::new(k as f64 * cos + 0.3 * k as f64, k as f64 * sin)

@@ -1,7 +1,7 @@
 //! The linkages of straight-line synthesis, their free proportions, and the closed conditions on these.
 //!
-//! Proportions are relative to the link of length 1 in Natesan's thesis: the crank of Evans's and Hoeken's linkages, the
-//! coupler of the others. All are positive, and the search varies their logarithms.
+//! Proportions are relative to the link of length 1 in Natesan's thesis: the crank of Evans's and Hoeken's linkages,
+//! the coupler of the others. All are positive, and the search varies their logarithms.
 
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ use coupler_curves::template::Template;
 pub enum LinkageKind {
     /// A crank-rocker, its coupler point beyond the rocker pin.
     Evans,
-    /// Evans's linkage with equal coupler and rocker, and the coupler point as far beyond the rocker pin as that is from
-    /// the crank pin.
+    /// Evans's linkage with equal coupler and rocker, and the coupler point as far beyond the rocker pin as that is
+    /// from the crank pin.
     Hoeken,
     /// A double-rocker with crossed rockers, whose coupler turns fully.
     Chebyshev,
@@ -45,8 +45,9 @@ pub struct DrivenLinkage {
 }
 
 impl DrivenLinkage {
-    /// All combinations. A motor drives the crank of Evans's and Hoeken's linkages and the coupler of Chebyshev's. Natesan
-    /// (10.1.1) calls the latter a crank-rocker, but it is a double-rocker; its rockers may be driven too (4.2).
+    /// All combinations. A motor drives the crank of Evans's and Hoeken's linkages and the coupler of Chebyshev's.
+    /// Natesan (10.1.1) calls the latter a crank-rocker, but it is a double-rocker; its rockers may be driven too
+    /// (4.2).
     pub const ALL: [DrivenLinkage; 6] = [
         DrivenLinkage { kind: LinkageKind::Evans, input: Driver::Motor },
         DrivenLinkage { kind: LinkageKind::Hoeken, input: Driver::Motor },
@@ -166,11 +167,15 @@ impl LinkageKind {
     pub(super) fn proportions_at_tolerance(self, proportions: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
         let factor = trig::pow(to / from, 2.0 / 3.0);
         let all = self.free_proportions(to);
-        proportions.iter().zip(all).map(|(&x, free)| if free.tends_to_1 { 1.0 + (x - 1.0) * factor } else { x }).collect()
+        proportions
+            .iter()
+            .zip(all)
+            .map(|(&x, free)| if free.tends_to_1 { 1.0 + (x - 1.0) * factor } else { x })
+            .collect()
     }
 
-    /// The nearest proportions with a symmetric curve: those of the coupler point changed, and in Watt's linkage the rockers
-    /// equal.
+    /// The nearest proportions with a symmetric curve: those of the coupler point changed, and in Watt's linkage the
+    /// rockers equal.
     pub(super) fn symmetric_proportions(self, proportions: &[f64]) -> Option<Vec<f64>> {
         match self {
             LinkageKind::Evans => Some(vec![proportions[0], proportions[1], 2.0]),
@@ -186,9 +191,13 @@ impl LinkageKind {
         // (8.10) and (8.19).
         let straight = |p: f64| (1.0 + p) * (1.0 + p).sqrt() / 2.0;
         match self {
-            LinkageKind::Evans => vec![p, 1.0, proportions[1] * straight(p), proportions[1] * straight(p), proportions[2]],
+            LinkageKind::Evans => {
+                vec![p, 1.0, proportions[1] * straight(p), proportions[1] * straight(p), proportions[2]]
+            }
             LinkageKind::Hoeken => vec![p, 1.0, proportions[1] * straight(p)],
-            LinkageKind::Chebyshev => vec![p, proportions[1] * straight(p), proportions[1] * straight(p), 1.0, proportions[2]],
+            LinkageKind::Chebyshev => {
+                vec![p, proportions[1] * straight(p), proportions[1] * straight(p), 1.0, proportions[2]]
+            }
             LinkageKind::Watt => {
                 // The proportions give the sum and the quotient of the rockers; the point divides the coupler in their
                 // inverse ratio.
@@ -225,10 +234,12 @@ impl LinkageKind {
     }
 }
 
-/// The depth below the coupler of a symmetric Roberts linkage at which a point has zero curvature in mid-stroke.
+/// The depth below the coupler of a symmetric Roberts linkage at which the path of a point is level and has zero
+/// curvature in mid-stroke.
 ///
-/// There the rockers have equal slopes and meet in the instant centre. A point straight below it has zero curvature on the
-/// inflection circle, whose diameter by Euler and Savary is `r^2 a p / ((p - a)^2 h)`, with the coupler `h` above the frame.
+/// There the rockers have equal slopes and meet in the instant centre. A point straight below it has zero curvature on
+/// the inflection circle, whose diameter by Euler and Savary is `r^2 a p / ((p - a)^2 h)`, with the coupler `h` above
+/// the frame.
 fn level_point_depth(p: f64, r: f64) -> f64 {
     let half = (p - 1.0) / 2.0;
     let h = (r * r - half * half).max(0.0).sqrt();

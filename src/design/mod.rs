@@ -1,14 +1,15 @@
 //! Synthesizes straight-line linkages for a designer's requirements, after chapter 10 of Natesan's thesis.
 //!
-//! *Type synthesis* (10.1.1) selects linkages by their input. A motor needs a link that turns fully: the crank of Evans's
-//! and Hoeken's linkages, or the coupler of Chebyshev's. A rocker drives Watt's, Roberts's and Chebyshev's linkages.
-//! *Dimensional synthesis* (10.1.2) finds the proportions: not only by the closed condition, (8.10) or (8.19), but by a
-//! sweep over all free proportions, refined by the simplex method. Every quantity is measured as in `cells.csv`.
+//! *Type synthesis* (10.1.1) selects linkages by their input. A motor needs a link that turns fully: the crank of
+//! Evans's and Hoeken's linkages, or the coupler of Chebyshev's. A rocker drives Watt's, Roberts's and Chebyshev's
+//! linkages. *Dimensional synthesis* (10.1.2) finds the proportions: not only by the closed condition, (8.10) or
+//! (8.19), but by a sweep over all free proportions, refined by the simplex method. Every quantity is measured as in
+//! `cells.csv`.
 //!
-//! The objective depends on the requirements. If the straight length and the size are both given, the best linkage is the
-//! straightest that has this length within this size; otherwise it is the one with the longest straight portion for its
-//! size at the tolerance. If a motor drives, size and transmission angle are those of a whole turn; if a rocker drives,
-//! those of the straight stroke, since the linkage need not move further.
+//! The objective depends on the requirements. If the straight length and the size are both given, the best linkage is
+//! the straightest that has this length within this size; otherwise it is the one with the longest straight portion for
+//! its size at the tolerance. If a motor drives, size and transmission angle are those of a whole turn; if a rocker
+//! drives, those of the straight stroke, since the linkage need not move further.
 
 mod extent;
 mod kind;
@@ -42,7 +43,8 @@ pub struct SynthesisResult {
     pub designs: Vec<Design>,
     /// The linkages that were rejected, and why.
     pub rejected: Vec<RejectedLinkage>,
-    /// If no linkage meets the requirements: for each requirement, the value that would allow one, all others unchanged.
+    /// If no linkage meets the requirements: for each requirement, the value that would allow one, all others
+    /// unchanged.
     pub relaxations: Vec<Relaxation>,
 }
 
@@ -87,8 +89,10 @@ fn synthesize_all(requirements: &Requirements, samplers: &Samplers) -> (Synthesi
     let (kept, duplicates) = remove_duplicates(kept);
     found.rejected.extend(duplicates);
     let kept = select_best(kept, requirements);
-    found.designs =
-        kept.iter().filter_map(|(origin, trial)| Design::from_trial(*origin, trial, requirements, &samplers.fine)).collect();
+    found.designs = kept
+        .iter()
+        .filter_map(|(origin, trial)| Design::from_trial(*origin, trial, requirements, &samplers.fine))
+        .collect();
     (found, short)
 }
 
@@ -109,10 +113,12 @@ fn feasible_linkages(requirements: &Requirements) -> impl Iterator<Item = Driven
 /// Why a linkage and driver cannot meet the requirements, whatever the proportions.
 fn infeasibility(driven_linkage: DrivenLinkage, requirements: &Requirements) -> Option<&'static str> {
     match (driven_linkage.kind, driven_linkage.input) {
-        (_, Driver::Rocker) if requirements.quick_return => Some("a rocker has no quick return: it retraces its motion"),
+        (_, Driver::Rocker) if requirements.quick_return => {
+            Some("a rocker has no quick return: it retraces its motion")
+        }
         (LinkageKind::Chebyshev, Driver::Motor) if requirements.mu_min > 0.0 => Some(
-            "its rockers reach limits in each turn of the coupler, where the transmission angle is 0; Evans's linkage traces \
-             the same curves at twice the size, driven by a crank",
+            "its rockers reach limits in each turn of the coupler, where the transmission angle is 0; Evans's linkage \
+             traces the same curves at twice the size, driven by a crank",
         ),
         _ => None,
     }
@@ -156,16 +162,17 @@ fn new_objective<'a>(
     Objective { driven_linkage, template, requirements, tolerance: requirements.tolerance, goal }
 }
 
-fn find_candidates(driven_linkage: DrivenLinkage, requirements: &Requirements, samplers: &Samplers) -> Option<Candidates> {
+/// Searches the proportions of a linkage, and evaluates its closed condition; `None` if the catalogue lacks it.
+fn find_candidates(
+    driven_linkage: DrivenLinkage,
+    requirements: &Requirements,
+    samplers: &Samplers,
+) -> Option<Candidates> {
     let template = driven_linkage.kind.template()?;
     let objective = new_objective(driven_linkage, &template, requirements, Goal::Longest);
     let mut found = Candidates::default();
     let trials = search::best_trials(&objective, samplers);
-    let rejected = |is_closed_form, reason: String| RejectedLinkage {
-        driven_linkage,
-        is_closed_form,
-        reason,
-    };
+    let rejected = |is_closed_form, reason: String| RejectedLinkage { driven_linkage, is_closed_form, reason };
     if trials.is_empty() {
         found.rejected.push(rejected(false, "none of the proportions tried meet the requirements".to_owned()));
     }
@@ -190,13 +197,14 @@ fn find_candidates(driven_linkage: DrivenLinkage, requirements: &Requirements, s
     if let (true, Some(longest)) = (fitting.is_empty(), trials.first()) {
         found.rejected.push(rejected(false, too_short_reason(longest, requirements)));
     }
-    // If the search returned to the closed condition, only that is shown.
+    // If the search returned to the closed condition, only the latter is kept.
     let is_closed_form = |trial: &Trial| found.accepted.iter().any(|(_, closed_form)| *closed_form == *trial);
     let searched: Vec<Trial> = fitting.into_iter().filter(|trial| !is_closed_form(trial)).collect();
     found.accepted.extend(search::distinct_trials(searched).into_iter().map(|trial| (ProportionOrigin::Search, trial)));
     Some(found)
 }
 
+/// Why a trial is rejected whose straight portion is too short for the size.
 fn too_short_reason(trial: &Trial, requirements: &Requirements) -> String {
     let longest = trial.length_to_size() * requirements.size.unwrap_or(1.0);
     format!(
@@ -205,8 +213,8 @@ fn too_short_reason(trial: &Trial, requirements: &Requirements) -> String {
     )
 }
 
-/// The best linkage by the closed condition for the required `p`, or why it does not meet the requirements; `None` if no
-/// `p` is required, or the linkage has no closed condition for it.
+/// The best linkage by the closed condition for the required `p`, or why it does not meet the requirements; `None` if
+/// no `p` is required, or the linkage has no closed condition for it.
 fn closed_form_trial(objective: &Objective, samplers: &Samplers) -> Option<Result<Trial, String>> {
     let all = objective.driven_linkage.kind.closed_proportions(objective.requirements.p?);
     let evaluated = all.iter().map(|proportions| objective.evaluate(proportions, &samplers.fine));
@@ -241,7 +249,10 @@ fn remove_duplicates(all: Vec<(ProportionOrigin, Trial)>) -> (Vec<(ProportionOri
     };
     let are_duplicates = |a: &(ProportionOrigin, Trial), b: &(ProportionOrigin, Trial)| {
         let is_other = a.0 == b.0 && a.1.driven_linkage != b.1.driven_linkage;
-        is_other && as_evans(&a.1).zip(as_evans(&b.1)).is_some_and(|(a, b)| trial::proportion_distance(&a, &b) < MAX_DISTANCE)
+        is_other
+            && as_evans(&a.1)
+                .zip(as_evans(&b.1))
+                .is_some_and(|(a, b)| trial::proportion_distance(&a, &b) < MAX_DISTANCE)
     };
     let is_better = |a: &Trial, b: &Trial| {
         let order = a.tolerance.total_cmp(&b.tolerance).then(b.length_to_size().total_cmp(&a.length_to_size()));

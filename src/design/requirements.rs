@@ -17,8 +17,8 @@ pub struct Requirements {
     pub length: Option<f64>,
     /// The width of its strip over its length.
     pub tolerance: f64,
-    /// The greatest distance between any two positions of its joints: over a whole turn if a motor drives, over the straight
-    /// stroke if a rocker does.
+    /// The greatest distance between any two positions of its joints: over a whole turn if a motor drives, over the
+    /// straight stroke if a rocker does.
     pub size: Option<f64>,
     /// The least transmission angle in degrees, over the same motion; of an angle over 90 the supplement counts.
     pub mu_min: f64,
@@ -69,8 +69,8 @@ pub enum Requirement {
     Kinds,
 }
 
-/// The least and the greatest tolerance. The least is a thousandth of a millimetre to either side of a line of 100 mm; the
-/// samples of a curve do not resolve less. Above the greatest a curve cannot be called straight.
+/// The least and the greatest tolerance. The least is a thousandth of a millimetre to either side of a line of 100 mm;
+/// the samples of a curve do not resolve less. Above the greatest a curve cannot be called straight.
 pub const TOLERANCE_RANGE: [f64; 2] = [2e-5, 0.1];
 
 impl Requirements {
@@ -87,13 +87,8 @@ impl Requirements {
         for (requirement, length) in lengths {
             check_range(requirement, length.unwrap_or(1.0), [1e-9, 1e9], "");
         }
-        check_range(
-            Requirement::P,
-            self.p.unwrap_or(2.0),
-            P_RANGE,
-            ": the frame is longer than the unit link",
-        );
-        check_range(Requirement::MuMin, self.mu_min, [0.0, 89.0], " deg");
+        check_range(Requirement::P, self.p.unwrap_or(2.0), P_RANGE, ": the frame is longer than the unit link");
+        check_range(Requirement::MuMin, self.mu_min, [0.0, 89.0], " deg: at 90 the linkage cannot move");
         if let (Some(length), Some(size)) = (self.length, self.size)
             && length >= size
         {

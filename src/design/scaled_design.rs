@@ -1,3 +1,5 @@
+//! Designs: trials scaled to the required length or size.
+
 use super::kind::{DrivenLinkage, LinkageKind};
 use super::requirements::Requirements;
 use super::search::FINE_SAMPLES;
@@ -11,7 +13,7 @@ use coupler_curves::motion::{Sampler, Sampling};
 use coupler_curves::solve;
 use coupler_curves::solve::SolvedCell;
 
-/// How a linkage's proportions were come by.
+/// How the proportions of a linkage were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProportionOrigin {
     /// By search.
@@ -20,48 +22,49 @@ pub enum ProportionOrigin {
     ClosedCondition,
 }
 
-/// A linkage that meets the wishes, in their unit: that of the straight length or the size; where neither is given, the
-/// thesis's, whose unit is the crank of Evans's and Hoeken's linkages and the coupler of the others.
+/// A linkage that meets the requirements, in the unit of the required straight length or size. If neither is given, the
+/// unit is Natesan's: the crank of Evans's and Hoeken's linkages, the coupler of the others.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// The linkage and what moves it.
+    /// The linkage and its driver.
     pub driven_linkage: DrivenLinkage,
-    /// How its proportions were come by.
+    /// How its proportions were found.
     pub origin: ProportionOrigin,
-    /// A family of it alone, which asks for its straight portion.
+    /// A family of this linkage alone, with the criterion of its straight portion.
     pub family: Family,
     /// Its motion and its measures.
     pub solved_cell: SolvedCell,
-    /// Its tolerance: no wider than this part of its length is the strip of its straight portion.
+    /// The tolerance: the greatest width of the strip of its straight portion, over its length.
     pub tolerance: f64,
-    /// Its straight portion; the input is the template's own.
+    /// Its straight portion; inputs are those of the template.
     pub straight: StraightPortion,
     /// Its size, transmission angle and stroke.
     pub performance: Performance,
-    /// How far the driven link goes in the straight stroke, in degrees.
+    /// The rotation of the driven link in the straight stroke, in degrees.
     pub swing: f64,
-    /// The coupler point's greatest speed over its least in the straight stroke, the driven link turning evenly.
+    /// The ratio of the greatest to the least speed of the coupler point in the straight stroke, at constant speed of
+    /// the driven link.
     pub speed_ratio: f64,
-    /// Where all joints are a third into the straight stroke, where none of a symmetric linkage's hides another; `None` where
-    /// the stroke is too short to have a sample in it.
+    /// The positions of all joints a third into the straight stroke, where no joint of a symmetric linkage hides
+    /// another; `None` if the stroke has no sample.
     pub pose: Option<Vec<Point>>,
-    /// How often its curve crosses itself.
+    /// The number of crunodes of its curve.
     pub crunode_count: usize,
     /// Grashof's class.
     pub class: &'static str,
 }
 
 impl Design {
-    /// A trial brought to size; `None` for one that does not assemble, which no trial is.
+    /// Scales a trial to the requirements; `None` if it cannot be assembled, which does not happen to a trial.
     pub(super) fn from_trial(
         origin: ProportionOrigin,
         trial: &Trial,
-        wishes: &Requirements,
+        requirements: &Requirements,
         sampler: &Sampler,
     ) -> Option<Design> {
         let kind = trial.driven_linkage.kind;
         let template = kind.template()?;
-        let scale = match (wishes.length, wishes.size) {
+        let scale = match (requirements.length, requirements.size) {
             (Some(length), _) => length / trial.length,
             (None, Some(size)) => size / trial.performance.size,
             (None, None) => 1.0,
@@ -77,14 +80,14 @@ impl Design {
         let mut family = Family::single_cell(template, &given, Sampling::Samples(FINE_SAMPLES)).ok()?;
         family.straight = StraightCriterion::Tolerance(trial.tolerance);
         let solved = solve::solve_cell(&family, sampler, 0)?;
-        let measured = first_traced_curve(&solved.linkage, &solved.motion, trial.tolerance)?;
-        let straight = measured.straight()?.clone();
-        let figures = performance(trial.driven_linkage, &measured, &straight)?;
-        let stroke = Stroke::from_portion(&measured, &straight)?;
+        let curve = first_traced_curve(&solved.linkage, &solved.motion, trial.tolerance)?;
+        let straight = curve.straight()?.clone();
+        let figures = performance(trial.driven_linkage, &curve, &straight)?;
+        let stroke = Stroke::from_portion(&curve, &straight)?;
         let third = stroke.sample_indices.get(stroke.sample_indices.len() / 3);
         let joints = solved.linkage.joint_ids();
-        let pose = third.map(|&k| joints.map(|joint| measured.circuit.positions.point(joint, k)).collect());
-        let double_points = number_value(&measured, "crunodes").unwrap_or(0.0) as usize;
+        let pose = third.map(|&k| joints.map(|joint| curve.circuit.positions.point(joint, k)).collect());
+        let crunode_count = number_value(&curve, "crunodes").unwrap_or(0.0) as usize;
         let class = FourBar::from_linkage(&solved.linkage)?.class().name();
         Some(Design {
             driven_linkage: trial.driven_linkage,
@@ -95,20 +98,20 @@ impl Design {
             straight,
             pose,
             performance: figures,
-            crunode_count: double_points,
+            crunode_count,
             class,
             family,
             solved_cell: solved,
         })
     }
 
-    /// The value of a parameter of its linkage, in the wishes' unit.
+    /// The value of a parameter of its linkage, in the unit of the requirements.
     pub fn parameter(&self, name: &str) -> f64 {
         self.family.value(name, &self.solved_cell.cell)
     }
 
-    /// The time of the straight stroke over that of the way back, the driven link turning evenly; `None` where a rocker
-    /// drives, which goes back as it came.
+    /// The ratio of the time of the straight stroke to that of the return, at constant speed of the driven link; `None`
+    /// if a rocker drives, which retraces its motion.
     pub fn time_ratio(&self) -> Option<f64> {
         self.performance.turn_fraction.map(|turn| turn / (1.0 - turn))
     }

@@ -32,8 +32,8 @@ impl Default for Samplers {
 /// The best linkages of a kind, the best first, each from another region of proportions; empty if none meets the
 /// requirements.
 pub(super) fn best_trials(objective: &Objective, samplers: &Samplers) -> Vec<Trial> {
-    /// Factors of the tolerance for further sweeps: linkages that barely meet the requirements may be missed by a sweep, but
-    /// be found from linkages that meet looser ones.
+    /// Factors of the tolerance for further sweeps: linkages that barely meet the requirements may be missed by a
+    /// sweep, but be found from linkages that meet looser ones.
     const LOOSER: [f64; 2] = [2.0, 5.0];
     let found = sweep_and_refine(objective, samplers);
     if !found.is_empty() {
@@ -66,7 +66,8 @@ fn sweep_and_refine(objective: &Objective, samplers: &Samplers) -> Vec<Trial> {
     const STARTS: usize = 5;
     let fixed = fixed_p(objective);
     let grid = start_grid(objective, fixed);
-    let swept: Vec<f64> = grid.par_iter().map(|proportions| objective.evaluate(proportions, &samplers.coarse).0).collect();
+    let swept: Vec<f64> =
+        grid.par_iter().map(|proportions| objective.evaluate(proportions, &samplers.coarse).0).collect();
     let mut order: Vec<usize> = (0..grid.len()).collect();
     order.sort_by(|&a, &b| swept[a].total_cmp(&swept[b]));
     let mut starts: Vec<&[f64]> = Vec::new();
@@ -136,6 +137,7 @@ fn refine_near(objective: &Objective, start: &[f64], samplers: &Samplers) -> (f6
     minimize_from(objective, start, &samplers.fine, CLOSE)
 }
 
+/// Minimizes an objective over the logarithms of the free proportions, from a starting point.
 fn minimize_from(objective: &Objective, start: &[f64], sampler: &Sampler, options: Options) -> (f64, Option<Trial>) {
     use coupler_curves::geometry::trig::{exp, ln};
     let free = objective.driven_linkage.kind.free_proportions(objective.tolerance);
@@ -143,16 +145,17 @@ fn minimize_from(objective: &Objective, start: &[f64], sampler: &Sampler, option
     let place: Vec<f64> = (fixed_count..start.len()).map(|k| ln(start[k]) / free[k].relative_step).collect();
     let proportions = |place: &[f64]| -> Vec<f64> {
         let moved = place.iter().zip(&free[fixed_count..]).map(|(x, free)| exp(x * free.relative_step));
-        start[..held].iter().copied().chain(moved).collect()
+        start[..fixed_count].iter().copied().chain(moved).collect()
     };
-    let (_, value, trial) = simplex::minimize(&place, options, |place| objective.evaluate(&proportions(place), sampler));
+    let (_, value, trial) =
+        simplex::minimize(&place, options, |place| objective.evaluate(&proportions(place), sampler));
     // The starting point itself has no rounding from logarithms.
     let at_start = objective.evaluate(start, sampler);
     if at_start.0 <= value { at_start } else { (value, trial) }
 }
 
-/// From a trial on, the linkage whose straight portion is a given fraction of its size at the least tolerance; `None` if no
-/// tolerance is large enough. Only if `free` are the proportions varied.
+/// From a trial on, the linkage whose straight portion is a given fraction of its size at the least tolerance; `None`
+/// if no tolerance is large enough. Only if `free` are the proportions varied.
 pub(super) fn straightest_at_ratio(
     objective: &Objective,
     from: &Trial,
@@ -174,16 +177,16 @@ pub(super) fn straightest_at_ratio(
         let point = [current.tolerance, current.length_to_size()];
         let [least, most] = TOLERANCE_RANGE;
         let stride = [current.tolerance / STRIDE, current.tolerance * STRIDE];
-        let next = next_tolerance(ratio * MARGIN, point, previous).clamp(stride[0], stride[1]).clamp(least, most);
+        let tolerance = next_tolerance(ratio * MARGIN, point, previous).clamp(stride[0], stride[1]).clamp(least, most);
         if (current.length_to_size() >= ratio && current.length_to_size() < ratio * (1.0 + NEAR_ENOUGH))
-            || next_tolerance == current.tolerance
+            || tolerance == current.tolerance
         {
             break;
         }
         previous = Some(point);
-        let next_objective = Objective { tolerance: next_tolerance, goal: Goal::Longest, ..*objective };
+        let next_objective = Objective { tolerance, goal: Goal::Longest, ..*objective };
         let next = if free {
-            let extrapolated = kind.proportions_at_tolerance(&current.proportions, [current.tolerance, next_tolerance]);
+            let extrapolated = kind.proportions_at_tolerance(&current.proportions, [current.tolerance, tolerance]);
             let a = prefer_symmetric(&next_objective, refine_near(&next_objective, &extrapolated, samplers), samplers);
             let b = next_objective.evaluate(&current.proportions, &samplers.fine);
             if a.0 <= b.0 { a } else { b }

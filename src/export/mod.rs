@@ -1,26 +1,26 @@
-//! Taking a curve away: as a drawing, still or moving, for CAD, as a table, as JSON, and as a piece of a manifest.
+//! Exports single curves: as a drawing, still or animated, as DXF for CAD, as a table, as JSON, and as manifest text.
 
 use coupler_curves::exchange::SelectedCurve;
 use coupler_drawing::page::{self, PoseChoice};
 use coupler_drawing::plate;
 use coupler_drawing::render::{self, PngError, TextMode};
 
-/// What one curve is taken away as.
+/// The format of an exported curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Format {
     /// A plate of the curve with its linkage.
     Svg,
-    /// The same, moving by itself.
+    /// An animated plate of the curve with its linkage.
     MovingSvg,
-    /// The plate as an image.
+    /// The plate as a PNG image.
     Png,
-    /// A drawing for CAD, in the language of AutoCAD R12.
+    /// A drawing for CAD, as DXF of AutoCAD R12.
     Dxf,
     /// Its rows of `points.csv`.
     Csv,
     /// Linkage, parameters, circuits, points and measures.
     Json,
-    /// A piece of a manifest, of all curves together.
+    /// Manifest text that reproduces the curve; the curves of an export are in one file.
     Toml,
 }
 
@@ -29,7 +29,7 @@ impl Format {
     pub const ALL: [Format; 7] =
         [Format::Svg, Format::MovingSvg, Format::Png, Format::Dxf, Format::Csv, Format::Json, Format::Toml];
 
-    /// The word for it.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Format::Svg => "svg",
@@ -42,7 +42,7 @@ impl Format {
         }
     }
 
-    /// How the names of its files end.
+    /// The end of its file names.
     pub fn file_suffix(self) -> &'static str {
         if self == Format::MovingSvg { "-moving.svg" } else { self.extension() }
     }
@@ -59,49 +59,49 @@ impl Format {
     }
 }
 
-/// How curves are taken away.
+/// Options for exporting curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// What plates look like; their paper too.
+    /// The paper and the appearance of plates.
     pub page: page::Options,
-    /// How text stands in SVG.
+    /// How text is written in SVG.
     pub text_mode: TextMode,
-    /// The resolution of images, in pixels to the inch.
+    /// The resolution of images, in pixels per inch.
     pub dpi: f64,
-    /// How far a chord of a DXF polyline may be from its curve, in parts of the curve's extent: the longer side of the box
-    /// round its samples.
+    /// How far a chord of a DXF polyline may be from its curve, relative to the longer side of the bounding box of its
+    /// samples.
     pub chord_tolerance: f64,
 }
 
 impl Options {
-    /// The chord's distance where nothing else is asked for.
+    /// The default of `chord_tolerance`.
     pub const DEFAULT_CHORD_TOLERANCE: f64 = 1e-4;
 
     /// The paper of plates.
     pub const PLATE_PAPER: page::Paper = plate::PAPER;
 }
 
-/// The bytes of a curve in a format, a piece of a manifest of it alone among them.
+/// Renders a curve in a format; as manifest text, this curve alone.
 ///
 /// # Errors
-/// An image of too many pixels.
-pub fn bytes(chosen: &SelectedCurve, format: Format, options: &Options) -> Result<Vec<u8>, PngError> {
-    let still = || plate::compose(chosen, PoseChoice::Clearest, &options.page);
+/// The image would have too many pixels.
+pub fn bytes(curve: &SelectedCurve, format: Format, options: &Options) -> Result<Vec<u8>, PngError> {
+    let plate = || plate::compose(curve, PoseChoice::Clearest, &options.page);
     Ok(match format {
-        Format::Svg => render::svg(&still(), options.text_mode),
+        Format::Svg => render::svg(&plate(), options.text_mode),
         Format::MovingSvg => {
-            let view = plate::moving_view(&chosen.solved.linkage, chosen.circuit(), chosen.curve().circuit);
-            render::svg(&plate::compose(chosen, view, &options.page), options.text_mode)
+            let pose = plate::moving_view(&curve.solved.linkage, curve.circuit(), curve.curve().circuit);
+            render::svg(&plate::compose(curve, pose, &options.page), options.text_mode)
         }
-        Format::Png => render::png(&still(), options.dpi)?,
-        Format::Dxf => chosen.to_dxf(options.chord_tolerance).into_bytes(),
-        Format::Csv => chosen.to_csv(),
-        Format::Json => chosen.to_json().into_bytes(),
-        Format::Toml => chosen.to_toml().into_bytes(),
+        Format::Png => render::png(&plate(), options.dpi)?,
+        Format::Dxf => curve.to_dxf(options.chord_tolerance).into_bytes(),
+        Format::Csv => curve.to_csv(),
+        Format::Json => curve.to_json().into_bytes(),
+        Format::Toml => curve.to_toml().into_bytes(),
     })
 }
 
-/// The name of a curve's file in a format: `evans-12-1-1.dxf`, `evans-12-1-1-p-2.5.dxf`.
-pub fn file_name(chosen: &SelectedCurve, format: Format) -> String {
-    format!("{}{}", chosen.file_stem(), format.file_suffix())
+/// The file name of a curve in a format, such as `evans-12-1-1.dxf` or `evans-12-1-1-p-2.5.dxf`.
+pub fn file_name(curve: &SelectedCurve, format: Format) -> String {
+    format!("{}{}", curve.file_stem(), format.file_suffix())
 }

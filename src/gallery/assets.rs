@@ -1,9 +1,9 @@
-//! The page's own files, and how they become one.
+//! The style sheets and scripts of the page.
 
-/// A file of the page: its name below `src/gallery`, and its text.
+/// A style sheet or script of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct Asset {
-    /// Its name.
+    /// Its path, relative to `src/gallery`.
     pub name: &'static str,
     /// Its text.
     pub text: &'static str,
@@ -11,8 +11,10 @@ pub struct Asset {
 
 include!(concat!(env!("OUT_DIR"), "/gallery_parts.rs"));
 
-/// Modules as one script: what they import from one another is there already, so that imports go and exports are plain
-/// definitions. No two of them may use one name for two things at their top level.
+/// Joins modules, each after those it imports, into one script.
+///
+/// Imports are removed, and exports become plain definitions; the modules must therefore not declare the same name
+/// twice at the top level.
 pub fn join_modules(modules: &[Asset]) -> String {
     let mut script = String::new();
     for Asset { name, text } in modules {

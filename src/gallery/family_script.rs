@@ -1,4 +1,4 @@
-//! The data of a family: a script of statements, each of which hands some of it to the page.
+//! The script that contains the data of a family, as statements that the page executes.
 
 use std::collections::BTreeMap;
 
@@ -14,17 +14,17 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell, Status};
 use coupler_drawing::page::Layout;
 use coupler_drawing::scene::{Group, Item, Scene};
 
-/// The name of the script in a family's folder.
+/// The name of the script in the folder of a family.
 pub const SCRIPT_FILE: &str = "gallery.js";
 
-/// So many points of a curve are handed over at most: enough to draw it small, to point at it, and to compare shapes. A
-/// curve that is looked at is solved by the page itself.
+/// The greatest number of points of a curve: enough to draw a thumbnail, to select the curve with a pointer, and to
+/// compare shapes. The page solves the linkage itself to show a curve in detail.
 const MAX_POINTS: usize = 128;
 
-/// The code of a word that a curve does not have.
+/// The code of a missing word.
 const MISSING_WORD: u8 = u8::MAX;
 
-/// The statements of a family's script.
+/// Writes the statements of the script of a family.
 #[derive(Clone, Copy, Debug)]
 pub struct FamilyScript<'a> {
     plan: &'a Plan,
@@ -32,17 +32,17 @@ pub struct FamilyScript<'a> {
 }
 
 impl<'a> FamilyScript<'a> {
-    /// Those of a family of a plan.
+    /// The script of a family of a plan.
     pub fn new(plan: &'a Plan, planned: &'a PlannedFamily) -> FamilyScript<'a> {
         FamilyScript { plan, planned }
     }
 
-    /// The first: all that is said of the family as a whole.
+    /// The first statement: the data of the family as a whole.
     pub fn begin(self) -> String {
         let family = &self.planned.family;
         let derived: Vec<Value> =
-            family.derived.iter().map(|(slot, bound)| json!([slot, expression_json(bound)])).collect();
-        let paper = self.plan.page.paper;
+            family.derived.iter().map(|(slot, expression)| json!([slot, expression_json(expression)])).collect();
+        let (paper, color) = (self.plan.page.paper, self.plan.page.theme.paper.to_string());
         let layout = match self.planned.layout {
             Layout::Panels { .. } => "panels",
             Layout::Chart { .. } => "chart",
@@ -58,7 +58,7 @@ impl<'a> FamilyScript<'a> {
                 "linkage": family.template.id,
                 "layout": layout,
                 "sampling": sampling_json(family.sampling),
-                "paper": { "width": paper.width, "height": paper.height, "color": self.plan.page.theme.paper.to_string() },
+                "paper": { "width": paper.width, "height": paper.height, "color": color },
                 "columns": family.columns.iter().map(|column| column.name).collect::<Vec<_>>(),
                 "dash_deg": self.plan.page.dash_deg,
                 "straight": straight_json(family.straight),
@@ -70,7 +70,7 @@ impl<'a> FamilyScript<'a> {
         )
     }
 
-    /// Some cells with their curves, in the order of their numbers; nothing where there are none.
+    /// A statement with some cells and their curves, in order of their numbers; empty if `where` leaves them all out.
     pub fn cells(self, solved: &[SolvedCell]) -> String {
         let kept: Vec<&SolvedCell> = solved.iter().filter(|solved| !solved.is_left_out()).collect();
         if kept.is_empty() {
@@ -101,22 +101,23 @@ impl<'a> FamilyScript<'a> {
         )
     }
 
-    /// Curves, each with the place of its cell among those handed over.
+    /// The curves, each with the index of its cell in the same statement.
     fn curves(self, curves: &[(usize, &SolvedCell, &MeasuredCurve)]) -> Value {
-        let of = |curve: &MeasuredCurve, k: usize| match curve.values.get(k) {
+        let number = |curve: &MeasuredCurve, k: usize| match curve.values.get(k) {
             Some(measure::Value::Number(value)) => *value,
             _ => f64::NAN,
         };
-        let taken = || self.planned.family.computed_measures();
-        let numbers = taken().filter(|(_, measure)| !measure.is_word);
-        let measures: Map<String, Value> =
-            numbers.map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| of(curve, k))))).collect();
-        let words = taken().filter(|(_, measure)| measure.is_word);
+        let computed = || self.planned.family.computed_measures();
+        let numbers = computed().filter(|(_, measure)| !measure.is_word);
+        let measures: Map<String, Value> = numbers
+            .map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| number(curve, k)))))
+            .collect();
+        let words = computed().filter(|(_, measure)| measure.is_word);
         let words: Map<String, Value> = words.map(|(k, m)| (m.name.to_owned(), words_json(curves, k))).collect();
         let points: Vec<Vec<Point>> = curves.iter().map(|(_, solved, curve)| thinned_points(solved, curve)).collect();
         let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::from_points(points.iter().copied())).collect();
         let corners = |b: &Bounds| [b.min.x, b.min.y, b.max.x, b.max.y];
-        let places =
+        let quantized =
             points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantize(*p, bounds)));
         json!({
             "cell": u32s(curves.iter().map(|(cell, ..)| *cell)),
@@ -127,19 +128,20 @@ impl<'a> FamilyScript<'a> {
             "words": words,
             "box": f64s(boxes.iter().flat_map(corners)),
             "count": u16s(points.iter().map(|points| saturating_u16(points.len()))),
-            "points": u16s(places),
+            "points": u16s(quantized),
         })
     }
 
-    /// What is where on a page: the transforms from the plane to millimetres of the paper, with the curves they are of.
+    /// A statement with the layout of a page: for each view, the cell, the scale and origin that map the plane to
+    /// millimetres on paper, and the curves drawn with them.
     pub fn page(self, number: usize, scene: &Scene) -> String {
         let mut views: Vec<Value> = Vec::new();
         let mut last = Vec::new();
-        for (fact, curve) in drawn_curves(&scene.items) {
-            if fact != last || views.is_empty() {
-                let [cell, scale, x, y] = [0, 1, 2, 3].map(|k| fact.get(k).copied().unwrap_or(f64::NAN));
+        for (view, curve) in drawn_curves(&scene.items) {
+            if view != last || views.is_empty() {
+                let [cell, scale, x, y] = [0, 1, 2, 3].map(|k| view.get(k).copied().unwrap_or(f64::NAN));
                 views.push(json!({ "cell": cell, "scale": scale, "origin": [x, y], "curves": [] }));
-                last = fact;
+                last = view;
             }
             if let Some(Value::Array(curves)) = views.last_mut().and_then(|view| view.get_mut("curves")) {
                 curves.push(json!(curve));
@@ -148,18 +150,18 @@ impl<'a> FamilyScript<'a> {
         statement("page", &json!({ "page": number, "views": views }))
     }
 
-    /// The last: nothing more comes.
+    /// The last statement.
     pub fn end(self) -> String {
         statement("end", &json!({ "id": self.planned.family.id }))
     }
 }
 
-/// A statement. Whatever the text in it, it is JSON, and no script ends within it.
+/// A call of a function of the page; its argument is JSON, which escapes any text in it.
 fn statement(name: &str, value: &Value) -> String {
     format!("couplerAtlas.{name}({value});\n")
 }
 
-/// How circuits are sampled, in the words of a manifest.
+/// The sampling as JSON, with the keys of a manifest.
 pub fn sampling_json(sampling: Sampling) -> Value {
     match sampling {
         Sampling::Step(step) => json!({ "step": step }),
@@ -169,7 +171,7 @@ pub fn sampling_json(sampling: Sampling) -> Value {
     }
 }
 
-/// What is asked of the straight portion, in the words of a manifest.
+/// The criterion for the straight portion as JSON, with the keys of a manifest.
 pub fn straight_json(straight: StraightCriterion) -> Value {
     match straight {
         StraightCriterion::Tolerance(tolerance) => json!({ "tolerance": tolerance }),
@@ -178,7 +180,7 @@ pub fn straight_json(straight: StraightCriterion) -> Value {
     }
 }
 
-/// The words of curves under a measure, by its place: each once, and the number of each curve's.
+/// The words of the `k`-th measure: a list of the distinct words, and for each curve the index of its word.
 fn words_json(curves: &[(usize, &SolvedCell, &MeasuredCurve)], k: usize) -> Value {
     let mut values: BTreeMap<&str, u8> = BTreeMap::new();
     let word = |curve: &MeasuredCurve| match curve.values.get(k) {
@@ -189,11 +191,11 @@ fn words_json(curves: &[(usize, &SolvedCell, &MeasuredCurve)], k: usize) -> Valu
         let next = u8::try_from(values.len()).unwrap_or(MISSING_WORD);
         values.entry(word).or_insert(next);
     }
-    let mut named: Vec<(&str, u8)> = values.iter().map(|(word, code)| (*word, *code)).collect();
-    named.sort_by_key(|(_, code)| *code);
+    let mut words: Vec<(&str, u8)> = values.iter().map(|(word, code)| (*word, *code)).collect();
+    words.sort_by_key(|(_, code)| *code);
     let code = |curve: &MeasuredCurve| word(curve).and_then(|word| values.get(word).copied()).unwrap_or(MISSING_WORD);
     json!({
-        "values": named.iter().map(|(word, _)| *word).collect::<Vec<_>>(),
+        "values": words.iter().map(|(word, _)| *word).collect::<Vec<_>>(),
         "codes": u8s(curves.iter().map(|(.., curve)| code(curve))),
     })
 }
@@ -202,7 +204,7 @@ fn saturating_u16(number: usize) -> u16 {
     u16::try_from(number).unwrap_or(u16::MAX)
 }
 
-/// Points of a curve, its first and, of an open one, its last among them.
+/// At most [`MAX_POINTS`] points of a curve, including the first and, of an open curve, the last.
 fn thinned_points(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<Point> {
     let circuit = solved.circuit(curve);
     let all: Vec<Point> = circuit.points(curve.joint).filter(|p| p.x.is_finite() && p.y.is_finite()).collect();
@@ -210,39 +212,41 @@ fn thinned_points(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<Point> {
         return all;
     }
     let steps = if circuit.is_closed { MAX_POINTS } else { MAX_POINTS - 1 };
-    let whole = if circuit.is_closed { all.len() } else { all.len() - 1 };
-    (0..MAX_POINTS).map(|k| all[k * whole / steps]).collect()
+    let length = if circuit.is_closed { all.len() } else { all.len() - 1 };
+    (0..MAX_POINTS).map(|k| all[k * length / steps]).collect()
 }
 
-/// A point's place in its curve's bounds, in parts of 65,535.
+/// The position of a point in the bounds of its curve, from 0 to 65,535.
 fn quantize(p: Point, bounds: &Bounds) -> [u16; 2] {
-    let part = |at: f64, from: f64, to: f64| {
-        let part = (at - from) / (to - from);
-        if part.is_finite() { (part * f64::from(u16::MAX)).round() as u16 } else { 0 }
+    let scaled = |value: f64, min: f64, max: f64| {
+        let ratio = (value - min) / (max - min);
+        if ratio.is_finite() { (ratio * f64::from(u16::MAX)).round() as u16 } else { 0 }
     };
-    [part(p.x, bounds.min.x, bounds.max.x), part(p.y, bounds.min.y, bounds.max.y)]
+    [scaled(p.x, bounds.min.x, bounds.max.x), scaled(p.y, bounds.min.y, bounds.max.y)]
 }
 
-/// The curves drawn by some items, in order: the cell, the scale and the origin of each, and its trace and circuit.
+/// The curves drawn by some items, in order: the cell, scale and origin of each as four numbers, and its trace and
+/// circuit.
 fn drawn_curves(items: &[Item]) -> Vec<(Vec<f64>, [usize; 2])> {
-    let mut found = Vec::new();
+    let mut curves = Vec::new();
     for item in items {
         if let Item::Group(group) = item {
             match drawn_curve(group) {
-                Some(curve) => found.push(curve),
-                None => found.extend(drawn_curves(&group.items)),
+                Some(curve) => curves.push(curve),
+                None => curves.extend(drawn_curves(&group.items)),
             }
         }
     }
-    found
+    curves
 }
 
+/// The curve drawn by a group, from its data attributes.
 fn drawn_curve(group: &Group) -> Option<(Vec<f64>, [usize; 2])> {
-    let fact = |name: &str| group.data.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str());
-    let numbers: Vec<f64> = [fact("cell")?, fact("scale")?]
+    let attribute = |name: &str| group.data.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str());
+    let numbers: Vec<f64> = [attribute("cell")?, attribute("scale")?]
         .into_iter()
-        .chain(fact("origin")?.split(' '))
+        .chain(attribute("origin")?.split(' '))
         .filter_map(|number| number.parse().ok())
         .collect();
-    Some((numbers, [fact("trace")?.parse().ok()?, fact("circuit")?.parse().ok()?]))
+    Some((numbers, [attribute("trace")?.parse().ok()?, attribute("circuit")?.parse().ok()?]))
 }

@@ -1,3 +1,5 @@
+//! `index.html`, the page of the gallery.
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
@@ -7,26 +9,26 @@ use super::assets::{SCRIPTS, STYLES, join_modules};
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
 
-/// A family as the gallery shows it.
+/// A family in the gallery.
 #[derive(Clone, Copy, Debug)]
 pub struct GalleryFamily<'a> {
-    /// What was written of it.
+    /// The record of the family.
     pub record: &'a FamilyRecord,
-    /// How many bytes its script has.
+    /// The size of its script, in bytes.
     pub script_bytes: u64,
 }
 
-/// The name of the page, in the atlas's folder.
+/// The name of the page in the folder of the atlas.
 pub const PAGE_FILE: &str = "index.html";
 
-/// The page, with `{{…}}` for what is put in.
+/// The page, with placeholders like `{{title}}`.
 const PAGE_TEMPLATE: &str = include_str!("index.html");
 
-/// `index.html`: the gallery of what a run has written.
+/// The text of `index.html`, for the families of a run.
 pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     let style: String = STYLES.iter().map(|part| part.text).collect();
     let script = join_modules(SCRIPTS);
-    // Text between tags: a tag of the page's own must not end in it.
+    // Escaped, so that the data cannot end its script element.
     let data = atlas_json(run, families).to_string().replace('<', "\\u003c");
     let parts = [
         ("title", escape_html(&run.title)),
@@ -47,7 +49,7 @@ pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     page
 }
 
-/// What the page may do: run its own script and the scripts of data beside it, and show the pages; nothing else.
+/// The policy by which the page may only run its own script and the scripts in its folder, and show images.
 fn content_security_policy(style: &str, script: &str) -> String {
     let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
     format!(
@@ -71,8 +73,8 @@ fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
     })
 }
 
-fn family_json(shown: &GalleryFamily) -> Value {
-    let record = shown.record;
+fn family_json(family: &GalleryFamily) -> Value {
+    let record = family.record;
     let has = |ending: &str| record.files.iter().any(|file| file.name.ends_with(ending));
     let format = [".svg", ".png"].into_iter().find(|ending| has(ending)).map(|ending| &ending[1..]);
     json!({
@@ -86,11 +88,11 @@ fn family_json(shown: &GalleryFamily) -> Value {
         "pages": record.pages,
         "page_format": format,
         "script": has(super::SCRIPT_FILE).then(|| format!("{}/{}", record.id, super::SCRIPT_FILE)),
-        "bytes": shown.script_bytes,
+        "bytes": family.script_bytes,
     })
 }
 
-/// Text between tags and in attributes.
+/// Escapes text for elements and attributes.
 fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

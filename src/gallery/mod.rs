@@ -1,8 +1,8 @@
-//! The gallery: `index.html`, one page that browses the atlas from disk, and a script of data for each family.
+//! The gallery: `index.html`, a page that shows the atlas without a server, and a script of data for each family.
 //!
-//! Nothing can be fetched by a page that is opened from disk, but scripts can be loaded: a family's data is a script of
-//! statements, written as its cells and pages come, so that memory stays flat. The page itself is joined from the small
-//! files beside this one.
+//! A page opened from disk cannot fetch files, but it can load scripts. The data of a family is therefore a script of
+//! statements, written while its cells and pages are produced, so that memory stays bounded. The page itself is joined
+//! from the style sheets and scripts in this folder.
 
 mod assets;
 mod family_script;

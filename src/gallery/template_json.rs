@@ -1,4 +1,4 @@
-//! Templates and expressions in JSON, for the page's own solver.
+//! Templates and expressions as JSON, for the solver of the page.
 
 use serde_json::{Map, Value, json};
 
@@ -8,27 +8,27 @@ use coupler_curves::template::{
     Template,
 };
 
-/// An expression: a number, or a program for a stack machine: numbers are pushed, a name's place in brackets pushes its
-/// value, words are operators, or functions with their number of arguments.
-pub(super) fn expression_json(bound: &CompiledExpression) -> Value {
-    postfix_json(bound.postfix())
+/// An expression as a number or a list of postfix tokens: numbers, `[slot]` for the value of a name, operators, and
+/// functions with the number of their arguments, as in `"sqrt/1"`.
+pub(super) fn expression_json(expression: &CompiledExpression) -> Value {
+    postfix_json(expression.postfix())
 }
 
-fn postfix_json(steps: impl Iterator<Item = PostfixToken>) -> Value {
-    let step = |step| match step {
+fn postfix_json(tokens: impl Iterator<Item = PostfixToken>) -> Value {
+    let token_json = |token| match token {
         PostfixToken::Number(value) => json!(value),
         PostfixToken::Name(slot) => json!([slot]),
         PostfixToken::Operator(symbol) => json!(symbol),
         PostfixToken::Call(name, arguments) => json!(format!("{name}/{arguments}")),
     };
-    let mut steps: Vec<Value> = steps.map(step).collect();
-    if steps.len() == 1 && steps[0].is_number() { steps.remove(0) } else { Value::Array(steps) }
+    let mut tokens: Vec<Value> = tokens.map(token_json).collect();
+    if tokens.len() == 1 && tokens[0].is_number() { tokens.remove(0) } else { Value::Array(tokens) }
 }
 
 /// A value of the input, in degrees or as a length.
 fn input_json(value: &InputValue) -> Value {
-    let degrees = (value.unit == Some(Unit::Rad)).then_some(PostfixToken::Call("deg", 1));
-    postfix_json(value.value.postfix().chain(degrees))
+    let to_degrees = (value.unit == Some(Unit::Rad)).then_some(PostfixToken::Call("deg", 1));
+    postfix_json(value.value.postfix().chain(to_degrees))
 }
 
 fn coordinate_json(coordinate: &Coordinate) -> Value {
@@ -47,14 +47,15 @@ fn side_sign(side: Side) -> i8 {
     }
 }
 
-/// How a joint is placed, in the words of a manifest; joints by their places.
-fn placing_json(placing: &JointKindTemplate) -> Value {
+/// How a joint is placed, with the keys of a manifest; other joints are given by their indices.
+fn joint_kind_json(kind: &JointKindTemplate) -> Value {
     let e = expression_json;
-    match placing {
+    match kind {
         JointKindTemplate::Fixed([x, y]) => json!({ "fixed": [e(x), e(y)] }),
         JointKindTemplate::Crank { pivot, length } => json!({ "crank": pivot, "length": e(length) }),
         JointKindTemplate::Gear { crank, pivot, length, ratio: [n, m], phase } => {
-            json!({ "gear": crank, "about": pivot, "length": e(length), "ratio": [e(n), e(m)], "phase": input_json(phase) })
+            let phase = input_json(phase);
+            json!({ "gear": crank, "about": pivot, "length": e(length), "ratio": [e(n), e(m)], "phase": phase })
         }
         JointKindTemplate::Piston { base, length, offset, side: of } => {
             json!({ "piston": base, "length": e(length), "offset": e(offset), "side": side_sign(*of) })
@@ -81,7 +82,7 @@ fn placing_json(placing: &JointKindTemplate) -> Value {
     }
 }
 
-/// A parameter; `slots` are the places of the template's own names.
+/// A parameter of a template whose names are those of `scope`.
 fn parameter_json(parameter: &Parameter, scope: &[(&str, coupler_curves::expression::Kind)]) -> Value {
     let default = parameter
         .default
@@ -95,7 +96,7 @@ fn parameter_json(parameter: &Parameter, scope: &[(&str, coupler_curves::express
     })
 }
 
-/// A template, in the words of a manifest.
+/// A template as JSON, with the keys and words of a manifest.
 pub fn template_json(template: &Template) -> Value {
     let number = coupler_curves::expression::Kind::Number;
     let scope: Vec<(&str, coupler_curves::expression::Kind)> =
@@ -103,7 +104,7 @@ pub fn template_json(template: &Template) -> Value {
     let joint = |joint: &coupler_curves::template::JointTemplate| {
         let mut entry = Map::new();
         entry.insert("name".to_owned(), json!(joint.name));
-        if let Value::Object(placed) = placing_json(&joint.kind) {
+        if let Value::Object(placed) = joint_kind_json(&joint.kind) {
             entry.extend(placed);
         }
         Value::Object(entry)
@@ -129,6 +130,8 @@ pub fn template_json(template: &Template) -> Value {
         },
         "start": template.start.as_ref().map(input_json),
         "input": template.input.as_ref().map(|[from, to]| [input_json(from), input_json(to)]),
-        "arc": template.arc.as_ref().map(|([from, to], branch)| json!({ "input": [input_json(from), input_json(to)], "branch": branch })),
+        "arc": template.arc.as_ref().map(|([from, to], branch)| {
+            json!({ "input": [input_json(from), input_json(to)], "branch": branch })
+        }),
     })
 }

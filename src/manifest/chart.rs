@@ -15,23 +15,23 @@ pub(super) static CHART: TableSchema = TableSchema::new(
         KeySchema::required(
             "x",
             QUANTITY_FORM,
-            "What it is drawn over: an expression over the family's names and the measures, or input_deg or arc.",
+            "The horizontal axis: an expression over the family's names and the measures, or input_deg or arc.",
         ),
         KeySchema::required(
             "y",
             ValueSchema::OneOrMore(&QUANTITY_FORM, 1),
-            "What is drawn: a chart for each expression.",
+            "The vertical axis: a chart for each expression.",
         ),
         KeySchema::new(
             "by",
             ValueSchema::OneOrMore(&ValueSchema::Text, 0),
-            "The names that tell lines apart; the other axes of the grid where left out.",
+            "The names whose values separate the lines; by default the other axes of the grid.",
         ),
         KeySchema::new("log", ValueSchema::OneOrMore(&ValueSchema::Text, 0), "Which of x and y have logarithmic axes."),
         KeySchema::new(
             "range",
             ValueSchema::Map(&ValueSchema::List(&ValueSchema::Number, [2, 2])),
-            "How far axes go: of x or y, the least and the greatest value.",
+            "The least and the greatest value of an axis, by the expression of x or y.",
         ),
     ],
 );
@@ -95,6 +95,7 @@ fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
     value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
 }
 
+/// Reads `y`: one or more different quantities.
 fn quantities<'t>(
     value: &TomlValue<'t>,
     template: &Template,
@@ -124,6 +125,7 @@ fn quantities<'t>(
     all_read.then_some(found)
 }
 
+/// Reads an expression over names and measures.
 fn quantity<'t>(
     value: &TomlValue<'t>,
     template: &Template,

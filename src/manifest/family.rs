@@ -21,6 +21,7 @@ pub(super) fn id_and_span(value: &TomlValue) -> Option<(String, Span)> {
     Some((id.get_ref().as_str()?.to_owned(), id.span()))
 }
 
+/// Reads a family; `formats` are those of the atlas, and `page` is `None` if `[page]` could not be parsed.
 pub(super) fn read<'t>(
     value: &TomlValue<'t>,
     templates: &Templates,
@@ -116,12 +117,12 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     if circuits.is_none() && continuation.is_none() && coincident.is_none() && placement.is_none() {
         return template;
     }
-    let mut own = Template::clone(&template);
-    own.circuits = circuits.unwrap_or(own.circuits);
-    own.continuation = continuation.unwrap_or(own.continuation);
-    own.coincident = coincident.unwrap_or(own.coincident);
-    own.orientation = placement.unwrap_or(own.orientation);
-    Arc::new(own)
+    let mut changed = Template::clone(&template);
+    changed.circuits = circuits.unwrap_or(changed.circuits);
+    changed.continuation = continuation.unwrap_or(changed.continuation);
+    changed.coincident = coincident.unwrap_or(changed.coincident);
+    changed.orientation = placement.unwrap_or(changed.orientation);
+    Arc::new(changed)
 }
 
 /// Reads how the linkages of a family are placed in the plane.
@@ -133,6 +134,7 @@ fn placement<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<O
     Some(Orientation::new(mirror?, rotate?))
 }
 
+/// Reads how circuits are sampled.
 fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut TomlParser<'t>) -> Option<Sampling> {
     let fields = Fields::from_value(value, &SAMPLING, parser)?;
     let spacing = match fields.get("spacing") {
@@ -314,7 +316,8 @@ fn layout<'t>(
     Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })
 }
 
-/// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are counted.
+/// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are
+/// counted.
 fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], parser: &mut TomlParser) {
     struct CellProblem {
         key: String,
@@ -360,6 +363,7 @@ fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], parser:
     }
 }
 
+/// The place of the k-th case, if the family has cases.
 fn case_span(fields: &Fields, k: usize) -> Option<Span> {
     Some(fields.get("cases")?.get_ref().as_array()?.get(k)?.span())
 }

@@ -14,9 +14,9 @@ static RANGE: TableSchema = TableSchema::new(
     "a range",
     &[
         KeySchema::required("from", ValueSchema::Number, "The first value."),
-        KeySchema::required("to", ValueSchema::Number, "The last value; by steps, where a step comes to it."),
-        KeySchema::new("step", ValueSchema::Number, "From a value to the next."),
-        KeySchema::new("count", ValueSchema::Integer([1, MAX_COUNT]), "How many values."),
+        KeySchema::required("to", ValueSchema::Number, "The last value; with `step`, only if a step reaches it."),
+        KeySchema::new("step", ValueSchema::Number, "The difference of consecutive values."),
+        KeySchema::new("count", ValueSchema::Integer([1, MAX_COUNT]), "The number of values."),
     ],
 )
 .with_one_of(&["step", "count"]);
@@ -86,6 +86,7 @@ pub(super) fn read_values<'t>(name: &str, value: &TomlValue<'t>, parser: &mut To
     parser.constant(value).map(|value| GridValues::List(vec![value]))
 }
 
+/// Reads a range by step or by count.
 fn read_range<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
     let fields = Fields::from_value(value, &RANGE, parser)?;
     let mut end = |key: &str| {
@@ -133,6 +134,7 @@ fn read_range<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<
     }
 }
 
+/// The exact decimals of a range; `None` unless `from` and `step` are plain decimals of few enough digits.
 fn decimal_range(from: Option<&str>, step: Option<&str>) -> Option<DecimalRange> {
     let (from, step) = (parse_decimal(from?)?, parse_decimal(step?)?);
     let places = from.1.max(step.1);

@@ -140,6 +140,7 @@ fn names_in_chart(fields: &Fields) -> Option<Vec<String>> {
     Some(found)
 }
 
+/// Reports a name that is not a parameter of the linkage and that no expression uses.
 fn report_unused_name(name: &str, span: Span, template: &Template, parser: &mut TomlParser) {
     let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     let message = format!("`{name}` is not a parameter of `{}`, and no expression uses it", template.id);
@@ -163,6 +164,7 @@ fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> 
     word.is_some()
 }
 
+/// Reads `where`.
 fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
     if !value.get_ref().is_str() {
         let problem = Problem::error(value.span(), "`where` must be a condition in quotes");
@@ -225,6 +227,7 @@ pub(super) fn read_space<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t
     }
 }
 
+/// Reads `grid`, with at most `limit` cells.
 fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
     let table = Fields::with_any_keys(value, "`grid`", parser)?;
     if table.keys().is_empty() {
@@ -255,6 +258,7 @@ fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t
     })
 }
 
+/// Reads `cases`, at most `limit` of them.
 fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
     let list = parser.list(value)?;
     if list.is_empty() {

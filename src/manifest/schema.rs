@@ -19,9 +19,9 @@ pub static MANIFEST: TableSchema = TableSchema::new(
     "a manifest",
     &[
         KeySchema::required("atlas", ValueSchema::Table(&ATLAS), "The atlas as a whole."),
-        KeySchema::new("page", ValueSchema::Table(&PAGE), "What all its pages have in common.")
+        KeySchema::new("page", ValueSchema::Table(&PAGE), "The options that all pages share.")
             .with_default(default_value::empty_table),
-        KeySchema::new("check", ValueSchema::Table(&CHECK), "By how much families may differ from a recorded atlas.")
+        KeySchema::new("check", ValueSchema::Table(&CHECK), "How much families may differ from a recorded atlas.")
             .with_default(default_value::empty_table),
         KeySchema::required(
             "family",
@@ -36,27 +36,27 @@ pub static MANIFEST: TableSchema = TableSchema::new(
 pub(super) static FAMILY: TableSchema = TableSchema::new(
     "a [[family]]",
     &[
-        KeySchema::required("id", ValueSchema::Slug, "Its name, that of its folder and its files."),
+        KeySchema::required("id", ValueSchema::Slug, "Its name, also that of its folder and its files."),
         KeySchema::required(
             "linkage",
             ValueSchema::WithExamples(&ValueSchema::Text, linkage_ids),
             "A linkage of the catalogue, or of this file.",
         ),
-        KeySchema::new("title", ValueSchema::Text, "The title of its pages; its id where left out."),
-        KeySchema::new("source", ValueSchema::Text, "The line under the title; that of the linkage where left out."),
+        KeySchema::new("title", ValueSchema::Text, "The title of its pages; its id by default."),
+        KeySchema::new("source", ValueSchema::Text, "The line under the title; that of the linkage by default."),
         KeySchema::new("layout", ValueSchema::Word(|| words(&Layout::ALL)), "How its pages are laid out.")
             .with_default(|| default_value::string(DEFAULT_LAYOUT)),
-        KeySchema::new("chart", ValueSchema::Table(&CHART), "What its charts show, where its layout is chart."),
+        KeySchema::new("chart", ValueSchema::Table(&CHART), "What its charts show, if its layout is `chart`."),
         KeySchema::new(
             "panels",
             ValueSchema::List(&ValueSchema::Integer([1, usize::MAX]), [2, 2]),
-            "The columns and rows of a page; 5 and 3, or as many as it has room for, where left out.",
+            "The columns and rows of a page; by default 5 and 3, or as many as it has room for.",
         ),
         KeySchema::required("sampling", ValueSchema::Table(&SAMPLING), "How circuits are sampled."),
         KeySchema::new(
             "grid",
             ValueSchema::IdentifierMap(&VALUES_FORM),
-            "The values of parameters, the last fastest: every one with every other.",
+            "The values of parameters in all combinations, the last varying fastest.",
         ),
         KeySchema::new(
             "cases",
@@ -68,7 +68,7 @@ pub(super) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new(
             "where",
             ValueSchema::Text,
-            "Which curves are kept: a condition over names and measures, as in \"mu_min_deg > 20\".",
+            "The curves that are kept: a condition over names and measures, as in \"mu_min_deg > 20\".",
         ),
         KeySchema::new(
             "sort",
@@ -78,35 +78,35 @@ pub(super) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new(
             "caption",
             ValueSchema::Text,
-            "The line under a cell, with values and measures in braces; the linkage's where left out.",
+            "The line under a cell, with values and measures in braces; that of the linkage by default.",
         ),
-        KeySchema::new("note", ValueSchema::Text, "A second, smaller line, likewise."),
+        KeySchema::new("note", ValueSchema::Text, "A second, smaller line under a cell."),
         FORMATS,
         KeySchema::new("limit", ValueSchema::Integer([1, MAX_LIMIT]), "The most cells it may have.")
             .with_default(|| MAX_CELLS.to_string()),
         CIRCUITS_KEY,
         CONTINUATION_KEY,
         COINCIDENT_KEY,
-        KeySchema::new("place", ValueSchema::Table(&PLACE), "How its linkages are laid in the plane.")
+        KeySchema::new("place", ValueSchema::Table(&PLACE), "How its linkages are placed in the plane.")
             .with_default(default_value::empty_table),
         KeySchema::new(
             "columns",
             ValueSchema::Set(&ValueSchema::Word(|| COLUMNS.map(|column| column.name).to_vec()), [0, usize::MAX]),
-            "Further columns of its points.",
+            "Additional columns of its points.",
         )
         .with_default(default_value::empty_list),
         KeySchema::new(
             "straight",
             ValueSchema::Table(&STRAIGHT),
-            "Which portion is the straight one, by one of the three.",
+            "The criterion for the straight portion, one of three.",
         )
         .with_default(default_straight),
         KeySchema::new(
             "measures",
             ValueSchema::Set(&ValueSchema::Word(|| MEASURES.map(|measure| measure.name).to_vec()), [0, usize::MAX]),
-            "The measures that are taken of its curves; all where left out.",
+            "The measures computed for its curves; all by default.",
         ),
-        KeySchema::new("check", ValueSchema::Table(&FAMILY_CHECK), "By how much it may differ from a recorded atlas.")
+        KeySchema::new("check", ValueSchema::Table(&FAMILY_CHECK), "How much it may differ from a recorded atlas.")
             .with_default(default_value::empty_table),
     ],
 )
@@ -141,7 +141,7 @@ pub(super) static PLACE: TableSchema = TableSchema::new(
     &[
         KeySchema::new("mirror", ValueSchema::Boolean, "Whether they are mirrored about the x-axis.")
             .with_default(|| DEFAULT_PLACE.0.to_string()),
-        KeySchema::new("rotate", ValueSchema::Quantity(Dimension::Angle), "How far they are then turned.")
+        KeySchema::new("rotate", ValueSchema::Quantity(Dimension::Angle), "The angle by which they are then rotated.")
             .with_default(|| default_value::degrees(DEFAULT_PLACE.1)),
     ],
 );
@@ -150,16 +150,12 @@ pub(super) static PLACE: TableSchema = TableSchema::new(
 pub(super) static SAMPLING: TableSchema = TableSchema::new(
     "`sampling`",
     &[
-        KeySchema::new("step", ValueSchema::Input, "By every multiple of a step of the input, and at limits."),
-        KeySchema::new(
-            "samples",
-            ValueSchema::Integer([2, MAX_SAMPLES]),
-            "By a number of samples in the whole circuit.",
-        ),
+        KeySchema::new("step", ValueSchema::Input, "At every multiple of a step of the input, and at limits."),
+        KeySchema::new("samples", ValueSchema::Integer([2, MAX_SAMPLES]), "A number of samples in the whole circuit."),
         KeySchema::new(
             "spacing",
             ValueSchema::Word(|| words(&SPACINGS)),
-            "How a number of samples is spread: evenly, close at limits, or evenly along the path.",
+            "How a number of samples is distributed: evenly, densely at limits, or evenly along the path.",
         )
         .with_default(|| default_value::word(&SPACINGS, &Spacing::default())),
     ],
@@ -192,10 +188,10 @@ pub(super) static STRAIGHT: TableSchema = TableSchema::new(
         KeySchema::new(
             "tolerance",
             ValueSchema::InRange([MIN_TOLERANCE, 1.0]),
-            "The longest in a strip of so many times its length.",
+            "The longest portion in a strip whose width is this fraction of its length.",
         ),
-        KeySchema::new("input", ValueSchema::Input, "The straightest that spans so much input."),
-        KeySchema::new("length", ValueSchema::Positive, "The straightest that is so long."),
+        KeySchema::new("input", ValueSchema::Input, "The straightest portion that spans this range of the input."),
+        KeySchema::new("length", ValueSchema::Positive, "The straightest portion of this length."),
     ],
 )
 .with_one_of(&["tolerance", "input", "length"]);

@@ -54,14 +54,14 @@ pub(super) static ATLAS: TableSchema = TableSchema::new(
         KeySchema::new(
             "format",
             ValueSchema::Integer([FORMAT_VERSION, FORMAT_VERSION]),
-            "The version of the language of manifests.",
+            "The version of the manifest format.",
         )
         .with_default(|| FORMAT_VERSION.to_string()),
         KeySchema::required("title", ValueSchema::Text, "The title of the atlas."),
         KeySchema::new(
             "output",
             ValueSchema::Text,
-            "The folder results go to, relative to the manifest; / and \\ both part folders, on every system.",
+            "The output folder, relative to the manifest; / and \\ both separate folders, on every system.",
         )
         .with_default(|| default_value::string(DEFAULT_OUTPUT)),
         FORMATS.with_default(|| default_value::strings(DEFAULT_FORMATS.map(Format::name))),
@@ -88,23 +88,27 @@ pub(super) static PAGE: TableSchema = TableSchema::new(
         KeySchema::new(
             "paper",
             ValueSchema::AnyOf(&[ValueSchema::Word(|| words(&Paper::NAMED)), ValueSchema::Table(&PAPER)]),
-            "The paper, by its name or its sides.",
+            "The paper: its name, or a table of its sides.",
         )
         .with_default(|| default_value::string(DEFAULT_PAPER.0)),
-        KeySchema::new("dpi", ValueSchema::InRange(DPI_RANGE), "The resolution of PNG images, in pixels to the inch.")
+        KeySchema::new("dpi", ValueSchema::InRange(DPI_RANGE), "The resolution of PNG images, in pixels per inch.")
             .with_default(|| PageSettings::default().dpi.to_string()),
-        KeySchema::new("dash", ValueSchema::Quantity(Dimension::Angle), "How much input a dash and its gap span.")
-            .with_default(|| default_value::degrees(PageSettings::default().options.dash_deg)),
+        KeySchema::new(
+            "dash",
+            ValueSchema::Quantity(Dimension::Angle),
+            "The range of the input that a dash and its gap span.",
+        )
+        .with_default(|| default_value::degrees(PageSettings::default().options.dash_deg)),
         KeySchema::new(
             "text",
             ValueSchema::Word(|| words(&TEXT_MODES)),
-            "How text stands in SVG: as text, or as outlines.",
+            "How text is written in SVG: as text, or as outlines.",
         )
         .with_default(|| default_value::word(&TEXT_MODES, &PageSettings::default().text_mode)),
         KeySchema::new(
             "theme",
             ValueSchema::AnyOf(&[theme::NAME_FORM, ValueSchema::Table(&theme::THEME)]),
-            "What pages look like: a theme by its name, or one changed.",
+            "The appearance of pages: the name of a theme, or a table that modifies one.",
         )
         .with_default(theme::default_name),
     ],
@@ -131,6 +135,7 @@ const DPI_RANGE: [f64; 2] = [10.0, 2400.0];
 /// The words for text modes.
 const TEXT_MODES: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
 
+/// Reads `[atlas]`.
 pub(super) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<AtlasSettings> {
     let fields = Fields::from_value(value, &ATLAS, parser)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", parser);
@@ -195,6 +200,7 @@ pub(super) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
     all_read.then_some(formats)
 }
 
+/// Reads `[page]`; the defaults if there is none.
 pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t>) -> Option<PageSettings> {
     let default = PageSettings::default();
     let Some(value) = value else { return Some(default) };
@@ -236,6 +242,7 @@ pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t
     Some(PageSettings { options, dpi: dpi?, text_mode: text? })
 }
 
+/// Reads a paper, by its name or its sides.
 fn paper<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Paper> {
     if value.get_ref().is_str() {
         return parser.word(value, &Paper::NAMED);

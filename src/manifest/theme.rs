@@ -21,8 +21,8 @@ pub(super) fn default_name() -> String {
 pub(super) static THEME: TableSchema = TableSchema::new(
     "a theme",
     &[
-        KeySchema::new("base", NAME_FORM, "The theme it starts from.").with_default(default_name),
-        KeySchema::new("paper", ValueSchema::Color, "The colour of the paper, and of all that is hollow."),
+        KeySchema::new("base", NAME_FORM, "The theme that it modifies.").with_default(default_name),
+        KeySchema::new("paper", ValueSchema::Color, "The colour of the paper, and of hollow shapes."),
         KeySchema::new("ink", ValueSchema::Color, "The colour of links, joints, titles and captions."),
         KeySchema::new(
             "grey",
@@ -33,22 +33,22 @@ pub(super) static THEME: TableSchema = TableSchema::new(
         KeySchema::new(
             "curves",
             ValueSchema::List(&ValueSchema::Color, [1, usize::MAX]),
-            "The inks of curves in turn: five or more.",
+            "The inks of curves, used in turn: five or more.",
         ),
         KeySchema::new(
             "monochrome",
             ValueSchema::Boolean,
-            "Whether every colour becomes the grey of its lightness; as the base has it where left out.",
+            "Whether every colour becomes the grey of its lightness; by default as in the base.",
         ),
         KeySchema::new("face", ValueSchema::Word(|| words(&Typeface::NAMED)), "The typeface.")
             .with_default(|| default_value::word(&Typeface::NAMED, &Theme::default().typeface)),
-        KeySchema::new("drawn", ValueSchema::InRange(DRAWN_RANGE), "How much of a dash and its gap is dash.")
+        KeySchema::new("drawn", ValueSchema::InRange(DRAWN_RANGE), "The drawn fraction of a dash and its gap.")
             .with_default(|| Theme::default().dash_fraction.to_string()),
-        KeySchema::new("weights", WEIGHTS_FORM, "Line weights on tabloid paper, or how many times what they are."),
+        KeySchema::new("weights", WEIGHTS_FORM, "Line weights on tabloid paper, or a factor for all of them."),
         KeySchema::new(
             "lettering",
             LETTERING_FORM,
-            "Sizes of lettering on tabloid paper, or how many times what they are.",
+            "Sizes of lettering on tabloid paper, or a factor for all of them.",
         ),
     ],
 );
@@ -153,11 +153,13 @@ fn apply_colors<'t>(fields: &Fields<'_, 't>, theme: &mut Theme, parser: &mut Tom
     all_read
 }
 
+/// Reads the name of a theme.
 fn named_theme<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Theme> {
     let themes = Theme::NAMED.map(|named| (named.name, named.theme));
     parser.word(value, &themes).map(|theme| theme())
 }
 
+/// Reads a colour.
 fn color<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Color> {
     let text = parser.text(value)?;
     let color = Color::parse(&text);
@@ -215,6 +217,7 @@ struct ColorRole {
     min_contrast: f64,
 }
 
+/// The colours of a theme whose contrast is checked.
 fn color_roles(fields: &Fields, theme: &Theme) -> Vec<ColorRole> {
     let span = |key: &str| fields.get(key).map(TomlValue::span);
     let role = |key: &'static str, color, min_contrast| ColorRole { key, color, span: span(key), min_contrast };

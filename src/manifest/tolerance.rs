@@ -6,17 +6,17 @@ use coupler_curves::problem::Problem;
 /// How much a recorded value may differ from the value computed now.
 ///
 /// The same manifest gives the same bytes on any machine, so no difference is expected. The defaults allow for the
-/// rounding of a future version that changes the order of operations. Positions are accurate to 2e-15 of a curve's size,
-/// less than a thousandth of the default; measures are found by iterations that magnify rounding.
+/// rounding of a future version that changes the order of operations. Positions are accurate to 2e-15 of a curve's
+/// size, less than a thousandth of the default; measures are found by iterations that magnify rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// How far a point may move, in the manifest's unit of length.
     pub atol: f64,
-    /// How far a point may move, relative to the size of its curve: the diagonal of its bounding box. The greater of this
-    /// and [`atol`](Tolerances::atol) applies.
+    /// How far a point may move, relative to the size of its curve: the diagonal of its bounding box. The greater of
+    /// this and [`atol`](Tolerances::atol) applies.
     pub rtol: f64,
-    /// How much a measure may differ, relative to its value; an angle also relative to one degree, and a coordinate relative
-    /// to the curve's size.
+    /// How much a measure may differ, relative to its value; an angle also relative to one degree, and a coordinate
+    /// relative to the curve's size.
     pub measure_rtol: f64,
 }
 
@@ -70,13 +70,13 @@ static KEYS: [KeySchema; 3] = [
     KeySchema::new(
         "rtol",
         ValueSchema::InRange([0.0, f64::MAX]),
-        "How far a point may move, by the size of its curve.",
+        "How far a point may move, relative to the size of its curve.",
     )
     .with_default(|| Tolerances::default().rtol.to_string()),
     KeySchema::new(
         "measure_rtol",
         ValueSchema::InRange([0.0, f64::MAX]),
-        "How much a measure may differ, by its own size.",
+        "How much a measure may differ, relative to its value.",
     )
     .with_default(|| Tolerances::default().measure_rtol.to_string()),
 ];

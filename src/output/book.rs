@@ -153,8 +153,8 @@ fn write_volumes(
     Ok(writer.files)
 }
 
-/// The first cell of a family that has a curve, among its first hundred; of a coupler grid, with the curves of the middle
-/// page only.
+/// The first cell of a family that has a curve, among its first hundred; of a coupler grid, with the curves of the
+/// middle page only.
 fn first_cell<'a>(part: &'a FamilyPart) -> Option<(&'a Composer<'a>, SolvedCell)> {
     let family = &part.pipeline.composer.planned.family;
     let sampler = coupler_curves::motion::Sampler::new(family.sampling);
@@ -238,12 +238,12 @@ impl FamilyPart<'_> {
                 let geometries = vec![index_entry(solved, &|k| before + page + page_offset(k))];
                 PageGroup {
                     scenes: composer.coupler_grid_pages(page, solved).map(|(_, _, compose)| compose()).collect(),
-                    geometries: geometries,
+                    geometries,
                 }
             }
             _ => {
                 let geometries = solved.iter().map(|solved| index_entry(solved, &|_| before + page)).collect();
-                PageGroup { scenes: vec![composer.panel_page(page, solved)], geometries: geometries }
+                PageGroup { scenes: vec![composer.panel_page(page, solved)], geometries }
             }
         }
     }

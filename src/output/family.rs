@@ -163,31 +163,33 @@ struct FamilyWriter<'a> {
 const PAGES_PER_RECORD: usize = 400;
 
 impl FamilyWriter<'_> {
+    /// Writes the tables, the script and the pages.
     fn write_all(&mut self, journal: &mut Journal, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
         let OutputSink { tables: (points_table, cells_table), script, registry, .. } = self.sink;
         let mut points = AtomicFile::with_header(self.folder.join("points.csv"), &points_table.header())?;
         let mut cells = AtomicFile::with_header(self.folder.join("cells.csv"), &cells_table.header())?;
-        let mut shown = AtomicFile::with_header(self.folder.join(gallery::SCRIPT_FILE), &script.begin())?;
+        let mut script_file = AtomicFile::with_header(self.folder.join(gallery::SCRIPT_FILE), &script.begin())?;
         let (pipeline, sink) = (self.pipeline, self.sink);
         pipeline.run(&sink, |off| match off {
             Output::Cells(rows) => {
                 points.append(&rows.points)?;
                 cells.append(&rows.cells)?;
-                shown.append(rows.gallery_data.as_bytes())?;
+                script_file.append(rows.gallery_data.as_bytes())?;
                 self.add_counts(&rows, report);
                 Ok(())
             }
             Output::Page(page) => {
-                shown.append(page.gallery_data.as_bytes())?;
+                script_file.append(page.gallery_data.as_bytes())?;
                 self.record_page(page, journal, report)
             }
         })?;
-        shown.append(script.end().as_bytes())?;
-        let tables = [registry.commit_file(cells)?, registry.commit_file(points)?, registry.commit_file(shown)?];
+        script_file.append(script.end().as_bytes())?;
+        let tables = [registry.commit_file(cells)?, registry.commit_file(points)?, registry.commit_file(script_file)?];
         self.record.files.splice(0..0, tables);
         Ok(())
     }
 
+    /// Adds the counts of some cells to the record, and reports those that could not be assembled.
     fn add_counts(&mut self, rows: &TableRows, report: &mut dyn FnMut(Event)) {
         self.record.curves += rows.curve_count;
         self.record.curves_left_out += rows.curves_left_out;

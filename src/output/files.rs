@@ -94,8 +94,8 @@ pub(super) fn remove_files<'n>(folder: &Path, names: impl Iterator<Item = &'n st
     Ok(())
 }
 
-/// Removes the temporary files that a killed run left in a folder and its subfolders; only this program gives files such
-/// names. No other run may be writing there.
+/// Removes the temporary files that a killed run left in a folder and its subfolders; only this program gives files
+/// such names. No other run may be writing there.
 pub(super) fn remove_temporary_files(output: &Path) {
     for entry in entries(output) {
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {

@@ -30,9 +30,9 @@ impl<'a> Inputs<'a> {
         digest.finish()
     }
 
-    /// The digest of what a page is made from: its number, the number of pages, and its cells. `shown` has the indices of
-    /// the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case, since
-    /// all pages of the cell share what is derived from them.
+    /// The digest of what a page is made from: its number, the number of pages, and its cells. `shown` has the indices
+    /// of the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case,
+    /// since all pages of the cell share what is derived from them.
     pub fn page_digest(self, (page, page_count): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> String {
         let mut digest = self.begin_digest("page", &self.planned.manifest_inputs.page);
         let mut text = format!("page {page} of {page_count}\n{:?}\n", self.planned.family.names);
@@ -50,6 +50,7 @@ impl<'a> Inputs<'a> {
     }
 
     /// The digest of what a book is made from: its families, and the most pages of a volume.
+    #[cfg(feature = "pdf")]
     pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize) -> String {
         let mut digest = RunningDigest::default();
         digest.update(format!("book in volumes of {volume_pages}\n").as_bytes());

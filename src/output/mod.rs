@@ -86,15 +86,16 @@ pub enum Event<'a> {
 
 /// Writes the atlas of a plan into a folder, and reports progress.
 ///
-/// Files of an earlier run are kept if they are up to date according to its record. Files which that run wrote and which
-/// no longer belong to the atlas are removed; other files never are.
+/// Files of an earlier run are kept if they are up to date according to its record. Files which that run wrote and
+/// which no longer belong to the atlas are removed; other files never are.
 ///
-/// Every file is written under a temporary name and renamed, `run.json` last. Whatever goes wrong, each file in the folder
-/// is complete, old or new, and the record claims nothing that is not true.
+/// Every file is written under a temporary name and renamed, `run.json` last. Whatever goes wrong, each file in the
+/// folder is complete, old or new, and the record claims nothing that is not true.
 ///
 /// # Errors
-/// A file cannot be written; the record of an earlier run is needed and cannot be read, or has another format; another run
-/// writes to the same folder; the run is interrupted. Finished files are recorded, and the next run continues from there.
+/// A file cannot be written; the record of an earlier run is needed and cannot be read, or has another format; another
+/// run writes to the same folder; the run is interrupted. Finished files are recorded, and the next run continues from
+/// there.
 pub fn write_atlas(
     plan: &Plan,
     output: &Path,

@@ -77,23 +77,21 @@ impl Sink for OutputSink<'_> {
         check_interrupt(self.interrupt)?;
         let Composer { plan, planned, page_count } = self.composer;
         let inputs = &match job.content {
-            PageContent::Cells { cells, curves: shown } => {
-                self.inputs.page_digest((job.number, page_count), cells, shown)
-            }
+            PageContent::Cells { cells, curves } => self.inputs.page_digest((job.number, page_count), cells, curves),
             PageContent::Charts => self.inputs.chart_page_digest(job.number),
         };
         let with_name = |&format: &PageFormat| (format, page_file_name(&planned.family.id, job.number, format));
         let names: Vec<(PageFormat, String)> = self.formats.iter().map(with_name).collect();
-        let kept: Vec<Option<FileRecord>> =
+        let unchanged: Vec<Option<FileRecord>> =
             names.iter().map(|(_, name)| self.registry.reuse_unchanged(name, inputs)).collect();
         if names.is_empty() {
             return Ok(PageFiles { files: Vec::new(), is_drawn: false, gallery_data: String::new() });
         }
         let page = job.number;
         let scene = job.compose();
-        let shown = self.script.page(page, &scene);
-        if kept.iter().all(Option::is_some) {
-            return Ok(PageFiles { files: kept.into_iter().flatten().collect(), is_drawn: false, gallery_data: shown });
+        let gallery_data = self.script.page(page, &scene);
+        if unchanged.iter().all(Option::is_some) {
+            return Ok(PageFiles { files: unchanged.into_iter().flatten().collect(), is_drawn: false, gallery_data });
         }
         // The record of an image has the digest of the SVG, so that is always rendered.
         let svg = render::svg(&scene, plan.text_mode);
@@ -108,8 +106,8 @@ impl Sink for OutputSink<'_> {
                 self.registry.write_file(record, &png)
             }
         };
-        let files = names.into_iter().zip(kept).map(draw).collect::<Result<_, Error>>()?;
-        Ok(PageFiles { files, is_drawn: true, gallery_data: shown })
+        let files = names.into_iter().zip(unchanged).map(draw).collect::<Result<_, Error>>()?;
+        Ok(PageFiles { files, is_drawn: true, gallery_data })
     }
 
     /// The bytes of the pixels of an image.

@@ -1,4 +1,5 @@
-//! Reads the record of an earlier run. The file is not trusted: entries that this program cannot have written are dropped.
+//! Reads the record of an earlier run. The file is not trusted: entries that this program cannot have written are
+//! dropped.
 
 use std::io;
 use std::path::Path;
@@ -85,7 +86,8 @@ fn is_volume_file_name(name: &str) -> bool {
     name == "atlas.pdf" || number.is_some_and(is_number)
 }
 
-/// The record of a family, restricted to these formats; `None` unless all its files are intact and made from these inputs.
+/// The record of a family, restricted to these formats; `None` unless all its files are intact and made from these
+/// inputs.
 pub(super) fn unchanged_record(
     earlier: &FamilyRecord,
     inputs: &str,

@@ -51,8 +51,8 @@ impl Composer<'_> {
         page::compose_panels(&sheet, &plan.page)
     }
 
-    /// The coupler-grid pages of a cell, the first of which has the number `page`. Each comes with its number, the indices
-    /// of its curves, and a function that composes it.
+    /// The coupler-grid pages of a cell, the first of which has the number `page`. Each comes with its number, the
+    /// indices of its curves, and a function that composes it.
     pub fn coupler_grid_pages<'s>(
         &'s self,
         page: usize,
@@ -63,17 +63,17 @@ impl Composer<'_> {
         // All pages of a cell have the same pose; it is computed when the first of them is drawn.
         let pose =
             Rc::new(LazyCell::new(|| page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed)));
-        (page..).zip(curves_by_page(solved)).map(move |(page, shown)| {
-            let (labels, pose, curves) = (Rc::clone(&labels), Rc::clone(&pose), shown.clone());
+        (page..).zip(curves_by_page(solved)).map(move |(page, curve_indices)| {
+            let (labels, pose, indices) = (Rc::clone(&labels), Rc::clone(&pose), curve_indices.clone());
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
                 let panel = panel(&planned.family, solved).with_pose(PoseChoice::clone(&pose));
                 page::compose_coupler_grid(
-                    &CouplerGridPage { heading, panel, curve_indices: shown, labels: &labels },
+                    &CouplerGridPage { heading, panel, curve_indices, labels: &labels },
                     &plan.page,
                 )
             };
-            (page, curves, compose)
+            (page, indices, compose)
         })
     }
 
@@ -121,8 +121,8 @@ impl Composer<'_> {
 
 /// The indices of the curves on each coupler-grid page of a cell; a cell without curves has one page without curves.
 pub fn curves_by_page(solved: &SolvedCell) -> Vec<Vec<usize>> {
-    let shown = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
-    if shown.is_empty() { vec![Vec::new()] } else { shown }
+    let pages = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
+    if pages.is_empty() { vec![Vec::new()] } else { pages }
 }
 
 /// The source line of a page: where the linkage comes from, and how to read the dashes and scale bars.

@@ -1,5 +1,5 @@
-//! Produces the tables and pages of a family in order: [`crate::output`] writes them, and [`crate::check`] compares them
-//! with recorded ones.
+//! Produces the tables and pages of a family in order: [`crate::output`] writes them, and [`crate::check`] compares
+//! them with recorded ones.
 
 mod composer;
 mod pagination;
@@ -110,8 +110,8 @@ impl<'a> FamilyPipeline<'a> {
         Some(FamilyPipeline { composer, arrangement, pagination })
     }
 
-    /// Solves and measures all cells, passes them and their pages to `sink` on all threads, and passes the results in order
-    /// to `receive` on the calling thread.
+    /// Solves and measures all cells, passes them and their pages to `sink` on all threads, and passes the results in
+    /// order to `receive` on the calling thread.
     ///
     /// # Errors
     /// The first error of `sink` or `receive`.
@@ -178,10 +178,10 @@ impl<'a> FamilyPipeline<'a> {
         let page = self.pagination.first_page(group * self.pagination.group_size);
         match (self.composer.planned.layout, cells) {
             (Layout::CouplerGrid, [solved]) => {
-                let send = |(page, shown, compose): (usize, Vec<usize>, _)| {
+                let send = |(page, curves, compose): (usize, Vec<usize>, _)| {
                     sink.receive_page(PageJob {
                         number: page,
-                        content: PageContent::Cells { cells, curves: &shown },
+                        content: PageContent::Cells { cells, curves: &curves },
                         compose: Box::new(compose),
                     })
                 };

@@ -104,7 +104,8 @@ pub enum ReadError {
     Syntax(#[from] serde_json::Error),
     /// It has another format.
     #[error(
-        "it has format {format} on line {line}, written by {writer}, but this is {} {}, which reads format {FORMAT_VERSION}",
+        "it has format {format} on line {line}, written by {writer}, but this is {} {}, which reads format \
+         {FORMAT_VERSION}",
         env!("CARGO_PKG_NAME"),
         env!("CARGO_PKG_VERSION")
     )]

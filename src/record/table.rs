@@ -15,7 +15,8 @@ pub struct RecordedTable {
     file: Mutex<File>,
     /// The names of its columns.
     pub header: Vec<String>,
-    /// SHA-256 of its bytes, and of its text with the line ends and without the byte order mark, as this program writes it.
+    /// SHA-256 of its bytes, and of its text with the line ends and without the byte order mark, as this program writes
+    /// it.
     pub digests: [String; 2],
     /// The places of the rows of each cell, normally a single range.
     row_ranges: HashMap<usize, Vec<RowRange>>,
@@ -93,8 +94,8 @@ const MAX_ERRORS: usize = 20;
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl RecordedTable {
-    /// Opens a table and finds the rows of each cell. `max_bytes` is the greatest size expected, `cell_count` the number of
-    /// cells; a table with rows of far more cells is not read to its end.
+    /// Opens a table and finds the rows of each cell. `max_bytes` is the greatest size expected, `cell_count` the
+    /// number of cells; a table with rows of far more cells is not read to its end.
     ///
     /// # Errors
     /// The table cannot be read at all.
@@ -122,17 +123,17 @@ impl RecordedTable {
     /// # Errors
     /// The file can no longer be read.
     pub fn cell_text(&self, cell: usize) -> Option<Result<(Vec<u8>, usize), TableError>> {
-        let pieces = self.row_ranges.get(&cell)?;
+        let ranges = self.row_ranges.get(&cell)?;
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let mut read = || -> io::Result<Vec<u8>> {
             let mut text = Vec::new();
-            for piece in pieces {
-                file.seek(SeekFrom::Start(piece.offset))?;
-                (&mut *file).take(piece.len).read_to_end(&mut text)?;
+            for range in ranges {
+                file.seek(SeekFrom::Start(range.offset))?;
+                (&mut *file).take(range.len).read_to_end(&mut text)?;
             }
             Ok(text)
         };
-        let line = pieces.first().map_or(0, |piece| piece.first_line);
+        let line = ranges.first().map_or(0, |range| range.first_line);
         Some(read().map(|text| (text, line)).map_err(|error| TableError::Unreadable(error.to_string())))
     }
 
@@ -297,6 +298,7 @@ impl Scan {
         }
     }
 
+    /// Reads a line that begins at `offset`; `number` is its number, from 1.
     fn scan_line(&mut self, line: &[u8], offset: u64, number: usize) {
         let marked = if number == 1 { line.strip_prefix(BYTE_ORDER_MARK) } else { None };
         let text = marked.unwrap_or(line);
@@ -332,14 +334,15 @@ impl Scan {
         }
     }
 
+    /// Stores the place of a row.
     fn add_row(&mut self, cell: usize, offset: u64, bytes: u64, line: usize) {
-        let pieces = self.row_ranges.entry(cell).or_default();
-        match pieces.last_mut() {
-            Some(piece) if self.last_cell == Some(cell) => piece.len += bytes,
+        let ranges = self.row_ranges.entry(cell).or_default();
+        match ranges.last_mut() {
+            Some(range) if self.last_cell == Some(cell) => range.len += bytes,
             open => {
                 let is_again = open.is_some();
                 self.row_ranges_left -= 1;
-                pieces.push(RowRange { offset, len: bytes, first_line: line });
+                ranges.push(RowRange { offset, len: bytes, first_line: line });
                 if is_again {
                     self.add_error(TableError::NotContiguous { cell, line });
                 }

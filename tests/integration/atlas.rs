@@ -1,6 +1,6 @@
-//! The committed atlas is what the program makes of `atlas.toml`: text byte for byte, images by their pixels.
+//! The committed atlas is what the program renders from `atlas.toml`: text byte for byte, images pixel for pixel.
 //!
-//! After a change that is meant, `cargo run --release -- render --force` renews it.
+//! After an intended change, `cargo run --release -- render --force` updates it.
 
 use std::fs;
 use std::path::Path;
@@ -8,6 +8,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
+/// The files of a folder and its subfolders, by their paths relative to it, sorted.
 fn files(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -24,7 +25,7 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn the_committed_atlas_is_a_fresh_run() {
+fn the_committed_atlas_equals_a_fresh_run() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let fresh = TempDir::new().unwrap();
     let status = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
@@ -41,17 +42,17 @@ fn the_committed_atlas_is_a_fresh_run() {
             let pixels = |bytes: &[u8]| image::load_from_memory(bytes).unwrap().to_rgb8();
             let (old, new) = (pixels(&old), pixels(&new));
             assert_eq!(old.dimensions(), new.dimensions(), "{file}");
-            let apart = old.as_raw().iter().zip(new.as_raw()).map(|(a, b)| a.abs_diff(*b)).max();
-            // Blending rounds differently where a machine has other vector instructions.
-            assert!(apart <= Some(1), "{file} differs by {apart:?}");
+            let difference = old.as_raw().iter().zip(new.as_raw()).map(|(a, b)| a.abs_diff(*b)).max();
+            // Blending rounds differently on machines with other vector instructions.
+            assert!(difference <= Some(1), "{file} differs by {difference:?}");
         } else {
-            assert!(old == new, "{file} differs from a fresh run: `cargo run --release -- render --force` renews it");
+            assert!(old == new, "{file} differs from a fresh run: `cargo run --release -- render --force` updates it");
         }
     }
 }
 
 #[test]
-fn the_atlas_has_the_forty_figures_as_captioned() {
+fn the_atlas_has_the_forty_captioned_figures() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let pages = ["evans", "chebyshev", "watt", "roberts"].map(|family| {
         fs::read_to_string(root.join(format!("output/{family}/{family}-001.svg")))

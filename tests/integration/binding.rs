@@ -1,4 +1,4 @@
-//! The book as `render` binds it: its files, its record, when it is made anew and when it is left alone.
+//! The book that `render` writes: its files, its record, and when it is rewritten or left unchanged.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -33,14 +33,14 @@ cases = [{ A = 2.5, B = 3, C = 2 }, { A = 3, B = 2, C = 3.5 }, { A = 1, B = 1, C
 "#;
 
 impl Atlas {
-    /// What is said of a run that goes well.
+    /// Runs `render`, which must succeed, and returns its standard output.
     fn render(&self, arguments: &[&str]) -> String {
         let (code, out, err) = self.run(arguments);
         assert_eq!(code, 0, "{err}");
         out
     }
 
-    /// The books there are, with the times they were written and their bytes.
+    /// The books in the output folder, with the times they were written and their bytes.
     fn books(&self) -> BTreeMap<String, (SystemTime, Vec<u8>)> {
         let mut found = BTreeMap::new();
         for entry in fs::read_dir(self.out()).unwrap() {
@@ -62,18 +62,18 @@ impl Atlas {
     }
 }
 
-/// How many pages a book has: each has a size.
+/// The number of pages of a book: each has a size.
 fn pages(bytes: &[u8]) -> usize {
     let size = b"/MediaBox";
     bytes.windows(size.len()).filter(|window| window == size).count()
 }
 
 #[test]
-fn an_atlas_is_bound_once() {
+fn an_unchanged_book_is_not_rewritten() {
     let atlas = Atlas::new(MANIFEST);
-    let said = atlas.render(&[]);
-    // Three pages of panels, and one of each cell of the grid; title page and contents before them, the index behind.
-    assert!(said.contains("atlas.pdf: 9 pages\n"), "{said}");
+    let out = atlas.render(&[]);
+    // Three pages of panels and one of each cell of the grid, after title page and contents and before the index.
+    assert!(out.contains("atlas.pdf: 9 pages\n"), "{out}");
     let books = atlas.books();
     assert_eq!(atlas.names(), ["atlas.pdf"]);
     let (time, bytes) = &books["atlas.pdf"];
@@ -91,7 +91,7 @@ fn an_atlas_is_bound_once() {
 }
 
 #[test]
-fn a_book_in_which_anything_changes_is_bound_anew() {
+fn a_changed_book_is_rewritten() {
     let atlas = Atlas::new(MANIFEST);
     atlas.render(&[]);
     let whole = atlas.books()["atlas.pdf"].1.clone();
@@ -105,7 +105,7 @@ fn a_book_in_which_anything_changes_is_bound_anew() {
     atlas.edit(MANIFEST);
     atlas.render(&[]);
     assert!(atlas.books()["atlas.pdf"].1 == whole);
-    // One that was cut short, or is gone.
+    // A truncated book, and a missing one.
     let path = atlas.out().join("atlas.pdf");
     fs::write(&path, &whole[..whole.len() / 2]).unwrap();
     atlas.render(&[]);
@@ -120,13 +120,13 @@ fn a_longer_book_is_written_as_volumes() {
     let atlas = Atlas::new(MANIFEST);
     atlas.render(&[]);
     atlas.edit(&MANIFEST.replace("output =", "volume_pages = 4\noutput ="));
-    let said = atlas.render(&[]);
-    // Four and two pages, in each with title page, contents and index.
-    assert!(said.contains("atlas-1.pdf to atlas-2.pdf: 12 pages\n"), "{said}");
+    let out = atlas.render(&[]);
+    // Volumes of four and of two pages, each with a title page, contents and an index.
+    assert!(out.contains("atlas-1.pdf to atlas-2.pdf: 12 pages\n"), "{out}");
     let books = atlas.books();
-    assert_eq!(atlas.names(), ["atlas-1.pdf", "atlas-2.pdf"], "the one book goes");
+    assert_eq!(atlas.names(), ["atlas-1.pdf", "atlas-2.pdf"], "the single book is removed");
     assert_eq!(books.values().map(|(_, bytes)| pages(bytes)).collect::<Vec<_>>(), [7, 5]);
-    // As many volumes as pages: their names sort.
+    // One volume for each page: their names sort.
     atlas.edit(
         &MANIFEST
             .replace("output =", "volume_pages = 1\noutput =")
@@ -138,16 +138,16 @@ fn a_longer_book_is_written_as_volumes() {
 }
 
 #[test]
-fn a_book_that_is_asked_for_no_longer_goes_and_others_stay() {
+fn a_book_that_is_no_longer_requested_is_removed_and_other_files_stay() {
     let atlas = Atlas::new(MANIFEST);
     atlas.render(&[]);
     fs::write(atlas.out().join("notes.pdf"), "mine").unwrap();
     let whole = atlas.books()["atlas.pdf"].clone();
-    // Of other formats, and of other families, it is not asked.
+    // Requests for other formats, or for some of the families, leave the book alone.
     atlas.render(&["--format", "png"]);
     atlas.render(&["--only", "evans"]);
     assert_eq!(atlas.books()["atlas.pdf"], whole);
-    // In so many words it is: then it has what is asked for.
+    // A book that is requested explicitly has the requested families.
     assert!(atlas.render(&["--only", "points", "--format", "pdf"]).contains("atlas.pdf: 6 pages\n"));
     assert!(atlas.render(&[]).contains("atlas.pdf: 9 pages\n"));
     assert_eq!(atlas.books()["atlas.pdf"].1, whole.1);
@@ -155,7 +155,7 @@ fn a_book_that_is_asked_for_no_longer_goes_and_others_stay() {
     atlas.render(&[]);
     assert_eq!(atlas.names(), ["notes.pdf"]);
     assert!(atlas.record()["book"].is_null());
-    // A record that names what is not a book's removes nothing.
+    // A record that names a file that is not a book removes nothing.
     atlas.edit(MANIFEST);
     atlas.render(&[]);
     let path = atlas.out().join("run.json");
@@ -166,12 +166,12 @@ fn a_book_that_is_asked_for_no_longer_goes_and_others_stay() {
 }
 
 #[test]
-fn a_volume_has_a_page_at_least() {
+fn a_volume_has_at_least_one_page() {
     for wrong in ["0", "-3", "1.5", "\"many\"", "20000"] {
         let atlas = Atlas::new(&MANIFEST.replace("output =", &format!("volume_pages = {wrong}\noutput =")));
         let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
         let output = command.current_dir(atlas.0.path()).arg("validate").output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && said.contains("atlas.toml:5:16"), "{said}");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && errors.contains("atlas.toml:5:16"), "{errors}");
     }
 }

@@ -1,4 +1,4 @@
-//! Charts: what their manifests may say, what they show against the tables, and where it stands on the page.
+//! Charts: their manifest keys, their lines against the tables, and the positions of their points on the page.
 
 use coupler_curves::solve;
 use std::fs;
@@ -31,26 +31,26 @@ fn plan(text: &str) -> Plan {
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
 }
 
-/// What the first family's chart comes to.
+/// The lines of the first family's chart.
 fn series(text: &str) -> Vec<Series> {
     let plan = plan(text);
     let planned = &plan.families[0];
     let chart = planned.chart.as_ref().unwrap();
-    let mut gathering = ChartBuilder::new(chart, &planned.family);
+    let mut builder = ChartBuilder::new(chart, &planned.family);
     let kept = sweep::kept_cells(&planned.family);
-    let take = |_, solved: Vec<solve::SolvedCell>| {
+    let sample = |_, solved: Vec<solve::SolvedCell>| {
         solved.iter().flat_map(|solved| chart.sample_cell(solved)).collect::<Vec<_>>()
     };
     let groups = sweep::CellGroups { cells: &kept, size: 4, work_bytes: 0, requested_measures: None };
-    sweep::process_groups(&planned.family, groups, take, |taken| -> Result<(), ()> {
-        taken.into_iter().for_each(|taken| gathering.add(taken));
+    sweep::process_groups(&planned.family, groups, sample, |samples| -> Result<(), ()> {
+        samples.into_iter().for_each(|sample| builder.add(sample));
         Ok(())
     })
     .unwrap();
-    gathering.build().series
+    builder.build().series
 }
 
-/// A family's folder after `render`.
+/// A folder with a manifest, after `render`.
 fn rendered(text: &str) -> TempDir {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("atlas.toml"), text).unwrap();
@@ -70,7 +70,7 @@ fn rows(path: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
 }
 
 #[test]
-fn each_mistake_has_its_message() {
+fn each_mistake_has_its_message_and_place() {
     let chart = "chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }";
     let with = |chart: &str| format!("chart = {{ {chart} }}");
     let cases = [
@@ -94,7 +94,12 @@ fn each_mistake_has_its_message() {
         ),
         (chart, with("x = \"p\", y = \"length\", by = [\"h\"]"), "there is no `h`", "9:40"),
         (chart, with("x = \"p\", y = \"length\", log = \"area\""), "the chart has no quantity `area`", "9:40"),
-        (chart, with("x = \"p\", y = \"length\", range = { area = [0, 1] }"), "the chart has no quantity `area`", "9:44"),
+        (
+            chart,
+            with("x = \"p\", y = \"length\", range = { area = [0, 1] }"),
+            "the chart has no quantity `area`",
+            "9:44",
+        ),
         (chart, with("x = \"p\", y = \"length\", range = { p = [3, 1] }"), "[3, 1] is not a range", "9:48"),
         (chart, with("x = \"p\", y = \"length\", range = { p = [3] }"), "expected two values, found 1", "9:48"),
         (
@@ -105,7 +110,12 @@ fn each_mistake_has_its_message() {
         ),
         (chart, with("x = \"p\", y = \"length\", title = \"T\""), "`chart` has no key `title`", "9:34"),
         ("sampling", "panels = [40, 1]\nsampling".into(), "invalid value `40`", "10:11"),
-        ("k = [1.5, 2]", "h = [1.5, 2]".into(), "`h` is not a parameter of `evans`, and no expression uses it", "11:25"),
+        (
+            "k = [1.5, 2]",
+            "h = [1.5, 2]".into(),
+            "`h` is not a parameter of `evans`, and no expression uses it",
+            "11:25",
+        ),
         (
             "k = [1.5, 2] }",
             "k = { from = 1, to = 2, count = 50000 } }\nlimit = 1000000".into(),
@@ -118,15 +128,15 @@ fn each_mistake_has_its_message() {
         let text = GOOD.replacen(from, &to, 1);
         assert_ne!(text, GOOD, "{from}");
         let loaded = manifest::parse(&text);
-        let said = report(&loaded.problems, "atlas.toml", &text, false);
-        assert!(loaded.plan.is_none() && loaded.problems.len() == 1, "{message}:\n{said}");
+        let printed = report(&loaded.problems, "atlas.toml", &text, false);
+        assert!(loaded.plan.is_none() && loaded.problems.len() == 1, "{message}:\n{printed}");
         assert!(
-            said.contains(message) && said.contains(&format!("atlas.toml:{place}\n")),
-            "{message}, {place}:\n{said}"
+            printed.contains(message) && printed.contains(&format!("atlas.toml:{place}\n")),
+            "{message}, {place}:\n{printed}"
         );
         assert!(!loaded.problems[0].help.is_empty());
     }
-    // Of a linkage that is not known, it is still seen that an expression cannot be read.
+    // Expressions are parsed even if the linkage is unknown.
     let text = GOOD.replace("linkage = \"evans\"", "linkage = \"evens\"").replace("\"length\"", "\"length +\"");
     assert!(report(&manifest::parse(&text).problems, "m", &text, false).contains("unexpected end of the expression"));
 }
@@ -137,9 +147,9 @@ fn a_chart_may_use_helpers_and_expressions() {
     assert_eq!(series(&text).len(), 2);
 }
 
-/// By the grid's other axes, in order of x; each point a row of `cells.csv`.
+/// There is a line for each value of the grid's other axes, in order of x; each point is a row of `cells.csv`.
 #[test]
-fn lines_over_curves_are_the_rows_of_cells() {
+fn lines_over_curves_match_the_rows_of_cells_csv() {
     let text = GOOD.replace("[2, 3, 4]", "[4, 2, 3]").replace("\"length\"", "\"length / area\"");
     let found = series(&text);
     assert_eq!(found.iter().map(|series| series.label.as_str()).collect::<Vec<_>>(), ["k = 1.5", "k = 2"]);
@@ -156,9 +166,9 @@ fn lines_over_curves_are_the_rows_of_cells() {
     }
 }
 
-/// Every sample, and the first again where the curve closes.
+/// A line has every sample, and the first again where the curve closes.
 #[test]
-fn lines_over_samples_are_the_rows_of_points() {
+fn lines_over_samples_match_the_rows_of_points_csv() {
     let chart = "chart = { x = \"arc\", y = [\"speed\", \"x + y\", \"input_deg\", \"length\"] }\ncolumns = [\"speed\"]";
     let text = GOOD.replace("chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }", chart);
     assert_eq!(plan(&text).families[0].chart.as_ref().unwrap().point_source, PointSource::Samples);
@@ -169,32 +179,32 @@ fn lines_over_samples_are_the_rows_of_points() {
     let rows = rows(&folder.path().join("out/evans/points.csv"));
     for series in &found {
         let cell = series.cell.unwrap().to_string();
-        let ours: Vec<_> = rows.iter().filter(|row| row["cell"] == cell).collect();
-        assert_eq!(series.x.len(), ours.len() + 1);
+        let cell_rows: Vec<_> = rows.iter().filter(|row| row["cell"] == cell).collect();
+        assert_eq!(series.x.len(), cell_rows.len() + 1);
         let mut chords = 0.0;
-        for (k, row) in ours.iter().enumerate() {
+        for (k, row) in cell_rows.iter().enumerate() {
             let number =
                 |row: &std::collections::BTreeMap<String, String>, name: &str| row[name].parse::<f64>().unwrap();
             assert_eq!(series.y[0][k], number(row, "speed"));
             assert_eq!(series.y[1][k], number(row, "x") + number(row, "y"));
             assert_eq!(series.y[2][k], number(row, "input_deg"));
             if k > 0 {
-                let step = |name: &str| number(row, name) - number(ours[k - 1], name);
+                let step = |name: &str| number(row, name) - number(cell_rows[k - 1], name);
                 chords += trig::hypot(step("x"), step("y"));
             }
-            // An arc is longer than its chord, over ten degrees by a few parts in a thousand, at the sharp ends more.
+            // An arc is longer than its chord: over ten degrees by a few parts in a thousand, at sharp ends by more.
             assert!((chords..=1.05 * chords).contains(&series.x[k]), "{} {chords}", series.x[k]);
         }
         let last = series.x.len() - 1;
         assert_eq!((series.y[0][last], series.y[2][last]), (series.y[0][0], 360.0));
-        // The whole way is the measure, but for the order in which it is added up.
+        // The length of the whole path is the measure, except for the order of the summation.
         assert!((series.x[last] / series.y[3][0] - 1.0).abs() < 1e-14);
     }
 }
 
-/// A rocker's circuit goes there and back: the input ends where it began.
+/// A rocker's circuit goes back and forth: the input ends where it began.
 #[test]
-fn a_rocking_circuit_comes_back() {
+fn a_rocking_circuit_returns_to_its_start() {
     let text = GOOD
         .replace("linkage = \"evans\"", "linkage = \"watt\"")
         .replace("chart = { x = \"p\", y = [\"length\", \"mu_min_deg\"] }", "chart = { x = \"input_deg\", y = \"y\" }")
@@ -207,14 +217,14 @@ fn a_rocking_circuit_comes_back() {
 }
 
 #[test]
-fn what_is_left_out_or_missing_is_a_gap() {
+fn left_out_cells_and_missing_values_are_gaps() {
     let five = GOOD.replace("[2, 3, 4], k = [1.5, 2]", "[2, 3, 4, 5, 6]");
     let xs = |text: &str| series(text).into_iter().map(|series| series.x).collect::<Vec<_>>();
     assert_eq!(xs(&five), [[2.0, 3.0, 4.0, 5.0, 6.0]]);
     let gap = &xs(&(five.clone() + "where = \"p != 4\"\n"))[0];
     assert_eq!(gap[..2], [2.0, 3.0]);
     assert!(gap[2].is_nan() && gap[3..] == [5.0, 6.0]);
-    // What is left out at the ends is no gap.
+    // Cells that are left out at the ends make no gap.
     assert_eq!(xs(&(five.clone() + "where = \"3 <= p and p <= 5\"\n")), [[3.0, 4.0, 5.0]]);
     // A measure that does not apply: the least input of a full turn.
     let missing = five.replace("\"length\"", "\"input_min_deg\"");
@@ -224,25 +234,25 @@ fn what_is_left_out_or_missing_is_a_gap() {
         .replace("grid = { p = [2, 3, 4, 5, 6] }", "cases = [{ p = 2, s = 2 }, { p = 20, s = 1 }, { p = 3, s = 3 }]");
     let cases = cases.replace("x = \"p\"", "x = \"s\"");
     let gap = &xs(&cases)[0];
-    assert_eq!(gap[..], [2.0, 3.0], "the one that is missing is the first in order");
+    assert_eq!(gap[..], [2.0, 3.0], "the missing case is the first in order");
 }
 
 #[test]
-fn lines_are_told_apart_as_asked() {
+fn by_selects_the_names_that_separate_lines() {
     let labels = |text: &str| series(text).into_iter().map(|series| series.label).collect::<Vec<_>>();
     let by = |by: &str| GOOD.replace("\"mu_min_deg\"] }", &format!("\"mu_min_deg\"], by = {by} }}"));
     assert_eq!(labels(&by("[]")), [""]);
     assert_eq!(labels(&by("[\"p\"]")), ["p = 2", "p = 3", "p = 4"]);
-    // `a` is derived from p, which is then no name of its own on the lines.
+    // `a` is derived from p, which then does not separate lines.
     assert_eq!(labels(&GOOD.replace("x = \"p\"", "x = \"a\"")), ["k = 1.5", "k = 2"]);
-    // Over a measure lines go along the last axis.
+    // Over a measure, lines run along the last axis.
     let over_measure = GOOD.replace("x = \"p\"", "x = \"area\"");
     assert_eq!(labels(&over_measure), ["p = 2", "p = 3", "p = 4"]);
     let circuits = GOOD.replace("sampling", "circuits = \"all\"\nsampling").replace(", k = [1.5, 2]", "");
     assert_eq!(labels(&circuits), ["circuit 1", "circuit 2"]);
 }
 
-/// Numbers of an attribute.
+/// The numbers of a `data-` attribute.
 fn attribute(text: &str, name: &str) -> Vec<f64> {
     let value = text.split(&format!("data-{name}=\"")).nth(1).unwrap().split('"').next().unwrap();
     value.split(' ').map(|number| number.parse().unwrap()).collect()
@@ -254,9 +264,9 @@ fn values(text: &str, name: &str) -> Vec<f64> {
     text.split(&start).skip(1).map(|part| part.split('"').next().unwrap().parse().unwrap()).collect()
 }
 
-/// Marks and line stand where the ticks and the group's own facts say they should.
+/// Marks are where the ticks, and the ranges in the attributes of the group, place their values.
 #[test]
-fn points_stand_at_their_places_on_the_page() {
+fn points_are_drawn_at_their_values() {
     let text = GOOD.replace(", k = [1.5, 2]", "").replace("\"mu_min_deg\"]", "\"mu_min_deg\"], log = \"mu_min_deg\"");
     let found = &series(&text)[0];
     let svg = page(&rendered(&text), 1);
@@ -273,11 +283,11 @@ fn points_stand_at_their_places_on_the_page() {
             let up = (frame[3] - cy[point]) / (frame[3] - frame[1]);
             let across = x[0] + right * (x[1] - x[0]);
             let high = if is_log { y[0] * trig::pow(y[1] / y[0], up) } else { y[0] + up * (y[1] - y[0]) };
-            // The page is written to a micrometre.
+            // Coordinates on the page are written to a micrometre.
             assert!((across / found.x[point] - 1.0).abs() < 1e-4, "{across}");
             assert!((high / found.y[k][point] - 1.0).abs() < 1e-4, "{high} {:?}", found.y[k]);
         }
-        // The tick of 3 stands under the mark of 3, to the hundredth of a millimetre that plotters has.
+        // The tick of 3 is under the mark of 3, to the hundredth of a millimetre to which plotters places it.
         let tick = chart.split("<text ").find(|text| text.contains(">3.0</text>") && text.contains("middle")).unwrap();
         let at: f64 = tick.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
         assert!((at - cx[1]).abs() < 0.011, "{at} {}", cx[1]);
@@ -287,7 +297,7 @@ fn points_stand_at_their_places_on_the_page() {
 #[test]
 fn charts_have_ids_titles_and_escaped_names() {
     let text = GOOD.replace("\"length\"", "\"length * (p > 2 and p < 9)\"");
-    assert!(manifest::parse(&text).plan.is_none(), "a truth is no number");
+    assert!(manifest::parse(&text).plan.is_none(), "a condition is not a number");
     let text = GOOD.replace("title = \"T\"", "title = \"A & <B>\"").replace("\"length\"", "\"max(length, 1)\"");
     let svg = page(&rendered(&text), 1);
     for part in [
@@ -308,7 +318,7 @@ fn charts_have_ids_titles_and_escaped_names() {
 }
 
 #[test]
-fn more_charts_than_a_page_holds_go_on() {
+fn more_charts_than_fit_on_a_page_continue_on_the_next() {
     let text =
         GOOD.replace("\"mu_min_deg\"]", "\"mu_min_deg\", \"area\"]").replace("sampling", "panels = [2, 1]\nsampling");
     let folder = rendered(&text);
@@ -321,13 +331,13 @@ fn more_charts_than_a_page_holds_go_on() {
 
 #[test]
 fn an_empty_chart_says_so() {
-    let nothing = page(&rendered(&GOOD.replace("\"length\"", "\"input_min_deg\"")), 1);
-    assert!(nothing.contains(">no finite value</text>") && nothing.contains("id=\"evans-chart-2-2\""));
+    let empty = page(&rendered(&GOOD.replace("\"length\"", "\"input_min_deg\"")), 1);
+    assert!(empty.contains(">no finite value</text>") && empty.contains("id=\"evans-chart-2-2\""));
     let low = GOOD.replace("\"mu_min_deg\"]", "\"-length\"], log = [\"-length\"]");
     assert!(page(&rendered(&low), 1).contains("no positive value for a logarithmic axis"));
     let some = GOOD.replace("\"mu_min_deg\"]", "\"p - 3\"], log = [\"p - 3\"]");
     assert!(page(&rendered(&some), 1).contains(">4 values of 0 or less are left out</text>"));
-    // Nothing at all can be assembled, or is kept.
+    // No cell can be assembled, or none is kept.
     let far = GOOD.replace("let = { a = \"(1 + p)^1.5 / 2\" }", "let = { a = 0.1 }");
     assert!(page(&rendered(&far), 1).contains("no finite value"));
     let folder = rendered(&(GOOD.to_owned() + "where = \"p > 9\"\n"));
@@ -353,7 +363,7 @@ fn no_values_make_a_chart_panic() {
 }
 
 #[test]
-fn the_same_chart_with_any_number_of_jobs() {
+fn a_chart_is_the_same_with_any_number_of_jobs() {
     let text = GOOD.replace("[2, 3, 4]", "{ from = 2, to = 6, count = 60 }");
     let folder = rendered(&text);
     let run = |jobs: &str| {
@@ -368,36 +378,36 @@ fn the_same_chart_with_any_number_of_jobs() {
     assert!(run("1") == run("8"));
 }
 
-/// Ten thousand cells: a line of a hundred points for each of a hundred names, of which some are named on the page.
+/// Ten thousand cells make lines of a hundred points for each of a hundred labels, some of which are on the page.
 #[test]
 fn ten_thousand_cells_make_a_chart() {
     let grid = "p = { from = 2, to = 6, count = 100 }, k = { from = 1, to = 3, count = 100 }";
     let text = GOOD.replace("p = [2, 3, 4], k = [1.5, 2]", grid).replace("\"10 deg\"", "\"60 deg\"");
-    // No curve has so long a straight portion: that it is soon known is all that this is here for.
+    // No curve has such a long straight portion, which is quick to find out and keeps the test short.
     let text = text + "straight = { length = 1000 }\n";
     let svg = page(&rendered(&text), 1);
     assert_eq!(svg.matches("class=\"series\"").count(), 200);
     assert!(svg.contains(">and ") && svg.contains(" more</text>"));
 }
 
-/// What is more than can be kept is counted, and nothing of it is held.
+/// Curves beyond the limit on numbers are counted, and none of their numbers is kept.
 #[test]
 fn too_many_numbers_are_counted_and_not_kept() {
     let text = GOOD.replace("x = \"p\"", "x = \"input_deg\"").replace("\"length\"", "\"speed\"");
     let plan = plan(&text);
     let planned = &plan.families[0];
-    let mut gathering = ChartBuilder::new(planned.chart.as_ref().unwrap(), &planned.family);
+    let mut builder = ChartBuilder::new(planned.chart.as_ref().unwrap(), &planned.family);
     let numbers = vec![1.0; MAX_NUMBERS / 3];
     for cell in 1..=6 {
         let numbers = numbers.clone();
-        gathering.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers });
+        builder.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers });
     }
-    let gathered = gathering.build();
-    assert_eq!((gathered.series.len(), gathered.curve_count, gathered.left_out_count), (3, 6, 3));
+    let chart = builder.build();
+    assert_eq!((chart.series.len(), chart.curve_count, chart.left_out_count), (3, 6, 3));
 }
 
-/// Chebyshev's curve is that of an Evans linkage at half size (Roberts and Chebyshev), for the thesis's proportions;
-/// and the ratio of its width to its height, which the thesis (10.1.2) has fall, rises with p.
+/// For the thesis's proportions, Chebyshev's curve is that of an Evans linkage at half size (Roberts and Chebyshev);
+/// and the ratio of its width to its height, which falls according to the thesis (10.1.2), rises with p.
 #[test]
 fn the_range_of_x_to_that_of_y_rises_with_p() {
     let ratio = "(bbox_x_max - bbox_x_min) / (bbox_y_max - bbox_y_min)";
@@ -412,8 +422,8 @@ fn the_range_of_x_to_that_of_y_rises_with_p() {
     let (evans, chebyshev) = (&series(&evans)[0], &series(&chebyshev)[0]);
     assert!(evans.y[0].windows(2).all(|pair| pair[0] < pair[1]), "{:?}", evans.y[0]);
     for k in 0..evans.x.len() {
-        // The input turns otherwise, and the samples are others: so is what is read between them,
-        // a fourth-order error of the half degree.
+        // The inputs of the two differ, and so do their samples and the interpolation between them: by an error of the
+        // fourth order in half a degree.
         assert!((evans.y[0][k] / chebyshev.y[0][k] - 1.0).abs() < 1e-6, "{k}: {} {}", evans.y[0][k], chebyshev.y[0][k]);
         assert!((evans.y[1][k] / chebyshev.y[1][k] / 2.0 - 1.0).abs() < 1e-6, "{k}");
     }

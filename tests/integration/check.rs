@@ -1,4 +1,4 @@
-//! `check`: what has changed is found and named, and nothing else is.
+//! `check` reports what has changed, and nothing else.
 
 use std::fs;
 use std::path::Path;
@@ -38,29 +38,29 @@ cases = [{ g = 2, r = 1, e = 0.2 }]
 let = { along = 1.75, across = 0.5 }
 "#;
 
-/// A manifest and the atlas recorded from it.
-struct Recorded {
+/// A folder with a manifest and the atlas recorded from it.
+struct RecordedAtlas {
     folder: TempDir,
 }
 
-impl Recorded {
-    fn new() -> Recorded {
-        let recorded = Recorded { folder: tempfile::tempdir().unwrap() };
-        recorded.manifest(MANIFEST);
-        let output = recorded.command(&["render", "-q"]);
+impl RecordedAtlas {
+    fn new() -> RecordedAtlas {
+        let atlas = RecordedAtlas { folder: tempfile::tempdir().unwrap() };
+        atlas.write_manifest(MANIFEST);
+        let output = atlas.run(&["render", "-q"]);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        recorded
+        atlas
     }
 
     fn path(&self, name: &str) -> std::path::PathBuf {
         self.folder.path().join(name)
     }
 
-    fn manifest(&self, text: &str) {
+    fn write_manifest(&self, text: &str) {
         fs::write(self.path("atlas.toml"), text).unwrap();
     }
 
-    fn command(&self, arguments: &[&str]) -> Output {
+    fn run(&self, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
             .current_dir(self.folder.path())
             .args(arguments)
@@ -68,11 +68,11 @@ impl Recorded {
             .unwrap()
     }
 
-    /// Checks, with more arguments, and gives the exit code and the findings of the JSON report.
+    /// The exit code of `check` with more arguments, and the findings of its JSON report.
     fn check(&self, more: &[&str]) -> (i32, Vec<serde_json::Value>) {
         let mut arguments = vec!["check", "--against", "output", "--report", "json"];
         arguments.extend(more);
-        let output = self.command(&arguments);
+        let output = self.run(&arguments);
         let text = String::from_utf8(output.stdout).unwrap();
         let report: serde_json::Value =
             serde_json::from_str(&text).unwrap_or_else(|_| panic!("{text}{}", String::from_utf8_lossy(&output.stderr)));
@@ -81,7 +81,7 @@ impl Recorded {
         (output.status.code().unwrap(), findings)
     }
 
-    /// The kinds found, each once, in the order of the report.
+    /// The kinds of the findings, in the order of the report, without consecutive repetitions.
     fn kinds(&self) -> Vec<String> {
         let mut kinds: Vec<String> = self.check(&[]).1.iter().map(|f| f["kind"].as_str().unwrap().to_owned()).collect();
         kinds.dedup();
@@ -97,58 +97,60 @@ impl Recorded {
         fs::write(path, lines.join("\n") + "\n").unwrap();
     }
 
-    /// Writes the digests of tables anew, as somebody would who wants to fool the check.
-    fn forge(&self, family: &str, table: &str) {
+    /// Updates the digest of a file in the record, so that only the contents of the file show that it was edited.
+    fn update_digest(&self, family: &str, table: &str) {
         use sha2::Digest;
         let bytes = fs::read(self.path("output").join(family).join(table)).unwrap();
         let digest = format!("{:x}", sha2::Sha256::digest(&bytes));
         let path = self.path("output/run.json");
         let mut run: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
         let families = run["families"].as_array_mut().unwrap();
-        let of = families.iter_mut().find(|f| f["id"] == family).unwrap();
-        let file = of["files"].as_array_mut().unwrap().iter_mut().find(|f| f["name"] == table).unwrap();
+        let entry = families.iter_mut().find(|f| f["id"] == family).unwrap();
+        let file = entry["files"].as_array_mut().unwrap().iter_mut().find(|f| f["name"] == table).unwrap();
         file["sha256"] = digest.into();
         fs::write(path, serde_json::to_vec_pretty(&run).unwrap()).unwrap();
     }
 }
 
-/// A row of points of a curve: cell, trace, circuit, sample.
-fn row(lines: &[String], of: [usize; 3], sample: usize) -> usize {
-    let start = format!("{},{},{},", of[0], of[1], of[2]);
+/// The row of a sample of a curve, which is given by its cell, trace and circuit.
+fn row(lines: &[String], curve: [usize; 3], sample: usize) -> usize {
+    let start = format!("{},{},{},", curve[0], curve[1], curve[2]);
     let header: Vec<&str> = lines[0].split(',').collect();
     let at = header.iter().position(|name| *name == "sample").unwrap();
-    let is_ours = |line: &String| line.starts_with(&start) && line.split(',').nth(at) == Some(&sample.to_string());
-    lines.iter().position(is_ours).unwrap()
+    let is_sample = |line: &String| line.starts_with(&start) && line.split(',').nth(at) == Some(&sample.to_string());
+    lines.iter().position(is_sample).unwrap()
 }
 
-fn field(lines: &mut [String], row: usize, name: &str, change: impl FnOnce(&str) -> String) {
+/// Changes a field of a row, by the name of its column.
+fn edit_field(lines: &mut [String], row: usize, name: &str, change: impl FnOnce(&str) -> String) {
     let at = lines[0].split(',').position(|column| column == name).unwrap();
     let mut fields: Vec<String> = lines[row].split(',').map(str::to_owned).collect();
     fields[at] = change(&fields[at]);
     lines[row] = fields.join(",");
 }
 
-fn by(distance: f64) -> impl Fn(&str) -> String {
+/// Adds a distance to a number.
+fn add(distance: f64) -> impl Fn(&str) -> String {
     move |text| (text.parse::<f64>().unwrap() + distance).to_string()
 }
 
 #[test]
-fn an_atlas_that_has_not_changed_is_found_to_be_so_every_time() {
-    let recorded = Recorded::new();
+fn an_unchanged_atlas_has_no_findings_in_any_run() {
+    let atlas = RecordedAtlas::new();
     for jobs in ["1", "2", "7"].into_iter().cycle().take(12) {
-        assert_eq!(recorded.check(&["--jobs", jobs]), (0, vec![]));
+        assert_eq!(atlas.check(&["--jobs", jobs]), (0, vec![]));
     }
 }
 
 #[test]
-fn a_point_that_has_moved_by_1e_8_is_named_with_its_distance() {
-    let recorded = Recorded::new();
-    recorded.edit("evans/points.csv", |lines| {
+fn a_point_that_has_moved_by_1e_8_is_reported_with_its_distance() {
+    let atlas = RecordedAtlas::new();
+    atlas.edit("evans/points.csv", |lines| {
         let at = row(lines, [2, 1, 1], 57);
-        field(lines, at, "x", by(1e-8));
+        edit_field(lines, at, "x", add(1e-8));
     });
-    recorded.forge("evans", "points.csv");
-    let (code, findings) = recorded.check(&[]);
+    atlas.update_digest("evans", "points.csv");
+    let (code, findings) = atlas.check(&[]);
     assert_eq!((code, findings.len()), (1, 1), "{findings:?}");
     let found = &findings[0];
     assert_eq!(found["kind"], "moved");
@@ -160,31 +162,32 @@ fn a_point_that_has_moved_by_1e_8_is_named_with_its_distance() {
     let distance = found["distance"].as_f64().unwrap();
     // The coordinate is about 4, where doubles are 9e-16 apart.
     assert!((distance - 1e-8).abs() < 2e-15, "{distance}");
-    // As sets the curves are apart by what the point has moved across the curve, no more.
+    // The distance of the curves as sets of points is that of the point from its curve, and no more.
     let apart = found["apart"].as_f64().unwrap();
     assert!(apart > 0.0 && apart <= distance * (1.0 + 1e-6), "{apart}");
-    // A tolerance that is more than that lets it pass: on the command line, in the manifest, or the family's own.
-    assert_eq!(recorded.check(&["--atol", "2e-8"]).0, 0);
-    assert_eq!(recorded.check(&["--rtol", "1e-8"]).0, 0);
-    recorded
-        .manifest(&MANIFEST.replace("[[family]]\nid = \"evans\"", "[check]\natol = 2e-8\n[[family]]\nid = \"evans\""));
-    assert_eq!(recorded.check(&[]).0, 0);
-    assert_eq!(recorded.check(&["--atol", "1e-9"]).0, 1, "the command line counts");
-    recorded.manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = 2e-8 }"));
-    assert_eq!(recorded.check(&[]).0, 0);
+    // A greater tolerance accepts the change: on the command line, in the manifest, or of the family.
+    assert_eq!(atlas.check(&["--atol", "2e-8"]).0, 0);
+    assert_eq!(atlas.check(&["--rtol", "1e-8"]).0, 0);
+    atlas.write_manifest(
+        &MANIFEST.replace("[[family]]\nid = \"evans\"", "[check]\natol = 2e-8\n[[family]]\nid = \"evans\""),
+    );
+    assert_eq!(atlas.check(&[]).0, 0);
+    assert_eq!(atlas.check(&["--atol", "1e-9"]).0, 1, "the command line overrides the manifest");
+    atlas.write_manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = 2e-8 }"));
+    assert_eq!(atlas.check(&[]).0, 0);
 }
 
 #[test]
-fn a_point_that_has_moved_along_its_curve_leaves_the_set_as_it_was() {
-    let recorded = Recorded::new();
-    // Every sample half a step on: other points of the same curve.
+fn other_samples_of_the_same_curve_do_not_move_it() {
+    let atlas = RecordedAtlas::new();
+    // Another step: other points of the same curve.
     let shifted = MANIFEST.replacen("sampling = { step = \"2 deg\" }", "sampling = { step = \"3 deg\" }", 1);
-    recorded.manifest(&shifted);
-    let (_, findings) = recorded.check(&[]);
+    atlas.write_manifest(&shifted);
+    let (_, findings) = atlas.check(&[]);
     let samples: Vec<_> = findings.iter().filter(|f| f["kind"] == "samples").collect();
     assert_eq!(samples.len(), 3);
     for found in samples {
-        // The curves are some units in size: this is rounding.
+        // The curves are a few units in size, so this is rounding.
         assert!(found["apart"].as_f64().unwrap() < 1e-13, "{found}");
         assert_eq!((found["was"].as_u64(), found["is"].as_u64()), (Some(180), Some(120)));
     }
@@ -192,48 +195,49 @@ fn a_point_that_has_moved_along_its_curve_leaves_the_set_as_it_was() {
 }
 
 #[test]
-fn a_length_that_is_changed_is_named_and_what_it_moves() {
-    let recorded = Recorded::new();
-    recorded.manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 3, s = 4, a = 4.0000001 }"));
-    let (_, findings) = recorded.check(&[]);
+fn a_changed_length_is_reported_with_its_effects() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 3, s = 4, a = 4.0000001 }"));
+    let (_, findings) = atlas.check(&[]);
     assert!(findings.iter().all(|f| f["family"] == "evans" && f["cell"] == 2), "{findings:?}");
     let kinds: Vec<&str> = findings.iter().map(|f| f["kind"].as_str().unwrap()).collect();
     assert_eq!(&kinds[..2], ["parameter", "moved"]);
     let moved = &findings[1];
-    assert!(moved["apart"].as_f64().unwrap() > 1e-8, "another curve, and not other points of one: {moved}");
+    assert!(moved["apart"].as_f64().unwrap() > 1e-8, "another curve, not other points of the same: {moved}");
     assert!(kinds[2..].iter().all(|kind| ["measure", "column"].contains(kind)), "{kinds:?}");
-    // A crank that no longer turns: another class, and measures that a turning crank has and it has not.
-    recorded.manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 3, s = 1.2, a = 1.2 }"));
-    let (_, findings) = recorded.check(&[]);
+    // A crank that no longer turns fully has another class, and lacks measures of one that does.
+    atlas.write_manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 3, s = 1.2, a = 1.2 }"));
+    let (_, findings) = atlas.check(&[]);
     let kinds: Vec<&str> = findings.iter().map(|f| f["kind"].as_str().unwrap()).collect();
     assert_eq!((&kinds[..2], kinds.contains(&"class")), (&["parameter", "parameter"][..], true), "{kinds:?}");
     assert!(findings.iter().any(|f| f["name"] == "type") && !kinds.contains(&"damaged"), "{findings:?}");
 }
 
 #[test]
-fn cells_and_families_that_come_and_go_are_named() {
-    let recorded = Recorded::new();
-    recorded.manifest(&MANIFEST.replace("{ p = 2, s = 2.59, a = 2.59 }, ", ""));
-    assert_eq!(recorded.kinds(), ["cell-removed", "cell-renumbered"]);
-    recorded
-        .manifest(&MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 2.2, s = 3, a = 3 }, { p = 3, s = 4, a = 4 }"));
-    let (_, findings) = recorded.check(&[]);
-    let told: Vec<(&str, u64)> =
+fn added_and_removed_cells_and_families_are_reported() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(&MANIFEST.replace("{ p = 2, s = 2.59, a = 2.59 }, ", ""));
+    assert_eq!(atlas.kinds(), ["cell-removed", "cell-renumbered"]);
+    atlas.write_manifest(
+        &MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 2.2, s = 3, a = 3 }, { p = 3, s = 4, a = 4 }"),
+    );
+    let (_, findings) = atlas.check(&[]);
+    let reported: Vec<(&str, u64)> =
         findings.iter().map(|f| (f["kind"].as_str().unwrap(), f["cell"].as_u64().unwrap())).collect();
-    assert_eq!(told, [("cell-added", 2), ("cell-renumbered", 3), ("cell-renumbered", 4)]);
-    recorded.manifest(&MANIFEST.replace("id = \"bars\"", "id = \"bars-two\""));
-    assert_eq!(recorded.kinds(), ["family-removed", "family-added"]);
-    recorded.manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"hoeken\"").replace(
+    assert_eq!(reported, [("cell-added", 2), ("cell-renumbered", 3), ("cell-renumbered", 4)]);
+    atlas.write_manifest(&MANIFEST.replace("id = \"bars\"", "id = \"bars-two\""));
+    assert_eq!(atlas.kinds(), ["family-removed", "family-added"]);
+    atlas.write_manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"hoeken\"").replace(
         "cases = [{ p = 2, s = 2.59, a = 2.59 }, { p = 3, s = 4, a = 4 }, { p = 3, s = 4.1, a = 4.1 }]",
         "cases = [{}]",
     ));
-    assert!(recorded.kinds().contains(&"family-changed".to_owned()));
+    assert!(atlas.kinds().contains(&"family-changed".to_owned()));
 }
 
 #[test]
-fn circuits_that_are_reversed_or_renumbered_or_gone_are_named() {
-    let recorded = Recorded::new();
-    let original = fs::read_to_string(recorded.path("output/bars/points.csv")).unwrap();
+fn reversed_renumbered_and_missing_circuits_are_reported() {
+    let atlas = RecordedAtlas::new();
+    let original = fs::read_to_string(atlas.path("output/bars/points.csv")).unwrap();
     let circuits = |text: &str| {
         let mut found: Vec<String> =
             text.lines().filter(|l| l.starts_with("1,")).map(|l| l.split(',').nth(2).unwrap().to_owned()).collect();
@@ -242,27 +246,27 @@ fn circuits_that_are_reversed_or_renumbered_or_gone_are_named() {
     };
     assert_eq!(circuits(&original), ["1", "2"], "the first four-bar has two circuits");
     let restored = || {
-        fs::write(recorded.path("output/bars/points.csv"), &original).unwrap();
-        recorded.forge("bars", "points.csv");
+        fs::write(atlas.path("output/bars/points.csv"), &original).unwrap();
+        atlas.update_digest("bars", "points.csv");
     };
-    // The values of a circuit's rows, the last first.
-    recorded.edit("bars/points.csv", |lines| {
-        let ours: Vec<usize> = (0..lines.len()).filter(|&k| lines[k].starts_with("1,1,1,")).collect();
-        let values: Vec<Vec<String>> = ours.iter().map(|&k| lines[k].split(',').map(str::to_owned).collect()).collect();
-        for (k, &line) in ours.iter().enumerate() {
-            let mut fields = values[ours.len() - 1 - k].clone();
+    // The values of a circuit's rows in reverse order.
+    atlas.edit("bars/points.csv", |lines| {
+        let rows: Vec<usize> = (0..lines.len()).filter(|&k| lines[k].starts_with("1,1,1,")).collect();
+        let values: Vec<Vec<String>> = rows.iter().map(|&k| lines[k].split(',').map(str::to_owned).collect()).collect();
+        for (k, &line) in rows.iter().enumerate() {
+            let mut fields = values[rows.len() - 1 - k].clone();
             fields[4].clone_from(&values[k][4]);
             lines[line] = fields.join(",");
         }
     });
-    recorded.forge("bars", "points.csv");
-    let (_, findings) = recorded.check(&[]);
-    let told: Vec<(&str, u64)> =
+    atlas.update_digest("bars", "points.csv");
+    let (_, findings) = atlas.check(&[]);
+    let reported: Vec<(&str, u64)> =
         findings.iter().map(|f| (f["kind"].as_str().unwrap(), f["circuit"].as_u64().unwrap_or(0))).collect();
-    assert_eq!(told, [("circuit-reversed", 1)], "{findings:?}");
-    // Two circuits with each other's number.
+    assert_eq!(reported, [("circuit-reversed", 1)], "{findings:?}");
+    // Two circuits with their numbers exchanged.
     restored();
-    recorded.edit("bars/points.csv", |lines| {
+    atlas.edit("bars/points.csv", |lines| {
         for line in lines.iter_mut() {
             if let Some(rest) = line.strip_prefix("1,1,1,") {
                 *line = format!("1,1,2,{rest}");
@@ -271,138 +275,138 @@ fn circuits_that_are_reversed_or_renumbered_or_gone_are_named() {
             }
         }
     });
-    recorded.forge("bars", "points.csv");
-    assert_eq!(recorded.kinds(), ["circuit-renumbered"]);
-    // One of them lost, or not recorded.
+    atlas.update_digest("bars", "points.csv");
+    assert_eq!(atlas.kinds(), ["circuit-renumbered"]);
+    // A record without one of the circuits.
     restored();
-    recorded.edit("bars/points.csv", |lines| lines.retain(|line| !line.starts_with("1,1,2,")));
-    recorded.forge("bars", "points.csv");
-    assert_eq!(recorded.kinds(), ["circuit-added"]);
-    // Both as one: there one circuit has become two.
+    atlas.edit("bars/points.csv", |lines| lines.retain(|line| !line.starts_with("1,1,2,")));
+    atlas.update_digest("bars", "points.csv");
+    assert_eq!(atlas.kinds(), ["circuit-added"]);
+    // A record of both as one circuit, which has since been split.
     restored();
-    recorded.edit("bars/points.csv", |lines| {
-        let many = lines.iter().filter(|line| line.starts_with("1,1,1,")).count();
+    atlas.edit("bars/points.csv", |lines| {
+        let count = lines.iter().filter(|line| line.starts_with("1,1,1,")).count();
         for (k, line) in lines.iter_mut().filter(|line| line.starts_with("1,1,2,")).enumerate() {
             let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
             fields[2] = "1".to_owned();
-            fields[4] = (many + k).to_string();
+            fields[4] = (count + k).to_string();
             *line = fields.join(",");
         }
     });
-    recorded.forge("bars", "points.csv");
-    assert_eq!(recorded.kinds(), ["circuit-split"]);
-    // The other branch.
+    atlas.update_digest("bars", "points.csv");
+    assert_eq!(atlas.kinds(), ["circuit-split"]);
+    // A sample on the other branch.
     restored();
-    recorded.edit("bars/points.csv", |lines| {
+    atlas.edit("bars/points.csv", |lines| {
         let at = row(lines, [2, 1, 1], 10);
-        field(lines, at, "branch", |branch| if branch == "1" { "-1".to_owned() } else { "1".to_owned() });
+        edit_field(lines, at, "branch", |branch| if branch == "1" { "-1".to_owned() } else { "1".to_owned() });
     });
-    recorded.forge("bars", "points.csv");
-    let (_, findings) = recorded.check(&[]);
+    atlas.update_digest("bars", "points.csv");
+    let (_, findings) = atlas.check(&[]);
     assert_eq!((findings[0]["kind"].as_str(), findings[0]["sample"].as_u64()), (Some("branch"), Some(10)));
 }
 
 #[test]
-fn samples_measures_and_columns_that_differ_are_named() {
-    let recorded = Recorded::new();
-    recorded.edit("evans/points.csv", |lines| {
+fn different_samples_measures_and_columns_are_reported() {
+    let atlas = RecordedAtlas::new();
+    atlas.edit("evans/points.csv", |lines| {
         let at = row(lines, [1, 1, 1], 57);
         lines.remove(at);
         let at = row(lines, [2, 1, 1], 30);
-        field(lines, at, "vx", by(1e-3));
+        edit_field(lines, at, "vx", add(1e-3));
     });
-    recorded.forge("evans", "points.csv");
-    recorded.edit("evans/cells.csv", |lines| {
-        field(lines, 3, "length", by(1e-6));
-        field(lines, 1, "class", |_| "drag-link".to_owned());
+    atlas.update_digest("evans", "points.csv");
+    atlas.edit("evans/cells.csv", |lines| {
+        edit_field(lines, 3, "length", add(1e-6));
+        edit_field(lines, 1, "class", |_| "drag-link".to_owned());
     });
-    recorded.forge("evans", "cells.csv");
-    let (_, findings) = recorded.check(&[]);
-    let told: Vec<(&str, u64)> =
+    atlas.update_digest("evans", "cells.csv");
+    let (_, findings) = atlas.check(&[]);
+    let reported: Vec<(&str, u64)> =
         findings.iter().map(|f| (f["kind"].as_str().unwrap(), f["cell"].as_u64().unwrap())).collect();
-    assert_eq!(told, [("class", 1), ("samples", 1), ("measure", 3), ("column", 2)]);
+    assert_eq!(reported, [("class", 1), ("samples", 1), ("measure", 3), ("column", 2)]);
     assert_eq!(findings[1]["missing"], serde_json::json!([57]));
     assert_eq!(findings[2]["name"], "length");
     assert_eq!((findings[3]["name"].as_str(), findings[3]["sample"].as_u64()), (Some("vx"), Some(30)));
-    assert_eq!(recorded.check(&["--measure-rtol", "1e-2"]).1.len(), 2, "what is measured may differ more");
+    assert_eq!(atlas.check(&["--measure-rtol", "1e-2"]).1.len(), 2, "the tolerance of measures is separate");
 }
 
 #[test]
-fn a_linkage_that_can_or_cannot_be_assembled_any_more_is_named() {
-    let recorded = Recorded::new();
-    let apart = MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 9, s = 4, a = 4 }");
-    recorded.manifest(&apart);
-    assert_eq!(recorded.kinds(), ["parameter", "status", "circuit-lost"]);
-    // The other way round.
-    recorded.command(&["render", "-q"]);
-    assert_eq!(recorded.check(&[]), (0, vec![]));
-    recorded.manifest(MANIFEST);
-    assert_eq!(recorded.kinds(), ["parameter", "status", "circuit-added"]);
+fn a_linkage_that_can_no_longer_or_can_now_be_assembled_is_reported() {
+    let atlas = RecordedAtlas::new();
+    let unassembled = MANIFEST.replace("{ p = 3, s = 4, a = 4 }", "{ p = 9, s = 4, a = 4 }");
+    atlas.write_manifest(&unassembled);
+    assert_eq!(atlas.kinds(), ["parameter", "status", "circuit-lost"]);
+    // The reverse.
+    atlas.run(&["render", "-q"]);
+    assert_eq!(atlas.check(&[]), (0, vec![]));
+    atlas.write_manifest(MANIFEST);
+    assert_eq!(atlas.kinds(), ["parameter", "status", "circuit-added"]);
 }
 
 #[test]
 fn an_atlas_of_images_or_a_book_is_checked_too() {
-    let recorded = Recorded::new();
+    let atlas = RecordedAtlas::new();
     for formats in ["[\"png\"]", "[\"pdf\"]", "[\"svg\", \"png\", \"pdf\"]"] {
-        recorded.manifest(&MANIFEST.replace("[\"svg\"]", formats));
-        recorded.command(&["render", "-q"]);
-        assert_eq!(recorded.check(&[]), (0, vec![]), "{formats}");
+        atlas.write_manifest(&MANIFEST.replace("[\"svg\"]", formats));
+        atlas.run(&["render", "-q"]);
+        assert_eq!(atlas.check(&[]), (0, vec![]), "{formats}");
     }
-    fs::remove_file(recorded.path("output/atlas.pdf")).unwrap();
-    fs::remove_file(recorded.path("output/evans/evans-001.png")).unwrap();
-    assert_eq!(recorded.check(&[]).1.len(), 2);
+    fs::remove_file(atlas.path("output/atlas.pdf")).unwrap();
+    fs::remove_file(atlas.path("output/evans/evans-001.png")).unwrap();
+    assert_eq!(atlas.check(&[]).1.len(), 2);
 }
 
 #[test]
-fn pages_that_are_drawn_otherwise_are_told_from_pages_that_were_edited() {
-    let recorded = Recorded::new();
-    recorded.manifest(
+fn pages_drawn_differently_are_distinguished_from_edited_pages() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(
         &MANIFEST.replace("[[family]]\nid = \"evans\"", "[page]\ndash = \"6 deg\"\n[[family]]\nid = \"evans\""),
     );
-    let (code, findings) = recorded.check(&[]);
+    let (code, findings) = atlas.check(&[]);
     assert!(code == 1 && findings.iter().all(|f| f["kind"] == "drawing"), "{findings:?}");
-    assert_eq!(findings.len(), 2, "an actuator has dashes of its own: {findings:?}");
-    recorded.manifest(MANIFEST);
-    recorded.edit("bars/bars-001.svg", |lines| {
+    assert_eq!(findings.len(), 2, "the dashes of an actuator are not in degrees: {findings:?}");
+    atlas.write_manifest(MANIFEST);
+    atlas.edit("bars/bars-001.svg", |lines| {
         let at = lines.iter().position(|line| line.contains("<path")).unwrap();
         lines[at] = lines[at].replacen("m", "m1 1", 1);
     });
-    let (_, findings) = recorded.check(&[]);
+    let (_, findings) = atlas.check(&[]);
     assert!(findings.iter().any(|f| f["kind"] == "altered" && f["file"] == "bars/bars-001.svg"), "{findings:?}");
-    assert!(findings.iter().all(|f| f["kind"] != "drawn-off"), "that was the border: {findings:?}");
-    // A curve that is moved on its page, by somebody who knows of digests: by a tenth of a millimetre, and by a hundredth
-    // of that.
-    recorded.command(&["render", "-q", "--force"]);
-    let page = fs::read_to_string(recorded.path("output/evans/evans-001.svg")).unwrap();
+    assert!(findings.iter().all(|f| f["kind"] != "drawn-off"), "the edited path is the border: {findings:?}");
+    // A curve that is moved on its page, with the digest updated: by a tenth of a millimetre, and by a hundredth of
+    // that.
+    atlas.run(&["render", "-q", "--force"]);
+    let page = fs::read_to_string(atlas.path("output/evans/evans-001.svg")).unwrap();
     let at = page.find("class=\"curve\"").unwrap();
     let path = at + page[at..].find(" d=\"m").unwrap() + 5;
     let end = path + page[path..].find(' ').unwrap();
     let x: f64 = page[path..end].parse().unwrap();
-    for (by, kinds) in [(0.1, vec!["drawn-off", "drawing"]), (0.001, vec!["drawing"])] {
-        let moved = format!("{}{:.3}{}", &page[..path], x + by, &page[end..]);
-        fs::write(recorded.path("output/evans/evans-001.svg"), moved).unwrap();
-        recorded.forge("evans", "evans-001.svg");
-        assert_eq!(recorded.kinds(), kinds, "{by}");
+    for (distance, kinds) in [(0.1, vec!["drawn-off", "drawing"]), (0.001, vec!["drawing"])] {
+        let moved = format!("{}{:.3}{}", &page[..path], x + distance, &page[end..]);
+        fs::write(atlas.path("output/evans/evans-001.svg"), moved).unwrap();
+        atlas.update_digest("evans", "evans-001.svg");
+        assert_eq!(atlas.kinds(), kinds, "{distance}");
     }
-    recorded.command(&["render", "-q", "--force"]);
-    // An image that is spoilt in its midst.
-    recorded.command(&["render", "-q", "--format", "png"]);
-    assert_eq!(recorded.kinds(), [""; 0]);
-    let image = recorded.path("output/bars/bars-001.png");
+    atlas.run(&["render", "-q", "--force"]);
+    // An image with a flipped bit in the middle.
+    atlas.run(&["render", "-q", "--format", "png"]);
+    assert_eq!(atlas.kinds(), [""; 0]);
+    let image = atlas.path("output/bars/bars-001.png");
     let mut bytes = fs::read(&image).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&image, bytes).unwrap();
-    assert_eq!(recorded.kinds(), ["damaged"]);
-    recorded.command(&["render", "-q", "--force"]);
-    fs::remove_file(recorded.path("output/bars/bars-001.svg")).unwrap();
-    assert_eq!(recorded.kinds(), ["damaged"]);
+    assert_eq!(atlas.kinds(), ["damaged"]);
+    atlas.run(&["render", "-q", "--force"]);
+    fs::remove_file(atlas.path("output/bars/bars-001.svg")).unwrap();
+    assert_eq!(atlas.kinds(), ["damaged"]);
 }
 
 #[test]
-fn a_recorded_atlas_may_be_anything() {
-    let recorded = Recorded::new();
-    let folder = recorded.path("output/evans");
+fn damaged_records_are_reported() {
+    let atlas = RecordedAtlas::new();
+    let folder = atlas.path("output/evans");
     let points = fs::read(folder.join("points.csv")).unwrap();
     let cells = fs::read(folder.join("cells.csv")).unwrap();
     let with = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).unwrap();
@@ -432,53 +436,53 @@ fn a_recorded_atlas_may_be_anything() {
     ];
     for (name, bytes, kind) in cases {
         with("points.csv", &bytes);
-        let (code, findings) = recorded.check(&[]);
+        let (code, findings) = atlas.check(&[]);
         assert_eq!(code, 1, "{name}");
         assert!(findings.iter().any(|f| f["kind"] == kind), "{name}: {findings:?}");
     }
-    // What has other line ends is the same atlas, and so is one with a byte order mark.
+    // An atlas with other line ends, or with a byte order mark, is the same atlas.
     with("points.csv", text.replace('\n', "\r\n").as_bytes());
     with("cells.csv", &[b"\xef\xbb\xbf", &cells[..]].concat());
-    let (code, findings) = recorded.check(&[]);
+    let (code, findings) = atlas.check(&[]);
     assert!(code == 0 && findings.iter().all(|f| f["kind"] == "rewritten"), "{findings:?}");
     assert_eq!(findings.len(), 2);
-    // A terabyte, most of which is a hole in the file.
+    // A sparse file of a terabyte.
     fs::OpenOptions::new().write(true).open(folder.join("points.csv")).unwrap().set_len(1 << 40).unwrap();
-    let (_, findings) = recorded.check(&[]);
+    let (_, findings) = atlas.check(&[]);
     assert!(findings[0]["wrong"].as_str().unwrap().starts_with("has 1099511627776 bytes"), "{findings:?}");
-    // A folder, a link, a pipe in place of a file.
+    // A folder, or a link to a device, in place of a file.
     fs::remove_file(folder.join("points.csv")).unwrap();
     fs::create_dir(folder.join("points.csv")).unwrap();
-    assert!(recorded.kinds().contains(&"damaged".to_owned()));
+    assert!(atlas.kinds().contains(&"damaged".to_owned()));
     #[cfg(unix)]
     {
         fs::remove_dir(folder.join("points.csv")).unwrap();
         std::os::unix::fs::symlink("/dev/zero", folder.join("points.csv")).unwrap();
-        assert!(recorded.kinds().contains(&"damaged".to_owned()));
+        assert!(atlas.kinds().contains(&"damaged".to_owned()));
     }
-    // Without its record there is nothing to hold against.
+    // Without a valid record there is nothing to compare with.
     for bytes in [&b"{"[..], b"{\"format\": 99}", b"[]", b"\xff"] {
-        fs::write(recorded.path("output/run.json"), bytes).unwrap();
-        let output = recorded.command(&["check", "--against", "output"]);
+        fs::write(atlas.path("output/run.json"), bytes).unwrap();
+        let output = atlas.run(&["check", "--against", "output"]);
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stderr).contains("run.json"));
     }
-    fs::remove_file(recorded.path("output/run.json")).unwrap();
+    fs::remove_file(atlas.path("output/run.json")).unwrap();
     #[cfg(unix)]
     {
-        std::os::unix::fs::symlink("/dev/zero", recorded.path("output/run.json")).unwrap();
-        assert_eq!(recorded.command(&["check", "--against", "output"]).status.code(), Some(2));
-        fs::remove_file(recorded.path("output/run.json")).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", atlas.path("output/run.json")).unwrap();
+        assert_eq!(atlas.run(&["check", "--against", "output"]).status.code(), Some(2));
+        fs::remove_file(atlas.path("output/run.json")).unwrap();
     }
-    assert_eq!(recorded.command(&["check", "--against", "output"]).status.code(), Some(2));
-    assert_eq!(recorded.command(&["check", "--against", "nowhere"]).status.code(), Some(2));
+    assert_eq!(atlas.run(&["check", "--against", "output"]).status.code(), Some(2));
+    assert_eq!(atlas.run(&["check", "--against", "nowhere"]).status.code(), Some(2));
 }
 
 #[test]
-fn reports_and_pages_of_what_has_moved_are_well_formed() {
-    let recorded = Recorded::new();
-    recorded.manifest(&MANIFEST.replace("a = 4 }", "a = 4.001 }").replace("samples = 40", "samples = 41"));
-    let output = recorded.command(&[
+fn reports_and_difference_pages_are_well_formed() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(&MANIFEST.replace("a = 4 }", "a = 4.001 }").replace("samples = 40", "samples = 41"));
+    let output = atlas.run(&[
         "check",
         "--against",
         "output",
@@ -493,14 +497,14 @@ fn reports_and_pages_of_what_has_moved_are_well_formed() {
     ]);
     assert_eq!(output.status.code(), Some(1));
     let annotations = String::from_utf8(output.stdout).unwrap();
-    // The line on which the family stands.
+    // The line of the family in the manifest.
     let line = MANIFEST[..MANIFEST.find("id = \"evans\"").unwrap()].matches('\n').count();
     let first = annotations.lines().next().unwrap();
     assert!(
         first.starts_with(&format!("::error file=atlas.toml,line={line},title=parameter%3A evans%2C cell 2::")),
         "{first}"
     );
-    let xml = fs::read_to_string(recorded.path("report.xml")).unwrap();
+    let xml = fs::read_to_string(atlas.path("report.xml")).unwrap();
     let mut reader = quick_xml::Reader::from_str(&xml);
     let mut failures = 0;
     loop {
@@ -511,35 +515,35 @@ fn reports_and_pages_of_what_has_moved_are_well_formed() {
         }
     }
     assert!(failures >= 2, "{xml}");
-    let report: serde_json::Value = serde_json::from_slice(&fs::read(recorded.path("report.json")).unwrap()).unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(atlas.path("report.json")).unwrap()).unwrap();
     assert_eq!((report["format"].as_u64(), report["has_differences"].as_bool()), (Some(1), Some(true)));
     let total: u64 = report["counts"].as_object().unwrap().values().map(|n| n.as_u64().unwrap()).sum();
     assert_eq!(total as usize, report["findings"].as_array().unwrap().len());
-    let index = fs::read_to_string(recorded.path("moved/index.html")).unwrap();
+    let index = fs::read_to_string(atlas.path("moved/index.html")).unwrap();
     assert!(index.contains("Atlas &lt;of&gt; &quot;curves&quot;") && !index.contains("<of>"));
     for name in ["evans-2-1-1.svg", "actuator-1-1-1.svg"] {
-        assert!(index.contains(name) && recorded.path("moved").join(name).is_file(), "{name}");
+        assert!(index.contains(name) && atlas.path("moved").join(name).is_file(), "{name}");
     }
 }
 
 #[test]
-fn blessing_records_what_comes_out_now() {
-    let recorded = Recorded::new();
-    recorded.manifest(&MANIFEST.replace("a = 4 }", "a = 4.001 }"));
-    assert_eq!(recorded.check(&[]).0, 1);
-    let output = recorded.command(&["check", "--against", "output", "--bless"]);
+fn bless_records_the_current_output() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(&MANIFEST.replace("a = 4 }", "a = 4.001 }"));
+    assert_eq!(atlas.check(&[]).0, 1);
+    let output = atlas.run(&["check", "--against", "output", "--bless"]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("parameter"), "it says what it replaces");
-    assert_eq!(recorded.check(&[]), (0, vec![]));
-    let before = fs::read(recorded.path("output/run.json")).unwrap();
-    let output = recorded.command(&["check", "--against", "output", "--bless"]);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("parameter"), "the replaced differences are printed");
+    assert_eq!(atlas.check(&[]), (0, vec![]));
+    let before = fs::read(atlas.path("output/run.json")).unwrap();
+    let output = atlas.run(&["check", "--against", "output", "--bless"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("nothing has changed"));
-    assert_eq!(fs::read(recorded.path("output/run.json")).unwrap(), before);
+    assert_eq!(fs::read(atlas.path("output/run.json")).unwrap(), before);
 }
 
 #[test]
-fn wrong_arguments_are_told() {
-    let recorded = Recorded::new();
+fn wrong_arguments_are_reported() {
+    let atlas = RecordedAtlas::new();
     for (arguments, word) in [
         (&["--only", "evens"][..], "did you mean `evans`"),
         (&["--atol", "-1"], "must not be negative"),
@@ -550,14 +554,15 @@ fn wrong_arguments_are_told() {
     ] {
         let mut all = vec!["check", "--against", "output"];
         all.extend(arguments);
-        let output = recorded.command(&all);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && told.contains(word), "{arguments:?}: {told}");
+        let output = atlas.run(&all);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && errors.contains(word), "{arguments:?}: {errors}");
     }
-    recorded
-        .manifest(&MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = -1, atoll = 2 }"));
-    let output = recorded.command(&["check", "--against", "output"]);
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(told.contains("must not be negative") && told.contains("atoll"), "{told}");
-    assert!(Path::new(&recorded.path("output/run.json")).is_file());
+    atlas.write_manifest(
+        &MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = -1, atoll = 2 }"),
+    );
+    let output = atlas.run(&["check", "--against", "output"]);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(errors.contains("must not be negative") && errors.contains("atoll"), "{errors}");
+    assert!(Path::new(&atlas.path("output/run.json")).is_file());
 }

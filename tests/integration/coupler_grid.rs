@@ -1,4 +1,4 @@
-//! Pages of coupler grids: how many, what is on them, and that nothing on them is cut off or runs into another thing.
+//! Pages of coupler grids: their number and contents, and that nothing on them is cut off or overlaps.
 
 use coupler_curves::solve;
 use std::fs;
@@ -43,7 +43,7 @@ sampling = { step = "10 deg" }
 grid = { g = [2, 3, 9] }
 "#;
 
-/// Papers with a name, an upright one, and some that are small or narrow.
+/// Named papers, an upright one, and some that are small or narrow, in millimetres.
 const PAPERS: [(f64, f64); 9] = [
     (297.0, 210.0),
     (279.4, 215.9),
@@ -65,7 +65,7 @@ fn example() -> Plan {
     plan(include_str!("../../examples/hrones-nelson.toml"))
 }
 
-fn on((width, height): (f64, f64)) -> Options {
+fn options((width, height): (f64, f64)) -> Options {
     Options::for_paper(Paper { width, height })
 }
 
@@ -76,13 +76,13 @@ fn labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
     family.template.link_length_names().into_iter().filter_map(label).collect()
 }
 
-/// The pages of a cell, with the curves of each.
+/// The pages of a cell, each with the indices of its curves.
 fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) -> Vec<(Scene, Vec<usize>)> {
     let mut shown = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
     if shown.is_empty() {
         shown.push(Vec::new());
     }
-    let of = shown.len();
+    let page_count = shown.len();
     let labels = labels(family, solved);
     let view = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
     let compose = |(page, shown): (usize, Vec<usize>)| {
@@ -93,38 +93,38 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
             .with_atlas_title("The atlas")
             .with_source(source)
             .with_symbols(symbols)
-            .with_page(page, of);
+            .with_page(page, page_count);
         let facts = page::cell_facts(solved);
         let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(view.clone());
-        let sheet = CouplerGridPage { heading, panel, curve_indices: shown.clone(), labels: &labels };
-        (page::compose_coupler_grid(&sheet, options), shown)
+        let grid_page = CouplerGridPage { heading, panel, curve_indices: shown.clone(), labels: &labels };
+        (page::compose_coupler_grid(&grid_page, options), shown)
     };
     (1..).zip(shown).map(compose).collect()
 }
 
-/// The cells of the first family of a plan, of which every so many are taken.
-fn solved(plan: &Plan, every: usize) -> Vec<SolvedCell> {
+/// The solved cells of the first family of a plan, one in every `step` of them.
+fn solve_cells(plan: &Plan, step: usize) -> Vec<SolvedCell> {
     let family = &plan.families[0].family;
     let sampler = Sampler::new(family.sampling);
     let kept = sweep::kept_cells(family);
-    kept.iter().step_by(every).map(|&k| solve::solve_cell(family, &sampler, k).unwrap()).collect()
+    kept.iter().step_by(step).map(|&k| solve::solve_cell(family, &sampler, k).unwrap()).collect()
 }
 
-/// All pages of some cells.
-fn all_pages(plan: &Plan, every: usize, options: &Options) -> Vec<Scene> {
+/// All pages of one in every `step` cells.
+fn all_pages(plan: &Plan, step: usize, options: &Options) -> Vec<Scene> {
     let planned = &plan.families[0];
     let scenes = |solved: &SolvedCell| pages(&planned.family, &planned.source, solved, options);
-    solved(plan, every).iter().flat_map(scenes).map(|(scene, _)| scene).collect()
+    solve_cells(plan, step).iter().flat_map(scenes).map(|(scene, _)| scene).collect()
 }
 
-/// What is drawn on a page, each with the class of its group.
-fn leaves(scene: &Scene) -> Vec<(&'static str, &Item)> {
+/// The items of a page that are not groups, each with the class of its group.
+fn items(scene: &Scene) -> Vec<(&'static str, &Item)> {
     fn add<'s>(class: &'static str, items: &'s [Item], out: &mut Vec<(&'static str, &'s Item)>) {
         for item in items {
             match item {
                 Item::Group(group) => add(group.class, &group.items, out),
-                Item::Animation(_) => panic!("a page of a coupler grid stands still"),
-                leaf => out.push((class, leaf)),
+                Item::Animation(_) => panic!("a page of a coupler grid has no animations"),
+                item => out.push((class, item)),
             }
         }
     }
@@ -141,27 +141,28 @@ fn groups<'s>(scene: &'s Scene, class: &str) -> Vec<&'s Group> {
 fn texts<'s>(scene: &'s Scene) -> Vec<(&'static str, &'s Text)> {
     let text =
         |(class, item): (&'static str, &'s Item)| if let Item::Text(text) = item { Some((class, text)) } else { None };
-    leaves(scene).into_iter().filter_map(text).collect()
+    items(scene).into_iter().filter_map(text).collect()
 }
 
-fn words(text: &Text) -> String {
+/// The characters of a text, without their faces.
+fn content(text: &Text) -> String {
     text.runs.iter().map(|run| run.text.as_str()).collect()
 }
 
-fn circles<'s>(scene: &'s Scene, wanted: &[&str]) -> Vec<&'s Circle> {
+fn circles<'s>(scene: &'s Scene, classes: &[&str]) -> Vec<&'s Circle> {
     let circle = |(class, item): (&str, &'s Item)| match item {
-        Item::Circle(circle) if wanted.contains(&class) => Some(circle),
+        Item::Circle(circle) if classes.contains(&class) => Some(circle),
         _ => None,
     };
-    leaves(scene).into_iter().filter_map(circle).collect()
+    items(scene).into_iter().filter_map(circle).collect()
 }
 
-fn paths<'s>(scene: &'s Scene, wanted: &[&str]) -> Vec<&'s Path> {
+fn paths<'s>(scene: &'s Scene, classes: &[&str]) -> Vec<&'s Path> {
     let path = |(class, item): (&str, &'s Item)| match item {
-        Item::Path(path) if wanted.contains(&class) => Some(path),
+        Item::Path(path) if classes.contains(&class) => Some(path),
         _ => None,
     };
-    leaves(scene).into_iter().filter_map(path).collect()
+    items(scene).into_iter().filter_map(path).collect()
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -171,18 +172,18 @@ struct Rect {
 }
 
 impl Rect {
-    /// The box of a text that reaches so many ems above and below its baseline.
-    fn of(text: &Text, [above, below]: [f64; 2]) -> Rect {
+    /// The box of a text that extends by these distances above and below its baseline, in ems.
+    fn from_text(text: &Text, [above, below]: [f64; 2]) -> Rect {
         assert_eq!(text.quarter_turns, 0);
         let start = text.start();
         let [above, below] = [above * text.size, below * text.size];
         Rect { low: start - Vector::new(0.0, above), high: start + Vector::new(text.width(), below) }
     }
 
-    /// The box of all that any letter of its face may take.
-    fn of_face(text: &Text) -> Rect {
+    /// The box of a text with the ascent and descent of its face.
+    fn from_face(text: &Text) -> Rect {
         let (above, below) = text.runs[0].face.ascent_and_descent();
-        Rect::of(text, [above, below])
+        Rect::from_text(text, [above, below])
     }
 
     fn is_in(&self, outer: &Rect) -> bool {
@@ -201,14 +202,14 @@ impl Rect {
         Vector::new(off(p.x, self.low.x, self.high.x), off(p.y, self.low.y, self.high.y)).norm()
     }
 
-    /// How far a segment is from it; 0 where it passes through.
-    fn distance_to(&self, a: Point, b: Point) -> f64 {
+    /// The distance of a segment from the box; 0 if it passes through.
+    fn distance_to_segment(&self, a: Point, b: Point) -> f64 {
         let [p, q] = [Point::new(self.low.x, self.high.y), Point::new(self.high.x, self.low.y)];
         let crosses = |[c, d]: [Point; 2]| {
             let side = |o: Point, u: Point, v: Point| (u - o).perp(&(v - o));
             side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
         };
-        // What passes through a box crosses one of its diagonals.
+        // A segment that passes through a box crosses one of its diagonals.
         if [[self.low, self.high], [p, q]].into_iter().any(crosses) {
             return 0.0;
         }
@@ -217,45 +218,50 @@ impl Rect {
     }
 }
 
-/// The middle of the border's line; it is drawn first.
+/// The box of the middle of the border's line, which is drawn first.
 fn border(scene: &Scene) -> Rect {
-    let Some((_, Item::Path(path))) = leaves(scene).into_iter().next() else { panic!("a border comes first") };
+    let Some((_, Item::Path(path))) = items(scene).into_iter().next() else { panic!("the first item is not a border") };
     let points = &path.polylines[0].points;
-    let by = |pick: fn(&Point) -> f64| {
-        points.iter().map(pick).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
+    let extent = |coordinate: fn(&Point) -> f64| {
+        points.iter().map(coordinate).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
     };
-    let ([left, right], [top, bottom]) = (by(|p| p.x), by(|p| p.y));
+    let ([left, right], [top, bottom]) = (extent(|p| p.x), extent(|p| p.y));
     Rect { low: Point::new(left, top), high: Point::new(right, bottom) }
 }
 
-/// What of a page is not inside its border, with its line's weight.
+/// The items of a page that are not inside its border, with half the widths of their strokes.
 fn outside(scene: &Scene) -> Vec<String> {
     let inner = border(scene);
     let mut out = Vec::new();
-    for (class, item) in leaves(scene).into_iter().skip(1) {
-        let around = |p: Point, by: f64| Rect { low: p - Vector::repeat(by), high: p + Vector::repeat(by) };
+    for (class, item) in items(scene).into_iter().skip(1) {
+        let around = |p: Point, margin: f64| Rect { low: p - Vector::repeat(margin), high: p + Vector::repeat(margin) };
         let half = |stroke: Option<coupler_drawing::scene::Stroke>| stroke.map_or(0.0, |stroke| stroke.width / 2.0);
         let is_in = match item {
             Item::Circle(circle) => around(circle.centre, circle.radius + half(circle.stroke)).is_in(&inner),
-            Item::Text(text) => text.runs.is_empty() || Rect::of_face(text).is_in(&inner),
+            Item::Text(text) => text.runs.is_empty() || Rect::from_face(text).is_in(&inner),
             Item::Path(path) => path.polylines.iter().flat_map(|line| &line.points).all(|p| {
                 assert!(p.x.is_finite() && p.y.is_finite(), "{class}");
                 around(*p, half(path.stroke)).is_in(&inner)
             }),
-            Item::Group(_) | Item::Animation(_) => unreachable!("leaves have none"),
+            Item::Group(_) | Item::Animation(_) => unreachable!("`items` descends into groups"),
         };
         if !is_in {
-            out.push(if let Item::Text(text) = item { format!("{class}: {}", words(text)) } else { class.to_owned() });
+            out.push(if let Item::Text(text) = item {
+                format!("{class}: {}", content(text))
+            } else {
+                class.to_owned()
+            });
         }
     }
     out
 }
 
-/// The texts of a page that run into one another.
+/// The texts of a page that overlap.
 fn overlaps(scene: &Scene) -> Vec<String> {
-    // Capitals, figures and what hangs below the baseline: letters with accents are not on these pages.
+    // Room for capitals, figures and descenders: no letters with accents are on these pages.
     let below = |class: &str| if class == "number" { 0.0 } else { 0.22 };
-    let boxed = |(class, text): (&'static str, &Text)| (class, words(text), Rect::of(text, [0.73, below(class)]));
+    let boxed =
+        |(class, text): (&'static str, &Text)| (class, content(text), Rect::from_text(text, [0.73, below(class)]));
     let texts: Vec<(&str, String, Rect)> = texts(scene).into_iter().map(boxed).collect();
     let mut out = Vec::new();
     for (k, (class, a, rect)) in texts.iter().enumerate() {
@@ -267,24 +273,24 @@ fn overlaps(scene: &Scene) -> Vec<String> {
 }
 
 #[test]
-fn all_is_drawn_inside_the_border_and_no_text_on_another() {
+fn everything_is_inside_the_border_and_no_texts_overlap() {
     let plan = example();
     for paper in PAPERS {
-        // Some of the pages only on the papers that are hardly used.
-        let every = if paper.0.min(paper.1) > 200.0 { 9 } else { 23 };
-        for (k, scene) in all_pages(&plan, every, &on(paper)).iter().enumerate() {
+        // Fewer of the pages on the papers that are rarely used.
+        let step = if paper.0.min(paper.1) > 200.0 { 9 } else { 23 };
+        for (k, scene) in all_pages(&plan, step, &options(paper)).iter().enumerate() {
             assert_eq!(outside(scene), [""; 0], "{paper:?} {k}");
             assert_eq!(overlaps(scene), [""; 0], "{paper:?} {k}");
         }
     }
 }
 
-/// How a number stands: what it touches, if anything.
+/// The class of something that each number on a page touches, if there is any.
 fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
     let numbers: Vec<Rect> = texts(scene)
         .into_iter()
         .filter(|(class, _)| *class == "number")
-        .map(|(_, text)| Rect::of(text, [0.73, 0.0]))
+        .map(|(_, text)| Rect::from_text(text, [0.73, 0.0]))
         .collect();
     let lines: Vec<(&'static str, &Path)> = ["curve", "trail", "linkage", "underlay", "grid", "straight"]
         .into_iter()
@@ -303,7 +309,9 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
         }
         let crosses = |path: &Path| {
             let half = path.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
-            path.polylines.iter().any(|line| line.points.windows(2).any(|p| number.distance_to(p[0], p[1]) < half))
+            path.polylines
+                .iter()
+                .any(|line| line.points.windows(2).any(|p| number.distance_to_segment(p[0], p[1]) < half))
         };
         lines.iter().find(|(_, path)| crosses(path)).map(|(class, _)| *class)
     };
@@ -311,14 +319,14 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
 }
 
 #[test]
-fn numbers_stand_clear_of_all_that_is_drawn() {
+fn numbers_touch_nothing_that_is_drawn() {
     let plan = example();
     for paper in [PAPERS[0], PAPERS[2]] {
-        let scenes = all_pages(&plan, 1, &on(paper));
+        let scenes = all_pages(&plan, 1, &options(paper));
         assert_eq!(scenes.len(), 780);
         let all: Vec<Option<&str>> = scenes.iter().flat_map(touched).collect();
         assert_eq!(all.len(), 7800);
-        // Where lines are that close there may be no free place; of 7,800 numbers that is one on A4.
+        // Where lines are close there may be no free position; of 7,800 numbers this concerns one on A4.
         let touching = all.iter().filter(|touched| touched.is_some()).count();
         assert!(touching <= 8, "{paper:?}: {touching}");
     }
@@ -331,7 +339,7 @@ fn no_type_is_too_small_to_read() {
         let scenes = all_pages(&plan, 40, &Options::for_paper(paper));
         let sizes = scenes.iter().flat_map(texts).map(|(_, text)| text.size * 72.0 / 25.4);
         let least = sizes.fold(f64::INFINITY, f64::min);
-        // Points, to rounding.
+        // In points, up to rounding.
         assert!(least > 5.5 - 1e-9, "{name}: {least}");
     }
 }
@@ -341,7 +349,7 @@ fn first(text: &str) -> (SolvedCell, Vec<(Scene, Vec<usize>)>) {
     let plan = plan(text);
     let planned = &plan.families[0];
     let solved = solve::solve_cell(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
-    let pages = pages(&planned.family, &planned.source, &solved, &on(PAPERS[0]));
+    let pages = pages(&planned.family, &planned.source, &solved, &options(PAPERS[0]));
     for (scene, _) in &pages {
         assert_eq!(outside(scene), [""; 0]);
         assert_eq!(overlaps(scene), [""; 0]);
@@ -360,17 +368,17 @@ fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
     assert_eq!((solved.curves.len(), sizes), (12, vec![10, 2]));
     for (scene, shown) in &pages {
         let ids: Vec<&str> = groups(scene, "curve").iter().map(|group| group.id.as_str()).collect();
-        let wanted: Vec<String> = shown.iter().map(|k| format!("grid-1-{}-1", k + 1)).collect();
-        assert_eq!(ids, wanted);
+        let expected: Vec<String> = shown.iter().map(|k| format!("grid-1-{}-1", k + 1)).collect();
+        assert_eq!(ids, expected);
         let numbers: Vec<String> =
-            texts(scene).iter().filter(|(class, _)| *class == "number").map(|(_, text)| words(text)).collect();
+            texts(scene).iter().filter(|(class, _)| *class == "number").map(|(_, text)| content(text)).collect();
         assert_eq!(numbers, shown.iter().map(|k| (k + 1).to_string()).collect::<Vec<_>>());
         assert_eq!(circles(scene, &["coupler-point"]).len(), shown.len());
     }
 }
 
-/// The weight of the dashes in the table beside a point.
-fn swatch_weight(group: &Group) -> f64 {
+/// The stroke width of the dashes next to a point in the table.
+fn swatch_width(group: &Group) -> f64 {
     let dashes = group.items.iter().find_map(|item| match item {
         Item::Path(path) if path.polylines.len() == 2 => path.stroke,
         _ => None,
@@ -387,14 +395,14 @@ fn curves_of_one_ink_differ_in_every_theme() {
         let theme = &plan.page.theme;
         let inks: Vec<Color> = paths(&scene, &["curve"]).into_iter().map(color).collect();
         assert_eq!(inks, [theme.curve_inks.clone(), theme.curve_inks.clone()].concat(), "{}", named.name);
-        // The table shows each in its weight, the second five with a line under the dashes as well.
-        let weights = |class: &str| -> Vec<f64> {
+        // The table shows each curve in its width, the second five with a line under the dashes as well.
+        let widths = |class: &str| -> Vec<f64> {
             paths(&scene, &[class]).iter().map(|path| path.stroke.unwrap().width).collect()
         };
-        let dashes: Vec<f64> = groups(&scene, "swatch").iter().map(|group| swatch_weight(group)).collect();
-        assert_eq!(dashes, weights("curve"), "{}", named.name);
-        assert_eq!(weights("swatch").len(), 15);
-        // The second five have a thin unbroken line under their dashes, and full points.
+        let dashes: Vec<f64> = groups(&scene, "swatch").iter().map(|group| swatch_width(group)).collect();
+        assert_eq!(dashes, widths("curve"), "{}", named.name);
+        assert_eq!(widths("swatch").len(), 15);
+        // The second five have a thin continuous line under their dashes, and filled points.
         let trails = paths(&scene, &["trail"]);
         assert_eq!(trails.iter().map(|path| color(path)).collect::<Vec<_>>(), theme.curve_inks, "{}", named.name);
         for (trail, curve) in trails.iter().zip(&paths(&scene, &["curve"])[5..]) {
@@ -411,7 +419,7 @@ fn a_dash_begins_at_each_fifth_degree() {
     let (solved, pages) = first(GOOD);
     let pose = page::clearest_pose(&solved).unwrap();
     let (scene, shown) = &pages[0];
-    // From the plane to the page, by two of the coupler points.
+    // The map from the plane to the page, from two of the coupler points.
     let at: Vec<Point> = circles(scene, &["coupler-point"]).iter().map(|circle| circle.centre).collect();
     let place = |k: usize| pose[solved.curves[shown[k]].joint];
     let scale = (at[9] - at[0]).norm() / (place(9) - place(0)).norm();
@@ -427,7 +435,7 @@ fn a_dash_begins_at_each_fifth_degree() {
             let begins = 5.0 * dash as f64;
             let ends = [(begins, line.points[0]), (begins + 3.0, *line.points.last().unwrap())];
             for (input, end) in ends {
-                // In millimetres: rounding, and that of the page's places of the circles.
+                // In millimetres: rounding, also of the positions of the circles on the page.
                 assert!((end - point(input)).norm() < 1e-6, "curve {k}, {input} degrees");
             }
         }
@@ -456,15 +464,15 @@ fn both_circuits_of_a_point_are_on_its_page() {
     assert_eq!((solved.motion.circuits.len(), solved.curves.len(), pages.len()), (2, 24, 2));
     let (scene, shown) = &pages[0];
     assert_eq!((shown.len(), circles(scene, &["coupler-point"]).len()), (20, 10));
-    // Curves of one point have one ink.
+    // Curves of the same point have the same ink.
     let inks: Vec<Color> = paths(scene, &["curve"]).into_iter().map(color).collect();
     assert!(inks.chunks(2).all(|pair| pair[0] == pair[1]) && inks[0] != inks[2]);
-    let all: Vec<String> = texts(scene).iter().map(|(_, text)| words(text)).collect();
+    let all: Vec<String> = texts(scene).iter().map(|(_, text)| content(text)).collect();
     assert!(["1/1", "1/2", "10/2"].iter().all(|row| all.iter().any(|text| text == row)), "{all:?}");
 }
 
 #[test]
-fn long_captions_and_single_points_have_room() {
+fn long_captions_and_single_points_fit() {
     let long = "a caption that goes on and on, g = {g:.5}, which is the frame, and then on again to no end";
     let (_, pages) = first(&GOOD.replace("g = {g:.1}", long));
     assert_eq!(pages.len(), 2);
@@ -480,22 +488,22 @@ fn a_page_keeps_its_number_however_long_its_titles_are() {
         .replace("\"T\"", "\"An atlas of no few words, with a title as long as that\"");
     for (k, (scene, _)) in first(&text).1.iter().enumerate() {
         let number = format!("… · page {} of 2", k + 1);
-        assert!(texts(scene).iter().any(|(_, text)| words(text).ends_with(&number)), "{number}");
+        assert!(texts(scene).iter().any(|(_, text)| content(text).ends_with(&number)), "{number}");
     }
 }
 
 #[test]
-fn hairlines_lead_from_the_link_to_all_points() {
+fn hairlines_connect_the_link_with_all_points() {
     let plan = example();
-    for solved in solved(&plan, 40) {
-        for (scene, _) in pages(&plan.families[0].family, "", &solved, &on(PAPERS[2])) {
+    for solved in solve_cells(&plan, 40) {
+        for (scene, _) in pages(&plan.families[0].family, "", &solved, &options(PAPERS[2])) {
             let lines =
                 |class| paths(&scene, &[class]).into_iter().flat_map(|path| &path.polylines).collect::<Vec<_>>();
             let hairs: Vec<[Point; 2]> = lines("grid").iter().map(|line| [line.points[0], line.points[1]]).collect();
             assert!(!hairs.is_empty() && hairs.iter().all(|[a, b]| (b - a).norm() > 0.1), "{hairs:?}");
             let links: Vec<[Point; 2]> =
                 lines("linkage").iter().flat_map(|line| line.points.windows(2)).map(|p| [p[0], p[1]]).collect();
-            // A line meets another where an end of one is on the other, or where the ends of each are on both sides.
+            // Segments meet if an end of one is on the other, or if each has its ends on both sides of the other.
             let meets = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
                 let side = |o: Point, u: Point, v: Point| (u - o).perp(&(v - o));
                 let crosses = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
@@ -504,29 +512,29 @@ fn hairlines_lead_from_the_link_to_all_points() {
                 crosses || touches(a, c, d) || touches(b, c, d) || touches(c, a, b) || touches(d, a, b)
             };
             assert!(hairs.iter().any(|hair| links.iter().any(|link| meets(*hair, *link))), "{hairs:?}");
-            // And each other.
+            // The hairlines meet one another too.
             assert!(hairs.iter().all(|hair| hairs.len() == 1 || hairs.iter().any(|o| o != hair && meets(*hair, *o))));
         }
     }
 }
 
 #[test]
-fn places_are_told_apart_and_joints_have_none() {
+fn positions_have_enough_digits_and_joints_have_none() {
     let near = "along = { from = 0.9995, to = 1.0005, count = 3 }, across = { from = -0.001, to = 0.001, count = 2 }";
     let grid = "along = { from = 0.5, to = 1.5, count = 3 }, across = { from = -1, to = 1, count = 4 }";
-    let says = |text: &str| -> Vec<String> {
-        first(text).1.iter().flat_map(|(scene, _)| texts(scene)).map(|(_, text)| words(text)).collect()
+    let texts_of = |text: &str| -> Vec<String> {
+        first(text).1.iter().flat_map(|(scene, _)| texts(scene)).map(|(_, text)| content(text)).collect()
     };
-    let said = says(&GOOD.replace(grid, near));
+    let lines = texts_of(&GOOD.replace(grid, near));
     assert!(
-        ["0.9995", "1.0000", "1.0005", "0.001", "−0.001"].iter().all(|place| said.contains(&(*place).to_owned())),
-        "{said:?}"
+        ["0.9995", "1.0000", "1.0005", "0.001", "−0.001"].iter().all(|place| lines.contains(&(*place).to_owned())),
+        "{lines:?}"
     );
-    let said = says(GOOD);
-    assert!(["0.50", "1.50", "0.33", "−1.00"].iter().all(|place| said.contains(&(*place).to_owned())), "{said:?}");
+    let lines = texts_of(GOOD);
+    assert!(["0.50", "1.50", "0.33", "−1.00"].iter().all(|place| lines.contains(&(*place).to_owned())), "{lines:?}");
     let point = format!("M = {{ point = [\"A\", \"B\"], {grid} }}\n");
-    let said = says(&GOOD.replace("[\"M\"]", "[\"B\"]").replace(&point, ""));
-    assert!(said.contains(&"straight".to_owned()) && !said.contains(&"along".to_owned()), "{said:?}");
+    let lines = texts_of(&GOOD.replace("[\"M\"]", "[\"B\"]").replace(&point, ""));
+    assert!(lines.contains(&"straight".to_owned()) && !lines.contains(&"along".to_owned()), "{lines:?}");
 }
 
 /// Proportions for the parameters of the catalogue that have no default.
@@ -539,21 +547,21 @@ const GIVEN: [(&str, &[(&str, f64)]); 5] = [
 ];
 
 #[test]
-fn every_linkage_of_the_catalogue_has_its_page() {
+fn every_linkage_of_the_catalogue_has_a_page() {
     let mut slides = 0;
     for template in catalogue::all() {
         slides += usize::from(template.is_driven_by_length());
         let given = GIVEN.iter().find(|(id, _)| *id == template.id).map_or(&[][..], |(_, given)| given);
         let given: Vec<(String, f64)> = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
         let family = Family::single_cell(template.clone(), &given, Sampling::Samples(72));
-        let family = family.unwrap_or_else(|wrong| panic!("{}: {wrong:?}", template.id));
+        let family = family.unwrap_or_else(|errors| panic!("{}: {errors:?}", template.id));
         let solved = solve::solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
         for paper in [PAPERS[0], PAPERS[2], PAPERS[4], PAPERS[5]] {
-            for (scene, shown) in pages(&family, template.source.as_str(), &solved, &on(paper)) {
+            for (scene, shown) in pages(&family, template.source.as_str(), &solved, &options(paper)) {
                 let id = &template.id;
                 assert!(!shown.is_empty(), "{id}");
                 assert_eq!(groups(&scene, "curve").len(), shown.len(), "{id}");
-                // Hairlines lead to the points of grids, and to no joint of a link.
+                // Hairlines lead to the points of grids, and not to joints of links.
                 let is_grid = id == "hrones-nelson";
                 assert_eq!(!paths(&scene, &["grid"]).is_empty(), is_grid, "{id}");
                 assert_eq!(outside(&scene), [""; 0], "{id} {paper:?}");
@@ -565,11 +573,14 @@ fn every_linkage_of_the_catalogue_has_its_page() {
 }
 
 #[test]
-fn a_grid_has_no_panels() {
+fn a_coupler_grid_has_no_panels() {
     let text = format!("{GOOD}panels = [2, 2]\n");
     let loaded = manifest::parse(&text);
-    let said = report(&loaded.problems, "m", &text, false);
-    assert!(loaded.plan.is_none() && said.contains("a page of a coupler grid has one cell, and no panels"), "{said}");
+    let printed = report(&loaded.problems, "m", &text, false);
+    assert!(
+        loaded.plan.is_none() && printed.contains("a page of a coupler grid has one cell and no panels"),
+        "{printed}"
+    );
 }
 
 /// The pages of a manifest as the program writes them, in order.
@@ -583,7 +594,7 @@ fn rendered(text: &str) -> Vec<String> {
 }
 
 #[test]
-fn pages_are_numbered_through_the_family() {
+fn pages_are_numbered_throughout_the_family() {
     let pages = rendered(GOOD);
     assert_eq!(pages.len(), 5);
     for (k, page) in pages.iter().enumerate() {

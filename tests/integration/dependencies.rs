@@ -1,4 +1,4 @@
-//! What stands in docs/dependencies.md and deny.toml is so.
+//! docs/dependencies.md and deny.toml agree with the manifests, the lock file and the licences of the crates.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -19,11 +19,11 @@ fn texts<'v>(table: &'v DeTable<'static>, key: &str) -> Vec<&'v str> {
     list.into_iter().flatten().filter_map(|item| item.get_ref().as_str()).collect()
 }
 
-/// The features a dependency is taken with, as the table of docs/dependencies.md has them.
+/// The features a dependency is used with, as the table of docs/dependencies.md writes them.
 fn features(dependency: &DeValue<'static>) -> String {
-    let Some(given) = dependency.as_table() else { return "default".to_owned() };
-    let has_default = given.get("default-features").is_none_or(|value| value.get_ref().as_bool() == Some(true));
-    let features = has_default.then_some("default").into_iter().chain(texts(given, "features"));
+    let Some(options) = dependency.as_table() else { return "default".to_owned() };
+    let has_default = options.get("default-features").is_none_or(|value| value.get_ref().as_bool() == Some(true));
+    let features = has_default.then_some("default").into_iter().chain(texts(options, "features"));
     match features.collect::<Vec<_>>().join(", ") {
         none if none.is_empty() => "none".to_owned(),
         features => features,
@@ -37,17 +37,17 @@ fn documented() -> BTreeMap<&'static str, Vec<&'static str>> {
     for row in rows {
         let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
         let name = cells[0].trim_matches('`');
-        assert!(found.insert(name, cells[1..].to_vec()).is_none(), "{name} stands there twice");
+        assert!(found.insert(name, cells[1..].to_vec()).is_none(), "{name} is listed twice");
     }
     found
 }
 
-/// Every crate for this machine, with its licence.
+/// Every crate that is built on this machine, with its licence.
 fn licences() -> BTreeMap<String, String> {
     let version = Command::new("rustc").arg("-vV").output().unwrap();
     let version = String::from_utf8(version.stdout).unwrap();
     let host = version.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
-    // Crates of other platforms are perhaps not here, and nothing is fetched for a test.
+    // Crates of other platforms may not be available, and tests fetch nothing.
     let metadata = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--locked", "--offline", "--filter-platform", host])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -63,7 +63,7 @@ fn licences() -> BTreeMap<String, String> {
 }
 
 #[test]
-fn every_direct_dependency_is_accounted_for_and_no_other() {
+fn exactly_the_direct_dependencies_are_documented() {
     let cargo = parsed(include_str!("../../Cargo.toml"));
     let direct: BTreeMap<&str, String> = table(table(&cargo, "workspace"), "dependencies")
         .iter()
@@ -74,14 +74,14 @@ fn every_direct_dependency_is_accounted_for_and_no_other() {
     assert_eq!(direct.keys().collect::<Vec<_>>(), documented.keys().collect::<Vec<_>>());
     let licences = licences();
     for (name, cells) in documented {
-        let [what, features, licence] = cells[..] else { panic!("{name}: {cells:?}") };
-        assert!(what.len() > 10, "{name} has no reason");
+        let [purpose, features, licence] = cells[..] else { panic!("{name}: {cells:?}") };
+        assert!(purpose.len() > 10, "no purpose is documented for {name}");
         assert_eq!(features, direct[name], "the features of {name}");
         assert_eq!(licence, licences[name], "the licence of {name}");
     }
 }
 
-/// Whether a licence can be taken so that all it asks for is allowed.
+/// Whether some choice among the alternatives of a licence expression has allowed licences only.
 fn is_allowed(licence: &str, allowed: &BTreeSet<&str>) -> bool {
     let licence = licence.replace('/', " OR ");
     let is_one = |part: &str| part.trim_matches(['(', ')']).split(" OR ").any(|one| allowed.contains(one));
@@ -96,8 +96,8 @@ fn every_licence_is_one_of_those_allowed() {
     let excepted = |name: &str, licence: &str| {
         let exceptions = licenses.get("exceptions").and_then(|value| value.get_ref().as_array()).unwrap();
         exceptions.iter().filter_map(|one| one.get_ref().as_table()).any(|one| {
-            let is_meant = one.get("crate").and_then(|value| value.get_ref().as_str()) == Some(name);
-            is_meant && texts(one, "allow").contains(&licence)
+            let is_for_crate = one.get("crate").and_then(|value| value.get_ref().as_str()) == Some(name);
+            is_for_crate && texts(one, "allow").contains(&licence)
         })
     };
     let licences = licences();
@@ -110,13 +110,13 @@ fn every_licence_is_one_of_those_allowed() {
     }
     for licence in &allowed {
         let is_needed = |other: &String| other.split([' ', '/', '(', ')']).any(|word| word == *licence);
-        assert!(licences.values().any(is_needed), "nothing is under {licence}");
+        assert!(licences.values().any(is_needed), "no crate is under {licence}");
     }
 }
 
-/// Cargo.lock has the crates of all platforms.
+/// Checked in Cargo.lock, which has the crates of all platforms.
 #[test]
-fn nothing_comes_from_elsewhere_and_no_banned_crate_comes_in() {
+fn all_crates_are_from_crates_io_and_none_is_banned() {
     let lock = parsed(include_str!("../../Cargo.lock"));
     let packages = lock.get("package").and_then(|value| value.get_ref().as_array()).unwrap();
     let text = |package: &DeTable<'static>, key: &str| {
@@ -138,7 +138,7 @@ fn nothing_comes_from_elsewhere_and_no_banned_crate_comes_in() {
     for expected in ["evalexpr", "exmex", "fasteval", "usvg@<0.48", "svg2pdf", "ttf-parser", "rustybuzz", "bincode"] {
         assert!(banned.iter().any(|ban| ban == expected), "{expected}");
     }
-    // Of usvg, which some versions are banned of, there is none at all.
+    // The lock file has no version at all of usvg, of which only some versions are banned.
     let found: Vec<_> = banned.iter().filter(|ban| names.contains(ban.split('@').next().unwrap())).collect();
     assert!(found.is_empty(), "{found:?}");
 }

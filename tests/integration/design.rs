@@ -1,4 +1,4 @@
-//! Chapter 10: wishes in, linkages out, each measured afresh.
+//! Chapter 10: designs for given requirements, with each design measured independently.
 
 use coupler_curves::linkage::JointId;
 use std::path::Path;
@@ -17,29 +17,29 @@ use proptest::prelude::*;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-fn number(subject: &TracedCurve, name: &str) -> f64 {
+fn number(curve: &TracedCurve, name: &str) -> f64 {
     let measure = measure::ALL.iter().find(|measure| measure.name == name).unwrap();
-    match (measure.compute)(subject) {
+    match (measure.compute)(curve) {
         Value::Number(number) => number,
         other => panic!("{name} is {other:?}"),
     }
 }
 
-/// What a design is measured to have by twice its samples: straight length, deviation, size, transmission angle.
-fn afresh(design: &Design) -> [f64; 4] {
+/// The straight length, deviation, size and transmission angle of a design, measured with twice its samples.
+fn measure_again(design: &Design) -> [f64; 4] {
     let Design { family, .. } = design;
     let linkage = family.linkage(&family.cell(0)).unwrap();
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(720)));
     let circuit = &motion.circuits[0];
-    // A search ends where a wave of the curve just fits its strip; by twice the samples that wave is a little higher.
+    // A search ends where a wave of the curve just fits its strip; with twice the samples that wave is a little higher.
     let straight = StraightCriterion::Tolerance(design.tolerance * 1.005);
-    let subject = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(straight);
-    let portion = subject.straight().unwrap();
+    let curve = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(straight);
+    let portion = curve.straight().unwrap();
     let joints = linkage.joint_ids();
-    let far = |samples: &[usize]| {
-        let at: Vec<Point> =
+    let extent = |samples: &[usize]| {
+        let points: Vec<Point> =
             joints.clone().flat_map(|joint| samples.iter().map(move |&k| circuit.positions.point(joint, k))).collect();
-        at.iter().flat_map(|a| at.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max)
+        points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max)
     };
     let acute = |deg: f64| deg.min(180.0 - deg);
     let (size, mu) = match design.driven_linkage.input {
@@ -47,10 +47,10 @@ fn afresh(design: &Design) -> [f64; 4] {
             assert!(circuit.is_closed && circuit.passes.len() == 1, "a motor turns it fully");
             // Every fourth sample: the greatest distance is known to (pi / 180)^2 / 2.
             let samples: Vec<usize> = (0..circuit.len()).step_by(4).collect();
-            (far(&samples), acute(number(&subject, "mu_min_deg")).min(acute(number(&subject, "mu_max_deg"))))
+            (extent(&samples), acute(number(&curve, "mu_min_deg")).min(acute(number(&curve, "mu_max_deg"))))
         }
         Driver::Rocker => {
-            // The samples that are on the portion: within its strip, between its ends.
+            // The samples on the portion: within its strip and between its ends.
             let [a, b] = [portion.points[0], portion.points[portion.points.len() - 1]];
             let along = (b - a) / (b - a).norm();
             let is_on = |k: &usize| {
@@ -66,42 +66,45 @@ fn afresh(design: &Design) -> [f64; 4] {
                 acute((at(p) - at(q)).angle(&(at(r) - at(q))).to_degrees())
             };
             let least = |pins| samples.iter().map(|&k| angle(k, pins)).fold(90.0, f64::min);
-            (far(&samples), least([a, b, c]).max(least([o, a, b])))
+            (extent(&samples), least([a, b, c]).max(least([o, a, b])))
         }
     };
-    let asked = StraightCriterion::Length(design.straight.length * (1.0 - 1e-6));
-    let whole = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(asked);
+    let criterion = StraightCriterion::Length(design.straight.length * (1.0 - 1e-6));
+    let whole = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]).with_straight_criterion(criterion);
     [portion.length, whole.straight().unwrap().deviation, size, mu]
 }
 
-/// That all that was found has what was wished.
-fn check(wishes: &Requirements, found: &SynthesisResult) {
-    // What is measured by samples is known to a part in a thousand where they are twice as dense.
+/// Asserts that all designs meet the requirements.
+fn check(requirements: &Requirements, found: &SynthesisResult) {
+    // With samples twice as dense, measures agree to a part in a thousand.
     const SAMPLED: f64 = 1e-3;
-    // Ends are moved between samples one after the other: how long a portion can be is known to a hundredth. Whether there is
-    // one of the wished length that is as straight as it should be is asked for itself.
+    // The ends of a portion are moved between samples one after the other, so its greatest length is known to a
+    // hundredth. Whether a portion of the required length is straight enough is checked separately.
     const LONGEST: f64 = 1e-2;
     for design in &found.designs {
-        let name = format!("{wishes:?}: {:?} {:?}", design.driven_linkage, design.solved_cell.cell.values);
-        let [length, deviation, size, mu] = afresh(design);
+        let name = format!("{requirements:?}: {:?} {:?}", design.driven_linkage, design.solved_cell.cell.values);
+        let [length, deviation, size, mu] = measure_again(design);
         assert!((length / design.straight.length - 1.0).abs() < LONGEST, "{name}: {length}");
-        assert!(2.0 * deviation <= wishes.tolerance * design.straight.length * (1.0 + SAMPLED), "{name}: {deviation}");
-        assert!(mu >= wishes.mu_min - 0.05 && mu >= design.performance.mu_min - 0.5, "{name}: {mu}");
+        assert!(
+            2.0 * deviation <= requirements.tolerance * design.straight.length * (1.0 + SAMPLED),
+            "{name}: {deviation}"
+        );
+        assert!(mu >= requirements.mu_min - 0.05 && mu >= design.performance.mu_min - 0.5, "{name}: {mu}");
         assert!(size <= design.performance.size * (1.0 + SAMPLED), "{name}: {size} {}", design.performance.size);
-        if let Some(wanted) = wishes.length {
-            assert!((design.straight.length / wanted - 1.0).abs() < 1e-9, "{name}");
+        if let Some(length) = requirements.length {
+            assert!((design.straight.length / length - 1.0).abs() < 1e-9, "{name}");
         }
-        if let Some(most) = wishes.size {
-            assert!(design.performance.size <= most * (1.0 + 1e-9), "{name}");
+        if let Some(size) = requirements.size {
+            assert!(design.performance.size <= size * (1.0 + 1e-9), "{name}");
         }
-        if let Some(p) = wishes.p {
+        if let Some(p) = requirements.p {
             let unit =
                 if matches!(design.driven_linkage.kind, LinkageKind::Evans | LinkageKind::Hoeken) { "r" } else { "a" };
             assert!((design.parameter("p") / design.parameter(unit) - p).abs() < 1e-12 * p, "{name}");
         }
-        assert!(wishes.input.is_none_or(|input| input == design.driven_linkage.input), "{name}");
-        assert!(wishes.double_point.is_none_or(|wanted| wanted == (design.crunode_count > 0)), "{name}");
-        assert!(!wishes.quick_return || design.time_ratio() > Some(1.0), "{name}");
+        assert!(requirements.input.is_none_or(|input| input == design.driven_linkage.input), "{name}");
+        assert!(requirements.double_point.is_none_or(|required| required == (design.crunode_count > 0)), "{name}");
+        assert!(!requirements.quick_return || design.time_ratio() > Some(1.0), "{name}");
         let class = design.class;
         assert!(
             match design.driven_linkage.kind {
@@ -123,7 +126,7 @@ fn watt_and_roberts() -> Requirements {
     Requirements { kinds: vec![LinkageKind::Watt, LinkageKind::Roberts], ..Requirements::default() }
 }
 
-fn searched(found: &SynthesisResult) -> &Design {
+fn searched_design(found: &SynthesisResult) -> &Design {
     found.designs.iter().find(|design| design.origin == ProportionOrigin::Search).unwrap()
 }
 
@@ -164,17 +167,21 @@ fn the_closed_conditions_are_those_of_the_thesis() {
     );
     let roberts = closed(LinkageKind::Roberts, Driver::Rocker);
     assert!((roberts.parameter("r") - roberts.parameter("b")).abs() < 1e-12 && roberts.parameter("p") == 2.0);
-    // What is searched is no worse than what is closed, arrangement by arrangement.
+    // For each kind and input, the searched designs are no worse than that of the closed condition.
     for closed in found.designs.iter().filter(|design| design.origin == ProportionOrigin::ClosedCondition) {
-        let part = |design: &Design| design.straight.length / design.performance.size;
-        let best =
-            found.designs.iter().filter(|d| d.driven_linkage == closed.driven_linkage).map(part).fold(0.0, f64::max);
-        assert!(best >= part(closed), "{:?}", closed.driven_linkage);
+        let relative_length = |design: &Design| design.straight.length / design.performance.size;
+        let best = found
+            .designs
+            .iter()
+            .filter(|d| d.driven_linkage == closed.driven_linkage)
+            .map(relative_length)
+            .fold(0.0, f64::max);
+        assert!(best >= relative_length(closed), "{:?}", closed.driven_linkage);
     }
 }
 
 #[test]
-fn what_is_found_has_what_was_wished() {
+fn designs_meet_the_requirements() {
     let sets = [
         Requirements {
             input: Some(Driver::Motor),
@@ -193,32 +200,32 @@ fn what_is_found_has_what_was_wished() {
             ..Requirements::default()
         },
     ];
-    for wishes in sets {
-        let found = design::straight_line(&wishes);
-        assert!(!found.designs.is_empty(), "{wishes:?}");
-        check(&wishes, &found);
+    for requirements in sets {
+        let found = design::straight_line(&requirements);
+        assert!(!found.designs.is_empty(), "{requirements:?}");
+        check(&requirements, &found);
     }
 }
 
 #[test]
 fn the_straightest_within_a_size_is_straighter_than_the_longest_for_it() {
-    let wishes = Requirements { length: Some(100.0), size: Some(300.0), ..hoeken() };
-    let found = design::straight_line(&wishes);
-    check(&wishes, &found);
-    let longest = design::straight_line(&Requirements { size: None, ..wishes.clone() });
-    let (straightest, longest) = (searched(&found), searched(&longest));
+    let requirements = Requirements { length: Some(100.0), size: Some(300.0), ..hoeken() };
+    let found = design::straight_line(&requirements);
+    check(&requirements, &found);
+    let longest = design::straight_line(&Requirements { size: None, ..requirements.clone() });
+    let (straightest, longest) = (searched_design(&found), searched_design(&longest));
     assert!(straightest.performance.size > longest.performance.size && longest.performance.size < 200.0);
-    // Of (8.10)'s kind a path bends as x^4: what uses half as much room again deviates far less.
+    // Near (8.10) a path deviates as x^4: a linkage half as large again deviates far less.
     assert!(straightest.straight.deviation < 0.1 * longest.straight.deviation);
-    // The room is used.
+    // The allowed size is used.
     assert!(straightest.performance.size > 0.98 * 300.0, "{}", straightest.performance.size);
 }
 
 #[test]
-fn twice_the_size_is_twice_the_lengths_and_nothing_else() {
+fn doubled_requirements_double_the_lengths_and_nothing_else() {
     let small = Requirements { length: Some(50.0), size: Some(200.0), ..hoeken() };
     let large = Requirements { length: Some(100.0), size: Some(400.0), ..small.clone() };
-    let [small, large] = [small, large].map(|wishes| design::straight_line(&wishes));
+    let [small, large] = [small, large].map(|requirements| design::straight_line(&requirements));
     assert_eq!(small.designs.len(), large.designs.len());
     for (a, b) in small.designs.iter().zip(&large.designs) {
         for name in ["p", "r", "a"] {
@@ -233,19 +240,19 @@ fn twice_the_size_is_twice_the_lengths_and_nothing_else() {
 }
 
 #[test]
-fn what_is_said_to_be_enough_is_enough() {
-    let wishes = Requirements { length: Some(100.0), size: Some(160.0), mu_min: 20.0, ..hoeken() };
-    let found = design::straight_line(&wishes);
-    let wished: Vec<Requirement> = found.relaxations.iter().map(|relaxation| relaxation.requirement).collect();
-    for wish in [Requirement::Size, Requirement::Length, Requirement::Tolerance] {
-        assert!(wished.contains(&wish), "{wished:?}");
+fn the_suggested_relaxations_suffice() {
+    let requirements = Requirements { length: Some(100.0), size: Some(160.0), mu_min: 20.0, ..hoeken() };
+    let found = design::straight_line(&requirements);
+    let relaxed: Vec<Requirement> = found.relaxations.iter().map(|relaxation| relaxation.requirement).collect();
+    for requirement in [Requirement::Size, Requirement::Length, Requirement::Tolerance] {
+        assert!(relaxed.contains(&requirement), "{relaxed:?}");
     }
     for relaxation in &found.relaxations {
         let changed = match (relaxation.requirement, relaxation.value) {
-            (Requirement::Size, Some(to)) => Requirements { size: Some(to), ..wishes.clone() },
-            (Requirement::Length, Some(to)) => Requirements { length: Some(to), ..wishes.clone() },
-            (Requirement::Tolerance, Some(to)) => Requirements { tolerance: to, ..wishes.clone() },
-            (Requirement::MuMin, Some(to)) => Requirements { mu_min: to, ..wishes.clone() },
+            (Requirement::Size, Some(to)) => Requirements { size: Some(to), ..requirements.clone() },
+            (Requirement::Length, Some(to)) => Requirements { length: Some(to), ..requirements.clone() },
+            (Requirement::Tolerance, Some(to)) => Requirements { tolerance: to, ..requirements.clone() },
+            (Requirement::MuMin, Some(to)) => Requirements { mu_min: to, ..requirements.clone() },
             (Requirement::Kinds, None) => continue,
             other => panic!("{other:?}"),
         };
@@ -256,20 +263,20 @@ fn what_is_said_to_be_enough_is_enough() {
 }
 
 proptest! {
-    #![proptest_config(proptest::test_runner::Config { cases: 4, ..super::random() })]
+    #![proptest_config(proptest::test_runner::Config { cases: 4, ..super::proptest_config() })]
 
     #[test]
-    fn whatever_is_wished_is_kept_or_explained(
+    fn requirements_are_met_or_the_rejections_explained(
         (p, tolerance) in (1.05..8.0f64, -4.0..-1.5f64),
         (mu_min, part) in (0.0..60.0f64, 0.1..0.9f64),
         kind in prop::sample::select(vec![LinkageKind::Hoeken, LinkageKind::Chebyshev, LinkageKind::Watt, LinkageKind::Roberts]),
     ) {
         let tolerance = trig::pow(10.0, tolerance);
-        let wishes = Requirements {
+        let requirements = Requirements {
             p: Some(p), tolerance, mu_min, length: Some(part), size: Some(1.0), kinds: vec![kind], ..Requirements::default()
         };
-        let found = design::straight_line(&wishes);
-        check(&wishes, &found);
+        let found = design::straight_line(&requirements);
+        check(&requirements, &found);
         prop_assert!(!found.designs.is_empty() || !found.rejected.is_empty());
     }
 }
@@ -282,7 +289,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
 }
 
 #[test]
-fn the_program_tells_a_table_trade_offs_and_what_is_left_out() {
+fn the_program_prints_a_table_trade_offs_and_rejections() {
     let folder = TempDir::new().unwrap();
     let arguments = ["--types", "hoeken,watt", "--input", "motor", "--p", "2", "--length", "100", "--svg", "plate.svg"];
     let (code, out, err) = run(folder.path(), &arguments);
@@ -292,32 +299,32 @@ fn the_program_tells_a_table_trade_offs_and_what_is_left_out() {
     assert!(out.contains("left out: watt: no link that could be driven turns fully"), "{out}");
     let plate = std::fs::read_to_string(folder.path().join("plate.svg")).unwrap();
     let rows = out.matches("motor on the crank").count();
-    assert!(rows >= 2 && plate.matches("class=\"curve\"").count() == rows, "all on one plate: {rows}");
+    assert!(rows >= 2 && plate.matches("class=\"curve\"").count() == rows, "the plate has all {rows} designs");
 }
 
 #[test]
-fn the_same_with_any_number_of_threads() {
-    let told = |threads: &str| {
+fn designs_are_the_same_with_any_number_of_threads() {
+    let output = |threads: &str| {
         let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
         let arguments = ["design", "straight-line", "--types", "hoeken,watt", "--p", "2.5", "--json"];
         program.env("RAYON_NUM_THREADS", threads).args(arguments).output().unwrap().stdout
     };
-    let one = told("1");
-    assert!(!one.is_empty() && one == told("3"));
+    let one = output("1");
+    assert!(!one.is_empty() && one == output("3"));
 }
 
 #[test]
-fn its_manifest_renders_the_same_numbers() {
+fn the_printed_manifest_renders_the_same_numbers() {
     let folder = TempDir::new().unwrap();
-    let wishes = ["--types", "hoeken,chebyshev", "--p", "2", "--length", "80", "--mu-min", "0"];
-    let (code, text, err) = run(folder.path(), &[&wishes[..], &["--toml"]].concat());
+    let requirements = ["--types", "hoeken,chebyshev", "--p", "2", "--length", "80", "--mu-min", "0"];
+    let (code, text, err) = run(folder.path(), &[&requirements[..], &["--toml"]].concat());
     assert_eq!(code, 0, "{err}");
     let loaded = manifest::parse(&text);
     assert!(loaded.problems.is_empty(), "{}", report(&loaded.problems, "best.toml", &text, false));
     std::fs::write(folder.path().join("atlas.toml"), &text).unwrap();
     let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
     assert!(program.current_dir(folder.path()).args(["render", "-q"]).status().unwrap().success());
-    let (_, json, _) = run(folder.path(), &[&wishes[..], &["--json"]].concat());
+    let (_, json, _) = run(folder.path(), &[&requirements[..], &["--json"]].concat());
     let json: Json = serde_json::from_str(&json).unwrap();
     let designs = json["designs"].as_array().unwrap();
     let mut rows = 0;
@@ -330,7 +337,7 @@ fn its_manifest_renders_the_same_numbers() {
         for (row, design) in read.iter().zip(of_kind) {
             for name in ["straight_length", "straight_deviation", "straight_start_deg", "straight_input_deg"] {
                 let cell: f64 = row[head.iter().position(|n| n == name).unwrap()].parse().unwrap();
-                // The manifest's numbers are those of the design, but for the rounding of what is measured of them.
+                // The manifest's numbers are those of the design, up to the rounding of the measures.
                 let designed = design[name].as_f64().unwrap();
                 assert!((cell - designed).abs() <= 1e-9 * cell.abs(), "{linkage} {name}: {cell} {designed}");
             }
@@ -341,7 +348,7 @@ fn its_manifest_renders_the_same_numbers() {
 }
 
 #[test]
-fn odd_wishes_are_told_all_at_once() {
+fn all_invalid_requirements_are_reported_at_once() {
     let folder = TempDir::new().unwrap();
     let arguments = [
         "--p",
@@ -377,5 +384,5 @@ fn odd_wishes_are_told_all_at_once() {
     let (code, out, err) = run(folder.path(), &too_small);
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(err.contains("no linkage meets these requirements") && err.contains("hint: with --size "), "{err}");
-    assert_eq!(run(folder.path(), &["--deviation", "0.1"]).0, 2, "a deviation is of a length");
+    assert_eq!(run(folder.path(), &["--deviation", "0.1"]).0, 2, "a deviation needs a length");
 }

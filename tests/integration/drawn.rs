@@ -1,4 +1,4 @@
-//! What pages draw is what `points.csv` has, to 0.01 mm on paper; and pages that are not as they were written.
+//! The curves on pages are those of `points.csv`, to 0.01 mm on paper; and edits of pages are found.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -11,23 +11,24 @@ use coupler_curves::geometry::{Point, Vector, left_normal};
 
 use super::folder::Atlas;
 
-/// The samples of a curve: its inputs and its places in the plane.
+/// The samples of a curve: its inputs and its positions in the plane.
 #[derive(Default)]
 struct Samples {
     inputs: Vec<f64>,
-    places: Vec<Point>,
+    positions: Vec<Point>,
 }
 
 impl Samples {
     fn pairs(&self) -> impl Iterator<Item = (f64, Point)> {
-        self.inputs.iter().copied().zip(self.places.iter().copied())
+        self.inputs.iter().copied().zip(self.positions.iter().copied())
     }
 
-    /// Whether the curve comes back to its first sample: no further from the last than others are from each other.
-    fn closed(&self) -> bool {
+    /// Whether the curve returns to its first sample: the distance from the last is no greater than between other
+    /// samples.
+    fn is_closed(&self) -> bool {
         let step = |pair: &[Point]| (pair[1] - pair[0]).norm();
-        let longest = self.places.windows(2).map(step).fold(0.0, f64::max);
-        let [first, .., last] = self.places[..] else { return false };
+        let longest = self.positions.windows(2).map(step).fold(0.0, f64::max);
+        let [first, .., last] = self.positions[..] else { return false };
         (last - first).norm() <= 2.0 * longest
     }
 }
@@ -52,12 +53,12 @@ fn recorded(folder: &Path) -> BTreeMap<[usize; 3], Samples> {
         let number = |column: usize| row[column].parse::<f64>().unwrap();
         let samples = curves.entry(key.map(|column| row[column].parse().unwrap())).or_default();
         samples.inputs.push(number(input));
-        samples.places.push(Point::new(number(x), number(y)));
+        samples.positions.push(Point::new(number(x), number(y)));
     }
     curves
 }
 
-/// All pages of curves that a manifest makes. Every curve of the points is on one of them.
+/// All pages with curves that a manifest makes. Every curve of `points.csv` is on one of them.
 fn pages(manifest: &str) -> Vec<Page> {
     let atlas = Atlas::new(manifest);
     let (code, _, errors) = atlas.run(&["-q", "--format", "svg", "-o", "out"]);
@@ -86,7 +87,7 @@ fn pages(manifest: &str) -> Vec<Page> {
                 pages.push(Page { name, svg, curves });
             }
         }
-        // A chart has the samples of its curves beside it, and draws none of them.
+        // The family of a chart records the samples of its curves, and draws none of them.
         assert!(samples.is_empty() || pages.len() == count, "{}: {:?} are not drawn", family.display(), samples.keys());
     }
     pages
@@ -112,7 +113,7 @@ fn curves() -> impl Iterator<Item = &'static (DrawnCurve, Samples)> {
     atlas().iter().chain(hrones_nelson()).flat_map(|page| &page.curves)
 }
 
-/// What a comparison may find, in millimetres.
+/// The distance that a comparison may find, in millimetres.
 const TOLERANCE: f64 = 0.01;
 
 #[test]
@@ -120,14 +121,14 @@ fn curves_are_drawn_where_their_samples_are() {
     assert!(atlas().len() > 20 && hrones_nelson().len() > 20);
     for page in atlas().iter().chain(hrones_nelson()) {
         for (curve, samples) in &page.curves {
-            let (sample, distance) = curve.furthest_sample(samples.pairs(), samples.closed()).unwrap();
+            let (sample, distance) = curve.furthest_sample(samples.pairs(), samples.is_closed()).unwrap();
             assert!(distance <= TOLERANCE, "{}: {} is {distance} mm off at {sample}", page.name, curve.id);
-            assert_eq!(curve.max_stray(&samples.places, samples.closed()), None, "{}: {}", page.name, curve.id);
+            assert_eq!(curve.max_stray(&samples.positions, samples.is_closed()), None, "{}: {}", page.name, curve.id);
         }
     }
 }
 
-/// The direction square to a polyline at one of its points; `None` at its ends and where it turns back.
+/// The normal of a polyline at one of its points; `None` at its ends and where it turns back.
 fn normal(points: &[Point], k: usize) -> Option<Vector> {
     let [before, at, after] = points.get(k.checked_sub(1)?..=k + 1)? else { return None };
     let is_ahead = (at - before).dot(&(after - at)) > 0.9 * (at - before).norm() * (after - at).norm();
@@ -141,11 +142,11 @@ fn a_sample_that_is_moved_is_found() {
         let [period, drawn] = curve.dash;
         let is_inside = |input: f64| (0.05 * drawn..0.95 * drawn).contains(&input.rem_euclid(period));
         for k in (0..samples.inputs.len()).filter(|&k| is_inside(samples.inputs[k])).step_by(7) {
-            let Some(normal) = normal(&samples.places, k) else { continue };
+            let Some(normal) = normal(&samples.positions, k) else { continue };
             let place = |(i, (input, at)): (usize, (f64, Point))| {
                 (input, if i == k { at + normal * (0.02 / curve.page_from_plane.scale) } else { at })
             };
-            let found = curve.furthest_sample(samples.pairs().enumerate().map(place), samples.closed());
+            let found = curve.furthest_sample(samples.pairs().enumerate().map(place), samples.is_closed());
             let is_found = found.is_some_and(|(at, distance)| at == k && distance > TOLERANCE);
             assert!(is_found, "{}: sample {k}: {found:?}", curve.id);
             moved += 1;
@@ -154,13 +155,13 @@ fn a_sample_that_is_moved_is_found() {
     assert!(moved > 1_000, "{moved}");
 }
 
-/// Whether samples follow each other so closely that nothing near their curve can hide between them: their fourth
-/// differences are below 0.3 mm, of which the course takes 0.014 mm. At limits and change points they are not.
+/// Whether samples are so dense that nothing near their curve can be missed between them: their fourth differences are
+/// below 0.3 mm, of which the interpolation makes an error of 0.014 mm. At limits and change points they are not.
 fn is_fine(curve: &DrawnCurve, samples: &Samples) -> bool {
-    let mut places = samples.places.clone();
-    places.extend_from_within(..if samples.closed() { 4 } else { 0 });
+    let mut positions = samples.positions.clone();
+    positions.extend_from_within(..if samples.is_closed() { 4 } else { 0 });
     let fourth = |p: &[Point]| p[0].coords - p[1].coords * 4.0 + p[2].coords * 6.0 - p[3].coords * 4.0 + p[4].coords;
-    places.windows(5).all(|p| fourth(p).norm() * curve.page_from_plane.scale < 0.3)
+    positions.windows(5).all(|p| fourth(p).norm() * curve.page_from_plane.scale < 0.3)
 }
 
 #[test]
@@ -173,8 +174,8 @@ fn a_vertex_that_is_moved_is_found() {
                 let mut edited = curve.clone();
                 edited.polylines[l][k] += normal * 0.05;
                 let is_off =
-                    edited.furthest_sample(samples.pairs(), samples.closed()).is_some_and(|(_, d)| d > TOLERANCE);
-                let is_found = is_off || edited.max_stray(&samples.places, samples.closed()).is_some();
+                    edited.furthest_sample(samples.pairs(), samples.is_closed()).is_some_and(|(_, d)| d > TOLERANCE);
+                let is_found = is_off || edited.max_stray(&samples.positions, samples.is_closed()).is_some();
                 assert!(is_found, "{}: vertex {k} of line {l}", curve.id);
                 moved += 1;
             }
@@ -202,8 +203,8 @@ fn a_vertex_that_is_moved_in_the_file_is_found() {
         .find(|&(l, k)| normal(&lines[l], k).is_some())
         .unwrap();
     let normal = normal(&lines[l], k).unwrap();
-    for (by, is_right) in [(0.0, true), (0.05, false)] {
-        lines[l][k] = curve.polylines[l][k] + normal * by;
+    for (distance, is_right) in [(0.0, true), (0.05, false)] {
+        lines[l][k] = curve.polylines[l][k] + normal * distance;
         let mut data = String::new();
         for line in &lines {
             for (k, p) in line.iter().enumerate() {
@@ -215,14 +216,14 @@ fn a_vertex_that_is_moved_in_the_file_is_found() {
         let to = from + text[from..].find('"').unwrap();
         let edited = read(&format!("{}{data}{}", &text[..from], &text[to..])).unwrap();
         let edited = edited.iter().find(|edited| edited.id == curve.id).unwrap();
-        let (_, distance) = edited.furthest_sample(samples.pairs(), true).unwrap();
-        let strays = edited.max_stray(&samples.places, true);
-        assert_eq!(distance <= TOLERANCE && strays.is_none(), is_right, "{by}: {distance}, {strays:?}");
+        let (_, found) = edited.furthest_sample(samples.pairs(), true).unwrap();
+        let stray = edited.max_stray(&samples.positions, true);
+        assert_eq!(found <= TOLERANCE && stray.is_none(), is_right, "{distance}: {found}, {stray:?}");
     }
 }
 
 #[test]
-fn a_page_says_how_it_was_drawn() {
+fn the_attributes_of_a_page_describe_how_it_was_drawn() {
     let text = std::str::from_utf8(&page().svg).unwrap();
     let (curve, _) = &page().curves[0];
     assert_eq!((curve.id.as_str(), curve.cell, curve.trace, curve.circuit), ("evans-1-1-1", 1, 1, 1));
@@ -237,7 +238,7 @@ fn a_page_says_how_it_was_drawn() {
 }
 
 #[test]
-fn a_page_that_is_edited_reads_the_same_or_says_what_is_wrong() {
+fn an_edited_page_reads_the_same_or_has_an_error() {
     let text = std::str::from_utf8(&page().svg).unwrap();
     let all = read(text).unwrap();
     for same in [
@@ -315,9 +316,9 @@ fn a_page_that_is_edited_reads_the_same_or_says_what_is_wrong() {
 }
 
 #[test]
-fn no_page_is_too_odd_to_be_refused() {
+fn no_page_makes_the_reader_panic() {
     let svg = &page().svg;
-    // All but a last line break belongs to the page.
+    // Everything but the last line break is needed.
     for end in (0..svg.len() - 1).step_by(97).chain([svg.len() - 2]) {
         assert!(read_drawn_curves(&svg[..end]).is_err(), "{end}");
     }
@@ -325,7 +326,7 @@ fn no_page_is_too_odd_to_be_refused() {
         for flip in [1, 2, 0x10, 0x20, 0x80] {
             let mut flipped = svg.clone();
             flipped[at] ^= flip;
-            // Many a letter may be another; what counts is that each is read or refused.
+            // Some characters may differ; every page is read or rejected.
             let _ = read_drawn_curves(&flipped);
         }
     }

@@ -1,4 +1,4 @@
-//! Curves taken away: every format read back, and held against the tables of the atlas they are taken from.
+//! Exported curves: every format is read back and compared with the tables of the atlas.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,8 +10,8 @@ use tempfile::TempDir;
 
 use crate::folder::files;
 
-/// Crank pins that draw circles, a rocker pin on an arc, sampling of every kind, a placed family, a length for an
-/// input, and a title with marks in it.
+/// Crank pins that trace circles, a rocker pin on an arc, every kind of sampling, a mirrored and rotated family, a
+/// length as input, and a title with markup characters.
 const MANIFEST: &str = r#"[atlas]
 title = "T"
 output = "out"
@@ -77,12 +77,12 @@ fn text(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(out).unwrap()
 }
 
-/// A folder with the manifest, rendered, and all curves of it taken away in some formats to `taken`.
-fn taken(formats: &str) -> TempDir {
+/// A folder with the rendered manifest, and all its curves exported in the given formats to `exported`.
+fn export(formats: &str) -> TempDir {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
     text(folder.path(), &["render", "-q"]);
-    text(folder.path(), &["export", "--format", formats, "-o", "taken"]);
+    text(folder.path(), &["export", "--format", formats, "-o", "exported"]);
     folder
 }
 
@@ -101,10 +101,10 @@ fn points(folder: &Path, family: &str) -> (String, BTreeMap<[usize; 3], Vec<Stri
 const FAMILIES: [&str; 6] = ["evans", "watt", "mine", "placed", "actuator", "grid"];
 
 fn file(folder: &Path, family: &str, [cell, trace, circuit]: [usize; 3], ending: &str) -> String {
-    fs::read_to_string(folder.join(format!("taken/{family}-{cell}-{trace}-{circuit}{ending}"))).unwrap()
+    fs::read_to_string(folder.join(format!("exported/{family}-{cell}-{trace}-{circuit}{ending}"))).unwrap()
 }
 
-/// The x and y of rows.
+/// The x and y of the rows.
 fn places(header: &str, rows: &[String]) -> Vec<[f64; 2]> {
     let column = |name: &str| header.split(',').position(|field| field == name).unwrap();
     let [x, y] = ["x", "y"].map(column);
@@ -117,7 +117,7 @@ fn places(header: &str, rows: &[String]) -> Vec<[f64; 2]> {
 
 #[test]
 fn tables_have_the_rows_of_points_csv() {
-    let folder = taken("csv");
+    let folder = export("csv");
     let mut expected = Vec::new();
     for family in FAMILIES {
         let (header, curves) = points(folder.path(), family);
@@ -129,10 +129,10 @@ fn tables_have_the_rows_of_points_csv() {
     }
     assert_eq!(expected.len(), 27, "two cells of six curves, ten points of a grid and five more");
     expected.sort();
-    assert_eq!(files(&folder.path().join("taken")), expected, "every curve and nothing else");
+    assert_eq!(files(&folder.path().join("exported")), expected, "every curve and nothing else");
 }
 
-/// An entity of a drawing: its kind, and its groups by code; of a polyline also the places of its vertices.
+/// An entity of a drawing: its kind and its groups by code; for a polyline also the positions of its vertices.
 struct Entity {
     kind: String,
     groups: BTreeMap<i32, String>,
@@ -145,7 +145,7 @@ impl Entity {
     }
 }
 
-/// A drawing in DXF, read strictly.
+/// A DXF drawing.
 struct Drawing {
     version: String,
     layers: Vec<String>,
@@ -153,6 +153,7 @@ struct Drawing {
     entities: Vec<Entity>,
 }
 
+/// Parses a DXF drawing and asserts that its structure is valid.
 fn drawing(text: &str) -> Drawing {
     assert!(text.is_ascii() && text.ends_with('\n'));
     let lines: Vec<&str> = text.lines().collect();
@@ -172,7 +173,7 @@ fn drawing(text: &str) -> Drawing {
             (0, "ENDSEC") => open = false,
             (0, "EOF") => assert!(!open && k + 1 == pairs.len()),
             pair => {
-                assert!(open, "{pair:?} is in no section");
+                assert!(open, "{pair:?} is outside all sections");
                 sections.last_mut().unwrap().1.push(pair);
             }
         }
@@ -198,7 +199,10 @@ fn drawing(text: &str) -> Drawing {
         if code == 0 {
             parts.push(Entity { kind: value.to_owned(), groups: BTreeMap::new(), vertices: Vec::new() });
         } else {
-            assert!(parts.last_mut().unwrap().groups.insert(code, value.to_owned()).is_none(), "{code} twice");
+            assert!(
+                parts.last_mut().unwrap().groups.insert(code, value.to_owned()).is_none(),
+                "group {code} is repeated"
+            );
         }
     }
     let mut in_polyline = false;
@@ -230,6 +234,7 @@ fn drawing(text: &str) -> Drawing {
     }
 }
 
+/// The distance of a point p from the segment ab.
 fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     let length2 = dx * dx + dy * dy;
@@ -238,6 +243,7 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     trig::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy)
 }
 
+/// The larger side of the bounding box.
 fn extent(places: &[[f64; 2]]) -> f64 {
     let side = |k: usize| {
         let values = || places.iter().map(|place| place[k]);
@@ -246,10 +252,10 @@ fn extent(places: &[[f64; 2]]) -> f64 {
     side(0).max(side(1))
 }
 
-/// How far the samples of a curve are from its entity at most, in parts of the curve's extent.
-fn off(curve: &Entity, places: &[[f64; 2]]) -> f64 {
+/// The greatest distance of the samples of a curve from its entity, relative to the curve's extent.
+fn deviation(curve: &Entity, places: &[[f64; 2]]) -> f64 {
     let centre = [curve.number(10), curve.number(20)];
-    let from = |p: &[f64; 2]| match curve.kind.as_str() {
+    let distance_of = |p: &[f64; 2]| match curve.kind.as_str() {
         "POLYLINE" => {
             let vertices = &curve.vertices;
             let chords = vertices.windows(2).map(|pair| [pair[0], pair[1]]);
@@ -262,19 +268,19 @@ fn off(curve: &Entity, places: &[[f64; 2]]) -> f64 {
                 let deg = trig::degrees(trig::atan2(p[1] - centre[1], p[0] - centre[0]));
                 let [begin, end] = [50, 51].map(|code| curve.number(code));
                 let span = (end - begin).rem_euclid(360.0);
-                // To nine places, and rounded at both ends.
-                assert!((deg - begin + 1e-8).rem_euclid(360.0) <= span + 2e-8, "{deg} of {begin} to {end}");
+                // Angles are written to nine decimals, and both ends are rounded.
+                assert!((deg - begin + 1e-8).rem_euclid(360.0) <= span + 2e-8, "{deg} is not in {begin} to {end}");
             }
             (trig::hypot(p[0] - centre[0], p[1] - centre[1]) - curve.number(40)).abs()
         }
-        kind => panic!("a curve as {kind}"),
+        kind => panic!("a curve is drawn as {kind}"),
     };
-    places.iter().map(from).fold(0.0, f64::max) / extent(places)
+    places.iter().map(distance_of).fold(0.0, f64::max) / extent(places)
 }
 
 #[test]
-fn drawings_for_cad_read_back_within_their_chords() {
-    let folder = taken("dxf");
+fn dxf_curves_are_within_the_chord_tolerance() {
+    let folder = export("dxf");
     let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
     for family in FAMILIES {
         let (header, curves) = points(folder.path(), family);
@@ -282,12 +288,14 @@ fn drawings_for_cad_read_back_within_their_chords() {
             let drawing = drawing(&file(folder.path(), family, numbers, ".dxf"));
             assert_eq!(drawing.version, "AC1009");
             assert_eq!(drawing.layers, ["0", "CURVE", "LINKAGE", "JOINTS", "PIVOTS"]);
-            let of = |layer: &'static str| drawing.entities.iter().filter(move |entity| entity.groups[&8] == layer);
-            let [curve] = of("CURVE").collect::<Vec<_>>()[..] else { panic!("one curve") };
+            let on_layer =
+                |layer: &'static str| drawing.entities.iter().filter(move |entity| entity.groups[&8] == layer);
+            let [curve] = on_layer("CURVE").collect::<Vec<_>>()[..] else { panic!("one curve") };
             let places = places(&header, rows);
-            // The chords' tolerance; a circle is one to 1e-9 of its radius, and a rocker's radius is a few extents.
-            let most = if curve.kind == "POLYLINE" { 1e-4 } else { 1e-8 };
-            assert!(off(curve, &places) <= most, "{family} {numbers:?}: {}", off(curve, &places));
+            // The chord tolerance; a circle is accurate to 1e-9 of its radius, and a rocker's radius is a few extents.
+            let tolerance = if curve.kind == "POLYLINE" { 1e-4 } else { 1e-8 };
+            let deviation = deviation(curve, &places);
+            assert!(deviation <= tolerance, "{family} {numbers:?}: {deviation}");
             for [x, y] in places {
                 let [x0, y0, x1, y1] = drawing.extent;
                 let slack = 1e-3 * (x1 - x0);
@@ -296,12 +304,13 @@ fn drawings_for_cad_read_back_within_their_chords() {
                 );
             }
             *kinds.entry(curve.kind.clone()).or_default() += 1;
-            assert!(of("LINKAGE").all(|entity| entity.kind == "LINE") && of("LINKAGE").count() >= 2, "{family}");
-            assert!(of("PIVOTS").chain(of("JOINTS")).all(|entity| entity.kind == "POINT"));
-            assert!(of("PIVOTS").count() >= 1 && of("JOINTS").count() >= 1);
+            assert!(on_layer("LINKAGE").all(|entity| entity.kind == "LINE"), "{family}");
+            assert!(on_layer("LINKAGE").count() >= 2, "{family}");
+            assert!(on_layer("PIVOTS").chain(on_layer("JOINTS")).all(|entity| entity.kind == "POINT"));
+            assert!(on_layer("PIVOTS").count() >= 1 && on_layer("JOINTS").count() >= 1);
         }
     }
-    // The crank pin and the rocker pin of two cells on two circuits each, and the crank of the actuator.
+    // The crank pins and the rocker pins of two cells with two circuits each, and the crank of the actuator.
     assert!(kinds["CIRCLE"] >= 4 && kinds["ARC"] >= 4 && kinds["POLYLINE"] >= 15, "{kinds:?}");
     let [pin, rocker] = [1, 2].map(|trace| drawing(&file(folder.path(), "mine", [1, trace, 1], ".dxf")));
     let curve = |drawing: &Drawing| {
@@ -313,15 +322,15 @@ fn drawings_for_cad_read_back_within_their_chords() {
 }
 
 #[test]
-fn lines_are_the_links_in_one_pose_and_finer_chords_are_finer() {
-    let folder = taken("csv");
+fn lines_are_the_links_in_one_pose_and_the_chord_tolerance_can_be_set() {
+    let folder = export("csv");
     let text = text(folder.path(), &["export", "evans:1.1.1", "--format", "dxf", "--chord", "1e-7"]);
     let drawing = drawing(&text);
     let length =
         |entity: &Entity| trig::hypot(entity.number(11) - entity.number(10), entity.number(21) - entity.number(20));
     let mut lengths: Vec<f64> = drawing.entities.iter().filter(|entity| entity.kind == "LINE").map(length).collect();
     lengths.sort_by(f64::total_cmp);
-    // The crank, the rocker, and the coupler from its pin to the rocker's and on to the coupler point.
+    // The crank, the rocker, and the coupler from the crank pin to the rocker pin and on to the coupler point.
     for (length, expected) in lengths.iter().zip([1.0, 2.59, 2.59, 2.59]) {
         assert!((length - expected).abs() < 1e-12, "{lengths:?}");
     }
@@ -331,15 +340,15 @@ fn lines_are_the_links_in_one_pose_and_finer_chords_are_finer() {
         panic!("one curve")
     };
     assert_eq!(curve.groups[&70], "1", "closed");
-    assert_ne!(curve.vertices.first(), curve.vertices.last(), "the first point stands once");
-    let off = off(curve, &places(&header, &curves[&[1, 1, 1]]));
-    assert!(off <= 1e-7 && off > 1e-9, "{off}");
+    assert_ne!(curve.vertices.first(), curve.vertices.last(), "the first point is not repeated");
+    let deviation = deviation(curve, &places(&header, &curves[&[1, 1, 1]]));
+    assert!(deviation <= 1e-7 && deviation > 1e-9, "{deviation}");
 }
 
 #[test]
 fn json_has_the_same_numbers_as_the_tables() {
-    let folder = taken("json");
-    let mut seen = 0;
+    let folder = export("json");
+    let mut compared = 0;
     for family in FAMILIES {
         let (header, curves) = points(folder.path(), family);
         let cells = fs::read_to_string(folder.path().join(format!("out/{family}/cells.csv"))).unwrap();
@@ -371,27 +380,27 @@ fn json_has_the_same_numbers_as_the_tables() {
                 fields == numbers.map(|number| number.to_string()).iter().map(String::as_str).collect::<Vec<_>>()
             });
             for (name, field) in names.iter().zip(record.unwrap()).skip(3) {
-                let own = value["parameters"].get(name).or(value["measures"].get(name)).unwrap_or(&value[name]);
-                let same = match (field.parse::<f64>(), own.as_str()) {
-                    (Ok(number), _) if number.is_finite() => own.as_f64() == Some(number),
+                let entry = value["parameters"].get(name).or(value["measures"].get(name)).unwrap_or(&value[name]);
+                let is_same = match (field.parse::<f64>(), entry.as_str()) {
+                    (Ok(number), _) if number.is_finite() => entry.as_f64() == Some(number),
                     (_, Some(word)) => word == field,
-                    _ => own.is_null() && matches!(field, "" | "inf" | "-inf"),
+                    _ => entry.is_null() && matches!(field, "" | "inf" | "-inf"),
                 };
-                assert!(same, "{family} {numbers:?}: {name} is {own}, not {field}");
-                seen += 1;
+                assert!(is_same, "{family} {numbers:?}: {name} is {entry}, not {field}");
+                compared += 1;
             }
             let circuits = value["circuits"].as_array().unwrap();
             assert!(circuits.len() >= circuit && circuits[circuit - 1]["closed"].is_boolean());
         }
     }
-    assert!(seen > 900, "{seen}");
+    assert!(compared > 900, "{compared}");
 }
 
 #[test]
 fn a_fragment_of_a_manifest_draws_the_same_curves() {
-    let folder = taken("toml,csv");
-    let fragment = fs::read_to_string(folder.path().join("taken/curves.toml")).unwrap();
-    // The atlas's own linkage goes with it.
+    let folder = export("toml,csv");
+    let fragment = fs::read_to_string(folder.path().join("exported/curves.toml")).unwrap();
+    // The fragment needs the linkage that the atlas defines.
     let linkage = &MANIFEST[MANIFEST.find("[[linkage]]").unwrap()..MANIFEST.find("[[family]]").unwrap()];
     assert!(fragment.contains("# The [[linkage]] `mine` is the atlas's own"), "{fragment}");
     let again = TempDir::new().unwrap();
@@ -399,40 +408,40 @@ fn a_fragment_of_a_manifest_draws_the_same_curves() {
     fs::write(again.path().join("atlas.toml"), &manifest).unwrap();
     text(again.path(), &["validate"]);
     text(again.path(), &["render", "-q"]);
-    for (family, own) in
+    for (family, linkage) in
         FAMILIES.into_iter().zip(["evans", "watt", "mine", "hoeken", "linear-actuator", "hrones-nelson"])
     {
         let (header, curves) = points(folder.path(), family);
-        let (new_header, new) = points(again.path(), &format!("{own}-taken"));
+        let (new_header, new) = points(again.path(), &format!("{linkage}-taken"));
         assert_eq!(header, new_header, "{manifest}");
-        // The second cell of `watt` is not assembled, and has no curve to be taken.
+        // The second cell of `watt` is not assembled and has no curve to export.
         assert_eq!(curves, new, "{family}");
     }
-    // Families of one linkage are one where nothing tells them apart.
-    let one = text(folder.path(), &["export", "evans:2", "evans:1.1.1", "evans:2.1.1", "--format", "toml"]);
-    assert_eq!(one.matches("[[family]]").count(), 1);
-    assert_eq!(one.matches("    { p = ").count(), 2, "a cell stands once: {one}");
-    assert!(one.contains("title = \"Evans <linkage> & \\\"co\\\"\""), "{one}");
+    // Curves of one linkage with the same settings are in one family.
+    let merged = text(folder.path(), &["export", "evans:2", "evans:1.1.1", "evans:2.1.1", "--format", "toml"]);
+    assert_eq!(merged.matches("[[family]]").count(), 1);
+    assert_eq!(merged.matches("    { p = ").count(), 2, "a cell is written once: {merged}");
+    assert!(merged.contains("title = \"Evans <linkage> & \\\"co\\\"\""), "{merged}");
 }
 
 #[test]
-fn plates_are_well_formed_and_move_if_asked() {
-    let folder = taken("svg,moving-svg,png");
+fn plates_are_well_formed_and_animated_on_request() {
+    let folder = export("svg,moving-svg,png");
     let mut pictures = 0;
     for family in FAMILIES {
         for numbers in points(folder.path(), family).1.into_keys() {
             let still = file(folder.path(), family, numbers, ".svg");
             let moving = file(folder.path(), family, numbers, "-moving.svg");
-            for (svg, moves) in [(&still, false), (&moving, true)] {
+            for (svg, is_animated) in [(&still, false), (&moving, true)] {
                 let document = roxmltree::Document::parse(svg).unwrap();
                 assert_eq!(document.root_element().attribute("width"), Some("200mm"));
-                assert_eq!(document.descendants().any(|node| node.has_tag_name("animate")), moves);
+                assert_eq!(document.descendants().any(|node| node.has_tag_name("animate")), is_animated);
                 let curves = document.descendants().filter(|node| node.attribute("class") == Some("curve"));
-                assert_eq!(curves.count(), 1, "the one curve and no other");
+                assert_eq!(curves.count(), 1, "exactly one curve");
                 pictures += 1;
             }
             let [cell, trace, circuit] = numbers;
-            let png = fs::read(folder.path().join(format!("taken/{family}-{cell}-{trace}-{circuit}.png"))).unwrap();
+            let png = fs::read(folder.path().join(format!("exported/{family}-{cell}-{trace}-{circuit}.png"))).unwrap();
             let image = image::load_from_memory(&png).unwrap();
             assert_eq!((image.width(), image.height()), (787, 591), "200 by 150 mm at 100 to the inch");
         }
@@ -441,16 +450,16 @@ fn plates_are_well_formed_and_move_if_asked() {
 }
 
 #[test]
-fn one_linkage_is_taken_like_a_cell_of_a_family() {
-    let folder = taken("csv");
-    let of_family = file(folder.path(), "watt", [1, 1, 1], ".csv");
-    let words = ["export", "--linkage", "watt", "p=4", "r=1+1", "a=1", "--samples", "100", "--format", "csv"];
-    assert_eq!(text(folder.path(), &words), of_family);
-    let own =
+fn a_linkage_is_exported_like_a_cell_of_a_family() {
+    let folder = export("csv");
+    let from_family = file(folder.path(), "watt", [1, 1, 1], ".csv");
+    let arguments = ["export", "--linkage", "watt", "p=4", "r=1+1", "a=1", "--samples", "100", "--format", "csv"];
+    assert_eq!(text(folder.path(), &arguments), from_family);
+    let from_manifest =
         ["export", "--linkage", "mine", "--manifest", "atlas.toml", "g=4", "2.1", "--format", "csv", "-o", "one.csv"];
-    assert_eq!(text(folder.path(), &own), "");
+    assert_eq!(text(folder.path(), &from_manifest), "");
     assert!(fs::read_to_string(folder.path().join("one.csv")).unwrap().contains("\n1,2,1,1,0,"));
-    // By steps, as a family of the catalogue is.
+    // Sampled by steps of the input.
     let step = ["export", "--linkage", "evans", "p=2", "a=2.59", "--step", "2", "--format", "csv"];
     let stepped = text(folder.path(), &step);
     assert_eq!(stepped.lines().count(), 181);
@@ -459,17 +468,17 @@ fn one_linkage_is_taken_like_a_cell_of_a_family() {
 
 #[test]
 fn parameters_and_coupler_points_can_be_changed() {
-    let folder = taken("csv");
+    let folder = export("csv");
     let csv = |name: &str| text(folder.path(), &["export", name, "--format", "csv"]);
     let rows = |text: &str| -> Vec<String> {
         text.lines().skip(1).map(|row| row.splitn(4, ',').nth(3).unwrap().to_owned()).collect()
     };
     assert_eq!(rows(&csv("evans:1.1.1?p=3&a=2+2.1")), rows(&file(folder.path(), "evans", [2, 1, 1], ".csv")));
-    assert!(csv("evans:1.1.1?p=3&a=4.1").contains("\n1,1,1,1,0,"), "the number of the cell it was");
-    // Half of what is derived from what is given: a follows q.
-    let follows = csv("placed:1.1.1?q=3");
-    assert_eq!(rows(&follows), rows(&csv("placed:1.1.1?a=3")));
-    // At the crank pin the coupler point draws the crank's circle, and a point of a grid likewise.
+    assert!(csv("evans:1.1.1?p=3&a=4.1").contains("\n1,1,1,1,0,"), "the cell keeps its number");
+    // A value derived from a changed parameter changes too: `a` follows `q`.
+    let derived = csv("placed:1.1.1?q=3");
+    assert_eq!(rows(&derived), rows(&csv("placed:1.1.1?a=3")));
+    // A coupler point at the crank pin traces the crank's circle; so does a point of a grid.
     for name in ["evans:1.1.1?M.along=0", "grid:1.7.1?M.along=0&M.across=0"] {
         let drawing = drawing(&text(folder.path(), &["export", name, "--format", "dxf"]));
         let curve = drawing.entities.iter().find(|entity| entity.groups[&8] == "CURVE").unwrap();
@@ -481,7 +490,7 @@ fn parameters_and_coupler_points_can_be_changed() {
 }
 
 #[test]
-fn wrong_words_are_all_told_and_nothing_is_written() {
+fn all_wrong_arguments_are_reported_and_nothing_is_written() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
     fs::write(folder.path().join("a-file"), "mine").unwrap();
@@ -521,40 +530,40 @@ fn wrong_words_are_all_told_and_nothing_is_written() {
             &["there is no evans:1.7.1: the cell's only curve is evans:1.1.1"],
         ),
     ];
-    for (words, said) in cases {
-        let (code, out, err) = run(folder.path(), &[&["export"], words].concat());
-        assert_eq!((code, out.len()), (2, 0), "{words:?}: {err}");
-        for part in said {
-            assert!(err.contains(part), "{words:?} says {err}");
+    for (arguments, messages) in cases {
+        let (code, out, err) = run(folder.path(), &[&["export"], arguments].concat());
+        assert_eq!((code, out.len()), (2, 0), "{arguments:?}: {err}");
+        for message in messages {
+            assert!(err.contains(message), "{arguments:?}: {err}");
         }
-        assert_eq!(files(folder.path()), before, "{words:?}");
+        assert_eq!(files(folder.path()), before, "{arguments:?}");
     }
 }
 
 #[test]
-fn one_result_goes_to_standard_output_or_to_a_file_or_a_folder() {
-    let folder = taken("csv");
+fn a_single_result_is_written_to_standard_output_a_file_or_a_folder() {
+    let folder = export("csv");
     let table = text(folder.path(), &["export", "atlas.toml", "evans:1", "--format", "csv"]);
     assert_eq!(table, file(folder.path(), "evans", [1, 1, 1], ".csv"));
     text(folder.path(), &["export", "evans:1.1.1", "--format", "csv,csv", "-o", "one"]);
     assert_eq!(fs::read_to_string(folder.path().join("one")).unwrap(), table);
-    let said = text(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
-    assert_eq!(said, "1 file written to new/\n");
+    let summary = text(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
+    assert_eq!(summary, "1 file written to new/\n");
     assert_eq!(files(&folder.path().join("new")), ["evans-1-1-1.csv"]);
     let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts/"]);
     assert_eq!((code, files(&folder.path().join("watts"))), (0, vec!["watt-1-1-1.csv".to_owned()]));
     assert!(err.contains("warning: watt:2: not assembled"), "{err}");
 }
 
-/// What is no file is not replaced by one: a socket here stands for /dev/null.
+/// Special files such as /dev/null are not replaced; the test uses a socket.
 #[cfg(unix)]
 #[test]
-fn what_is_no_file_stays_as_it_is() {
+fn special_files_are_left_unchanged() {
     use std::os::unix::fs::FileTypeExt;
     let folder = TempDir::new().unwrap();
     let _socket = std::os::unix::net::UnixListener::bind(folder.path().join("socket")).unwrap();
-    let words = ["export", "--linkage", "evans", "p=2", "a=2.59", "--format", "csv", "-o", "socket"];
-    let (code, _, err) = run(folder.path(), &words);
+    let arguments = ["export", "--linkage", "evans", "p=2", "a=2.59", "--format", "csv", "-o", "socket"];
+    let (code, _, err) = run(folder.path(), &arguments);
     assert_eq!(code, 2, "{err}");
     assert!(err.contains("socket is neither a file nor a folder: name one with -o, or leave -o out"), "{err}");
     assert!(fs::metadata(folder.path().join("socket")).unwrap().file_type().is_socket());

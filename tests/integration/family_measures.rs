@@ -1,7 +1,7 @@
 //! Which measures a family computes, in its tables and on its pages.
 
 #[test]
-fn a_family_takes_the_measures_it_names_and_those_that_are_asked_for() {
+fn a_family_computes_the_measures_it_names_and_those_its_expressions_use() {
     let text = |measures: &str| {
         format!(
             "[atlas]\ntitle = \"T\"\noutput = \"out\"\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
@@ -21,17 +21,17 @@ fn a_family_takes_the_measures_it_names_and_those_that_are_asked_for() {
     let (all, _) = run("");
     let (some, page) = run("measures = [\"area\", \"class\"]\n");
     let head: Vec<&str> = some[0].iter().map(String::as_str).skip_while(|name| *name != "reason").skip(1).collect();
-    // In the order of all; whether it is a crank-rocker its class tells.
-    let asked = ["class", "mu_min_deg", "length", "area", "speed_ratio"];
-    assert_eq!(head, asked);
-    // What is taken has the values it has among all.
-    for (row, whole) in some.iter().zip(&all) {
+    // In the order of all measures; `is_crank_rocker` follows from `class`.
+    let expected = ["class", "mu_min_deg", "length", "area", "speed_ratio"];
+    assert_eq!(head, expected);
+    // The values are the same as when all measures are computed.
+    for (row, full_row) in some.iter().zip(&all) {
         for (name, value) in some[0].iter().zip(row) {
-            let at = all[0].iter().position(|other| other == name).unwrap();
-            assert_eq!(*value, whole[at], "{name}");
+            let column = all[0].iter().position(|other| other == name).unwrap();
+            assert_eq!(*value, full_row[column], "{name}");
         }
     }
-    // What is not sought is not drawn.
+    // Straight portions are not searched for, and their groups on the page are empty.
     let groups = page.matches("<g class=\"straight\">\n").count();
     assert!(groups == 3 && page.matches("<g class=\"straight\">\n</g>").count() == groups);
 }

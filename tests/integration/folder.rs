@@ -1,4 +1,4 @@
-//! An atlas that is rendered for a test, and what is in its folder.
+//! An atlas rendered for a test, and the files in its folder.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,7 +9,7 @@ use std::time::SystemTime;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-/// A manifest in a folder of its own, whose atlas goes to `out` beside it.
+/// A manifest in a temporary folder; its atlas is written to `out` in the same folder.
 pub struct Atlas(pub TempDir);
 
 impl Atlas {
@@ -67,30 +67,30 @@ pub fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files(folder).into_iter().map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 
-/// Every digest in `run.json` is that of the file, and every file that it claims is there; every file is whole. How many
-/// pages are claimed to be made.
-pub fn record_is_true(out: &Path) -> usize {
+/// Asserts that every digest in `run.json` is that of its file, that every file it records as written exists, and that
+/// every file is complete. Returns the number of files recorded as written.
+pub fn check_record(out: &Path) -> usize {
     let found = tree(out);
-    let mut claimed = 0;
+    let mut recorded = 0;
     if let Some(text) = found.get("run.json") {
         let record: serde_json::Value = serde_json::from_slice(text).unwrap();
-        let of_families = record["families"].as_array().unwrap().iter().flat_map(|family| {
+        let family_files = record["families"].as_array().unwrap().iter().flat_map(|family| {
             let folder = format!("{}/", family["id"].as_str().unwrap());
             family["files"].as_array().unwrap().iter().map(move |file| (folder.clone(), file))
         });
-        let of_book = record["book"]["files"].as_array().into_iter().flatten().map(|file| (String::new(), file));
+        let book_files = record["book"]["files"].as_array().into_iter().flatten().map(|file| (String::new(), file));
         let gallery = Some(&record["gallery"]).filter(|gallery| gallery.is_object());
-        for (folder, file) in of_families.chain(of_book).chain(gallery.map(|file| (String::new(), file))) {
+        for (folder, file) in family_files.chain(book_files).chain(gallery.map(|file| (String::new(), file))) {
             let name = folder + file["name"].as_str().unwrap();
-            let is_claimed = !file["inputs_sha256"].is_null();
-            claimed += usize::from(is_claimed);
-            assert!(!is_claimed || found.contains_key(&name), "{name} is recorded and not there");
+            let is_written = !file["inputs_sha256"].is_null();
+            recorded += usize::from(is_written);
+            assert!(!is_written || found.contains_key(&name), "{name} is recorded but does not exist");
             if let Some(sha256) = file["sha256"].as_str() {
                 assert_eq!(format!("{:x}", Sha256::digest(&found[&name])), sha256, "{name}");
             }
         }
     }
-    // A test's own files are not pages, whatever they are called.
+    // Files of a test itself may have the names of pages.
     for (name, bytes) in found.iter().filter(|(_, bytes)| *bytes != b"mine") {
         let end: &[u8] = match name.rsplit('.').next().unwrap() {
             "svg" => b"</svg>\n",
@@ -101,7 +101,7 @@ pub fn record_is_true(out: &Path) -> usize {
             "js" => b");\n",
             _ => b"",
         };
-        assert!(bytes.ends_with(end), "{name} is not whole");
+        assert!(bytes.ends_with(end), "{name} is incomplete");
     }
-    claimed
+    recorded
 }

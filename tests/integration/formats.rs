@@ -1,4 +1,4 @@
-//! Manifests and records of other formats, and files as Windows writes them.
+//! Manifests and records with other format versions, and files with the line ends and paths of Windows.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,7 +22,7 @@ grid = { p = [2, 3] }
 let = { a = "(1 + p)^1.5 / 2" }
 "#;
 
-/// All that is in a folder, by name.
+/// The bytes of every file below a folder, by path.
 fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
@@ -40,33 +40,33 @@ fn with_format(format: &str) -> String {
 }
 
 #[test]
-fn a_manifest_of_another_format_is_refused_with_one_word() {
-    // What another format may have is no mistake of its own.
+fn a_manifest_of_another_format_is_rejected_with_one_error() {
+    // Keys that another format may have are not reported.
     let newer = with_format("2").replace("[[family]]", "[[brood]]").replace("title", "name");
     let atlas = Atlas::new(&newer);
     for command in [&["validate"][..], &["inspect", "mine", "--manifest", "atlas.toml"]] {
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
         let output = program.current_dir(atlas.0.path()).args(command).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command:?}: {err}");
         let version = env!("CARGO_PKG_VERSION");
         let message = format!("the manifest has format 2, but this is version {version}, which reads format 1");
-        assert!(said.contains(&message) && said.contains("atlas.toml:2:10\n"), "{said}");
-        assert!(said.contains("help: use a newer version; or write format = 1"), "{said}");
-        assert_eq!(said.matches("error: the manifest").count(), 1, "{said}");
-        assert!(!said.contains("has no key") && !said.contains("has no `"), "{said}");
+        assert!(err.contains(&message) && err.contains("atlas.toml:2:10\n"), "{err}");
+        assert!(err.contains("help: use a newer version; or write format = 1"), "{err}");
+        assert_eq!(err.matches("error: the manifest").count(), 1, "{err}");
+        assert!(!err.contains("has no key") && !err.contains("has no `"), "{err}");
     }
-    for none in ["0", "-1", "1.5", "\"1\"", "true", "inf"] {
-        let loaded = manifest::parse(&with_format(none));
+    for invalid in ["0", "-1", "1.5", "\"1\"", "true", "inf"] {
+        let loaded = manifest::parse(&with_format(invalid));
         assert!(loaded.plan.is_none());
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
-        assert_eq!(problem.message, "unknown format version", "{none}");
+        assert_eq!(problem.message, "unknown format version", "{invalid}");
         assert!(problem.help.starts_with("write format = 1, or leave it out"), "{}", problem.help);
     }
 }
 
 #[test]
-fn a_format_that_is_written_out_is_the_same_manifest() {
+fn writing_out_the_format_changes_nothing() {
     let inputs = |text: &str| manifest::parse(text).plan.unwrap().families[0].manifest_inputs.clone();
     let without = inputs(MANIFEST);
     for one in ["1", "1.0"] {
@@ -74,7 +74,7 @@ fn a_format_that_is_written_out_is_the_same_manifest() {
     }
 }
 
-/// Nothing in a folder is removed or written over that a version wrote whose record is not understood.
+/// No file is removed or overwritten in a folder whose record has another format.
 #[test]
 fn a_folder_of_another_format_is_left_alone() {
     let atlas = Atlas::new(MANIFEST);
@@ -98,16 +98,16 @@ fn a_folder_of_another_format_is_left_alone() {
         for arguments in [&[][..], &["--force"], &["--only", "evans"]] {
             let (code, out, err) = atlas.run(arguments);
             assert_eq!((code, out.as_str()), (2, ""), "{err}");
-            let told =
+            let message =
                 format!("it has format {format} on line {line}, written by {writer}, but this is coupler-atlas ");
             assert!(
-                err.contains("cannot overwrite out") && err.contains("run.json: ") && err.contains(&told),
+                err.contains("cannot overwrite out") && err.contains("run.json: ") && err.contains(&message),
                 "{err}"
             );
             assert!(err.contains("render with the version that wrote it, or into another folder with -o"), "{err}");
-            assert!(tree(&atlas.out()) == before, "{record}: the folder is as it was");
+            assert!(tree(&atlas.out()) == before, "{record}: the folder is unchanged");
         }
-        assert_eq!(atlas.run(&["-q", "-o", "other"]).0, 0, "another folder is a way out");
+        assert_eq!(atlas.run(&["-q", "-o", "other"]).0, 0, "another folder can be used");
     }
 }
 
@@ -122,7 +122,7 @@ fn a_record_with_other_line_ends_is_read() {
     assert_eq!(RunRecord::read(&path).unwrap(), serde_json::from_str(&text).unwrap());
     let (code, out, err) = atlas.run(&[]);
     assert!(code == 0 && err.is_empty() && out.contains("(unchanged)"), "{out}{err}");
-    assert_eq!(fs::read_to_string(&path).unwrap(), text, "it is written as it always is");
+    assert_eq!(fs::read_to_string(&path).unwrap(), text, "it is rewritten with the usual line ends");
     fs::write(&path, "{\"format\": 1}").unwrap();
     assert!(matches!(RunRecord::read(&path), Err(ReadError::Syntax(_))));
     // The tables of cells are read back as well.
@@ -133,37 +133,37 @@ fn a_record_with_other_line_ends_is_read() {
     assert_eq!(record::read_unassembled_cells(as_on_windows.as_bytes()), expected);
 }
 
-/// What is wrong stands at the same lines and columns, underlined alike, whatever ends the lines.
+/// Lines, columns and underlines of problems do not depend on the line ends.
 #[test]
-fn reports_are_the_same_for_files_of_windows() {
-    let spoilt = MANIFEST.replace("[2, 3]", "[2,\n  3]").replace("(1 + p)", "(1 + q)").replace("step", "stop");
-    let spoilt = spoilt.replace("title = \"T\"", "title = 3").replace("[\"svg\"]", "[\n\"svg\",\n'swg']")
+fn reports_are_the_same_with_windows_line_ends() {
+    let broken = MANIFEST.replace("[2, 3]", "[2,\n  3]").replace("(1 + p)", "(1 + q)").replace("step", "stop");
+    let broken = broken.replace("title = \"T\"", "title = 3").replace("[\"svg\"]", "[\n\"svg\",\n'swg']")
         + "note = \"\"\"\nμ {mu}\n{cell +}\"\"\"\nwhere = '''p > 2\n and q'''\n";
     let folder = TempDir::new().unwrap();
-    let said = |text: &str| {
+    let validate = |text: &str| {
         fs::write(folder.path().join("m.toml"), text).unwrap();
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
         let output = program.current_dir(folder.path()).args(["validate", "m.toml"]).output().unwrap();
         String::from_utf8(output.stderr).unwrap()
     };
-    let plain = said(&spoilt);
+    let plain = validate(&broken);
     for place in ["m.toml:2:9", "m.toml:6:1", "m.toml:10:14", "m.toml:13:19", "m.toml:14:8", "m.toml:18:6"] {
         assert!(plain.contains(place), "{place}: {plain}");
     }
-    let crlf = spoilt.replace('\n', "\r\n");
-    for (text, what) in [
-        (format!("\u{feff}{spoilt}"), "a byte order mark"),
+    let crlf = broken.replace('\n', "\r\n");
+    for (text, change) in [
+        (format!("\u{feff}{broken}"), "a byte order mark"),
         (crlf.clone(), "line ends"),
         (format!("\u{feff}{crlf}"), "both"),
     ] {
-        let report = said(&text);
-        assert!(!report.contains('\r'), "{what}: {report:?}");
-        assert_eq!(report, plain, "{what}");
+        let report = validate(&text);
+        assert!(!report.contains('\r'), "{change}: {report:?}");
+        assert_eq!(report, plain, "{change}");
     }
 }
 
 #[test]
-fn a_folder_may_be_written_as_on_windows() {
+fn the_output_folder_may_be_written_with_backslashes() {
     for output in ["\"..\\\\there\\\\pages\"", "'..\\there\\pages'", "'../there\\pages'"] {
         let folder = TempDir::new().unwrap();
         let here = folder.path().join("here");
@@ -178,7 +178,7 @@ fn a_folder_may_be_written_as_on_windows() {
 
 #[cfg(not(windows))]
 #[test]
-fn a_drive_is_a_problem_where_there_are_none() {
+fn drives_are_rejected_where_they_do_not_exist() {
     for output in ["'C:\\atlas'", "\"d:/atlas\"", "'\\\\server\\share'"] {
         let loaded = manifest::parse(&MANIFEST.replace("\"out\"", output));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
@@ -188,12 +188,12 @@ fn a_drive_is_a_problem_where_there_are_none() {
 }
 
 #[test]
-fn ids_are_no_devices_of_windows() {
+fn ids_cannot_be_device_names_of_windows() {
     for id in ["con", "prn", "aux", "nul", "com0", "com9", "lpt1"] {
         let loaded = manifest::parse(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\"")));
         let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
         assert_eq!(problem.message, format!("the id `{id}` is a device name on Windows"));
-        assert_eq!(problem.help, format!("an id names folders and files: take another, as in \"{id}-1\""));
+        assert_eq!(problem.help, format!("an id names folders and files; choose another, as in \"{id}-1\""));
     }
     for id in ["con-1", "cone", "com", "com10", "lpt", "lpta", "a-nul"] {
         assert!(manifest::parse(&MANIFEST.replace("id = \"evans\"", &format!("id = \"{id}\""))).plan.is_some(), "{id}");

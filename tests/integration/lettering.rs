@@ -1,5 +1,5 @@
-//! Whatever is written in titles, captions, notes and legends comes out as that text and nothing else, in well-formed
-//! files; what cannot be written is refused.
+//! Titles, captions, notes and legends are written as plain text in well-formed files; characters that cannot be
+//! written are rejected.
 
 use std::fs;
 
@@ -12,8 +12,8 @@ use roxmltree::{Document, Node};
 use crate::book::reader::Pdf;
 use crate::folder::{Atlas, tree};
 
-/// Texts that a careless writer would not bring through: markup, quotes and escapes; right to left, and turned round;
-/// long words; what the typefaces have no glyph for; letters that are put together of several.
+/// Texts that are easily written wrongly: markup, quotes and escapes; right-to-left text and direction overrides; long
+/// words; characters without a glyph in the typefaces; combining characters.
 const STRANGE: [&str; 10] = [
     "<script>alert(1)</script> & \"two\" 'one' ]]> <!-- &amp; &#0; <![CDATA[ -- ?> %s {0} \\ $HOME",
     "onload=\"alert(1)\" x='</text><svg onload=alert(1)>'",
@@ -28,14 +28,14 @@ const STRANGE: [&str; 10] = [
     " ",
 ];
 
-/// A text as TOML writes it without any character of its own.
+/// A TOML string with every character escaped.
 fn toml(text: &str) -> String {
     let escape = |c: char| format!("\\U{:08X}", u32::from(c));
     format!("\"{}\"", text.chars().map(escape).collect::<String>())
 }
 
-/// A manifest that says this wherever it can say anything.
-fn saying(text: &str, mode: &str) -> String {
+/// A manifest with this text in all titles, sources, legends, captions and notes.
+fn manifest_with(text: &str, mode: &str) -> String {
     let words = toml(text);
     let caption = toml(&text.replace('{', "{{").replace('}', "}}"));
     format!(
@@ -81,27 +81,28 @@ M = {{ point = ["A", "B"], along = 2, across = 1 }}
     )
 }
 
-/// A page as a reader of XML finds it: nothing but drawing, and no attribute that does anything.
+/// Parses a page and asserts that it has only elements of drawings and no event handlers.
 fn check_svg(bytes: &[u8]) -> Document<'_> {
     let document = Document::parse(std::str::from_utf8(bytes).unwrap()).unwrap();
     let known = ["svg", "title", "rect", "g", "path", "circle", "text", "tspan"];
     for node in document.descendants().filter(Node::is_element) {
-        assert!(known.contains(&node.tag_name().name()), "an element {:?}", node.tag_name());
+        assert!(known.contains(&node.tag_name().name()), "unexpected element {:?}", node.tag_name());
         assert!(node.attributes().all(|attribute| !attribute.name().starts_with("on")), "{node:?}");
     }
     assert!(document.descendants().all(|node| !node.is_comment() && !node.is_pi()));
     document
 }
 
+/// The text with single spaces between words.
 fn plain(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[test]
-fn strange_texts_come_out_as_they_are() {
+fn strange_texts_are_written_unchanged() {
     for (k, text) in STRANGE.into_iter().enumerate() {
         let mode = if k % 3 == 2 { "outlines" } else { "text" };
-        let atlas = Atlas::new(&saying(text, mode));
+        let atlas = Atlas::new(&manifest_with(text, mode));
         let (code, _, err) = atlas.run(&[]);
         assert_eq!(code, 0, "{text}: {err}");
         let files = tree(&atlas.out());
@@ -109,18 +110,18 @@ fn strange_texts_come_out_as_they_are() {
             files.iter().filter(|(name, _)| name.ends_with(".svg")).map(|(_, bytes)| check_svg(bytes)).collect();
         assert_eq!(pages.len(), 2);
         for page in &pages {
-            let said = |node: Node| node.descendants().filter_map(|n| n.text()).collect::<String>();
-            let told: Vec<String> = page
+            let text_of = |node: Node| node.descendants().filter_map(|n| n.text()).collect::<String>();
+            let lines: Vec<String> = page
                 .descendants()
                 .filter(|node| node.has_tag_name("text"))
-                .map(said)
+                .map(text_of)
                 .chain(page.descendants().filter_map(|node| node.attribute("aria-label").map(str::to_owned)))
                 .collect();
             let title = page.root_element().children().find(|node| node.has_tag_name("title")).unwrap();
-            assert!(plain(&said(title)).contains(&plain(text)), "{text}: {title:?}");
-            // The title stands in the heading, or as much of it as there is room for.
+            assert!(plain(&text_of(title)).contains(&plain(text)), "{text}: {title:?}");
+            // The heading has the title, or as much of it as fits.
             let begin: String = plain(text).chars().take(12).collect();
-            assert!(told.iter().any(|line| plain(line).contains(&begin)), "{text}: {told:?}");
+            assert!(lines.iter().any(|line| plain(line).contains(&begin)), "{text}: {lines:?}");
         }
         let record: serde_json::Value = serde_json::from_slice(&files["run.json"]).unwrap();
         assert_eq!(record["title"], text);
@@ -135,7 +136,7 @@ fn strange_texts_come_out_as_they_are() {
 
 #[test]
 fn markup_is_text_in_the_book_too() {
-    let atlas = Atlas::new(&saying(STRANGE[0], "text"));
+    let atlas = Atlas::new(&manifest_with(STRANGE[0], "text"));
     atlas.run(&["--format", "pdf"]);
     let book = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
     let texts: Vec<String> =
@@ -144,17 +145,17 @@ fn markup_is_text_in_the_book_too() {
     assert!(texts.iter().filter(|text| text.contains(begin)).count() >= 3, "{texts:?}");
 }
 
-/// Whoever makes a scene without a manifest gets a well-formed page as well: of what XML has no place for, a sign.
+/// A scene made without a manifest gives a well-formed page too: U+FFFD replaces characters that XML does not allow.
 #[test]
-fn every_character_there_is_makes_a_page() {
-    let any: String =
+fn every_character_can_be_on_a_page() {
+    let all: String =
         (0..0x1_1000).filter_map(char::from_u32).chain(['\u{1f980}', '\u{10fffe}', '\u{10ffff}']).collect();
-    let group = Group { id: any.clone(), title: any.clone(), data: vec![("cell", any.clone())], ..Group::default() };
+    let group = Group { id: all.clone(), title: all.clone(), data: vec![("cell", all.clone())], ..Group::default() };
     let scene = Scene {
         width: 100.0,
         height: 100.0,
         paper: coupler_drawing::scene::Color(255, 255, 255),
-        title: any.clone(),
+        title: all.clone(),
         items: vec![Item::Group(group)],
         links: Vec::new(),
         typeface: Typeface::Serif,
@@ -162,37 +163,40 @@ fn every_character_there_is_makes_a_page() {
     let svg = render::svg(&scene, TextMode::Text);
     let document = check_svg(&svg);
     let title = document.descendants().find(|node| node.has_tag_name("title")).unwrap().text().unwrap();
-    assert_eq!(title.chars().count(), any.chars().count());
-    for (written, meant) in title.chars().zip(any.chars()) {
-        let is_space = matches!(meant, '\t' | '\n') && written == ' ';
-        let is_no_xml = meant < ' ' || matches!(meant, '\u{7f}' | '\u{fffe}' | '\u{ffff}');
-        assert!(written == meant || is_space || is_no_xml && written == '\u{fffd}', "{meant:?} became {written:?}");
+    assert_eq!(title.chars().count(), all.chars().count());
+    for (written, original) in title.chars().zip(all.chars()) {
+        let is_space = matches!(original, '\t' | '\n') && written == ' ';
+        let is_control = original < ' ' || matches!(original, '\u{7f}' | '\u{fffe}' | '\u{ffff}');
+        assert!(
+            written == original || is_space || is_control && written == '\u{fffd}',
+            "{original:?} became {written:?}"
+        );
     }
 }
 
 #[test]
-fn control_characters_are_refused_at_their_place() {
-    let good = saying("T", "text");
+fn control_characters_are_rejected_with_their_place() {
+    let good = manifest_with("T", "text");
     assert!(manifest::parse(&good).plan.is_some());
     let word = toml("T");
     let places: Vec<usize> = good.match_indices(&word).map(|(at, _)| at).collect();
     assert!(places.len() >= 10);
     for c in ['\0', '\u{1b}', '\u{7}', '\r', '\u{7f}', '\u{85}', '\u{9b}', '\u{fffe}', '\u{ffff}'] {
         for &at in &places {
-            let spoilt = toml(&format!("a{c}b"));
-            let text = format!("{}{spoilt}{}", &good[..at], &good[at + word.len()..]);
+            let invalid = toml(&format!("a{c}b"));
+            let text = format!("{}{invalid}{}", &good[..at], &good[at + word.len()..]);
             let loaded = manifest::parse(&text);
             assert!(loaded.plan.is_none(), "{c:?} in {}", &text[at - 10..]);
             let [problem] = &loaded.problems[..] else { panic!("{:?}", loaded.problems) };
             let message = format!("a string cannot contain the control character U+{:04X}", u32::from(c));
-            assert_eq!((problem.message.as_str(), problem.span.clone()), (message.as_str(), at..at + spoilt.len()));
+            assert_eq!((problem.message.as_str(), problem.span.clone()), (message.as_str(), at..at + invalid.len()));
         }
     }
-    // Where it stands in the manifest itself, just there.
+    // A control character that is not escaped is reported by itself.
     let text = good.replacen(&word, "\"a\u{85}b\"", 1);
     let span = manifest::parse(&text).problems[0].span.clone();
     assert_eq!(&text[span], "\u{85}");
-    // A line break and a tab are spaces, however lines end.
+    // Line breaks and tabs become spaces, with any line ends.
     for breaks in ["\"\"\"\none\n\ttwo\"\"\"", "\"\"\"\r\none\r\n\ttwo\"\"\"", "\"one\\n\\ttwo\"", "'one \ttwo'"] {
         let loaded = manifest::parse(&good.replacen(&word, breaks, 1));
         let plan = loaded.plan.unwrap_or_else(|| panic!("{breaks:?}: {:?}", loaded.problems));
@@ -200,10 +204,10 @@ fn control_characters_are_refused_at_their_place() {
     }
 }
 
-/// A manifest cannot speak to the terminal.
+/// A manifest cannot control the terminal through its problems.
 #[test]
 fn no_report_has_a_control_character() {
-    let good = saying("T", "text");
+    let good = manifest_with("T", "text");
     let escape = "\\u001B[2J\\u0007\\u009B";
     for text in [
         format!("\"{escape}\" = 1\n{good}"),
@@ -214,7 +218,7 @@ fn no_report_has_a_control_character() {
         good.replace("samples = 20", &format!("step = \"5 {escape}\"")),
         good.replace("O = {", &format!("\"{escape}\" = {{")),
         good.replace("trace = [\"M\"]", &format!("trace = [\"{escape}\"]")),
-        // The linkage that is not found is looked for among those there are.
+        // The help for the unknown linkage may name those that exist.
         good.replace("id = \"mine\"", &format!("id = \"min{escape}\"")),
         good.replace("linkage = \"mine\"", &format!("linkage = \"{escape}\"")),
         format!("# \u{1b}[2J\n{good}"),
@@ -224,7 +228,7 @@ fn no_report_has_a_control_character() {
         assert_ne!(text, good);
         let loaded = manifest::parse(&text);
         assert!(loaded.plan.is_none(), "{text}");
-        let said = report(&loaded.problems, "atlas.toml", &text, false);
-        assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
+        let report = report(&loaded.problems, "atlas.toml", &text, false);
+        assert!(report.chars().all(|c| c == '\n' || !c.is_control()), "{report:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Everything the library and the program promise, seen from outside; a topic a file.
+//! Integration tests of the library and the program, one file per topic.
 
 mod architecture;
 mod atlas;
@@ -27,12 +27,12 @@ mod schema;
 mod surroundings;
 mod themes;
 
-/// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and
-/// `PROPTEST_RNG_SEED=…` for others.
-fn random() -> proptest::test_runner::Config {
+/// The configuration of property tests, with the same random cases in every run; `PROPTEST_CASES=20000` sets their
+/// number, and `PROPTEST_RNG_SEED=…` the seed.
+fn proptest_config() -> proptest::test_runner::Config {
     use proptest::test_runner::{Config, RngSeed};
     let default = Config::default();
-    // Of many cases as many more may be left out.
+    // The limit of rejected cases grows with the number of cases.
     let max_global_rejects = default.cases.saturating_mul(4).max(1024);
     let default = Config { failure_persistence: None, max_global_rejects, ..default };
     match default.rng_seed {

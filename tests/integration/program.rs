@@ -1,4 +1,4 @@
-//! The program as a user meets it: commands, exit codes, files.
+//! The command-line program: commands, exit codes and files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -143,7 +143,7 @@ fn a_record_that_cannot_be_read_is_not_overwritten_by_only() {
     let folder = folder_with(MANIFEST);
     run(folder.path(), &["render", "-q"]);
     let record = folder.path().join("pages/run.json");
-    for (text, message) in [("{", "no record of a run"), ("{\"format\": 1}", "missing field")] {
+    for (text, message) in [("{", "not the record of a run"), ("{\"format\": 1}", "missing field")] {
         fs::write(&record, text).unwrap();
         let (code, _, err) = run(folder.path(), &["render", "--only", "far"]);
         assert_eq!(code, 2, "{err}");
@@ -154,13 +154,13 @@ fn a_record_that_cannot_be_read_is_not_overwritten_by_only() {
 }
 
 #[test]
-fn exit_codes_tell_who_is_to_act() {
+fn exit_codes_distinguish_the_kinds_of_failure() {
     let folder = folder_with(MANIFEST);
     let code = |arguments: &[&str]| run(folder.path(), arguments).0;
     assert_eq!(code(&["validate"]), 0);
     assert_eq!(code(&["render", "-q", "--strict"]), 1, "a cell is not assembled");
     assert_eq!(code(&["render", "missing.toml"]), 2);
-    assert_eq!(code(&["render", "."]), 2, "a folder is no manifest");
+    assert_eq!(code(&["render", "."]), 2, "a folder is not a manifest");
     assert_eq!(code(&["rendr"]), 2);
     assert_eq!(code(&["render", "--jobs", "0"]), 2);
     assert_eq!(code(&["render", "--format", "gif"]), 2);
@@ -182,7 +182,7 @@ fn validate_writes_nothing_and_names_every_problem() {
 }
 
 #[test]
-fn a_where_that_keeps_nothing_is_a_warning() {
+fn a_where_that_keeps_no_cell_is_a_warning() {
     let folder = folder_with(&MANIFEST.replace("let =", "where = \"p > 9\"\nlet ="));
     let (code, out, err) = run(folder.path(), &["render"]);
     assert_eq!(code, 0);
@@ -193,7 +193,7 @@ fn a_where_that_keeps_nothing_is_a_warning() {
     assert!(out.contains("evans: 3 cells (1 left out by `where`), 2 curves, 1 page"), "{out}");
     let cells = fs::read_to_string(some.path().join("pages/evans/cells.csv")).unwrap();
     let numbers: Vec<&str> = cells.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
-    assert_eq!(numbers, ["2", "3"], "kept rows keep their numbers");
+    assert_eq!(numbers, ["2", "3"], "cells that are kept keep their numbers");
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn list_names_the_catalogue() {
     assert!(!run(folder.path(), &["list", "layouts"]).1.contains("evans"));
 }
 
-/// A file-size limit stands for a full disk: the write fails part of the way, as it does there.
+/// Simulates a full disk by a file-size limit, at which writes also fail part of the way.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_leaves_every_file_whole() {
@@ -240,14 +240,14 @@ fn a_full_disk_leaves_every_file_whole() {
     assert_eq!(output.status.code(), Some(3));
     let err = String::from_utf8(output.stderr).unwrap();
     assert!(err.contains("cannot write") && err.contains("File too large"), "{err}");
-    // Pages may be new or old, but nothing is half written, and nothing is left behind.
+    // Pages may be new or old, but each is complete, and no temporary file remains.
     let after = tree(&pages);
     let paths = |tree: &[(PathBuf, Vec<u8>)]| tree.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
     assert_eq!(paths(&after), paths(&before));
     for (path, bytes) in after.iter().filter(|(path, _)| path.extension().is_some_and(|e| e == "svg")) {
         assert!(bytes.ends_with(b"</svg>\n"), "{}", path.display());
     }
-    // The record tells which are which: another run into the same folder makes all of them new.
+    // The record distinguishes them: another run into the same folder makes all of them new.
     let (code, out, err) = run(folder.path(), &["render"]);
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("far: 2 cells (1 not assembled), 1 curve, 1 page (unchanged)"), "{out}");
@@ -258,7 +258,7 @@ fn a_full_disk_leaves_every_file_whole() {
 }
 
 #[test]
-fn further_columns_follow_and_unbounded_is_inf() {
+fn additional_columns_come_last_and_unbounded_values_are_inf() {
     let folder =
         folder_with(&MANIFEST.replace("linkage = \"watt\"", "linkage = \"watt\"\ncolumns = [\"psi_deg\", \"vx\"]"));
     let (code, _, err) = run(folder.path(), &["render", "-q"]);
@@ -270,7 +270,7 @@ fn further_columns_follow_and_unbounded_is_inf() {
 }
 
 #[test]
-fn inspect_tells_class_circuits_and_poses() {
+fn inspect_prints_class_circuits_and_poses() {
     let folder = TempDir::new().unwrap();
     let (code, out, err) = run(folder.path(), &["inspect", "roberts", "p=2", "r=2", "a=1", "b=2", "--at", "60"]);
     assert_eq!(code, 0, "{err}");
@@ -291,7 +291,7 @@ fn inspect_tells_class_circuits_and_poses() {
     let slider = &value["poses"][0]["joints"][3];
     assert!((slider["place"][0].as_f64().unwrap() - 3f64.sqrt()).abs() < 1e-12);
     assert!((slider["velocity"][0].as_f64().unwrap() + 1.0).abs() < 1e-12);
-    // Both its pins going one way, the coupler does not turn.
+    // Both pins of the coupler move in the same direction, so it does not turn.
     assert!(value["poses"][0]["links"][1]["angular_velocity"].as_f64().unwrap().abs() < 1e-15);
     let (code, _, err) = run(folder.path(), &["inspect", "evans", "p=2", "a=sqrt(7)", "q=1"]);
     assert_eq!(code, 2);
@@ -306,7 +306,7 @@ fn inspect_tells_class_circuits_and_poses() {
 
 /// Bernoulli's lemniscate as Watt's curve: (8.11) with p = 2, r = sqrt 2 and its a = 1, a node in the middle.
 #[test]
-fn inspect_tells_the_equation() {
+fn inspect_prints_the_equation() {
     let here = Path::new(".");
     let arguments = ["inspect", "watt", "p=2", "r=sqrt(2)", "a=2"];
     let (code, text, err) = run(here, &[&arguments[..], &["--sextic"]].concat());
@@ -336,20 +336,20 @@ fn inspect_tells_the_equation() {
         let sum: f64 = all.map(|(i, j)| c(i, j) * power(x, i) * power(y, j)).sum();
         assert!((sum - product(x, y)).abs() < 1e-12 * (1.0 + sum.abs()), "{sum} {}", product(x, y));
     }
-    assert!(!run(here, &["inspect", "klann"]).1.contains("sextic"), "no four-bar");
+    assert!(!run(here, &["inspect", "klann"]).1.contains("sextic"), "not a four-bar");
     assert!(!run(here, &["inspect", "evans", "p=2", "a=2.5", "k=1"]).1.contains("sextic"), "a circle");
 }
 
-/// Every key that the JSON has is described, and nothing is described that it has not.
+/// docs/inspect.md describes every key of the JSON, and no other.
 #[test]
-fn the_json_of_inspect_is_the_one_described() {
+fn the_json_of_inspect_has_the_described_keys() {
     fn keys(value: &serde_json::Value, found: &mut std::collections::BTreeSet<String>) {
         match value {
             serde_json::Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
             serde_json::Value::Object(object) => {
                 for (key, value) in object {
                     found.insert(key.clone());
-                    // What is in these is named by the linkage and the measures.
+                    // The keys inside these are names of parameters and measures.
                     if !["parameters", "measures"].contains(&key.as_str()) {
                         keys(value, found);
                     }
@@ -377,7 +377,7 @@ fn the_json_of_inspect_is_the_one_described() {
     assert_eq!(printed, described.into_iter().chain(inner).collect());
 }
 
-/// The manifest of the three is one, and each of its families draws the original's curve.
+/// The manifest of a four-bar and its cognates is valid, and each of its families draws the original's curve.
 #[test]
 fn cognates_make_a_manifest_that_draws_one_curve() {
     for arguments in [
@@ -394,9 +394,9 @@ fn cognates_make_a_manifest_that_draws_one_curve() {
         fs::write(folder.path().join("three.toml"), &text).unwrap();
         let (code, _, err) = run(folder.path(), &["validate", "three.toml"]);
         assert_eq!(code, 0, "{err}\n{text}");
-        // Evenly along the path: samples by input lie far apart where a limit is near.
-        let even = text.replace("{ step = \"2 deg\" }", "{ samples = 1000, spacing = \"arc\" }");
-        fs::write(folder.path().join("three.toml"), even).unwrap();
+        // Spaced by arc length, because samples at equal steps of the input lie far apart near a limit.
+        let spaced = text.replace("{ step = \"2 deg\" }", "{ samples = 1000, spacing = \"arc\" }");
+        fs::write(folder.path().join("three.toml"), spaced).unwrap();
         let (code, out, err) = run(folder.path(), &["render", "three.toml", "--strict", "-q", "--format", "svg"]);
         assert_eq!(code, 0, "{out}{err}");
         let points = |name: &str| -> Vec<[f64; 2]> {
@@ -407,14 +407,15 @@ fn cognates_make_a_manifest_that_draws_one_curve() {
         };
         let original = points("original");
         for name in ["cognate-1", "cognate-2"] {
-            let far = |from: &[[f64; 2]], to: &[[f64; 2]]| {
-                let near = |p: &[f64; 2]| to.iter().map(|q| distance(*p, *q)).fold(f64::INFINITY, f64::min);
-                from.iter().map(near).fold(0.0, f64::max)
+            let deviation = |from: &[[f64; 2]], to: &[[f64; 2]]| {
+                let nearest = |p: &[f64; 2]| to.iter().map(|q| distance(*p, *q)).fold(f64::INFINITY, f64::min);
+                from.iter().map(nearest).fold(0.0, f64::max)
             };
             let cognate = points(name);
-            let far = far(&original, &cognate).max(far(&cognate, &original));
-            // Curves of some 15 units and less, by thousands: the nearest sample is half a step away at most.
-            assert!(far < 0.0125, "{} {name}: {far}", arguments[0]);
+            let deviation = deviation(&original, &cognate).max(deviation(&cognate, &original));
+            // The curves are at most some 15 units long and have 1000 samples, so that the nearest sample is at most
+            // half a step away.
+            assert!(deviation < 0.0125, "{} {name}: {deviation}", arguments[0]);
         }
         let (_, json, _) = inspect(&["--json"]);
         let value: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -431,7 +432,7 @@ fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn what_has_no_cognates_is_wrong_input() {
+fn requests_for_cognates_that_do_not_exist_are_input_errors() {
     let here = Path::new(".");
     for (arguments, message) in [
         (&["klann"][..], "the linkage is not a four-bar"),
@@ -443,12 +444,12 @@ fn what_has_no_cognates_is_wrong_input() {
         let (code, out, err) = run(here, &[&["inspect"], arguments, &["--cognates"]].concat());
         assert!(code == 2 && out.is_empty() && err.contains(message), "{arguments:?}: {err}");
     }
-    assert_eq!(run(here, &["inspect", "hoeken", "--toml"]).0, 2, "it is of cognates");
+    assert_eq!(run(here, &["inspect", "hoeken", "--toml"]).0, 2, "it needs --cognates");
     assert_eq!(run(here, &["inspect", "hrones-nelson", "--cognates", "--trace", "10"]).0, 0);
 }
 
 #[test]
-fn the_manual_and_completions_know_every_command() {
+fn the_manual_and_completions_name_every_command() {
     let here = Path::new(".");
     let (code, manual, _) = run(here, &["man"]);
     assert_eq!(code, 0);
@@ -462,9 +463,8 @@ fn the_manual_and_completions_know_every_command() {
     assert_eq!(run(here, &["completions", "dos"]).0, 2);
 }
 
-/// What moves is drawn in each frame as it is in a picture of that pose.
 #[test]
-fn a_plate_moves_through_the_whole_circuit() {
+fn an_animated_plate_covers_the_whole_circuit() {
     let folder = TempDir::new().unwrap();
     let plate = |arguments: &[&str]| {
         let (code, _, err) = run(folder.path(), &[arguments, &["--svg", "plate.svg"]].concat());
@@ -474,18 +474,18 @@ fn a_plate_moves_through_the_whole_circuit() {
     let moving = plate(&["inspect", "hoeken", "--animate"]);
     let xs: Vec<&str> =
         moving.split("attributeName=\"cx\" values=\"").nth(1).unwrap().split('"').next().unwrap().split(';').collect();
-    assert_eq!(xs.len(), 121, "a frame to three degrees, and the first again");
+    assert_eq!(xs.len(), 121, "one frame per three degrees, and the first one again");
     assert_eq!(xs[0], xs[120]);
     assert!(moving.contains("dur=\"4s\"") && moving.contains("repeatCount=\"indefinite\""));
     let still = plate(&["inspect", "hoeken"]);
     assert!(!still.contains("<animate"));
-    // From limit to limit and back.
+    // A circuit from one limit position to the other and back.
     let rocking = plate(&["inspect", "watt", "p=4", "r=2", "s=2", "a=2", "--animate"]);
     assert!(rocking.matches("<animate").count() > 8);
 }
 
 #[test]
-fn inspect_draws_a_plate_and_knows_a_manifests_own_linkages() {
+fn inspect_draws_plates_of_linkages_defined_in_a_manifest() {
     let folder = TempDir::new().unwrap();
     run(folder.path(), &["init", "my.toml"]);
     let arguments = ["inspect", "my-four-bar", "frame=3", "--manifest", "my.toml", "--svg", "plate.svg"];
@@ -496,7 +496,7 @@ fn inspect_draws_a_plate_and_knows_a_manifests_own_linkages() {
     assert!(plate.contains("class=\"curve\"") && plate.ends_with("</svg>\n"));
 }
 
-/// Pages follow `sort`, tables the cells; captions tell what was measured, and the straight portion is marked.
+/// Pages are ordered by `sort` and tables by cell; captions show measures, and the straight portion is marked.
 #[test]
 fn pages_are_sorted_and_tables_are_not() {
     let manifest = MANIFEST.replace(
@@ -516,8 +516,9 @@ fn pages_are_sorted_and_tables_are_not() {
     assert_eq!(rows.iter().map(|row| &row[0]).collect::<Vec<_>>(), ["1", "2", "3"]);
     let (first, second) = (read("evans-001.svg"), read("evans-002.svg"));
     for (page, cells) in [(&first, &[3, 2][..]), (&second, &[1][..])] {
-        let at: Vec<usize> = cells.iter().map(|k| page.find(&format!("id=\"evans-{k}-1-1\"")).unwrap()).collect();
-        assert!(at.is_sorted(), "{cells:?}");
+        let positions: Vec<usize> =
+            cells.iter().map(|k| page.find(&format!("id=\"evans-{k}-1-1\"")).unwrap()).collect();
+        assert!(positions.is_sorted(), "{cells:?}");
         for k in cells {
             let row = &rows[k - 1];
             assert!((value(row, "straight_input_deg") - 60.0).abs() < 1e-6);

@@ -1,11 +1,11 @@
-//! Rates on circuits of several passes.
+//! Velocities on circuits of several passes.
 
 use coupler_curves::motion::{Motion, Sampler};
 
-/// At every sample of a circuit of several passes, some of which have their sides and their ends in common, the rates are
-/// those of the pass it is on: the change of places along that pass, taken forward where it begins and back where it ends.
+/// At every sample of a circuit of several passes, some of which share their assembly modes and ends, the velocity is
+/// that of the pass the sample is on, compared with a backward difference of positions along that pass.
 #[test]
-fn rates_at_a_sample_are_those_of_its_own_pass() {
+fn velocities_at_a_sample_are_those_of_its_own_pass() {
     let plan = coupler_atlas::manifest::parse(include_str!("../../atlas.toml")).plan.unwrap();
     let roberts = plan.families.iter().find(|planned| planned.family.id == "roberts").unwrap();
     let family = &roberts.family;
@@ -25,17 +25,18 @@ fn rates_at_a_sample_are_those_of_its_own_pass() {
                     pass += 1;
                 }
                 let own = &circuit.passes[pass];
-                // A difference of the second order over a thousandth of a degree, back on its own pass: what it leaves out is
-                // 3e-10 of the third rate, and the height of a dyad that is flat at its end is good to 3e-7 there.
+                // A backward difference of second order with steps of a thousandth of a degree, along the sample's own
+                // pass: its error is 3e-10 of the third derivative, and the height of a dyad that is flat at the end of
+                // the pass is accurate to 3e-7 there.
                 let step = -1e-3 * own.input_direction();
                 let back = |steps: f64| coupler_curves::motion::pose(&linkage, own, at + steps * step)[joint].coords;
                 let here = circuit.positions.point(joint, sample).coords;
-                let rate = (back(1.0) * 4.0 - back(2.0) - here * 3.0) / (2.0 * step.to_radians());
-                let found = circuit.derivatives(&linkage, sample).velocity(joint);
-                if found.norm().is_finite() && found.norm() < 50.0 {
+                let expected = (back(1.0) * 4.0 - back(2.0) - here * 3.0) / (2.0 * step.to_radians());
+                let velocity = circuit.derivatives(&linkage, sample).velocity(joint);
+                if velocity.norm().is_finite() && velocity.norm() < 50.0 {
                     assert!(
-                        (found - rate).norm() < 1e-5 * (1.0 + rate.norm()),
-                        "cell {}, sample {sample}: {found} {rate}",
+                        (velocity - expected).norm() < 1e-5 * (1.0 + expected.norm()),
+                        "cell {}, sample {sample}: {velocity}, not {expected}",
                         k + 1
                     );
                     checked += 1;

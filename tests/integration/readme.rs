@@ -1,4 +1,4 @@
-//! What the README shows is so.
+//! The examples and statements of README.md, docs/manifest.md, docs/tutorial.md and docs/check.md.
 
 use coupler_curves::solve;
 use std::sync::atomic::AtomicBool;
@@ -9,19 +9,19 @@ use coupler_curves::problem::report;
 use coupler_drawing::page::Layout;
 
 #[test]
-fn the_readmes_manifest_is_one() {
-    let readme = include_str!("../../docs/manifest.md");
-    let text = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+fn the_manifest_in_docs_manifest_is_valid() {
+    let document = include_str!("../../docs/manifest.md");
+    let text = document.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let loaded = manifest::parse(text);
     let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "docs/manifest.md", text, false)));
     assert_eq!(plan.families[0].family.cell_count(), 18);
 }
 
-/// The manifest of the walk from a motion to a linkage, and what is said to come of it.
+/// The tutorial's search for a feeder, and the cell that it keeps.
 #[test]
-fn the_readmes_feeder_is_found() {
-    let readme = include_str!("../../docs/tutorial.md");
-    let text = readme.split("```toml\n").find(|part| part.contains("id = \"feeder\"")).unwrap();
+fn the_feeder_in_docs_tutorial_is_found() {
+    let tutorial = include_str!("../../docs/tutorial.md");
+    let text = tutorial.split("```toml\n").find(|part| part.contains("id = \"feeder\"")).unwrap();
     let text = text.split("```").next().unwrap();
     let family = &manifest::parse(text).plan.expect("a valid manifest").families[0].family;
     let kept = sweep::kept_cells(family);
@@ -33,19 +33,19 @@ fn the_readmes_feeder_is_found() {
     };
     assert_eq!(format!("{:.3}", number("straight_length")), "2.105");
     assert_eq!(format!("{:.1}", number("mu_min_deg")), "45.2");
-    assert!(readme.contains("cell 900, with 2.105 cranks of straight line and 45.2° at the worst"));
+    assert!(tutorial.contains("cell 900, with 2.105 cranks of straight line and 45.2° at the worst"));
 }
 
 #[test]
-fn the_readmes_further_joints_can_be_read() {
-    let readme = include_str!("../../docs/manifest.md");
+fn the_joints_in_docs_manifest_can_be_parsed() {
+    let document = include_str!("../../docs/manifest.md");
     let joints: Vec<&str> =
-        readme.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
+        document.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
     assert_eq!(joints.len(), 6);
     for joint in joints {
         let is_input = joint.contains("piston");
         let a = if is_input { "A = { fixed = [1, 2] }" } else { "A = { crank = \"O\", length = 1 }" };
-        // Whatever the joint uses, the others are used by dyads on it.
+        // Dyads on the joint use all joints that it does not use itself.
         let dyad = |name: &str, on: [&str; 2]| {
             format!("{name} = {{ dyad = [\"{}\", \"{}\"], lengths = [1, 1], side = \"left\" }}", on[0], on[1])
         };
@@ -62,13 +62,25 @@ fn the_readmes_further_joints_can_be_read() {
              {a}\nX = {joint}\n{}\n",
             rest.join("\n")
         );
-        let (own, problems) = manifest::parse_linkages(&text);
-        assert!(own.len() == 1 && problems.is_empty(), "{}", report(&problems, "docs/manifest.md", &text, false));
+        let (linkages, problems) = manifest::parse_linkages(&text);
+        assert!(linkages.len() == 1 && problems.is_empty(), "{}", report(&problems, "docs/manifest.md", &text, false));
+    }
+}
+
+/// The example of the library is the one that `cargo test` compiles and runs in the documentation of coupler-drawing.
+#[test]
+fn the_library_example_of_the_readme_is_a_tested_one() {
+    let readme = include_str!("../../README.md");
+    let example = readme.split("```rust\n").nth(1).unwrap().split("```").next().unwrap();
+    let tested: Vec<&str> = include_str!("../../crates/coupler-drawing/src/lib.rs").lines().collect();
+    assert!(example.lines().filter(|line| !line.is_empty()).count() <= 6, "an import and at most six lines");
+    for line in example.lines() {
+        assert!(tested.contains(&format!("//! {line}").trim_end()), "not tested: {line}");
     }
 }
 
 #[test]
-fn the_readme_names_every_command_and_linkages_are_listed_by_the_program() {
+fn the_readme_names_every_command() {
     let readme = include_str!("../../README.md");
     for command in
         ["`render ", "`validate ", "`inspect ", "`design ", "`export ", "`list ", "`init ", "`completions ", "`man`"]
@@ -78,19 +90,19 @@ fn the_readme_names_every_command_and_linkages_are_listed_by_the_program() {
 }
 
 #[test]
-fn the_examples_are_what_the_readme_says() {
+fn the_examples_have_the_sizes_that_the_readme_states() {
     let readme = include_str!("../../README.md");
     let cases = [
         (include_str!("../../examples/hrones-nelson.toml"), "7,800 curves on 780 pages", 7_800, 780),
         (include_str!("../../examples/hrones-nelson-fine.toml"), "77,680 on 7,768", 77_680, 7_768),
     ];
-    for (text, said, curves, pages) in cases {
-        assert!(readme.contains(said), "{said}");
+    for (text, statement, curves, pages) in cases {
+        assert!(readme.contains(statement), "{statement}");
         let loaded = manifest::parse(text);
         let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "example", text, false)));
         let [planned] = &plan.families[..] else { panic!("one family") };
         assert_eq!(planned.layout, Layout::CouplerGrid);
-        // Whether a linkage is a crank-rocker or a change point is told without any of its curves.
+        // Whether a linkage is a crank-rocker or has a change point follows from its lengths, without any curves.
         let kept = sweep::select_cells(&planned.family, true, &AtomicBool::new(false)).unwrap();
         assert_eq!(kept.point_counts.iter().sum::<usize>(), curves);
         assert_eq!(
@@ -101,11 +113,11 @@ fn the_examples_are_what_the_readme_says() {
     }
 }
 
-/// The commands that the examples for CI and for pre-commit run: nothing has changed, and then something has.
+/// Runs the commands of the examples for CI and pre-commit on an unchanged atlas, and then on a changed one.
 #[test]
-fn the_readmes_checks_run_as_they_stand() {
-    let readme = include_str!("../../docs/check.md");
-    let after = |start: &str| readme.lines().filter_map(|line| line.trim().strip_prefix(start)).collect::<Vec<_>>();
+fn the_commands_in_docs_check_can_be_run() {
+    let document = include_str!("../../docs/check.md");
+    let after = |start: &str| document.lines().filter_map(|line| line.trim().strip_prefix(start)).collect::<Vec<_>>();
     let commands = [after("- run: coupler-atlas "), after("entry: coupler-atlas ")].concat();
     assert_eq!(commands.len(), 2);
     let manifest = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
@@ -124,8 +136,8 @@ fn the_readmes_checks_run_as_they_stand() {
     }
     write(&manifest.replace("a = 2 }", "a = 2.1 }"));
     for command in commands {
-        let (code, said) = run(command);
-        assert!(code == Some(1) && said.contains("moved"), "{command}: {said}");
+        let (code, report) = run(command);
+        assert!(code == Some(1) && report.contains("moved"), "{command}: {report}");
     }
     for file in ["report.xml", "moved/index.html", "moved/e-1-1-1.svg"] {
         assert!(folder.path().join(file).is_file(), "{file}");

@@ -1,10 +1,10 @@
-//! A second run draws what has changed and nothing else, whatever happened to the first.
+//! A second run draws what has changed and nothing else, also after an interrupted or killed run.
 
 use std::fs;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::SystemTime;
 
-use crate::folder::{Atlas, files, record_is_true, times, tree};
+use crate::folder::{Atlas, check_record, files, times, tree};
 
 /// Three pages of panels, one of charts, one with a cell that is not assembled.
 const MANIFEST: &str = r#"[atlas]
@@ -48,7 +48,7 @@ M = { point = ["A", "B"], along = 2, across = 1 }
 "#;
 
 impl Atlas {
-    /// Renders, and tells what was said and which files were written or removed.
+    /// Renders; the standard output, and the names of the files written or removed.
     fn touched(&self, arguments: &[&str]) -> (String, Vec<String>) {
         let before = times(&self.out());
         let (code, out, err) = self.run(arguments);
@@ -57,7 +57,7 @@ impl Atlas {
         let names = before.keys().chain(after.keys().filter(|name| !before.contains_key(*name)));
         let mut touched: Vec<String> = names.filter(|&name| before.get(name) != after.get(name)).cloned().collect();
         touched.sort();
-        record_is_true(&self.out());
+        check_record(&self.out());
         (out, touched)
     }
 }
@@ -71,10 +71,10 @@ fn an_unchanged_atlas_is_left_alone() {
     assert_eq!(touched, [""; 0]);
     assert!(out.contains("evans: 3 cells, 3 curves, 3 pages (unchanged)\n"), "{out}");
     assert!(out.contains("over: 3 cells, 3 curves, 1 page (unchanged)\n"), "{out}");
-    // What says the same in other words changes nothing.
+    // Writing the same values differently changes nothing.
     atlas.edit(&MANIFEST.replace("dpi = 40", "dpi = 40.0 # coarse").replace("p = 3, a = 4.0", "p=3,   a=4"));
     assert_eq!(atlas.touched(&[]).1, [""; 0]);
-    // What falls short is told all the same.
+    // Cells that are not assembled are still reported.
     let (code, out, err) = atlas.run(&["--strict"]);
     assert_eq!(code, 1);
     assert!(out.contains("far: 2 cells (1 not assembled), 1 curve, 2 pages (unchanged)\n"), "{out}");
@@ -87,7 +87,7 @@ fn force_draws_everything() {
     atlas.run(&[]);
     let before = tree(&atlas.out());
     let (out, touched) = atlas.touched(&["--force"]);
-    // All but the gallery's page, which is made of records alone, and drawn nowhere.
+    // All files but the gallery's page, which depends on records alone and is not drawn.
     assert_eq!(touched.len() + 1, before.len(), "{touched:?}");
     assert!(!touched.contains(&"index.html".to_owned()));
     assert!(!out.contains("unchanged") && !out.contains("drawn"), "{out}");
@@ -118,7 +118,7 @@ fn a_changed_case_draws_its_page() {
 }
 
 #[test]
-fn what_one_format_missed_the_next_run_draws() {
+fn pages_not_drawn_in_one_format_are_drawn_by_the_next_run() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
     let changed = |a: &str| MANIFEST.replace("p = 3, a = 4.0", &format!("p = 3, a = {a}"));
@@ -131,7 +131,7 @@ fn what_one_format_missed_the_next_run_draws() {
     assert_eq!(pages(atlas.touched(&["--format", "svg"]).1), [""; 0]);
     assert_eq!(pages(atlas.touched(&[]).1), ["evans/evans-002.png"]);
     assert_eq!(pages(atlas.touched(&[]).1), [""; 0]);
-    // Where no page was drawn at all, nothing tells which of them have changed.
+    // If no page was drawn at all, it is unknown which of them have changed.
     atlas.edit(&changed("4.2"));
     assert_eq!(pages(atlas.touched(&["--format", "pdf"]).1), [""; 0]);
     assert!(pages(atlas.touched(&[]).1).iter().filter(|name| name.contains("-002.")).count() == 2);
@@ -142,10 +142,10 @@ fn what_one_format_missed_the_next_run_draws() {
 }
 
 #[test]
-fn whatever_pages_are_made_from_draws_them() {
+fn every_input_of_a_page_redraws_it() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
-    let drawn = |from: &str, to: &str, pages: &[&str]| {
+    let check_redrawn = |from: &str, to: &str, pages: &[&str]| {
         assert!(MANIFEST.contains(from), "{from}");
         let changed = MANIFEST.replacen(from, to, 1);
         atlas.edit(&changed);
@@ -162,42 +162,42 @@ fn whatever_pages_are_made_from_draws_them() {
     let far = ["far/far-001.svg", "far/far-002.svg"];
     let over = ["over/over-001.svg"];
     let all = [&evans[..], &far, &over].concat();
-    drawn("\"T\"", "\"U\"", &all);
-    drawn("dpi = 40", "dpi = 50", &all);
-    drawn("dpi = 40", "dpi = 40\ndash = \"10 deg\"", &all);
-    drawn("dpi = 40", "dpi = 40\ntheme = \"dark\"", &all);
-    drawn("width = \"120 mm\"", "width = \"130 mm\"", &all);
-    drawn("panels = [1, 1]", "panels = [1, 1]\ntitle = \"Evans\"", &evans);
-    drawn("\"10 deg\" }\ncases", "\"5 deg\" }\ncases", &evans);
-    drawn("along = 2", "along = 3", &far);
-    drawn("{p:.1}", "{p:.2}", &far);
-    drawn("p = [2, 3, 4]", "p = [2, 3, 5]", &over);
-    // Another number of pages is on all of them; what comes to the same cells and curves is on none.
-    drawn(", { p = 4, a = 5.6 }]", "]", &evans);
-    drawn("cases = [{ p = 2", "where = \"p > 1\"\ncases = [{ p = 2", &[]);
-    drawn("cases = [{ p = 2", "where = \"p > 2\"\ncases = [{ p = 2", &evans);
-    drawn("cases = [{ p = 2", "sort = \"-p\"\ncases = [{ p = 2", &[evans[0], evans[2]]);
+    check_redrawn("\"T\"", "\"U\"", &all);
+    check_redrawn("dpi = 40", "dpi = 50", &all);
+    check_redrawn("dpi = 40", "dpi = 40\ndash = \"10 deg\"", &all);
+    check_redrawn("dpi = 40", "dpi = 40\ntheme = \"dark\"", &all);
+    check_redrawn("width = \"120 mm\"", "width = \"130 mm\"", &all);
+    check_redrawn("panels = [1, 1]", "panels = [1, 1]\ntitle = \"Evans\"", &evans);
+    check_redrawn("\"10 deg\" }\ncases", "\"5 deg\" }\ncases", &evans);
+    check_redrawn("along = 2", "along = 3", &far);
+    check_redrawn("{p:.1}", "{p:.2}", &far);
+    check_redrawn("p = [2, 3, 4]", "p = [2, 3, 5]", &over);
+    // The number of pages is on all of them; a `where` that keeps the same cells is on none.
+    check_redrawn(", { p = 4, a = 5.6 }]", "]", &evans);
+    check_redrawn("cases = [{ p = 2", "where = \"p > 1\"\ncases = [{ p = 2", &[]);
+    check_redrawn("cases = [{ p = 2", "where = \"p > 2\"\ncases = [{ p = 2", &evans);
+    check_redrawn("cases = [{ p = 2", "sort = \"-p\"\ncases = [{ p = 2", &[evans[0], evans[2]]);
 }
 
 #[test]
-fn a_file_that_is_not_as_it_was_left_is_restored() {
+fn a_modified_or_missing_file_is_restored() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
     let before = tree(&atlas.out());
     let cut = |name: &str| before[name][..before[name].len() - 5].to_vec();
     let mut edited = before["evans/evans-001.svg"].clone();
     edited[100] ^= 1;
-    // Spoilt in its midst: a bit, and a block that was never written.
-    let (mut turned, mut torn) = (before["evans/evans-002.png"].clone(), before["evans/evans-002.png"].clone());
-    let middle = turned.len() / 2;
-    turned[middle] ^= 1;
+    // Damage in the middle of a file: a flipped bit, and a block that was never written.
+    let (mut flipped, mut torn) = (before["evans/evans-002.png"].clone(), before["evans/evans-002.png"].clone());
+    let middle = flipped.len() / 2;
+    flipped[middle] ^= 1;
     torn[middle..middle + 512].fill(0);
     for (name, bytes) in [
         ("evans/evans-001.svg", Some(edited)),
         ("evans/evans-002.svg", None),
         ("evans/evans-003.png", Some(cut("evans/evans-003.png"))),
         ("evans/evans-003.png", Some(Vec::new())),
-        ("evans/evans-002.png", Some(turned)),
+        ("evans/evans-002.png", Some(flipped)),
         ("evans/evans-002.png", Some(torn)),
         ("over/over-001.svg", Some(cut("over/over-001.svg"))),
         ("far/points.csv", Some(cut("far/points.csv"))),
@@ -221,29 +221,29 @@ fn a_file_that_is_not_as_it_was_left_is_restored() {
 }
 
 #[test]
-fn what_no_longer_belongs_is_removed_and_nothing_else() {
+fn files_that_no_longer_belong_to_the_atlas_are_removed_and_no_others() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
-    let strangers = ["notes.txt", "evans/notes.txt", "evans/evans-009.png", "far/far-001.svg.bak"];
-    strangers.iter().for_each(|name| fs::write(atlas.out().join(name), "mine").unwrap());
+    let foreign = ["notes.txt", "evans/notes.txt", "evans/evans-009.png", "far/far-001.svg.bak"];
+    foreign.iter().for_each(|name| fs::write(atlas.out().join(name), "mine").unwrap());
     let fewer = MANIFEST.replace(", { p = 4, a = 5.6 }]", "]").replace("\"over\"", "\"above\"");
     atlas.edit(&fewer.replace("id = \"far\"", "id = \"near\""));
-    // Others' families are left alone where some are asked for, also those that are no more.
+    // With `--only`, the other families are left alone, also those that the manifest no longer has.
     let (_, touched) = atlas.touched(&["--only", "evans"]);
-    let of_all = ["index.html", "run.json"];
-    assert!(touched.iter().all(|name| name.starts_with("evans/") || of_all.contains(&name.as_str())), "{touched:?}");
+    let common = ["index.html", "run.json"];
+    assert!(touched.iter().all(|name| name.starts_with("evans/") || common.contains(&name.as_str())), "{touched:?}");
     assert!(touched.contains(&"evans/evans-003.svg".to_owned()) && !atlas.out().join("evans/evans-003.svg").exists());
     atlas.touched(&[]);
     let fresh = Atlas::new(&fewer.replace("id = \"far\"", "id = \"near\""));
     fresh.run(&[]);
-    let mut left = tree(&atlas.out());
-    for name in strangers {
-        assert_eq!(left.remove(name).as_deref(), Some(&b"mine"[..]), "{name}");
+    let mut remaining = tree(&atlas.out());
+    for name in foreign {
+        assert_eq!(remaining.remove(name).as_deref(), Some(&b"mine"[..]), "{name}");
     }
-    assert!(left == tree(&fresh.out()));
-    assert!(!atlas.out().join("over").exists(), "an empty folder goes");
-    assert!(atlas.out().join("far").exists(), "one with something of others in it stays");
-    // Formats that the command line leaves out stay as they are; those that the manifest no longer names go.
+    assert!(remaining == tree(&fresh.out()));
+    assert!(!atlas.out().join("over").exists(), "an empty folder is removed");
+    assert!(atlas.out().join("far").exists(), "a folder with foreign files is kept");
+    // Formats that the command line leaves out are kept; those that the manifest no longer names are removed.
     let images = || files(&atlas.out()).into_iter().filter(|name| name.ends_with(".png")).collect::<Vec<_>>();
     let before = images();
     let (_, touched) = atlas.touched(&["--format", "svg"]);
@@ -270,9 +270,9 @@ fn a_record_that_cannot_be_read_removes_nothing() {
     }
 }
 
-/// Whoever can write `run.json` cannot make the program remove or trust what is not its own.
+/// A forged `run.json` cannot make the program remove or trust files that it did not write.
 #[test]
-fn a_record_is_not_trusted_with_other_folders() {
+fn a_forged_record_does_not_reach_other_files() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
     let path = atlas.out().join("run.json");
@@ -288,12 +288,12 @@ fn a_record_is_not_trusted_with_other_folders() {
     std::os::unix::fs::symlink("../aside", atlas.out().join("linked")).unwrap();
     fs::create_dir(atlas.0.path().join("aside")).unwrap();
     fs::write(atlas.0.path().join("aside/cells.csv"), "mine").unwrap();
-    let kept = |atlas: &Atlas| {
-        let mut left = tree(atlas.0.path());
-        left.retain(|_, bytes| bytes == b"mine");
-        left.len()
+    let foreign_files = |atlas: &Atlas| {
+        let mut found = tree(atlas.0.path());
+        found.retain(|_, bytes| bytes == b"mine");
+        found.len()
     };
-    let before = kept(&atlas);
+    let before = foreign_files(&atlas);
     let names = [
         "../evans-001.svg",
         "../../evans-001.svg",
@@ -311,22 +311,22 @@ fn a_record_is_not_trusted_with_other_folders() {
         &absolute,
     ];
     for id in ["evans", "..", ".", "", "../..", "other", "linked", "evans/../..", "/tmp"] {
-        let mut evil = record.clone();
-        let mut family = evil["families"][0].clone();
+        let mut forged = record.clone();
+        let mut family = forged["families"][0].clone();
         let entry = |name: &&str| serde_json::json!({ "name": name, "sha256": "00", "inputs_sha256": "00" });
         family["id"] = id.into();
         family["pages"] = u64::MAX.into();
         family["files"] = names.iter().map(entry).collect::<Vec<_>>().into();
-        evil["families"].as_array_mut().unwrap().insert(0, family);
-        fs::write(&path, evil.to_string()).unwrap();
+        forged["families"].as_array_mut().unwrap().insert(0, family);
+        fs::write(&path, forged.to_string()).unwrap();
         let (code, _, err) = atlas.run(&[]);
         assert_eq!(code, 0, "{err}");
-        assert_eq!(kept(&atlas), before, "{id}");
+        assert_eq!(foreign_files(&atlas), before, "{id}");
     }
     assert!(atlas.out().join("other/evans-007.svg").is_dir());
 }
 
-/// As many pages as it takes to be interrupted while some of them are drawn.
+/// A manifest with 601 pages, enough to interrupt a run while it draws them.
 fn many(step: &str, title: &str) -> String {
     format!(
         "[atlas]\ntitle = \"{title}\"\noutput = \"out\"\nformats = [\"svg\"]\n[[family]]\nid = \"few\"\nlinkage = \"evans\"\n\
@@ -337,19 +337,20 @@ fn many(step: &str, title: &str) -> String {
     )
 }
 
-/// Starts a run and waits until it has come to a point.
-fn started(atlas: &Atlas, mut has_come: impl FnMut() -> bool) -> Child {
+/// Starts a run and waits until a condition holds or the run has ended.
+fn start_until(atlas: &Atlas, mut condition: impl FnMut() -> bool) -> Child {
     let mut child = atlas.command(&[]).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    while !has_come() && child.try_wait().unwrap().is_none() {
+    while !condition() && child.try_wait().unwrap().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     child
 }
 
+/// The condition that this many pages have been written from now on.
 fn has_drawn(atlas: &Atlas, count: usize) -> impl FnMut() -> bool {
-    let begun = SystemTime::now();
+    let start = SystemTime::now();
     let folder = atlas.out().join("many");
-    let is_new = move |time: &SystemTime| *time >= begun;
+    let is_new = move |time: &SystemTime| *time >= start;
     move || {
         let entries = fs::read_dir(&folder).into_iter().flatten().flatten();
         let pages = entries.filter(|entry| entry.path().extension().is_some_and(|e| e == "svg"));
@@ -364,23 +365,23 @@ fn terminate(child: &Child) {
 
 #[cfg(unix)]
 #[test]
-fn a_run_that_is_interrupted_is_gone_on_with() {
+fn an_interrupted_run_is_continued() {
     let manifest = many("10 deg", "T");
     let fresh = Atlas::new(&manifest);
     fresh.run(&[]);
     let expected = tree(&fresh.out());
-    for moment in [1, 40, 300] {
+    for count in [1, 40, 300] {
         let atlas = Atlas::new(&manifest);
-        let child = started(&atlas, has_drawn(&atlas, moment));
+        let child = start_until(&atlas, has_drawn(&atlas, count));
         terminate(&child);
         let Output { status, stderr, .. } = child.wait_with_output().unwrap();
         assert_eq!(status.code(), Some(130));
         let message = "error: interrupted: finished files are kept, and the next run continues from there\n";
         assert_eq!(String::from_utf8(stderr).unwrap(), message);
-        // Nothing is left that is not finished, and everything that is finished is recorded.
+        // No unfinished file remains, and every finished one is recorded.
         let pages: Vec<String> = files(&atlas.out()).into_iter().filter(|name| name.ends_with(".svg")).collect();
-        assert!(pages.len() > moment && pages.len() < 601, "{}", pages.len());
-        assert_eq!(record_is_true(&atlas.out()), pages.len());
+        assert!(pages.len() > count && pages.len() < 601, "{}", pages.len());
+        assert_eq!(check_record(&atlas.out()), pages.len());
         let others = files(&atlas.out()).into_iter().filter(|name| !name.ends_with(".svg")).collect::<Vec<_>>();
         assert_eq!(others, ["few/cells.csv", "few/gallery.js", "few/points.csv", "run.json"]);
         let (out, touched) = atlas.touched(&[]);
@@ -400,16 +401,16 @@ fn an_interrupted_change_leaves_old_and_new_files_whole() {
     });
     let (before, after) = (tree(&old.out()), tree(&new.out()));
     old.edit(&many("12 deg", "T"));
-    let child = started(&old, has_drawn(&old, 100));
+    let child = start_until(&old, has_drawn(&old, 100));
     terminate(&child);
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
-    record_is_true(&old.out());
+    check_record(&old.out());
     let between = tree(&old.out());
     assert!(between.keys().eq(after.keys()));
     for (name, bytes) in between.iter().filter(|(name, _)| *name != "run.json") {
         assert!(*bytes == before[name] || *bytes == after[name], "{name}");
     }
-    // Both what has been drawn and what has not been touched is known: the way back is as short as the way on.
+    // The record has both the new pages and the untouched ones, so reverting the change does not draw all pages.
     let drawn = between.iter().filter(|(name, bytes)| name.ends_with(".svg") && **bytes != before[*name]).count();
     old.edit(&many("10 deg", "T"));
     let (out, _) = old.touched(&[]);
@@ -419,43 +420,43 @@ fn an_interrupted_change_leaves_old_and_new_files_whole() {
 }
 
 #[test]
-fn a_run_that_is_killed_is_gone_on_with() {
+fn a_killed_run_is_continued() {
     let manifest = many("10 deg", "T");
     let fresh = Atlas::new(&manifest);
     fresh.run(&[]);
     let expected = tree(&fresh.out());
     let atlas = Atlas::new(&manifest);
-    for moment in [1, 50, 200] {
-        let mut child = started(&atlas, has_drawn(&atlas, moment));
+    for count in [1, 50, 200] {
+        let mut child = start_until(&atlas, has_drawn(&atlas, count));
         child.kill().unwrap();
         child.wait().unwrap();
-        record_is_true(&atlas.out());
+        check_record(&atlas.out());
     }
-    // What a run that was killed has left is removed by the next.
+    // The files that a killed run leaves are removed by the next.
     fs::write(atlas.out().join("many/.coupler-atlas-x1y2z3.tmp"), "half a pa").unwrap();
-    assert!(atlas.out().join(".coupler-atlas.lock").exists(), "the lock of a run that is no more");
+    assert!(atlas.out().join(".coupler-atlas.lock").exists(), "the lock of a killed run");
     let record = atlas.out().join("run.json");
     let has_recorded = || fs::read_to_string(&record).is_ok_and(|text| text.contains("many-001.svg"));
-    let mut child = started(&atlas, has_recorded);
+    let mut child = start_until(&atlas, has_recorded);
     child.kill().unwrap();
     child.wait().unwrap();
-    let claimed = record_is_true(&atlas.out());
-    assert!(claimed > 100, "pages are recorded on the way: {claimed}");
+    let recorded = check_record(&atlas.out());
+    assert!(recorded > 100, "only {recorded} pages were recorded during the run");
     let (out, _) = atlas.touched(&[]);
-    assert!(out.contains(&format!("({} of 600 pages drawn)", 601 - claimed)), "{out}");
+    assert!(out.contains(&format!("({} of 600 pages drawn)", 601 - recorded)), "{out}");
     assert!(tree(&atlas.out()) == expected);
 }
 
 #[test]
-fn a_change_that_is_killed_claims_nothing_for_the_old_files() {
+fn a_run_killed_during_a_change_does_not_record_the_old_files() {
     let atlas = Atlas::new(&many("10 deg", "T"));
     atlas.run(&[]);
     let before = tree(&atlas.out());
     atlas.edit(&many("10 deg", "U"));
-    let mut child = started(&atlas, has_drawn(&atlas, 100));
+    let mut child = start_until(&atlas, has_drawn(&atlas, 100));
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(record_is_true(&atlas.out()) < 500);
+    assert!(check_record(&atlas.out()) < 500);
     atlas.edit(&many("10 deg", "T"));
     atlas.touched(&[]);
     assert!(tree(&atlas.out()) == before);
@@ -466,7 +467,7 @@ fn two_runs_do_not_write_to_one_folder() {
     let atlas = Atlas::new(&many("10 deg", "T"));
     fs::create_dir(atlas.out()).unwrap();
     fs::write(atlas.out().join(".coupler-atlas.lock"), "").unwrap();
-    let mut child = started(&atlas, has_drawn(&atlas, 1));
+    let mut child = start_until(&atlas, has_drawn(&atlas, 1));
     let (code, out, err) = atlas.run(&[]);
     assert_eq!((code, out.as_str()), (3, ""));
     assert_eq!(err, "error: another run is writing to out: wait until it ends, or name another folder with -o\n");
@@ -474,7 +475,7 @@ fn two_runs_do_not_write_to_one_folder() {
     assert!(child.wait().unwrap().success());
     assert!(!atlas.out().join(".coupler-atlas.lock").exists());
     assert!(tree(&atlas.out()) == tree(&atlas.0.path().join("elsewhere")));
-    // However many come one after the other, each finds the lock free or taken.
+    // Several runs at once each find the lock free or held.
     let mut children: Vec<Child> =
         (0..8).map(|_| atlas.command(&["--quiet"]).stderr(Stdio::null()).spawn().unwrap()).collect();
     let codes: Vec<_> = children.iter_mut().map(|child| child.wait().unwrap().code()).collect();

@@ -1,4 +1,5 @@
-//! The same manifest makes the same bytes with any number of threads, in any folder, language, time zone and terminal.
+//! The same manifest produces the same bytes with any number of threads, and in any folder, language, time zone and
+//! terminal.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +9,7 @@ use tempfile::TempDir;
 
 use crate::folder::tree;
 
-/// Every format and layout, with numbers that a language would write otherwise and a cell that is not assembled.
+/// Every format and layout, with numbers that some languages write differently and a cell that is not assembled.
 const MANIFEST: &str = r#"[atlas]
 title = "Ångström’s Atlas"
 output = "out"
@@ -40,16 +41,16 @@ layout = "chart"
 chart = { x = "p", y = ["length"] }
 "#;
 
-/// What a run says and makes, in a folder some way down, with a mask for new files and variables in the environment.
-fn made(depth: &str, mask: &str, jobs: &str, variables: &[(&str, &str)]) -> (Vec<u8>, BTreeMap<String, Vec<u8>>) {
+/// The messages and files of a run in a subfolder, with a umask and environment variables.
+fn render(subfolder: &str, mask: &str, jobs: &str, variables: &[(&str, &str)]) -> (Vec<u8>, BTreeMap<String, Vec<u8>>) {
     let folder = TempDir::new().unwrap();
-    let deep = folder.path().join(depth);
-    fs::create_dir_all(&deep).unwrap();
-    fs::write(deep.join("atlas.toml"), MANIFEST).unwrap();
-    let output = program(mask).current_dir(&deep).envs(variables.iter().copied()).args(["--jobs", jobs]).output();
+    let subfolder = folder.path().join(subfolder);
+    fs::create_dir_all(&subfolder).unwrap();
+    fs::write(subfolder.join("atlas.toml"), MANIFEST).unwrap();
+    let output = program(mask).current_dir(&subfolder).envs(variables.iter().copied()).args(["--jobs", jobs]).output();
     let output = output.unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    ([output.stdout, output.stderr].concat(), tree(&deep.join("out")))
+    ([output.stdout, output.stderr].concat(), tree(&subfolder.join("out")))
 }
 
 #[cfg(unix)]
@@ -67,8 +68,8 @@ fn program(_mask: &str) -> Command {
 }
 
 #[test]
-fn nothing_around_a_run_changes_what_it_makes() {
-    let first = made("", "022", "1", &[]);
+fn the_environment_does_not_change_the_output() {
+    let first = render("", "022", "1", &[]);
     let kind = |kind: &str| first.1.keys().filter(|name| name.ends_with(kind)).count();
     assert_eq!(["svg", "png", "pdf", "csv", "json"].map(kind), [6, 6, 1, 6, 1]);
     let home = TempDir::new().unwrap();
@@ -82,22 +83,22 @@ fn nothing_around_a_run_changes_what_it_makes() {
         ("x", "000", "8", &turkish[..]),
         ("y", "022", "3", &[("RAYON_NUM_THREADS", "1"), ("SOURCE_DATE_EPOCH", "1"), ("COLUMNS", "0")][..]),
     ];
-    for (depth, mask, jobs, variables) in others {
-        let (said, files) = made(depth, mask, jobs, variables);
-        assert!(said == first.0, "{depth}: {}", String::from_utf8_lossy(&said));
-        assert!(files.keys().eq(first.1.keys()), "{depth}");
-        files.iter().for_each(|(name, bytes)| assert!(first.1[name] == *bytes, "{depth}: {name}"));
+    for (subfolder, mask, jobs, variables) in others {
+        let (messages, files) = render(subfolder, mask, jobs, variables);
+        assert!(messages == first.0, "{subfolder}: {}", String::from_utf8_lossy(&messages));
+        assert!(files.keys().eq(first.1.keys()), "{subfolder}");
+        files.iter().for_each(|(name, bytes)| assert!(first.1[name] == *bytes, "{subfolder}: {name}"));
     }
 }
 
-/// A text never says where or when it was made.
+/// No file contains the folder, the user, the host or a date of the run.
 #[test]
-fn no_file_tells_of_the_machine() {
-    let (_, files) = made("a-telling-name", "022", "2", &[("USER", "telling-user"), ("HOSTNAME", "telling-host")]);
+fn no_file_identifies_the_machine() {
+    let (_, files) = render("a-telling-name", "022", "2", &[("USER", "telling-user"), ("HOSTNAME", "telling-host")]);
     let source = env!("CARGO_MANIFEST_DIR");
     for (name, bytes) in &files {
         for word in ["telling", "CreationDate", source] {
-            assert!(!bytes.windows(word.len()).any(|window| window == word.as_bytes()), "{name} has {word}");
+            assert!(!bytes.windows(word.len()).any(|window| window == word.as_bytes()), "{name} contains {word}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Themes: what a manifest may say of them, what is on the pages, and whether the eye can tell their inks apart.
+//! Themes: their keys in a manifest, their effect on pages, and whether readers can distinguish their inks.
 
 use std::fs;
 use std::process::Command;
@@ -10,7 +10,7 @@ use coupler_drawing::page::{Layout, Options, Paper, Theme};
 use coupler_drawing::scene::{Color, Typeface};
 use tempfile::TempDir;
 
-/// Panels of five curves and their plate, a case that cannot be assembled, and a chart of several lines.
+/// Panels with five curves each, plates, a case that cannot be assembled, and a chart with several lines.
 const GOOD: &str = r#"[atlas]
 title = "T"
 output = "out"
@@ -67,8 +67,8 @@ fn named(name: &str) -> Theme {
     theme(&format!("\"{name}\""))
 }
 
-/// What is said of a theme, and whether a plan comes of it.
-fn said(theme: &str) -> (String, bool) {
+/// The report on a manifest with a theme, and whether the parser accepts it.
+fn check(theme: &str) -> (String, bool) {
     let text = with(theme);
     let loaded = manifest::parse(&text);
     assert!(loaded.problems.iter().all(|problem| !problem.help.is_empty()));
@@ -90,11 +90,7 @@ fn each_mistake_has_its_message() {
         ("{ curves = [\"#000\", \"blue\"] }", "`blue` is not a colour", "5:29"),
         ("{ curves = [\"#000\", \"#fffeff\"] }", "#fffeff cannot be distinguished from the paper, #fffdf8", "5:29"),
         ("{ ink = \"#f0f0f0\" }", "#f0f0f0 cannot be distinguished from the paper", "5:17"),
-        (
-            "{ paper = \"#000\" }",
-            "on this paper, #000000, the theme's `ink`, `grey`, `curves` are hard to see",
-            "5:19",
-        ),
+        ("{ paper = \"#000\" }", "on this paper, #000000, the theme's `ink`, `grey`, `curves` are hard to see", "5:19"),
         ("{ monochrome = \"yes\" }", "expected a boolean, found a string", "5:24"),
         ("{ face = \"times\" }", "`times` is not one of the words allowed here", "5:18"),
         ("{ drawn = 0 }", "0 of a dash's span is out of range", "5:19"),
@@ -108,28 +104,25 @@ fn each_mistake_has_its_message() {
         ("{ lettering = 3 }", "3 times the size is out of range", "5:23"),
     ];
     for (theme, message, place) in cases {
-        let (said, is_planned) = said(theme);
-        assert!(!is_planned, "{theme}");
-        assert!(said.contains(message), "{message}:\n{said}");
-        assert!(said.contains(&format!("atlas.toml:{place}\n")), "{message} at {place}:\n{said}");
+        let (report, is_accepted) = check(theme);
+        assert!(!is_accepted, "{theme}");
+        assert!(report.contains(message), "{message}:\n{report}");
+        assert!(report.contains(&format!("atlas.toml:{place}\n")), "{message} at {place}:\n{report}");
     }
-    let (said, _) = said("{ bace = 1, ink = \"x\", face = \"y\", drawn = 2, weights = 9, lettering = 9 }");
-    assert_eq!(said.matches("error: ").count(), 6, "{said}");
-    assert!(said.contains("did you mean `base`?"), "{said}");
-    // Of a paper that is not known nothing is asked.
-    let (said, _) = self::said("{ base = \"drak\", ink = \"#eee\" }");
-    assert_eq!(said.matches("error: ").count(), 1, "{said}");
+    let (report, _) = check("{ bace = 1, ink = \"x\", face = \"y\", drawn = 2, weights = 9, lettering = 9 }");
+    assert_eq!(report.matches("error: ").count(), 6, "{report}");
+    assert!(report.contains("did you mean `base`?"), "{report}");
+    // Without a known paper, contrast is not checked.
+    let (report, _) = self::check("{ base = \"drak\", ink = \"#eee\" }");
+    assert_eq!(report.matches("error: ").count(), 1, "{report}");
 }
 
 #[test]
-fn what_can_hardly_be_seen_is_warned_of() {
+fn inks_that_are_hard_to_see_are_warnings() {
     let cases = [
         ("{ ink = \"#888\" }", "#888888 is hard to see on the paper, #fffdf8"),
         ("{ base = \"dark\", grey = \"#777\" }", "#777777 is hard to see on the paper, #14181d"),
-        (
-            "{ paper = \"#c0c0c0\" }",
-            "on this paper, #c0c0c0, the theme's `grey`, `hairline`, `curves` are hard to see",
-        ),
+        ("{ paper = \"#c0c0c0\" }", "on this paper, #c0c0c0, the theme's `grey`, `hairline`, `curves` are hard to see"),
         ("{ curves = [\"#000\", \"#00f\", \"#080\"] }", "expected at least 5 inks to tell curves apart, found 3"),
         (
             "{ curves = [\"#8c2d19\", \"#1f3d66\", \"#2f6b3a\", \"#5b2d82\", \"#8f2f1b\"] }",
@@ -137,8 +130,8 @@ fn what_can_hardly_be_seen_is_warned_of() {
         ),
     ];
     for (theme, message) in cases {
-        let (said, is_planned) = said(theme);
-        assert!(is_planned && said.contains(message) && !said.contains("error: "), "{message}:\n{said}");
+        let (report, is_accepted) = check(theme);
+        assert!(is_accepted && report.contains(message) && !report.contains("error: "), "{message}:\n{report}");
     }
     for good in [
         "{}",
@@ -147,24 +140,24 @@ fn what_can_hardly_be_seen_is_warned_of() {
         "{ monochrome = true, curves = [\"#000\", \"#00f\"] }",
         "{ paper = \"#eef\" }",
     ] {
-        assert_eq!(said(good).0, "", "{good}");
+        assert_eq!(check(good).0, "", "{good}");
     }
 }
 
 #[test]
-fn a_table_changes_what_it_names_and_no_more() {
+fn a_table_changes_only_the_keys_it_gives() {
     assert_eq!(theme("{}"), Theme::default());
     for name in Theme::NAMED.map(|theme| theme.name) {
         assert_eq!(theme(&format!("{{ base = \"{name}\" }}")), named(name));
     }
-    // What is monochrome stays so, unless it is said not to.
+    // A monochrome base stays monochrome unless the table sets `monochrome = false`.
     let red = |monochrome: &str| theme(&format!("{{ base = \"monochrome\", ink = \"#700\"{monochrome} }}")).ink;
     assert_eq!((red(""), red(", monochrome = false")), (Color(0x77, 0, 0).to_grey(), Color(0x77, 0, 0)));
-    let own = theme(
+    let changed = theme(
         "{ base = \"print\", ink = \"#123\", face = \"mono\", drawn = \"3 / 4\", weights = { link = \"0.05 in\" }, lettering = 1.5 }",
     );
     let print = named("print");
-    let wanted = Theme {
+    let expected = Theme {
         ink: Color(0x11, 0x22, 0x33),
         typeface: Typeface::Mono,
         dash_fraction: 0.75,
@@ -175,7 +168,7 @@ fn a_table_changes_what_it_names_and_no_more() {
         note_size: 1.5 * print.note_size,
         ..print
     };
-    assert_eq!(own, wanted);
+    assert_eq!(changed, expected);
 }
 
 #[test]
@@ -185,10 +178,10 @@ fn sizes_follow_the_paper() {
         let page = manifest::parse(&text).plan.unwrap().page;
         page.theme.for_paper(page.paper)
     };
-    for (paper, part) in [("tabloid", 1.0), ("a4", f64::min(297.0 / 431.8, 210.0 / 279.4))] {
+    for (paper, scale) in [("tabloid", 1.0), ("a4", f64::min(297.0 / 431.8, 210.0 / 279.4))] {
         let scaled = options("{ weights = { curve = \"0.8 mm\" }, lettering = { note = \"4 mm\" } }", paper);
         assert!(
-            (scaled.curve_width - 0.8 * part.sqrt()).abs() < 1e-12 && (scaled.note_size - 4.0 * part).abs() < 1e-12
+            (scaled.curve_width - 0.8 * scale.sqrt()).abs() < 1e-12 && (scaled.note_size - 4.0 * scale).abs() < 1e-12
         );
         let plain = options("\"paper\"", paper);
         assert_eq!((scaled.link_width, scaled.title_size), (plain.link_width, plain.title_size));
@@ -198,14 +191,14 @@ fn sizes_follow_the_paper() {
         };
         assert_eq!(weights(&double), weights(&plain).map(|weight| 2.0 * weight));
     }
-    // Where lettering is larger there is room for fewer panels.
+    // Larger lettering leaves room for fewer panels.
     let large = Options::for_paper(Paper::NAMED[1].1).with_theme(theme("{ lettering = 2 }"));
     let plain = Options::for_paper(Paper::NAMED[1].1);
     let [fewer, more] = [&large, &plain].map(Layout::max_panels);
     assert!(fewer[0] < more[0] && fewer[1] < more[1], "{fewer:?} {more:?}");
 }
 
-/// The pages of a manifest with a theme: their names, texts and images.
+/// The first page of each family with a theme: the family, the SVG and the image.
 fn pages(theme: &str) -> Vec<(String, String, image::RgbImage)> {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("atlas.toml"), with(theme)).unwrap();
@@ -231,15 +224,15 @@ fn colors(svg: &str) -> Vec<Color> {
 
 #[test]
 fn dark_pages_are_dark() {
-    let ground = named("dark").paper;
-    assert!(ground.lightness() < 10.0);
+    let paper = named("dark").paper;
+    assert!(paper.lightness() < 10.0);
     for (family, svg, image) in pages("\"dark\"") {
         let dark = image.pixels().filter(|pixel| Color(pixel[0], pixel[1], pixel[2]).lightness() < 15.0).count();
         let all = image.pixels().count();
         assert!(dark as f64 > 0.85 * all as f64, "{family}: {dark} of {all}");
-        // Nothing is darker than the ground: no ink of another theme is left, and nothing hollow is white.
+        // Nothing is darker than the paper, so that no ink of another theme remains, and no shape is filled white.
         for color in colors(&svg) {
-            assert!(color.lightness() >= ground.lightness(), "{family}: {color}");
+            assert!(color.lightness() >= paper.lightness(), "{family}: {color}");
         }
         let fills = svg.split("fill=\"#").skip(1).map(|rest| format!("#{}", &rest[..6]));
         let white = fills.filter_map(|fill| Color::parse(&fill)).filter(|fill| fill.lightness() > 95.0).count();
@@ -260,7 +253,7 @@ fn monochrome_pages_have_no_colour() {
             assert!(image.pixels().all(|p| is_grey(Color(p[0], p[1], p[2]))), "{theme} {family}");
         }
     }
-    // Curves differ in weight as well: those of a panel have as many weights as manners.
+    // Each curve of a panel has a stroke style of its own.
     let (_, svg, _) = pages("\"monochrome\"").remove(0);
     let curve = |k: usize| svg.split(&format!("id=\"panels-1-{k}-1\"")).nth(1).unwrap().split("</g>").next().unwrap();
     let style = |k: usize| curve(k).split(" stroke=").nth(1).unwrap().split("/>").next().unwrap().to_owned();
@@ -271,7 +264,7 @@ fn monochrome_pages_have_no_colour() {
 }
 
 #[test]
-fn the_face_of_a_page_is_that_of_the_theme() {
+fn pages_have_the_typeface_of_the_theme() {
     let families: Vec<&str> = Typeface::NAMED.iter().map(|(_, face)| face.fallback_families()).collect();
     for (name, face) in Typeface::NAMED {
         let pages = pages(&format!("{{ face = \"{name}\" }}"));
@@ -281,14 +274,14 @@ fn the_face_of_a_page_is_that_of_the_theme() {
         }
         assert_eq!(families.iter().filter(|other| **other == face.fallback_families()).count(), 1);
     }
-    // Images are drawn from the face's own outlines.
+    // Images use the outlines of the typeface.
     let [serif, mono] = ["serif", "mono"].map(|face| pages(&format!("{{ face = \"{face}\" }}")).remove(0).2);
     assert_ne!(serif, mono);
 }
 
 #[test]
-fn the_drawn_part_of_a_dash_is_the_themes() {
-    // An unbroken line has no gaps: the dashes of a curve are then as many, and end where the next begins.
+fn the_theme_sets_the_drawn_part_of_a_dash() {
+    // The drawn part changes the dashes of a curve, but not their number.
     let dashes = |theme: &str| {
         let (_, svg, _) = pages(theme).remove(0);
         let curve = svg.split("id=\"panels-1-1-1\"").nth(1).unwrap().split("</g>").next().unwrap();
@@ -299,13 +292,14 @@ fn the_drawn_part_of_a_dash_is_the_themes() {
     assert!(plain != longer && plain.matches('m').count() == longer.matches('m').count());
 }
 
-/// The least difference of any two of some colours.
-fn least(colors: &[[f64; 3]], difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64) -> f64 {
+/// The least difference between any two of the colours.
+fn least_difference(colors: &[[f64; 3]], difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64) -> f64 {
     let pairs = (0..colors.len()).flat_map(|k| (0..k).map(move |l| (k, l)));
     pairs.map(|(k, l)| difference(&colors[k], &colors[l])).fold(f64::INFINITY, f64::min)
 }
 
-fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+/// The product of a matrix and a vector.
+fn product(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
@@ -320,8 +314,8 @@ fn linear(Color(r, g, b): Color) -> [f64; 3] {
 /// CIELAB of linear light, D65.
 fn lab(light: [f64; 3]) -> [f64; 3] {
     const XYZ: [[f64; 3]; 3] = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
-    let white = times(&XYZ, [1.0; 3]);
-    let xyz = times(&XYZ, light.map(|c| c.clamp(0.0, 1.0)));
+    let white = product(&XYZ, [1.0; 3]);
+    let xyz = product(&XYZ, light.map(|c| c.clamp(0.0, 1.0)));
     let f = |k: usize| {
         let t = xyz[k] / white[k];
         if t > 216.0 / 24389.0 { trig::pow(t, 1.0 / 3.0) } else { (24389.0 / 27.0 * t + 16.0) / 116.0 }
@@ -330,7 +324,7 @@ fn lab(light: [f64; 3]) -> [f64; 3] {
 }
 
 /// Machado, Oliveira and Fernandes, A physiologically-based model for simulation of color vision deficiency (IEEE TVCG
-/// 15, 2009), severity 1: protanopia, deuteranopia, tritanopia; of linear light.
+/// 15, 2009), severity 1: protanopia, deuteranopia, tritanopia; for linear light.
 const DICHROMACIES: [[[f64; 3]; 3]; 3] = [
     [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
     [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
@@ -338,35 +332,38 @@ const DICHROMACIES: [[[f64; 3]; 3]; 3] = [
 ];
 
 #[test]
-fn inks_can_be_told_apart_by_all_readers() {
+fn inks_can_be_distinguished_by_all_readers() {
     let distance = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt();
     let lightness = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).abs();
-    // What docs/themes.md says, rounded down: in colour, under each dichromacy, in grey. About 2 can just be seen
-    // side by side; thin lines want several times that.
+    // The values in docs/themes.md, rounded down: in colour, under each dichromacy, in grey. A difference of about 2 is
+    // just visible side by side; thin lines need several times that.
     let cases = [
         ("paper", [34.9, 20.1, 23.6, 26.3, 8.7]),
         ("print", [34.9, 20.1, 23.6, 26.3, 8.7]),
         ("monochrome", [12.9; 5]),
         ("dark", [32.0, 21.0, 22.0, 23.0, 8.4]),
     ];
-    for (name, wanted) in cases {
+    for (name, expected) in cases {
         let light: Vec<[f64; 3]> = named(name).curve_inks.iter().map(|ink| linear(*ink)).collect();
-        let seen = |matrix: &[[f64; 3]; 3]| light.iter().map(|ink| lab(times(matrix, *ink))).collect::<Vec<_>>();
+        let seen = |matrix: &[[f64; 3]; 3]| light.iter().map(|ink| lab(product(matrix, *ink))).collect::<Vec<_>>();
         let normal: Vec<[f64; 3]> = light.iter().map(|ink| lab(*ink)).collect();
-        let mut found = vec![least(&normal, distance)];
-        found.extend(DICHROMACIES.iter().map(|matrix| least(&seen(matrix), distance)));
-        found.push(least(&normal, lightness));
-        for (found, wanted) in found.iter().zip(wanted) {
-            assert!(found >= &wanted && *found < wanted + 1.0, "{name}: {found} for {wanted}");
+        let mut differences = vec![least_difference(&normal, distance)];
+        differences.extend(DICHROMACIES.iter().map(|matrix| least_difference(&seen(matrix), distance)));
+        differences.push(least_difference(&normal, lightness));
+        for (difference, expected) in differences.iter().zip(expected) {
+            assert!(
+                difference >= &expected && *difference < expected + 1.0,
+                "{name}: {difference}, expected {expected}"
+            );
         }
-        // The difference manifests are checked by is the same one.
+        // Manifests are checked with the same difference.
         let inks = named(name).curve_inks;
         assert!((inks[0].difference(inks[1]) - distance(&normal[0], &normal[1])).abs() < 1e-9);
     }
 }
 
 #[test]
-fn contrast_is_enough_to_read() {
+fn contrast_is_sufficient_for_reading() {
     for name in Theme::NAMED.map(|theme| theme.name) {
         let theme = named(name);
         for (text, k) in [theme.ink, theme.grey, theme.curve_ink(0)].into_iter().zip(0..) {
@@ -380,20 +377,20 @@ fn contrast_is_enough_to_read() {
 }
 
 #[test]
-fn the_documents_theme_is_one_and_they_name_every_key() {
+fn docs_themes_has_a_valid_theme_and_names_every_key() {
     let text = include_str!("../../docs/themes.md");
     let page = text.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
-    let (said, is_planned) = said(page.split_once("theme = ").unwrap().1.trim());
-    assert!(is_planned && said.is_empty(), "{said}");
+    let (report, is_accepted) = check(page.split_once("theme = ").unwrap().1.trim());
+    assert!(is_accepted && report.is_empty(), "{report}");
     let names = Theme::NAMED.iter().map(|theme| theme.name).chain(Typeface::NAMED.iter().map(|(name, _)| *name));
     for name in names {
         assert!(text.contains(&format!("`\"{name}\"`")), "{name}");
     }
-    let (said, _) = self::said("{ zzzzzz = 1, weights = { zzzzzz = 1 }, lettering = { zzzzzz = 1 } }");
+    let (report, _) = self::check("{ zzzzzz = 1, weights = { zzzzzz = 1 }, lettering = { zzzzzz = 1 } }");
     let keys =
-        said.lines().filter(|line| line.contains("it can be")).flat_map(|line| line.split('`').skip(1).step_by(2));
+        report.lines().filter(|line| line.contains("it can be")).flat_map(|line| line.split('`').skip(1).step_by(2));
     for key in keys {
         assert!(text.contains(&format!("`{key}`")), "{key}");
     }
-    assert_eq!(said.matches("it can be").count(), 3, "{said}");
+    assert_eq!(report.matches("it can be").count(), 3, "{report}");
 }

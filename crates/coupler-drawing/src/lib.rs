@@ -4,15 +4,19 @@
 //! a page is a list of items at fixed positions ([`scene`]), and a scene is rendered to bytes ([`render`]). [`chart`]
 //! collects the numbers that charts show. Nothing in this crate reads or writes a file.
 //!
-//! The plate of a coupler curve:
+//! A four-bar, its class, a coupler curve, the longest straight portion of that, and its plate:
 //!
 //! ```
 //! use coupler_curves::FourBar;
-//! use coupler_drawing::plate_svg;
 //!
-//! let curve = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 }.coupler_curve(1.5, 1.0)?;
-//! let svg = plate_svg(&curve);
-//! # assert!(std::str::from_utf8(&svg).is_ok_and(|svg| svg.starts_with("<svg") || svg.starts_with("<?xml")));
+//! let four_bar = FourBar { frame: 2.0, crank: 1.0, coupler: 2.5, rocker: 2.5 };
+//! let class = four_bar.class();
+//! let curve = four_bar.coupler_curve(5.0, 0.0)?;
+//! let straight = curve.straight_portion();
+//! let svg = coupler_drawing::plate_svg(&curve);
+//! # assert_eq!(class.name(), "crank-rocker");
+//! # assert!(straight.is_some_and(|straight| straight.length > 1.1));
+//! # assert!(std::str::from_utf8(&svg).is_ok_and(|svg| svg.contains("<svg") && svg.contains("frame 2")));
 //! # Ok::<(), coupler_curves::CurveError>(())
 //! ```
 

@@ -52,7 +52,7 @@ pub enum Change {
         #[serde(rename = "is")]
         current: f64,
     },
-    /// A cell is assembled over a larger or smaller range, or for another reason not at all.
+    /// The status of a cell, or the reason for it, has changed.
     Status {
         /// The recorded value.
         #[serde(rename = "was")]
@@ -175,8 +175,8 @@ pub enum Change {
 /// How far the points of a curve have moved.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Displacement {
-    /// The greatest distance a point has moved, in the unit of the manifest; infinite if its recorded or current position
-    /// does not exist.
+    /// The greatest distance a point has moved, in the unit of the manifest; infinite if its recorded or current
+    /// position does not exist.
     pub distance: f64,
     /// That distance, relative to the size of the curve: the diagonal of its bounding box.
     pub relative: f64,

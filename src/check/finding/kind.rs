@@ -1,6 +1,6 @@
 //! The kinds of changes, and their order.
 
-use super::Change;
+use super::change::Change;
 
 impl Change {
     /// Whether the change makes the check fail; otherwise it is only reported.

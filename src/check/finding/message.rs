@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Change;
+use super::change::Change;
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -36,7 +36,7 @@ impl fmt::Display for Change {
                 if !missing.is_empty() {
                     write!(f, " (missing: {})", comma_separated(missing))?;
                 }
-                write!(f, "; the curves are apart {}", format_distance(*hausdorff_distance))
+                write!(f, "; Hausdorff distance of the curves {}", format_distance(*hausdorff_distance))
             }
             Change::Branch { sample, input, samples, recorded, current } => {
                 write!(
@@ -47,7 +47,8 @@ impl fmt::Display for Change {
             }
             Change::Moved(displacement) => write!(
                 f,
-                "moved by {:.3e} ({:.1e} of its size) at sample {}, input {}; {} of {} samples; the curves are apart {}",
+                "moved by {:.3e} ({:.1e} of its size) at sample {}, input {}; {} of {} samples moved; \
+                 Hausdorff distance of the curves {}",
                 displacement.distance,
                 displacement.relative,
                 displacement.sample,
@@ -86,5 +87,5 @@ fn comma_separated(numbers: &[usize]) -> String {
 
 /// The distance of two curves, in a few digits.
 fn format_distance(distance: f64) -> String {
-    if distance == 0.0 { "not at all".to_owned() } else { format!("by {distance:.3e}") }
+    if distance == 0.0 { "0".to_owned() } else { format!("{distance:.3e}") }
 }

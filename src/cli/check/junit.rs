@@ -6,8 +6,8 @@ use coupler_atlas::check::{Finding, Report};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
-/// The report as JUnit XML: a suite for each family with findings, with a case for each location, and a passing case for
-/// everything else.
+/// The report as JUnit XML: a suite for each family with findings, with a case for each location, and a passing case
+/// for everything else.
 pub fn text(report: &Report) -> anyhow::Result<String> {
     let mut families: BTreeMap<&str, BTreeMap<String, Vec<&Finding>>> = BTreeMap::new();
     for finding in &report.findings {
@@ -15,7 +15,8 @@ pub fn text(report: &Report) -> anyhow::Result<String> {
         cases.entry(finding.location.to_string()).or_default().push(finding);
     }
     let has_difference = |findings: &Vec<&Finding>| findings.iter().any(|finding| finding.change.is_difference());
-    let failures: usize = families.values().flat_map(BTreeMap::values).filter(|findings| has_difference(findings)).count();
+    let failures: usize =
+        families.values().flat_map(BTreeMap::values).filter(|findings| has_difference(findings)).count();
     let cases: usize = families.values().map(BTreeMap::len).sum();
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;

@@ -37,7 +37,10 @@ pub struct Arguments {
         value_name = "LENGTH",
         value_parser = parse_tolerance,
         allow_negative_numbers = true,
-        help = tolerance_help("The greatest distance a point may move", |tolerances| tolerances.atol)
+        help = tolerance_help(
+            "The greatest distance a point may move, in the unit of the manifest",
+            |tolerances| tolerances.atol
+        )
     )]
     atol: Option<f64>,
     #[arg(
@@ -46,8 +49,8 @@ pub struct Arguments {
         value_parser = parse_tolerance,
         allow_negative_numbers = true,
         help = tolerance_help(
-            "The greatest distance a point may move, relative to the size of its curve; a move is reported if it exceeds \
-             both --atol and --rtol",
+            "The greatest distance a point may move, relative to the size of its curve; a move is reported if it \
+             exceeds both --atol and --rtol",
             |tolerances| tolerances.rtol
         )
     )]
@@ -60,8 +63,8 @@ pub struct Arguments {
         help = tolerance_help("The greatest relative change of a measure", |tolerances| tolerances.measure_rtol)
     )]
     measure_rtol: Option<f64>,
-    /// Write a report as json, junit or github (annotations) to a file, or print it instead of the table; may be given more
-    /// than once.
+    /// Write a report as json, junit or github (annotations) to a file, or print it instead of the table; may be given
+    /// more than once.
     #[arg(long, value_name = "FORMAT[=FILE]", value_parser = parse_report)]
     report: Vec<ReportRequest>,
     /// Draw each curve that has moved, as recorded and as it is now, into this folder, with an index.html.
@@ -84,7 +87,7 @@ fn tolerance_help(text: &str, value: fn(&Tolerances) -> f64) -> String {
         0.0 => "0".to_owned(),
         value => format!("{value:e}"),
     };
-    format!("{text} [default: that of the manifest, or {default}]")
+    format!("{text} [default: the manifest's, or {default}]")
 }
 
 /// A requested report.
@@ -124,7 +127,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let source = source::read(&arguments.manifest)?;
     source.require_families(&arguments.only)?;
     if arguments.bless && !arguments.only.is_empty() {
-        let message = "--bless records all families: leave out --only, or use `render --force --only` for a single family";
+        let message =
+            "--bless records all families: leave out --only, or use `render --force --only` for a single family";
         return Err(InputError(message.to_owned()).into());
     }
     if let Some(jobs) = arguments.jobs {

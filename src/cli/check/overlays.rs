@@ -16,10 +16,10 @@ const STYLE: &str = "body{font:16px/1.5 'DejaVu Serif Condensed',Georgia,serif;c
                      margin:2rem auto;max-width:70rem;padding:0 1rem}figure{margin:2rem 0}img{width:100%}";
 
 /// Writes a page for each curve that has moved, and an index of the pages.
-pub fn write(folder: &Path, plan: &Plan, recorded: &Path, found: (&Options, &Report)) -> anyhow::Result<()> {
+pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Report)) -> anyhow::Result<()> {
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
-    check::draw_overlays(plan, recorded, found, MAX_CURVES, |overlay| {
+    check::draw_overlays(plan, recorded, report, MAX_CURVES, |overlay| {
         let (name, location) = (&overlay.name, escape(overlay.finding.location.to_string()));
         figures.push_str(&format!(
             "<figure id=\"{name}\"><figcaption><b>{location}</b>: {}</figcaption>\

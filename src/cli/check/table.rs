@@ -15,7 +15,8 @@ pub fn text(report: &Report) -> String {
     let lines = group_findings(&report.findings);
     let shown: Vec<&Finding> = lines.iter().take(MAX_FINDINGS).map(|(finding, _)| *finding).collect();
     let width = |length: fn(&Finding) -> usize| shown.iter().map(|finding| length(finding)).max().unwrap_or(0);
-    let (kind_width, location_width) = (width(|f| f.change.kind().len()), width(|f| f.location.to_string().chars().count()));
+    let (kind_width, location_width) =
+        (width(|f| f.change.kind().len()), width(|f| f.location.to_string().chars().count()));
     let mut counts = report.counts.clone();
     for (Finding { location, change }, grouped) in lines.iter().take(MAX_FINDINGS) {
         let more = match grouped {

@@ -19,11 +19,11 @@ use super::{InputError, Outcome, print};
 
 /// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
 ///
-/// straight-line: Searches the linkages of Evans, Chebyshev, Watt, Roberts and Hoeken for a straight portion, by a sweep
-/// over their proportions that is then refined. Without --length or --size, or with one of them, the best design has the
-/// longest straight portion for its size; with both, it is the straightest that has this length within this size. If no
-/// linkage meets the requirements, the error lists what each of them would have to be while the others are kept.
-/// Numbers may be expressions: "sqrt(2)".
+/// straight-line: Searches the linkages of Evans, Chebyshev, Watt, Roberts and Hoeken for a straight portion, by a
+/// sweep over their proportions that is then refined. Without --length or --size, or with one of them, the best design
+/// has the longest straight portion for its size; with both, it is the straightest that has this length within this
+/// size. If no linkage meets the requirements, the error lists what each of them would have to be while the others are
+/// kept. Numbers may be expressions: "sqrt(2)".
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// What to design.
@@ -33,13 +33,14 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = InputChoice::Any)]
     input: InputChoice,
     /// How fast the linkage returns from the straight stroke.
-    #[arg(long = "return", value_enum, default_value_t = ReturnChoice::Any)]
+    #[arg(long = "return", value_name = "RETURN", value_enum, default_value_t = ReturnChoice::Any)]
     back: ReturnChoice,
-    /// Whether the curve crosses itself, as that of Watt does, which the thesis would use for the return.
+    /// Whether the curve must cross itself, as that of Watt's linkage does; the thesis would use the crossing for the
+    /// return.
     #[arg(long, value_enum, default_value_t = DoublePointChoice::Any)]
     double_point: DoublePointChoice,
-    /// The ratio of the frame to the crank (evans, hoeken) or to the coupler (the others); the proportions that (8.10) and
-    /// (8.19) give for it are shown as well.
+    /// The ratio of the frame to the crank (evans, hoeken) or to the coupler (the others); the proportions that (8.10)
+    /// and (8.19) give for it are shown as well.
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     p: Option<String>,
     /// The length of the straight portion, projected on its line; sets the unit of all other lengths.
@@ -83,27 +84,30 @@ const MAX_BEST: usize = 20;
 fn tolerance_help() -> String {
     let default = Requirements::default().tolerance;
     format!(
-        "The greatest width of the strip around the straight portion, relative to its length; twice the greatest \
-         deviation [default: {default}]"
+        "The greatest width of the strip around the straight portion (twice the deviation), relative to the length of \
+         the portion [default: {default}]"
     )
 }
 
 fn mu_min_help() -> String {
     let default = Requirements::default().mu_min;
     format!(
-        "The least transmission angle in degrees, over the motion of --size; an angle over 90 counts as its supplement, \
-         and 0 sets no limit [default: {default}]"
+        "The least transmission angle in degrees, over the same motion as --size; an angle over 90 counts as its \
+         supplement, and 0 sets no limit [default: {default}]"
     )
 }
 
 fn types_help() -> String {
-    format!("The linkages to choose from, separated by commas [default: {}]", LinkageKind::ALL.map(LinkageKind::id).join(","))
+    format!(
+        "The linkages to choose from, separated by commas [default: {}]",
+        LinkageKind::ALL.map(LinkageKind::id).join(",")
+    )
 }
 
 fn best_help() -> String {
     format!(
-        "How many designs to show at most, 1 to {MAX_BEST}; with --p, the proportions that (8.10) and (8.19) give are shown \
-         in addition"
+        "How many designs to show at most, 1 to {MAX_BEST}; with --p, the proportions that (8.10) and (8.19) give are \
+         shown in addition"
     )
 }
 
@@ -219,7 +223,9 @@ fn parse_requirements(arguments: &Arguments) -> Result<Requirements, Vec<String>
         max_designs: best as usize,
     };
     let with_option = |(requirement, error): (Requirement, String)| match requirement {
-        Requirement::Tolerance if deviation.is_some() => format!("--deviation: twice its ratio to the length is {error}"),
+        Requirement::Tolerance if deviation.is_some() => {
+            format!("--deviation: twice its ratio to the length is {error}")
+        }
         _ => format!("{}: {error}", option_name(requirement)),
     };
     // With a wrong name in `--types` there may be no linkage to choose from, and the name has been reported.

@@ -25,16 +25,16 @@ use selector::CurveSelector;
 
 /// Export curves as drawings, still or moving, CAD drawings, tables, JSON, or a fragment of a manifest.
 ///
-/// A curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, by its numbers in points.csv; FAMILY:CELL names every
-/// curve of a cell, and FAMILY every curve of a family. Without a name, every curve of the manifest is exported.
+/// A curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, by its numbers in points.csv; FAMILY:CELL names
+/// every curve of a cell, and FAMILY every curve of a family. Without a name, every curve of the manifest is exported.
 /// Parameters can be replaced: "evans:12.1.1?p=2.5&k=2". A single file is written to standard output unless --output is
 /// given; several need a folder. docs/export.md describes the formats.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[arg(value_name = "MANIFEST|CURVE", help = words_help())]
     words: Vec<String>,
-    /// The formats to export: svg, moving-svg, png, dxf (AutoCAD R12), csv, json, toml (one fragment of a manifest for all
-    /// curves).
+    /// The formats to export: svg, moving-svg, png, dxf (AutoCAD R12), csv, json, toml (one fragment of a manifest for
+    /// all curves).
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_value = "svg", value_parser = parse_format)]
     format: Vec<Format>,
     /// The file to write, or the folder if there are several files.
@@ -67,7 +67,7 @@ pub struct Arguments {
         long,
         value_name = "N",
         value_parser = clap::value_parser!(u32).range(10..=2400),
-        help = format!("The resolution of PNG images, in pixels per inch [default: that of the manifest, or {DEFAULT_DPI}]")
+        help = format!("The resolution of PNG images, in pixels per inch [default: the manifest's, or {DEFAULT_DPI}]")
     )]
     dpi: Option<u32>,
 }
@@ -83,8 +83,8 @@ const MIN_STEP: f64 = 360.0 / MAX_SAMPLES as f64;
 
 fn words_help() -> String {
     format!(
-        "The manifest, if the first word ends in .toml [default: {DEFAULT_MANIFEST}], followed by the names of curves; with \
-         --linkage, parameters as NAME=VALUE and curves as TRACE.CIRCUIT [default: all curves]"
+        "The manifest, if the first word ends in .toml [default: {DEFAULT_MANIFEST}], followed by the names of curves; \
+         with --linkage, parameters as NAME=VALUE and curves as TRACE.CIRCUIT [default: all curves]"
     )
 }
 

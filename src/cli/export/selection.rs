@@ -112,7 +112,7 @@ impl CurveSelection {
         }
         let (family, trace_alias) = with_moved_point(family, selector, &points)
             .map_err(|error| vec![format!("{}: {error}", selector.family)])?;
-        let curve = selector.curve.map(|[trace, circuit]| [trace_alias.map_or(trace, |[own, _]| own), circuit]);
+        let curve = selector.curve.map(|[trace, circuit]| [trace_alias.map_or(trace, |[number, _]| number), circuit]);
         let cells = [(0, curve.map_or(CellSelection::AtLeastOne, |curve| CellSelection::Only([curve].into())))].into();
         let (source, overrides) = (source.to_owned(), selector.overrides.clone());
         Ok(CurveSelection { family, source, overrides, cell_number: Some(number), trace_alias, cells })
@@ -161,8 +161,8 @@ impl CurveSelection {
         if let Some(CellSelection::Only(curves)) = self.cell_selection(&solved) {
             solved.curves.retain(|curve| curves.contains(&[curve.trace, curve.circuit]));
         }
-        if let Some([own, known]) = self.trace_alias {
-            solved.curves.iter_mut().filter(|curve| curve.trace == own).for_each(|curve| curve.trace = known);
+        if let Some([number, shown]) = self.trace_alias {
+            solved.curves.iter_mut().filter(|curve| curve.trace == number).for_each(|curve| curve.trace = shown);
         }
         solved
     }
@@ -209,8 +209,8 @@ fn with_moved_point(
     let [trace, _] =
         selector.curve.ok_or("only the point of a single curve can be moved; name it by cell, trace and circuit")?;
     let cell = family.cell(0);
-    let (template, own) = move_point(&family.template, trace, family.parameter_values(&cell), coordinates)?;
-    Ok((Family { template: Arc::new(template), ..family }, (own != trace).then_some([own, trace])))
+    let (template, moved_trace) = move_point(&family.template, trace, family.parameter_values(&cell), coordinates)?;
+    Ok((Family { template: Arc::new(template), ..family }, (moved_trace != trace).then_some([moved_trace, trace])))
 }
 
 /// The index of the cell with a number.

@@ -162,7 +162,8 @@ pub(super) fn manifest(report: &Report, cognate_set: &CognateSet) -> String {
             four_bar.coupler, four_bar.rocker
         );
         let _ = writeln!(out, "M = {{ point = [\"A\", \"B\"], along = {}, across = {} }}", m.x + 0.0, m.y + 0.0);
-        let _ = writeln!(out, "\n[[family]]\nid = \"{linkage_id}\"\nlinkage = \"{linkage_id}\"\ntitle = \"{id}, {name}\"");
+        let _ =
+            writeln!(out, "\n[[family]]\nid = \"{linkage_id}\"\nlinkage = \"{linkage_id}\"\ntitle = \"{id}, {name}\"");
         let _ = writeln!(out, "panels = [1, 1]\nsampling = {{ step = \"2 deg\" }}\ncases = [{{}}]");
     }
     out

@@ -24,6 +24,8 @@ pub(super) fn json(report: &Report) -> String {
         .iter()
         .map(|curve| json!({ "trace": curve.trace, "circuit": curve.circuit, "measures": measures(&curve.values) }))
         .collect();
+    let circuits: Vec<Value> =
+        solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect();
     let document = json!({
         "format": FORMAT,
         "linkage": family.id,
@@ -32,7 +34,7 @@ pub(super) fn json(report: &Report) -> String {
         "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
         "status": solved.status().name(),
         "reason": solved.motion.assembly_error.as_ref().map(ToString::to_string),
-        "circuits": solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect::<Vec<_>>(),
+        "circuits": circuits,
         "curves": curves,
         "equations": equation::json(&report.equations.0),
         "cognates": report.cognates.as_ref().map(cognates),
@@ -125,7 +127,7 @@ fn pose(report: &Report, pose: &Pose) -> Value {
     let instants: Vec<Value> = instant_geometries(solved, pose)
         .filter_map(|(joint, instant)| {
             let instant = instant?;
-            let place = jets.position(joint);
+            let position = jets.position(joint);
             Some(json!({
                 "joint": solved.linkage.joints[joint].name,
                 "pole": point(instant.pole),
@@ -133,8 +135,8 @@ fn pose(report: &Report, pose: &Pose) -> Value {
                 "inflection_pole": point(instant.inflection_pole()),
                 "ball_point": instant.ball_point().map(point),
                 "cubic": instant.cubic_parameters().map(|cubic| cubic.map(number)),
-                "curvature": number(instant.curvature(place)),
-                "curvature_rate": number(instant.curvature_rate(place)),
+                "curvature": number(instant.curvature(position)),
+                "curvature_rate": number(instant.curvature_rate(position)),
             }))
         })
         .collect();

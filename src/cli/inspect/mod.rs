@@ -44,7 +44,8 @@ pub struct Arguments {
     /// towards the rocker pivot.
     #[arg(long, conflicts_with = "toml")]
     sextic: bool,
-    /// Print the Roberts-Chebyshev cognates, the two other four-bars that trace the same curve; with --svg, draw them too.
+    /// Print the Roberts-Chebyshev cognates, the two other four-bars that trace the same curve; with --svg, draw them
+    /// too.
     #[arg(long)]
     cognates: bool,
     /// With --cognates, the number of the traced joint that is the coupler point, from 1.

@@ -7,15 +7,15 @@ use coupler_curves::geometry::{Capsule, CapsuleTree, Point, Vector};
 const TOLERANCE_MM: f64 = 0.01;
 
 impl DrawnCurve {
-    /// The sample in a dash that is furthest from the drawn lines: its index, and its distance in millimetres of the page,
-    /// infinite if nothing is drawn. `None` if no sample is in a dash.
+    /// The sample in a dash that is furthest from the drawn lines: its index, and its distance in millimetres of the
+    /// page, infinite if nothing is drawn. `None` if no sample is in a dash.
     ///
     /// The samples are all samples of the curve in order, each with its input and its point in the plane; `closed` says
-    /// whether the curve continues from the last to the first. Samples without finite coordinates are skipped. A sample at
-    /// the end of a dash, to 1e-9 of the period, counts if the curve continues from it into the dash.
+    /// whether the curve continues from the last to the first. Samples without finite coordinates are skipped. A sample
+    /// at the end of a dash, to 1e-9 of the period, counts if the curve continues from it into the dash.
     ///
-    /// Each sample takes a search in a tree of the segments, which ends early if the sample is nearer than the furthest so
-    /// far.
+    /// Each sample takes a search in a tree of the segments, which ends early if the sample is nearer than the furthest
+    /// so far.
     pub fn furthest_sample(&self, samples: impl Iterator<Item = (f64, Point)>, closed: bool) -> Option<(usize, f64)> {
         let segments = self.polylines.iter().flat_map(|line| line.windows(2));
         let drawn = CapsuleTree::new(segments.map(|pair| Capsule { ends: [pair[0], pair[1]], radius: 0.0 }).collect());
@@ -56,13 +56,14 @@ impl DrawnCurve {
         }
     }
 
-    /// The greatest distance of the drawn lines from the interpolated samples beyond the tolerance, in millimetres of the
-    /// page. `None` if they are within the tolerance, or if there are fewer than five samples to interpolate.
+    /// The greatest distance of the drawn lines from the interpolated samples beyond the tolerance, in millimetres of
+    /// the page. `None` if they are within the tolerance, or if there are fewer than five samples to interpolate.
     ///
-    /// The samples are all samples of the curve in order, in the plane; `closed` says whether the curve continues from the
-    /// last to the first. Between two samples the interpolant is the cubic through four; the tolerance is 0.01 mm and
-    /// twice the error of the cubic, as estimated from fourth differences. A detour is therefore found where the steps are
-    /// small for the curve; where they are large, for example at limits of the input, the tolerance is greater.
+    /// The samples are all samples of the curve in order, in the plane; `closed` says whether the curve continues from
+    /// the last to the first. Between two samples the interpolant is the cubic through four; the tolerance is 0.01 mm
+    /// and twice the error of the cubic, as estimated from fourth differences. A detour is therefore found where the
+    /// steps are small for the curve; where they are large, for example at limits of the input, the tolerance is
+    /// greater.
     pub fn max_stray(&self, samples: &[Point], closed: bool) -> Option<f64> {
         let is_place = |p: &&Point| p.x.is_finite() && p.y.is_finite();
         let places: Vec<Point> = samples.iter().filter(is_place).map(|p| self.page_from_plane.apply(*p)).collect();

@@ -198,8 +198,8 @@ impl PageReader {
         }
     }
 
-    /// The values of some attributes of an element. Only these are checked for repetition, so that the time is linear in
-    /// the number of attributes.
+    /// The values of some attributes of an element. Only these are checked for repetition, so that the time is linear
+    /// in the number of attributes.
     fn read_attributes<'a, const N: usize>(
         &self,
         element: &'a BytesStart,

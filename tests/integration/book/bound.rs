@@ -1,4 +1,4 @@
-//! An atlas bound as a book: what leads where, in what order, and that nothing in a manifest's words stops it.
+//! An atlas as a book: its links, its order, and that no text in a manifest makes it fail.
 
 use std::ops::Range;
 
@@ -39,16 +39,16 @@ fn plan() -> Plan {
 }
 
 /// The solved cells of every family of a plan.
-fn solved(plan: &Plan) -> Vec<Vec<SolvedCell>> {
+fn solve_families(plan: &Plan) -> Vec<Vec<SolvedCell>> {
     let all = |planned: &manifest::PlannedFamily| {
         let mut found = Vec::new();
         let kept = sweep::kept_cells(&planned.family);
-        let take = |mut solved: Vec<SolvedCell>| -> Result<(), ()> {
+        let collect = |mut solved: Vec<SolvedCell>| -> Result<(), ()> {
             found.append(&mut solved);
             Ok(())
         };
         let groups = sweep::CellGroups { cells: &kept, size: 1, work_bytes: 0, requested_measures: None };
-        sweep::process_groups(&planned.family, groups, |_, solved| solved, take).unwrap();
+        sweep::process_groups(&planned.family, groups, |_, solved| solved, collect).unwrap();
         found
     };
     plan.families.iter().map(all).collect()
@@ -61,13 +61,13 @@ fn caption(plan: &Plan, family: usize, solved: &SolvedCell) -> String {
 
 fn atlas<'p>(plan: &'p Plan, solved: &[Vec<SolvedCell>]) -> Atlas<'p> {
     let chapter = |(k, planned): (usize, &'p manifest::PlannedFamily)| {
-        let to_a_page = planned.layout.cells_per_page();
-        let cell = |(at, solved)| CellEntry { caption: caption(plan, k, solved), page: at / to_a_page + 1 };
+        let cells_per_page = planned.layout.cells_per_page();
+        let cell = |(at, solved)| CellEntry { caption: caption(plan, k, solved), page: at / cells_per_page + 1 };
         Chapter {
             title: &planned.family.title,
             symbols: &planned.family.names,
             curve_count: Some(solved[k].iter().map(|solved| solved.curves.len()).sum()),
-            page_count: solved[k].len().div_ceil(to_a_page),
+            page_count: solved[k].len().div_ceil(cells_per_page),
             cells: solved[k].iter().enumerate().map(cell).collect(),
         }
     };
@@ -75,47 +75,44 @@ fn atlas<'p>(plan: &'p Plan, solved: &[Vec<SolvedCell>]) -> Atlas<'p> {
     Atlas { title: &plan.title, program: "coupler-atlas 1.0", chapters }
 }
 
-/// The pages of all families, and what the index says of their cells.
+/// The pages of all families, and the index entries of their cells.
 fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec<IndexEntry>) {
-    let (mut scenes, mut found) = (Vec::new(), Vec::new());
+    let (mut scenes, mut entries) = (Vec::new(), Vec::new());
     for (k, planned) in plan.families.iter().enumerate() {
         for (at, group) in solved[k].chunks(planned.layout.cells_per_page()).enumerate() {
             let number = scenes.len() + 1;
             let panel = |solved: &'_ SolvedCell| caption(plan, k, solved);
             let captions: Vec<String> = group.iter().map(panel).collect();
-            found.extend(
+            entries.extend(
                 group.iter().zip(&captions).map(|(s, caption)| IndexEntry::from_solved_cell(s, k, caption, |_| number)),
             );
-            let mut scene = page::compose_panels(&sheet(plan, k, at + 1, group), &plan.page);
+            let mut scene = page::compose_panels(&panel_page(plan, k, at + 1, group), &plan.page);
             book::draw_page_number(&mut scene, PageNumber::Arabic(number as u32), &plan.page);
             scenes.push(scene);
         }
     }
-    (scenes, found)
+    (scenes, entries)
 }
 
-fn sheet<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [SolvedCell]) -> PanelPage<'p> {
+fn panel_page<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [SolvedCell]) -> PanelPage<'p> {
     let planned = &plan.families[family];
     let panel = |solved: &'p SolvedCell| {
         Panel::new(solved).with_caption(caption(plan, family, solved)).with_facts(page::cell_facts(solved))
     };
     let (id, title, symbols) = (&planned.family.id, &planned.family.title, &planned.family.names);
-    let heading = Heading::new(title)
-        .with_family_id(id)
-        .with_atlas_title(&plan.title)
-        .with_symbols(symbols)
-        .with_page(page, 9);
+    let heading =
+        Heading::new(title).with_family_id(id).with_atlas_title(&plan.title).with_symbols(symbols).with_page(page, 9);
     PanelPage { heading, layout: planned.layout, panels: group.iter().map(panel).collect() }
 }
 
-/// The volumes of an atlas, with how many pages stand before and after their own.
-fn bound(plan: &Plan, most: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
-    let solved = solved(plan);
-    let (scenes, found) = pages(plan, &solved);
+/// The volumes of an atlas, with the number of pages before and after those of their families, and their bytes.
+fn volumes(plan: &Plan, max_pages: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
+    let solved = solve_families(plan);
+    let (scenes, entries) = pages(plan, &solved);
     let atlas = atlas(plan, &solved);
-    let bind = |volume: Volume| {
-        let front = book::compose_front_matter(&atlas, &volume, Some(&sheet(plan, 0, 1, &solved[0])), &plan.page);
-        let index = book::compose_index(&atlas, &volume, front.len(), &found, &plan.page);
+    let write = |volume: Volume| {
+        let front = book::compose_front_matter(&atlas, &volume, Some(&panel_page(plan, 0, 1, &solved[0])), &plan.page);
+        let index = book::compose_index(&atlas, &volume, front.len(), &entries, &plan.page);
         let own = &scenes[volume.first_page - 1..volume.first_page - 1 + volume.page_count];
         let mut book = Book::new(atlas.title, atlas.program);
         for scene in front.iter().chain(own).chain(&index) {
@@ -124,51 +121,52 @@ fn bound(plan: &Plan, most: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
         let around = [front.len(), index.len()];
         (volume, around, book.finish(&book::outline(&atlas, &volume, around)).unwrap())
     };
-    atlas.volumes(most).into_iter().map(bind).collect()
+    atlas.volumes(max_pages).into_iter().map(write).collect()
 }
 
-/// What stands in a box of a page that is given in points.
-fn in_box(contents: &Contents, [left, bottom, right, top]: [f64; 4], height: f64) -> Vec<&str> {
+/// The texts in a box of a page, which is given in points.
+fn texts_in_box(contents: &Contents, [left, bottom, right, top]: [f64; 4], height: f64) -> Vec<&str> {
     let mm = 25.4 / 72.0;
     let (across, down): (Range<f64>, Range<f64>) =
         (left * mm..right * mm + 1e-3, (height - top) * mm..(height - bottom) * mm);
     let inside = |at: &[f64; 2]| at[0] > across.start - 1e-3 && at[0] < across.end && down.contains(&at[1]);
-    contents.texts.iter().filter(|(_, at, _)| inside(at)).map(|(says, ..)| says.as_str()).collect()
+    contents.texts.iter().filter(|(_, at, _)| inside(at)).map(|(text, ..)| text.as_str()).collect()
 }
 
 #[test]
-fn what_contents_and_index_say_leads_to_the_page_with_the_number_they_say() {
+fn links_lead_to_the_page_with_the_number_next_to_them() {
     let plan = plan();
-    for most in [1000, 3, 1] {
-        let mut led = 0;
-        for (volume, [front, index], bytes) in bound(&plan, most) {
+    for max_pages in [1000, 3, 1] {
+        let mut followed = 0;
+        for (volume, [front, index], bytes) in volumes(&plan, max_pages) {
             let pdf = Pdf::read(&bytes);
             assert_eq!(pdf.pages().len(), front + volume.page_count + index);
             let labels = pdf.labels();
             for page in (0..front).chain(front + volume.page_count..pdf.pages().len()) {
                 let contents = pdf.contents(page);
                 for (corners, to) in pdf.links(page) {
-                    let says = in_box(&contents, corners, 792.0);
-                    let number = says.iter().rev().find_map(|word| word.parse::<usize>().ok()).unwrap();
-                    assert_eq!(to, number - volume.first_page + front, "{says:?}");
+                    let words = texts_in_box(&contents, corners, 792.0);
+                    let number = words.iter().rev().find_map(|word| word.parse::<usize>().ok()).unwrap();
+                    assert_eq!(to, number - volume.first_page + front, "{words:?}");
                     assert_eq!(labels[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
-                    // The page has its number under its border, and what was said of it.
-                    let there = pdf.contents(to);
-                    let last = there.texts.last().unwrap();
+                    // The page has its number under its border.
+                    let linked = pdf.contents(to);
+                    let last = linked.texts.last().unwrap();
                     assert!(last.0 == number.to_string() && last.1[1] > 270.0, "{last:?}");
-                    led += 1;
+                    followed += 1;
                 }
             }
         }
-        // Six geometries in contents, and six by straightness and by transmission at least; two families.
-        assert!(led >= 20, "{led} in volumes of {most}");
+        // Two families and six geometries in the contents, and at least six by straightness and six by transmission
+        // angle.
+        assert!(followed >= 20, "{followed} links in volumes of {max_pages} pages");
     }
 }
 
 #[test]
-fn volumes_part_the_pages_and_number_them_through() {
+fn volumes_divide_the_pages_and_number_them_throughout() {
     let plan = plan();
-    let volumes = bound(&plan, 3);
+    let volumes = volumes(&plan, 3);
     let ranges: Vec<Range<usize>> = volumes.iter().map(|(volume, ..)| volume.page_range()).collect();
     assert_eq!(ranges, [1..4, 4..5]);
     let labels = |k: usize| Pdf::read(&volumes[k].2).labels();
@@ -179,26 +177,26 @@ fn volumes_part_the_pages_and_number_them_through() {
     let titles: Vec<(usize, &str, usize)> =
         outline.iter().map(|(depth, title, page)| (*depth, title.as_str(), *page)).collect();
     let caption = "p = 3.00, r = 1.00, s = 4.00, a = 4.00";
-    let wanted =
+    let expected =
         [(0, "Curves", 0), (0, "Contents", 1), (0, "Evans’s", 2), (1, caption, 2), (0, "Index of geometries", 3)];
-    assert_eq!(titles, wanted);
+    assert_eq!(titles, expected);
     let first = Pdf::read(&volumes[0].2).contents(0);
     assert!(first.texts.iter().any(|(says, ..)| says == "volume 1 of 2, pages 1–3"));
 }
 
 #[test]
 fn every_page_of_an_atlas_is_in_one_volume() {
-    for (pages, most) in [(0, 5), (1, 5), (5, 5), (6, 5), (11, 5), (7, 0), (780, 1000)] {
+    for (pages, max_pages) in [(0, 5), (1, 5), (5, 5), (6, 5), (11, 5), (7, 0), (780, 1000)] {
         let chapters = vec![chapter("A", pages, Vec::new())];
         let atlas = Atlas { title: "T", program: "p", chapters };
-        let volumes = atlas.volumes(most);
+        let volumes = atlas.volumes(max_pages);
         let all: Vec<usize> = volumes.iter().flat_map(Volume::page_range).collect();
         assert_eq!(all, (1..=pages).collect::<Vec<_>>());
         assert!(
             volumes
                 .iter()
                 .zip(1..)
-                .all(|(v, k)| v.number == k && v.volume_count == volumes.len() && v.page_count <= most.max(1))
+                .all(|(v, k)| v.number == k && v.volume_count == volumes.len() && v.page_count <= max_pages.max(1))
         );
     }
 }
@@ -211,34 +209,35 @@ fn options(paper: Paper) -> Options {
     Options::for_paper(paper)
 }
 
-/// All that a page says, in order.
-fn says(scene: &Scene) -> Vec<String> {
-    fn of(items: &[Item], found: &mut Vec<String>) {
+/// All texts of a page, in order.
+fn texts(scene: &Scene) -> Vec<String> {
+    fn add(items: &[Item], found: &mut Vec<String>) {
         for item in items {
             match item {
-                Item::Group(group) => of(&group.items, found),
+                Item::Group(group) => add(&group.items, found),
                 Item::Text(text) => found.push(text.runs.iter().map(|run| run.text.as_str()).collect()),
                 _ => {}
             }
         }
     }
     let mut found = Vec::new();
-    of(&scene.items, &mut found);
+    add(&scene.items, &mut found);
     found
 }
 
 #[test]
-fn the_index_has_the_best_first() {
+fn the_index_lists_the_best_first() {
     let plan = plan();
-    let solved = solved(&plan);
-    let (_, found) = pages(&plan, &solved);
+    let solved = solve_families(&plan);
+    let (_, entries) = pages(&plan, &solved);
     let atlas = atlas(&plan, &solved);
     let [volume] = atlas.volumes(1000).try_into().unwrap();
-    let says: Vec<String> = book::compose_index(&atlas, &volume, 2, &found, &plan.page).iter().flat_map(says).collect();
+    let lines: Vec<String> =
+        book::compose_index(&atlas, &volume, 2, &entries, &plan.page).iter().flat_map(texts).collect();
     let section = |from: &str, to: &str, unit: &str| -> Vec<f64> {
-        let begin = says.iter().position(|line| line == from).unwrap();
-        let end = says.iter().position(|line| line == to).unwrap_or(says.len());
-        says[begin..end].iter().filter_map(|line| line.strip_suffix(unit)?.parse().ok()).collect()
+        let begin = lines.iter().position(|line| line == from).unwrap();
+        let end = lines.iter().position(|line| line == to).unwrap_or(lines.len());
+        lines[begin..end].iter().filter_map(|line| line.strip_suffix(unit)?.parse().ok()).collect()
     };
     let angles = section("By transmission angle", "By symmetry", "°");
     let least = |solved: &SolvedCell| {
@@ -248,20 +247,23 @@ fn the_index_has_the_best_first() {
         };
         number("mu_min_deg").min(180.0 - number("mu_max_deg"))
     };
-    let mut wanted: Vec<f64> = solved.iter().flatten().map(least).collect();
-    wanted.sort_by(|a, b| b.total_cmp(a));
-    assert_eq!(angles.len(), wanted.len());
+    let mut expected: Vec<f64> = solved.iter().flatten().map(least).collect();
+    expected.sort_by(|a, b| b.total_cmp(a));
+    assert_eq!(angles.len(), expected.len());
     // Written to a tenth of a degree.
-    assert!(angles.iter().zip(&wanted).all(|(a, b)| (a - b).abs() <= 0.05 + 1e-9), "{angles:?} {wanted:?}");
-    let parts = section("By straightness", "By transmission angle", " %");
-    assert!(parts.len() == 6 && parts.is_sorted_by(|a, b| a >= b) && parts[5] > 0.0 && parts[0] < 100.0, "{parts:?}");
-    // Evans linkages with s = a are symmetrical by theorem 2, and the others have some curve that is most nearly so.
-    let apart = section("By symmetry", "", " %");
-    assert!(apart.len() == 6 && apart.is_sorted() && apart[..2] == [0.0, 0.0] && apart[2] > 0.0, "{apart:?}");
+    assert!(angles.iter().zip(&expected).all(|(a, b)| (a - b).abs() <= 0.05 + 1e-9), "{angles:?} {expected:?}");
+    let percentages = section("By straightness", "By transmission angle", " %");
+    assert!(percentages.len() == 6 && percentages.is_sorted_by(|a, b| a >= b), "{percentages:?}");
+    assert!(percentages[5] > 0.0 && percentages[0] < 100.0, "{percentages:?}");
+    // Evans linkages with s = a are symmetrical by theorem 2, and the other geometries by their most nearly symmetrical
+    // curves.
+    let residuals = section("By symmetry", "", " %");
+    assert!(residuals.len() == 6 && residuals.is_sorted(), "{residuals:?}");
+    assert!(residuals[..2] == [0.0, 0.0] && residuals[2] > 0.0, "{residuals:?}");
 }
 
 #[test]
-fn long_titles_have_as_many_lines_as_they_take() {
+fn long_titles_are_broken_into_lines() {
     let title = "An atlas of the straight-line and dwell linkages that are driven by cranks, with all their cognates and limits";
     let family = "Linkages that are driven by cranks, with their limits, cognates and a longer title than most";
     let cell = CellEntry { caption: "p = 1".to_owned(), page: 1 };
@@ -269,25 +271,25 @@ fn long_titles_have_as_many_lines_as_they_take() {
     for (_, paper) in Paper::NAMED {
         let front = book::compose_front_matter(&atlas, &atlas.volumes(9)[0], None, &options(paper));
         for (scene, whole) in front.iter().zip([title, family]) {
-            let says: Vec<String> = says(scene).into_iter().filter(|line| line != "1").collect();
-            assert!(!says.contains(&whole.to_owned()) && says.join(" ").contains(whole), "{says:?}");
+            let lines: Vec<String> = texts(scene).into_iter().filter(|line| line != "1").collect();
+            assert!(!lines.contains(&whole.to_owned()) && lines.join(" ").contains(whole), "{lines:?}");
         }
-        // Every line leads to the page, which is told once.
-        assert!(front[1].links.len() >= 3 && says(&front[1]).iter().filter(|line| *line == "1").count() == 2);
+        // Every line of the title is a link to the page, whose number is printed once.
+        assert!(front[1].links.len() >= 3 && texts(&front[1]).iter().filter(|line| *line == "1").count() == 2);
     }
 }
 
 #[test]
-fn an_atlas_of_many_cells_names_some_of_them_and_says_so() {
+fn an_atlas_of_many_cells_lists_some_of_them_and_says_so() {
     let cell = |k: usize| CellEntry { caption: format!("p = {k}"), page: k / 15 + 1 };
     let atlas =
         Atlas { title: "T", program: "p", chapters: vec![chapter("Many", 2000, (0..30_000).map(cell).collect())] };
     let volume = atlas.volumes(5000)[0];
     let front = book::compose_front_matter(&atlas, &volume, None, &options(Paper::NAMED[1].1));
     assert!(front.len() < 9, "{}", front.len());
-    let says: Vec<String> = front.iter().flat_map(says).collect();
-    // The first of every second page.
-    assert!(says.iter().any(|line| line == "1000 of 30000 are listed"));
+    let lines: Vec<String> = front.iter().flat_map(texts).collect();
+    // The first cell of every second page is listed.
+    assert!(lines.iter().any(|line| line == "1000 of 30000 are listed"));
     let children = &book::outline(&atlas, &volume, [front.len(), 0])[2].children;
     assert_eq!(children.len(), 1000);
     assert_eq!((children[1].title.as_str(), children[1].page_index), ("p = 30", front.len() + 2));
@@ -297,20 +299,20 @@ fn an_atlas_of_many_cells_names_some_of_them_and_says_so() {
 }
 
 #[test]
-fn no_words_and_no_paper_stop_the_pages_of_a_book() {
-    let odd = ["", "<&>\"", "שלום", "漢字", "\u{0}\n", &"very long words ".repeat(60), &"x".repeat(400)];
+fn no_text_and_no_paper_make_a_book_fail() {
+    let unusual_texts = ["", "<&>\"", "שלום", "漢字", "\u{0}\n", &"very long words ".repeat(60), &"x".repeat(400)];
     for paper in [Paper { width: 50.0, height: 50.0 }, Paper { width: 50.0, height: 2000.0 }, Paper::NAMED[2].1] {
         let options = options(paper);
-        for says in odd {
-            let cell = CellEntry { caption: says.to_owned(), page: 1 };
-            let empty = chapter(says, 0, Vec::new());
-            let chapters = vec![chapter(says, 1, vec![cell; 40]), empty, chapter(says, 1, Vec::new())];
-            let atlas = Atlas { title: says, program: says, chapters };
+        for text in unusual_texts {
+            let cell = CellEntry { caption: text.to_owned(), page: 1 };
+            let empty = chapter(text, 0, Vec::new());
+            let chapters = vec![chapter(text, 1, vec![cell; 40]), empty, chapter(text, 1, Vec::new())];
+            let atlas = Atlas { title: text, program: text, chapters };
             for volume in atlas.volumes(1) {
                 let front = book::compose_front_matter(&atlas, &volume, None, &options);
                 let index = book::compose_index(&atlas, &volume, front.len(), &[], &options);
-                assert!(index.is_empty(), "nothing was measured");
-                let mut book = Book::new(says, says);
+                assert!(index.is_empty(), "no cell was measured");
+                let mut book = Book::new(text, text);
                 for scene in &front {
                     assert!(scene.links.iter().all(|link| link.page_index < front.len() + volume.page_count));
                     book.add_page(scene, book::page_number(&volume, front.len(), book.page_count())).unwrap();
@@ -323,5 +325,5 @@ fn no_words_and_no_paper_stop_the_pages_of_a_book() {
     }
     let none = Atlas { title: "T", program: "p", chapters: Vec::new() };
     let front = book::compose_front_matter(&none, &none.volumes(10)[0], None, &options(Paper::NAMED[0].1));
-    assert_eq!(front.len(), 1, "there is nothing to be contained");
+    assert_eq!(front.len(), 1, "no contents are listed");
 }

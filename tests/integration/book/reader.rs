@@ -1,5 +1,5 @@
-//! As much of a reader of PDF as it takes to see what was written: objects by the table of references, page contents by
-//! their operators, text by the fonts' own tables.
+//! A minimal reader of PDF for the tests: objects by the cross-reference table, page contents by their operators, text
+//! by the fonts' own Unicode tables.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -9,21 +9,21 @@ use flate2::read::ZlibDecoder;
 /// Millimetres to a point.
 const MM: f64 = 25.4 / 72.0;
 
-/// A file, by its objects' numbers: the dictionary and the stream of each.
+/// A file, as the dictionary and the stream of each object, by the object's number.
 pub struct Pdf {
     objects: BTreeMap<usize, (String, Vec<u8>)>,
     pub catalog: usize,
 }
 
-/// A polyline as it is drawn, in millimetres from the upper left corner, curves by their control points.
-pub type Drawn = Vec<[f64; 2]>;
+/// A polyline, in millimetres from the upper left corner of the page; curves have their control points.
+pub type PolylineMm = Vec<[f64; 2]>;
 
 /// What is drawn on a page.
 #[derive(Default, Debug)]
 pub struct Contents {
     /// The paths, each with its operator (`S`, `f`, `B`) and the width of its line in millimetres.
-    pub paths: Vec<(Vec<Drawn>, String, f64)>,
-    /// The texts: what they say, where they begin, their direction and size in millimetres.
+    pub paths: Vec<(Vec<PolylineMm>, String, f64)>,
+    /// The texts: their characters, and in millimetres their starts and their directions, as long as their size.
     pub texts: Vec<(String, [f64; 2], [f64; 2])>,
 }
 
@@ -58,19 +58,19 @@ impl Pdf {
         references(tree.split("/Kids").nth(1).unwrap())
     }
 
-    /// The links of a page: their boxes in points, and the place of the page each leads to.
+    /// The links of a page: their boxes in points, and the index of the page each leads to.
     pub fn links(&self, page: usize) -> Vec<([f64; 4], usize)> {
         let pages = self.pages();
         let Some(list) = self.dictionary(pages[page]).split("/Annots").nth(1) else { return Vec::new() };
         let link = |annotation: usize| {
             let dictionary = self.dictionary(annotation);
-            let corners: Vec<f64> = numbers(after_to(dictionary, "/Rect[", "]"));
-            (corners.try_into().unwrap(), self.led_to(dictionary))
+            let corners: Vec<f64> = numbers(between(dictionary, "/Rect[", "]"));
+            (corners.try_into().unwrap(), self.target_page(dictionary))
         };
         references(list).into_iter().map(link).collect()
     }
 
-    /// The outline's entries with their depth and the place of the page each leads to.
+    /// The outline's entries: their depth, their title and the index of the page each leads to.
     pub fn outline(&self) -> Vec<(usize, String, usize)> {
         let mut found = Vec::new();
         let root = self.dictionary(self.refer(self.dictionary(self.catalog), "Outlines"));
@@ -82,13 +82,14 @@ impl Pdf {
         let mut next = parent.contains("/First ").then(|| self.refer(parent, "First"));
         while let Some(entry) = next {
             let dictionary = self.dictionary(entry);
-            found.push((depth, string(after_to(dictionary, "/Title", "/Dest")), self.led_to(dictionary)));
+            found.push((depth, string(between(dictionary, "/Title", "/Dest")), self.target_page(dictionary)));
             self.entries(dictionary, depth + 1, found);
             next = dictionary.contains("/Next ").then(|| self.refer(dictionary, "Next"));
         }
     }
 
-    fn led_to(&self, dictionary: &str) -> usize {
+    /// The index of the page that a link or an outline entry leads to.
+    fn target_page(&self, dictionary: &str) -> usize {
         let destination = self.dictionary(self.refer(dictionary, "Dest"));
         self.pages().iter().position(|page| *page == references(destination)[0]).unwrap()
     }
@@ -102,7 +103,7 @@ impl Pdf {
     /// What is drawn on a page.
     pub fn contents(&self, page: usize) -> Contents {
         let dictionary = self.dictionary(self.pages()[page]);
-        let height = numbers(after_to(dictionary, "/MediaBox[", "]"))[3];
+        let height = numbers(between(dictionary, "/MediaBox[", "]"))[3];
         let stream = &self.objects[&self.refer(dictionary, "Contents")].1;
         let resources = dictionary.split("/Resources").nth(1).unwrap();
         let resources = match references(resources).first() {
@@ -111,7 +112,7 @@ impl Pdf {
         };
         let mut fonts = BTreeMap::new();
         if let Some(list) = resources.split("/Font").nth(1) {
-            for entry in after_to(list, "<<", ">>").split('/').skip(1) {
+            for entry in between(list, "<<", ">>").split('/').skip(1) {
                 let (name, font) = entry.split_once(' ').unwrap();
                 fonts.insert(name.to_owned(), self.unicode(references(font)[0]));
             }
@@ -119,22 +120,22 @@ impl Pdf {
         Interpreter { height, fonts, ..Interpreter::default() }.run(stream)
     }
 
-    /// What each glyph of a font stands for.
+    /// The characters of each glyph of a font.
     fn unicode(&self, font: usize) -> BTreeMap<u16, String> {
         let map =
             String::from_utf8_lossy(&self.objects[&self.refer(self.dictionary(font), "ToUnicode")].1).into_owned();
-        let mut meant = BTreeMap::new();
+        let mut characters = BTreeMap::new();
         for line in map.lines().filter(|line| line.starts_with('<')) {
             let parts: Vec<&str> = line.split(['<', '>']).filter(|part| !part.trim().is_empty()).collect();
             if let [glyph, text] = parts[..] {
                 let units: Vec<u16> = (0..text.len() / 4).map(|k| hex(&text[4 * k..4 * k + 4])).collect();
-                meant.insert(hex(glyph), String::from_utf16(&units).unwrap());
+                characters.insert(hex(glyph), String::from_utf16(&units).unwrap());
             }
         }
-        meant
+        characters
     }
 
-    /// The names and descriptors of all fonts.
+    /// The descriptors of all fonts.
     pub fn fonts(&self) -> Vec<&str> {
         let all = self.objects.values().map(|(dictionary, _)| dictionary.as_str());
         all.filter(|dictionary| dictionary.contains("/Type/FontDescriptor")).collect()
@@ -152,7 +153,8 @@ impl Interpreter {
     fn run(mut self, stream: &[u8]) -> Contents {
         let mut contents = Contents::default();
         let (mut matrix, mut width) = ([1.0, 0.0, 0.0, 1.0, 0.0, 0.0], 1.0);
-        let (mut operands, mut lines, mut font, mut text) = (Vec::new(), Vec::<Drawn>::new(), String::new(), [0.0; 6]);
+        let (mut operands, mut lines, mut font, mut text) =
+            (Vec::new(), Vec::<PolylineMm>::new(), String::new(), [0.0; 6]);
         let (mut size, mut name) = (0.0, String::new());
         let mut shown: Vec<u8> = Vec::new();
         let mm = |matrix: &[f64; 6], x: f64, y: f64, height: f64| {
@@ -187,14 +189,15 @@ impl Interpreter {
                 }
                 "Tm" => text = times(&operands, &matrix),
                 "Tf" => (size, font) = (operands[0], name.clone()),
-                // What marked contents are called is not drawn.
+                // The strings of marked-content operators are not drawn.
                 "BDC" => shown.clear(),
                 "TJ" | "Tj" => {
                     let glyphs = shown.chunks(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
                     let font = &self.fonts[&font];
-                    let says = glyphs.map(|glyph| font.get(&glyph).cloned().unwrap_or("\u{fffd}".into())).collect();
+                    let text_shown =
+                        glyphs.map(|glyph| font.get(&glyph).cloned().unwrap_or("\u{fffd}".into())).collect();
                     let (start, end) = (mm(&text, 0.0, 0.0, self.height), mm(&text, size, 0.0, self.height));
-                    contents.texts.push((says, start, [end[0] - start[0], end[1] - start[1]]));
+                    contents.texts.push((text_shown, start, [end[0] - start[0], end[1] - start[1]]));
                     shown.clear();
                 }
                 word if word.starts_with('/') => word[1..].clone_into(&mut name),
@@ -208,7 +211,7 @@ impl Interpreter {
     }
 }
 
-/// First the one, then the other.
+/// The product of two matrices: the first is applied first, then the other.
 fn times(first: &[f64], then: &[f64; 6]) -> [f64; 6] {
     let [a, b, c, d, e, f] = <[f64; 6]>::try_from(first).unwrap();
     let [p, q, r, s, t, u] = *then;
@@ -230,7 +233,7 @@ fn tokens(stream: &[u8]) -> Vec<Token> {
                 found.push(Token::String(string));
                 at += end;
             }
-            // A dictionary, as of marked contents.
+            // A dictionary, such as that of marked content.
             b'<' if stream.get(at + 1) == Some(&b'<') => at += 2,
             b'<' => {
                 let end = at + stream[at..].iter().position(|b| *b == b'>').unwrap();
@@ -252,7 +255,7 @@ fn tokens(stream: &[u8]) -> Vec<Token> {
     found
 }
 
-/// A string in parentheses, and how long it is with them.
+/// The bytes of a string in parentheses, and its length including them.
 fn literal(stream: &[u8]) -> (Vec<u8>, usize) {
     let (mut bytes, mut depth, mut at) = (Vec::new(), 0, 0);
     loop {
@@ -292,7 +295,7 @@ fn literal(stream: &[u8]) -> (Vec<u8>, usize) {
     }
 }
 
-/// A string of a dictionary: ASCII, or UTF-16 behind a byte order mark.
+/// A string of a dictionary: ASCII, or UTF-16 after a byte order mark.
 fn string(text: &str) -> String {
     let bytes = match text.trim().strip_prefix('<') {
         Some(digits) => (0..digits.len() / 2).map(|k| hex(&digits[2 * k..2 * k + 2]) as u8).collect(),
@@ -307,6 +310,7 @@ fn string(text: &str) -> String {
     }
 }
 
+/// The dictionary and the decompressed stream of the object at the start of the bytes.
 fn object(bytes: &[u8], number: usize) -> (String, Vec<u8>) {
     let head = format!("{number} 0 obj\n");
     assert!(bytes.starts_with(head.as_bytes()), "object {number} is not where the table says");
@@ -328,13 +332,14 @@ fn object(bytes: &[u8], number: usize) -> (String, Vec<u8>) {
     }
 }
 
-/// The whole number after a word.
+/// The digits after a word.
 fn after<'t>(text: &'t str, word: &str) -> &'t str {
     let rest = text.split(word).nth(1).unwrap_or_default();
     &rest[..rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len())]
 }
 
-fn after_to<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
+/// The text between two words.
+fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
     text.split(from).nth(1).unwrap().split(to).next().unwrap()
 }
 

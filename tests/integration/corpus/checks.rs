@@ -1,4 +1,4 @@
-//! What holds of any text: the fuzz targets and the test over their corpora ask the same.
+//! Properties that hold for any text, shared by the fuzz targets and the tests over their corpora.
 
 use coupler_curves::solve;
 use std::path::{Path, PathBuf};
@@ -12,11 +12,12 @@ use coupler_curves::family::Family;
 use coupler_curves::motion::{Sampler, Sampling};
 use coupler_curves::problem::report;
 
-/// A manifest is a plan or has problems: each at a place in it, with a remedy, and what is said of them is plain text.
+/// Asserts that a manifest makes a plan or has problems, each at a place in the text and with help, and that the
+/// printed problems have no control characters.
 ///
-/// Of a plan a cell of each family can be solved.
+/// A cell of each of the first families of a plan can be solved.
 pub fn manifest(text: &str) {
-    // Whoever allows a family more cells than usual has asked for the time it takes to look at all of them.
+    // A manifest that allows a family more cells than usual may take long to check.
     if text.contains("limit") {
         return;
     }
@@ -25,16 +26,16 @@ pub fn manifest(text: &str) {
         assert!(text.get(problem.span.clone()).is_some(), "{problem:?} is not in the text");
         assert!(!problem.message.is_empty() && !problem.help.is_empty(), "{problem:?}");
     }
-    let said = report(&loaded.problems, "atlas.toml", text, false);
-    assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
-    assert_eq!(loaded.plan.is_none(), loaded.problems.iter().any(|problem| problem.is_error()), "{said}");
+    let printed = report(&loaded.problems, "atlas.toml", text, false);
+    assert!(printed.chars().all(|c| c == '\n' || !c.is_control()), "{printed:?}");
+    assert_eq!(loaded.plan.is_none(), loaded.problems.iter().any(|problem| problem.is_error()), "{printed}");
     for planned in loaded.plan.iter().flat_map(|plan| &plan.families).take(3) {
-        solve(&planned.family);
+        solve_last_cell(&planned.family);
     }
 }
 
-/// Its last cell, coarsely, if few enough points are traced.
-fn solve(family: &Family) {
+/// Solves the last cell of a family, coarsely, if few enough points are traced.
+fn solve_last_cell(family: &Family) {
     let Some(last) = family.cell_count().checked_sub(1) else { return };
     let few = family.linkage(&family.cell(last)).is_ok_and(|linkage| linkage.traced.len() <= 20);
     if few && let Some(solved) = solve::solve_cell(family, &Sampler::new(Sampling::Samples(12)), last) {
@@ -44,50 +45,50 @@ fn solve(family: &Family) {
     }
 }
 
-/// An expression, a quantity or a caption is read, or has a mistake at a place in it.
+/// Asserts that an expression, a quantity or a caption is parsed, or has an error at a place in the text.
 pub fn expression(text: &str) {
-    let read = Expression::parse(text);
-    if let Ok(read) = &read {
-        is_placed(read.check(&["p", "r"], |_| None), text);
-        read.evaluate(|k| 0.5 + k as f64);
+    let parsed = Expression::parse(text);
+    if let Ok(parsed) = &parsed {
+        assert_error_is_placed(parsed.check(&["p", "r"], |_| None), text);
+        parsed.evaluate(|k| 0.5 + k as f64);
     }
-    is_placed(read, text);
-    is_placed(Quantity::parse(text, Dimension::Angle), text);
-    is_placed(Quantity::parse(text, Dimension::PaperLength), text);
+    assert_error_is_placed(parsed, text);
+    assert_error_is_placed(Quantity::parse(text, Dimension::Angle), text);
+    assert_error_is_placed(Quantity::parse(text, Dimension::PaperLength), text);
     match Caption::parse(text) {
         Ok(caption) => drop(caption.format(|_| 2.5, |_| None)),
-        error => is_placed(error, text),
+        error => assert_error_is_placed(error, text),
     }
 }
 
-/// Whatever stands in place of a file of a recorded atlas, a check ends with findings, and finds something if the text is not
-/// what was recorded.
+/// Asserts that a check ends with findings, whatever replaces `points.csv` of a recorded atlas, and finds something if
+/// the text is not the recorded one.
 pub fn points(text: &str) {
-    recorded("e/points.csv", text);
+    check_with_replaced_file("e/points.csv", text);
 }
 
-/// The same of the other table.
+/// The same for `cells.csv`.
 pub fn cells(text: &str) {
-    recorded("e/cells.csv", text);
+    check_with_replaced_file("e/cells.csv", text);
 }
 
-/// The same of a page.
+/// The same for a page.
 pub fn page(text: &str) {
-    recorded("e/e-001.svg", text);
+    check_with_replaced_file("e/e-001.svg", text);
 }
 
-/// The same of the record of the run: it may not be usable at all.
+/// The same for the record of the run, without which there may be no check at all.
 pub fn record(text: &str) {
-    recorded("run.json", text);
+    check_with_replaced_file("run.json", text);
 }
 
 /// A manifest of two cells, one of which is not assembled.
 const SMALL: &str = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
                      sampling = { samples = 9 }\ncolumns = [\"psi_deg\"]\ncases = [{ p = 2, a = 2 }, { p = 9, a = 2 }]\n";
 
-/// Puts a text in place of a file of a recorded atlas, checks that, and puts back what was there.
-fn recorded(name: &str, text: &str) {
-    // One atlas, and one check of it at a time.
+/// Replaces a file of a recorded atlas by a text, checks the atlas, and restores the file.
+fn check_with_replaced_file(name: &str, text: &str) {
+    // There is one atlas, with one check of it at a time.
     static ATLAS: Mutex<Option<PathBuf>> = Mutex::new(None);
     let mut atlas = ATLAS.lock().unwrap_or_else(PoisonError::into_inner);
     let plan = manifest::parse(SMALL).plan.expect("a plan");
@@ -102,7 +103,7 @@ fn recorded(name: &str, text: &str) {
     let report = check::check_atlas(&plan, folder, &check::Options::default(), &mut |_| {});
     std::fs::write(path, &original).expect("a file of the atlas");
     let Ok(report) = report else {
-        assert_eq!(name, "run.json", "a table or a page keeps nothing from being checked");
+        assert_eq!(name, "run.json", "only a damaged record may stop a check");
         return;
     };
     let Report { findings, .. } = &report;
@@ -111,13 +112,14 @@ fn recorded(name: &str, text: &str) {
             .iter()
             .all(|finding| !finding.location.to_string().is_empty() && !finding.change.to_string().is_empty())
     );
-    // What a record says of itself, its program for one, is nothing that a check looks at.
+    // A check does not look at what a record says about itself, such as its program.
     assert!(text.as_bytes() == original || name == "run.json" || !findings.is_empty(), "{name} has been changed");
     assert!(text.as_bytes() != original || findings.is_empty(), "{findings:?}");
 }
 
-fn is_placed<T>(read: Result<T, Error>, text: &str) {
-    if let Err(Error { message, span, help }) = read {
+/// Asserts that an error has a span of whole characters of the text, and help.
+fn assert_error_is_placed<T>(result: Result<T, Error>, text: &str) {
+    if let Err(Error { message, span, help }) = result {
         assert!(text.get(span.clone()).is_some(), "{message} at {span:?} of {text:?}");
         assert!(!message.is_empty() && !help.is_empty(), "{message}");
     }

@@ -1,4 +1,4 @@
-//! The corpora of the fuzz targets in `fuzz/`, each text and some changes of it.
+//! The checks of the fuzz targets on the corpora in `fuzz/`: on each text, and on some changes of it.
 
 mod checks;
 mod mutator;
@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 
 use mutator::Mutator;
 
-/// So many changes are made of each text; `CORPUS_CHANGES=10000` asks for more.
-fn changes() -> usize {
+/// The number of changes that are made of each text; `CORPUS_CHANGES=10000` makes more.
+fn change_count() -> usize {
     std::env::var("CORPUS_CHANGES").ok().and_then(|number| number.parse().ok()).unwrap_or(300)
 }
 
-/// The files of folders and single files, in order.
+/// The texts of single files and of the files of folders, sorted by path.
 fn texts(places: &[&str]) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
     for place in places.iter().map(|place| Path::new(env!("CARGO_MANIFEST_DIR")).join(place)) {
@@ -31,8 +31,8 @@ fn texts(places: &[&str]) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// Runs a check on texts and their changes, and names the one that does not pass.
-fn run(texts: &[(PathBuf, String)], changes: usize, check: fn(&str)) {
+/// Runs a check on texts and their changes, and names the one that fails.
+fn run_check(texts: &[(PathBuf, String)], changes: usize, check: fn(&str)) {
     let seeds = 1..;
     for (seed, (path, text)) in seeds.zip(texts) {
         let mut mutator = Mutator::new(seed);
@@ -48,17 +48,17 @@ fn run(texts: &[(PathBuf, String)], changes: usize, check: fn(&str)) {
 fn any_manifest_is_a_plan_or_has_problems() {
     let small = texts(&["fuzz/corpus/manifest", "src/cli/starter.toml", "crates/coupler-curves/src/catalogue"]);
     assert!(small.len() > 20);
-    run(&small, changes(), checks::manifest);
-    let great = texts(&["atlas.toml", "examples"]);
-    assert!(great.len() > 2);
-    run(&great, changes() / 10, checks::manifest);
+    run_check(&small, change_count(), checks::manifest);
+    let large = texts(&["atlas.toml", "examples"]);
+    assert!(large.len() > 2);
+    run_check(&large, change_count() / 10, checks::manifest);
 }
 
 #[test]
-fn any_expression_is_read_or_has_a_mistake() {
+fn any_expression_is_parsed_or_has_an_error() {
     let texts = texts(&["fuzz/corpus/expression"]);
     assert!(texts.len() > 10);
-    run(&texts, changes(), checks::expression);
+    run_check(&texts, change_count(), checks::expression);
 }
 
 #[test]
@@ -71,6 +71,6 @@ fn any_file_of_a_recorded_atlas_can_be_checked() {
     ] {
         let texts = texts(&[corpus]);
         assert!(!texts.is_empty(), "{corpus}");
-        run(&texts, changes(), check);
+        run_check(&texts, change_count(), check);
     }
 }

@@ -1,9 +1,9 @@
-//! Small changes of a text, the same in every run.
+//! Random small changes of a text, the same in every run.
 
-/// Makes changes from a seed.
+/// Makes random changes, from a seed.
 pub struct Mutator(u64);
 
-/// What is put into texts: what means something somewhere, and what hardly anything is prepared for.
+/// The tokens that are inserted into texts: some have a meaning in one of the formats, others are rarely expected.
 const TOKENS: [&str; 40] = [
     "0",
     "-1",
@@ -52,14 +52,14 @@ impl Mutator {
         Mutator(seed)
     }
 
-    /// A number below another (Knuth's MMIX generator).
+    /// A random number below `n` (Knuth's MMIX generator).
     fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as usize % n.max(1)
     }
 
-    /// A place between two characters.
-    fn place(&mut self, text: &str) -> usize {
+    /// A random position between two characters.
+    fn position(&mut self, text: &str) -> usize {
         let mut at = self.below(text.len() + 1);
         while !text.is_char_boundary(at) {
             at -= 1;
@@ -67,9 +67,9 @@ impl Mutator {
         at
     }
 
-    /// A short part of a text.
+    /// A random short part of a text.
     fn part(&mut self, text: &str) -> std::ops::Range<usize> {
-        let from = self.place(text);
+        let from = self.position(text);
         let length = 1 + self.below(30);
         let to = text[from..].char_indices().nth(length).map_or(text.len(), |(at, _)| from + at);
         from..to
@@ -79,7 +79,7 @@ impl Mutator {
     pub fn change(&mut self, text: &str) -> String {
         let mut out = text.to_owned();
         for _ in 0..1 + self.below(3) {
-            let (part, at) = (self.part(&out), self.place(&out));
+            let (part, at) = (self.part(&out), self.position(&out));
             let word = out[part.clone()].to_owned();
             match self.below(5) {
                 0 => out.replace_range(part, ""),

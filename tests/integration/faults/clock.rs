@@ -11,9 +11,9 @@ fn set_times(atlas: &Atlas, time: SystemTime) {
     }
 }
 
-/// A clock that is set back makes files of the past or of the future: what is to be drawn goes by what is in them.
+/// After the clock is set, files may have times in the past or the future; what is drawn depends on their contents.
 #[test]
-fn no_time_of_a_file_counts() {
+fn the_times_of_files_do_not_matter() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
     let day = Duration::from_secs(24 * 3600);
@@ -32,8 +32,8 @@ fn no_time_of_a_file_counts() {
         complete(&atlas);
         assert!(tree(&atlas.out()) == after);
         let page = atlas.out().join("evans/evans-007.svg");
-        let spoilt = fs::read_to_string(&page).unwrap().replace("Evans", "Evens");
-        fs::write(&page, spoilt).unwrap();
+        let edited = fs::read_to_string(&page).unwrap().replace("Evans", "Evens");
+        fs::write(&page, edited).unwrap();
         set_times(&atlas, time);
         complete(&atlas);
         assert!(tree(&atlas.out()) == after);

@@ -4,28 +4,28 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::PathBuf;
 use std::process::Command;
 
-use super::{Tree, complete, is_sound, old_and_new, undisturbed};
+use super::{Tree, check_files, complete, old_and_new, undisturbed};
 use crate::folder::{Atlas, tree};
 
-/// A small disk of its own, in memory, at the place of an atlas.
+/// A small disk in memory, mounted at the folder of an atlas.
 struct Disk(PathBuf);
 
 impl Disk {
     const BLOCK: usize = 4096;
 
-    /// A disk of 4 MiB; none where it takes rights to mount one that the test does not have.
-    fn at(folder: PathBuf) -> Option<Disk> {
+    /// Mounts a disk of 4 MiB; `None` if the test does not have the rights to do so.
+    fn mount(folder: PathBuf) -> Option<Disk> {
         fs::create_dir(&folder).unwrap();
         let mut mount = Command::new("mount");
         mount.args(["-t", "tmpfs", "-o", "size=4m", "coupler-atlas-test"]).arg(&folder);
         if mount.output().is_ok_and(|output| output.status.success()) {
             return Some(Disk(folder));
         }
-        eprintln!("skipped: mounting a disk takes rights that this user does not have");
+        eprintln!("skipped: this user does not have the rights to mount a disk");
         None
     }
 
-    /// Fills the disk but for so many blocks.
+    /// Fills the disk except for this number of blocks.
     fn fill(&self, free: usize) -> Ballast {
         let path = self.0.join("ballast");
         let mut file = File::create(&path).unwrap();
@@ -38,19 +38,19 @@ impl Disk {
     }
 
     fn allow_writing(&self, is_allowed: bool) {
-        let how = if is_allowed { "remount,rw" } else { "remount,ro" };
-        assert!(Command::new("mount").args(["-o", how]).arg(&self.0).status().unwrap().success());
+        let options = if is_allowed { "remount,rw" } else { "remount,ro" };
+        assert!(Command::new("mount").args(["-o", options]).arg(&self.0).status().unwrap().success());
     }
 }
 
 impl Drop for Disk {
     fn drop(&mut self) {
-        // Even one that is still in use goes with the process that uses it.
+        // A lazy unmount succeeds even if a process still uses the disk.
         let _ = Command::new("umount").arg("--lazy").arg(&self.0).status();
     }
 }
 
-/// What fills a disk as long as it lives.
+/// A file that fills a disk until it is dropped.
 struct Ballast(PathBuf);
 
 impl Drop for Ballast {
@@ -64,14 +64,14 @@ fn a_full_disk_loses_nothing() {
     let [mut from, mut to] = old_and_new();
     let [mut before, mut after] = [&from, &to].map(|manifest| undisturbed(manifest));
     let atlas = Atlas::new(&from);
-    let Some(disk) = Disk::at(atlas.out()) else { return };
-    // The first run of all, with room for a few of its files, or for none.
+    let Some(disk) = Disk::mount(atlas.out()) else { return };
+    // The first run, with room for a few of its files or for none.
     for free in [0, 3, 40] {
         let ballast = disk.fill(free);
         let (code, out, err) = atlas.run(&[]);
         assert_eq!((code, out.as_str()), (3, ""), "{err}");
         drop(ballast);
-        is_sound(&disk.0, &Tree::new(), &before);
+        check_files(&disk.0, &Tree::new(), &before);
     }
     complete(&atlas);
     assert!(tree(&disk.0) == before);
@@ -89,19 +89,19 @@ fn a_full_disk_loses_nothing() {
             assert!(err.ends_with(remedy), "{err}");
         }
         assert!(code == 3 || code == 0, "{err}");
-        is_sound(&disk.0, &before, &after);
+        check_files(&disk.0, &before, &after);
         complete(&atlas);
         assert!(tree(&disk.0) == after, "{free} blocks were free");
         (from, to) = (to, from);
         (before, after) = (after, before);
     }
-    assert!(failed >= 4, "with so little room a run fails: {failed}");
+    assert!(failed >= 4, "only {failed} runs failed");
 }
 
 #[test]
-fn a_starter_manifest_is_whole_or_not_there() {
+fn a_starter_manifest_is_complete_or_absent() {
     let folder = tempfile::TempDir::new().unwrap();
-    let Some(disk) = Disk::at(folder.path().join("disk")) else { return };
+    let Some(disk) = Disk::mount(folder.path().join("disk")) else { return };
     let init = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
         let output = command.current_dir(&disk.0).args(["init", "my.toml"]).output().unwrap();
@@ -116,10 +116,10 @@ fn a_starter_manifest_is_whole_or_not_there() {
 }
 
 #[test]
-fn a_disk_that_cannot_be_written_is_left_as_it_is() {
+fn a_disk_that_cannot_be_written_is_left_unchanged() {
     let [old, new] = old_and_new();
     let atlas = Atlas::new(&old);
-    let Some(disk) = Disk::at(atlas.out()) else { return };
+    let Some(disk) = Disk::mount(atlas.out()) else { return };
     complete(&atlas);
     let before = tree(&disk.0);
     atlas.edit(&new);
@@ -135,9 +135,9 @@ fn a_disk_that_cannot_be_written_is_left_as_it_is() {
     assert!(tree(&disk.0) == undisturbed(&new));
 }
 
-/// The limit ends the program in the midst of a write, by a signal that it does not hear.
+/// The limit ends the program during a write, by a signal that it does not handle.
 #[test]
-fn a_limit_on_the_size_of_files_leaves_none_half_written() {
+fn a_limit_on_the_size_of_files_leaves_no_incomplete_file() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
     let atlas = Atlas::new(&old);
@@ -149,7 +149,7 @@ fn a_limit_on_the_size_of_files_leaves_none_half_written() {
         command.current_dir(atlas.0.path()).args(["-c", &script, env!("CARGO_BIN_EXE_coupler-atlas")]);
         let status = command.output().unwrap().status;
         assert_eq!(status.signal(), Some(25), "SIGXFSZ: {status}");
-        is_sound(&atlas.out(), &before, &after);
+        check_files(&atlas.out(), &before, &after);
         complete(&atlas);
         assert!(tree(&atlas.out()) == after);
         atlas.edit(&old);
@@ -159,7 +159,7 @@ fn a_limit_on_the_size_of_files_leaves_none_half_written() {
 }
 
 #[test]
-fn a_full_standard_output_is_told_of() {
+fn a_full_standard_output_is_reported() {
     let atlas = Atlas::new(&old_and_new()[0]);
     let full = File::options().write(true).open("/dev/full").unwrap();
     let output = atlas.command(&[]).stdout(full).output().unwrap();

@@ -2,13 +2,13 @@ use std::fs;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use super::{complete, is_sound, is_unfinished, old_and_new, undisturbed};
+use super::{check_files, complete, is_unfinished, old_and_new, undisturbed};
 use crate::folder::{Atlas, files, tree};
 
-/// So many runs are killed.
+/// The number of runs that are killed.
 const KILLS: usize = 30;
 
-/// Numbers from 0 to 1, always the same (Knuth's MMIX generator).
+/// A reproducible sequence of random numbers from 0 to 1 (Knuth's MMIX generator).
 struct Random(u64);
 
 impl Random {
@@ -18,34 +18,34 @@ impl Random {
     }
 }
 
-/// Starts a run, kills it after some time, and tells whether it had not ended before.
-fn killed(atlas: &Atlas, after: Duration) -> bool {
+/// Starts a run and kills it after this time; whether it was still running.
+fn kill_after(atlas: &Atlas, time: Duration) -> bool {
     let mut child = atlas.command(&["-q"]).stderr(Stdio::null()).spawn().unwrap();
-    std::thread::sleep(after);
+    std::thread::sleep(time);
     child.kill().unwrap();
     child.wait().unwrap().code().is_none()
 }
 
 #[test]
-fn runs_that_are_killed_at_any_moment_come_to_the_same() {
+fn runs_killed_at_any_moment_lead_to_the_same_files() {
     let [mut from, mut to] = old_and_new();
-    let begun = Instant::now();
+    let start = Instant::now();
     let mut before = undisturbed(&from);
-    // Moments are spread over a run and a bit; how long one takes decides nothing else.
-    let whole = begun.elapsed();
+    // The moments of the kills are spread over this duration and a little more.
+    let duration = start.elapsed();
     let mut after = undisturbed(&to);
     let atlas = Atlas::new(&from);
     let mut random = Random(1951);
     let (mut kills, mut leftovers, mut tries) = (0, 0, 0);
-    // The first runs of all, and then changes from one manifest to the other.
-    complete_after(&atlas, 3, &mut || killed(&atlas, whole.mul_f64(random.next())));
+    // First runs, and then changes from one manifest to the other.
+    complete_after(&atlas, 3, &mut || kill_after(&atlas, duration.mul_f64(random.next())));
     assert!(tree(&atlas.out()) == before);
     while kills < KILLS && tries < 10 * KILLS {
         atlas.edit(&to);
         for _ in 0..4 {
             tries += 1;
-            kills += usize::from(killed(&atlas, whole.mul_f64(1.1 * random.next())));
-            is_sound(&atlas.out(), &before, &after);
+            kills += usize::from(kill_after(&atlas, duration.mul_f64(1.1 * random.next())));
+            check_files(&atlas.out(), &before, &after);
             leftovers += files(&atlas.out()).iter().filter(|name| is_unfinished(name)).count();
         }
         complete(&atlas);
@@ -56,7 +56,7 @@ fn runs_that_are_killed_at_any_moment_come_to_the_same() {
     assert!(kills >= KILLS && leftovers > 0, "{kills} runs were killed, and left {leftovers} files unfinished");
 }
 
-/// A run that ends well after some that are killed.
+/// Kills this many first runs, each in an empty folder, and completes the atlas of the last.
 fn complete_after(atlas: &Atlas, kills: usize, kill: &mut dyn FnMut() -> bool) {
     let mut killed = 0;
     for _ in 0..10 * kills {
@@ -69,16 +69,16 @@ fn complete_after(atlas: &Atlas, kills: usize, kill: &mut dyn FnMut() -> bool) {
     complete(atlas);
 }
 
-/// Of a family that was never recorded, and is no longer in the manifest, nobody knows but by what is left.
+/// The folder `gone` is neither in the record nor in the manifest.
 #[test]
-fn what_is_unfinished_goes_wherever_it_is() {
+fn unfinished_files_are_removed_from_every_folder() {
     let atlas = Atlas::new(&old_and_new()[0]);
     complete(&atlas);
     let expected = tree(&atlas.out());
     fs::create_dir(atlas.out().join("gone")).unwrap();
-    let left = ["gone/.coupler-atlas-a1B2c3.tmp", "evans/.coupler-atlas-zzzzzz.tmp", ".coupler-atlas-000000.tmp"];
+    let unfinished = ["gone/.coupler-atlas-a1B2c3.tmp", "evans/.coupler-atlas-zzzzzz.tmp", ".coupler-atlas-000000.tmp"];
     let mine = ["gone/.coupler-atlas-notes.txt", "gone/notes.tmp", "coupler-atlas-1.tmp"];
-    left.iter().chain(&mine).for_each(|name| fs::write(atlas.out().join(name), "half a pa").unwrap());
+    unfinished.iter().chain(&mine).for_each(|name| fs::write(atlas.out().join(name), "half a pa").unwrap());
     complete(&atlas);
     let mut found = tree(&atlas.out());
     mine.iter().for_each(|name| assert!(found.remove(*name).is_some(), "{name}"));

@@ -1,9 +1,8 @@
-//! What happens when the machine fails: the disk is full, a folder cannot be written, the program is killed, files vanish,
-//! the clock is wrong.
+//! Failures of the machine: a full disk, a folder that cannot be written, a killed program, files that vanish, a wrong
+//! clock.
 //!
-//! Whatever it is, no file is half there under its name, the record says no more than what is so, nothing is lost of what
-//! was there before, the message names the file and the remedy, and the next run completes the atlas to the bytes of an
-//! undisturbed one.
+//! After each of them, every file under its final name is complete, the record is true, no earlier file is lost, the
+//! message names the file and the remedy, and the next run completes the atlas to the bytes of an undisturbed one.
 
 mod clock;
 #[cfg(target_os = "linux")]
@@ -14,9 +13,9 @@ mod places;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::folder::{Atlas, record_is_true, tree};
+use crate::folder::{Atlas, check_record, tree};
 
-/// An atlas of pages, charts and a book, sampled so finely.
+/// A manifest with panels, a chart and a book, sampled with this step.
 fn manifest(step: &str) -> String {
     format!(
         r#"[atlas]
@@ -45,14 +44,14 @@ chart = {{ x = "p", y = ["length"] }}
     )
 }
 
-/// Two manifests of the same files with different bytes.
+/// Two manifests whose atlases have the same files with different bytes.
 fn old_and_new() -> [String; 2] {
     ["10 deg", "6 deg"].map(manifest)
 }
 
 type Tree = BTreeMap<String, Vec<u8>>;
 
-/// What a run makes that nothing disturbs.
+/// The files of an undisturbed run.
 fn undisturbed(manifest: &str) -> Tree {
     let atlas = Atlas::new(manifest);
     complete(&atlas);
@@ -64,20 +63,21 @@ fn complete(atlas: &Atlas) {
     assert_eq!(code, 0, "{err}");
 }
 
-/// What an interrupted run may leave besides the atlas: a lock, and what is not finished.
+/// Whether a file is one that an interrupted run leaves besides the atlas: a lock or an unfinished file.
 fn is_unfinished(name: &str) -> bool {
     name.rsplit('/').next().unwrap().starts_with(".coupler-atlas")
 }
 
-/// Every file is whole, old or new; all that there was before and is to be after is there; nothing is recorded that is not so.
-fn is_sound(out: &Path, before: &Tree, after: &Tree) {
-    record_is_true(out);
+/// Asserts that every file is complete, old or new, that no file of both atlases is missing, and that the record is
+/// true.
+fn check_files(out: &Path, before: &Tree, after: &Tree) {
+    check_record(out);
     let found = tree(out);
     for (name, bytes) in found.iter().filter(|(name, _)| !is_unfinished(name) && *name != "run.json") {
         let is_known = [before, after].iter().any(|tree| tree.get(name) == Some(bytes));
-        assert!(is_known, "{name} is neither as it was nor as it is to be");
+        assert!(is_known, "{name} has neither the old nor the new bytes");
     }
     let lost: Vec<&String> =
         before.keys().filter(|name| after.contains_key(*name) && !found.contains_key(*name)).collect();
-    assert!(lost.is_empty(), "{lost:?} are lost");
+    assert!(lost.is_empty(), "lost files: {lost:?}");
 }

@@ -2,12 +2,12 @@ use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
 
-use super::{complete, is_sound, old_and_new, undisturbed};
+use super::{check_files, complete, old_and_new, undisturbed};
 use crate::folder::{Atlas, tree};
 
-/// A folder where a file is to be, or a file where a folder is to be: a message, its remedy, and nothing spoilt.
+/// A folder at the path of a file, or a file at the path of a folder, is reported with a remedy and left alone.
 #[test]
-fn what_is_in_the_place_of_a_file_is_named_and_left() {
+fn an_obstacle_at_the_path_of_a_file_is_reported_and_kept() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
     let remedy = "something else has this path: move it away, or name another path\n";
@@ -21,13 +21,13 @@ fn what_is_in_the_place_of_a_file_is_named_and_left() {
         fs::write(path.join("mine"), "mine").unwrap();
         let (code, out, err) = atlas.run(&[]);
         assert_eq!((code, out.as_str()), (3, ""), "{name}");
-        let said = format!("error: cannot write out/{name}: ");
-        assert!(err.contains(&said) && err.ends_with(remedy), "{err}");
+        let message = format!("error: cannot write out/{name}: ");
+        assert!(err.contains(&message) && err.ends_with(remedy), "{err}");
         assert_eq!(fs::read_to_string(path.join("mine")).unwrap(), "mine");
         fs::remove_dir_all(&path).unwrap();
-        let there =
+        let others =
             before.iter().filter(|(other, _)| *other != name).map(|(name, bytes)| (name.clone(), bytes.clone()));
-        is_sound(&atlas.out(), &there.collect(), &after);
+        check_files(&atlas.out(), &others.collect(), &after);
         complete(&atlas);
         assert!(tree(&atlas.out()) == after, "{name}");
     }
@@ -47,7 +47,7 @@ fn what_is_in_the_place_of_a_file_is_named_and_left() {
 
 #[cfg(unix)]
 #[test]
-fn a_folder_without_permission_is_left_as_it_is() {
+fn a_folder_without_permission_is_left_unchanged() {
     use std::os::unix::fs::PermissionsExt;
     let [old, new] = old_and_new();
     let atlas = Atlas::new(&old);
@@ -57,14 +57,14 @@ fn a_folder_without_permission_is_left_as_it_is() {
     let allow = |mode| fs::set_permissions(&folder, fs::Permissions::from_mode(mode)).unwrap();
     allow(0o555);
     if fs::write(folder.join("probe"), "").is_ok() {
-        eprintln!("skipped: this user may write where nobody is allowed to");
+        eprintln!("skipped: this user can write in spite of the permissions");
         fs::remove_file(folder.join("probe")).unwrap();
     } else {
         atlas.edit(&new);
         let (code, _, err) = atlas.run(&[]);
         assert!(code == 3 && err.contains("cannot write out/evans/"), "{err}");
         assert!(err.ends_with("; change its permissions, or name another path\n"), "{err}");
-        is_sound(&atlas.out(), &before, &undisturbed(&new));
+        check_files(&atlas.out(), &before, &undisturbed(&new));
     }
     allow(0o755);
     atlas.edit(&new);
@@ -72,9 +72,9 @@ fn a_folder_without_permission_is_left_as_it_is() {
     assert!(tree(&atlas.out()) == undisturbed(&new));
 }
 
-/// Somebody removes files, and whole folders, while they are being made.
+/// Files and whole folders are removed while a run writes them.
 #[test]
-fn what_vanishes_meanwhile_is_made_by_the_next_run() {
+fn files_that_vanish_during_a_run_are_written_by_the_next() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
     let atlas = Atlas::new(&old);
@@ -84,7 +84,7 @@ fn what_vanishes_meanwhile_is_made_by_the_next_run() {
         let (manifest, expected) = if k % 2 == 0 { (&new, &after) } else { (&old, &before) };
         atlas.edit(manifest);
         let mut child = atlas.command(&["-q"]).stderr(Stdio::piped()).spawn().unwrap();
-        // Until it ends it is removed again and again, at other moments each time.
+        // The file is removed again and again until the run ends, at different intervals for each file.
         while child.try_wait().unwrap().is_none() {
             let path = atlas.out().join(name);
             let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
@@ -92,8 +92,9 @@ fn what_vanishes_meanwhile_is_made_by_the_next_run() {
         }
         let output = child.wait_with_output().unwrap();
         let err = String::from_utf8(output.stderr).unwrap();
-        let told = err.starts_with("error: cannot write out") && err.ends_with("its folder no longer exists: run it again\n");
-        assert!(output.status.success() || output.status.code() == Some(3) && told, "{name}: {err}");
+        let is_reported =
+            err.starts_with("error: cannot write out") && err.ends_with("its folder no longer exists: run it again\n");
+        assert!(output.status.success() || output.status.code() == Some(3) && is_reported, "{name}: {err}");
         complete(&atlas);
         assert!(tree(&atlas.out()) == *expected, "{name}");
     }

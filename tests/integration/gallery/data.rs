@@ -1,4 +1,4 @@
-//! What a family's script hands to the page, read back and held against its tables and pages.
+//! The data that a family's script passes to the page, compared with its tables and pages.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -42,7 +42,7 @@ layout = "chart"
 chart = { x = "p", y = ["length"] }
 "#;
 
-/// The statements of a family's script: what each calls, and what it hands over.
+/// The statements of a family's script: the function each calls, and its argument.
 fn statements(script: &str) -> Vec<(String, Value)> {
     let statement = |line: &str| {
         let call = line.strip_prefix("couplerAtlas.").unwrap().strip_suffix(");").unwrap();
@@ -69,12 +69,12 @@ fn u16s(packed: &Value) -> Vec<usize> {
     bytes(packed, "u16").chunks(2).map(|b| usize::from(u16::from_le_bytes(b.try_into().unwrap()))).collect()
 }
 
-/// The rows of a table, by the names of its columns.
+/// The rows of a table, keyed by the names of its columns.
 fn rows(text: &str) -> Vec<BTreeMap<String, String>> {
     csv::Reader::from_reader(text.as_bytes()).deserialize().collect::<Result<_, _>>().unwrap()
 }
 
-/// A family that was rendered: its statements, its rows of `cells.csv`, and the points of each of its curves.
+/// A rendered family: the statements of its script, its rows of `cells.csv`, and the points of each curve.
 struct Rendered {
     atlas: Atlas,
     id: &'static str,
@@ -97,8 +97,9 @@ fn rendered(id: &'static str) -> Rendered {
 }
 
 impl Rendered {
-    fn called(&self, name: &str) -> Vec<&Value> {
-        self.statements.iter().filter(|(called, _)| called == name).map(|(_, value)| value).collect()
+    /// The arguments of all calls of a function.
+    fn calls(&self, name: &str) -> Vec<&Value> {
+        self.statements.iter().filter(|(function, _)| function == name).map(|(_, value)| value).collect()
     }
 }
 
@@ -107,16 +108,16 @@ fn cells_and_measures_are_those_of_the_table_to_the_last_bit() {
     for id in ["evans", "watt", "grid", "over"] {
         let family = rendered(id);
         let names: Vec<&str> =
-            family.called("begin")[0]["names"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+            family.calls("begin")[0]["names"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
         let mut rows = family.cells.iter();
-        for chunk in family.called("cells") {
+        for chunk in family.calls("cells") {
             let (numbers, values) = (u32s(&chunk["number"]), f64s(&chunk["values"]));
             let curves = &chunk["curves"];
-            let (of, traces, circuits) = (u32s(&curves["cell"]), u16s(&curves["trace"]), u16s(&curves["circuit"]));
+            let (owners, traces, circuits) = (u32s(&curves["cell"]), u16s(&curves["trace"]), u16s(&curves["circuit"]));
             for (k, number) in numbers.iter().enumerate() {
-                let own: Vec<usize> = (0..of.len()).filter(|&curve| of[curve] == k).collect();
+                let of_cell: Vec<usize> = (0..owners.len()).filter(|&curve| owners[curve] == k).collect();
                 let status = bytes(&chunk["status"], "u8")[k];
-                for at in if own.is_empty() { vec![None] } else { own.into_iter().map(Some).collect() } {
+                for curve in if of_cell.is_empty() { vec![None] } else { of_cell.into_iter().map(Some).collect() } {
                     let row = rows.next().unwrap();
                     assert_eq!(row["cell"], number.to_string());
                     assert_eq!(row["status"], ["ok", "partial", "none"][usize::from(status)]);
@@ -124,24 +125,25 @@ fn cells_and_measures_are_those_of_the_table_to_the_last_bit() {
                     for (slot, name) in names.iter().enumerate() {
                         assert_eq!(row[*name].parse::<f64>().unwrap(), values[k * names.len() + slot], "{name}");
                     }
-                    let Some(at) = at else { continue };
-                    assert_eq!([&row["trace"], &row["circuit"]], [&traces[at].to_string(), &circuits[at].to_string()]);
+                    let Some(curve) = curve else { continue };
+                    let [trace, circuit] = [&traces, &circuits].map(|numbers| numbers[curve].to_string());
+                    assert_eq!([&row["trace"], &row["circuit"]], [&trace, &circuit]);
                     for (name, column) in curves["measures"].as_object().unwrap() {
-                        let (told, value) = (&row[name], f64s(column)[at]);
+                        let (field, value) = (&row[name], f64s(column)[curve]);
                         assert!(
-                            told.parse() == Ok(value) || (told.is_empty() && value.is_nan()),
-                            "{name}: {told}, {value}"
+                            field.parse() == Ok(value) || (field.is_empty() && value.is_nan()),
+                            "{name}: {field}, {value}"
                         );
                     }
                     for (name, words) in curves["words"].as_object().unwrap() {
-                        let code = usize::from(bytes(&words["codes"], "u8")[at]);
+                        let code = usize::from(bytes(&words["codes"], "u8")[curve]);
                         assert_eq!(row[name], words["values"].get(code).and_then(Value::as_str).unwrap_or_default());
                     }
                 }
             }
         }
         assert!(rows.next().is_none());
-        assert_eq!(family.called("end").len(), 1);
+        assert_eq!(family.calls("end").len(), 1);
     }
 }
 
@@ -149,32 +151,32 @@ fn cells_and_measures_are_those_of_the_table_to_the_last_bit() {
 fn points_are_samples_to_a_65535th_of_the_extent() {
     for id in ["evans", "watt", "grid"] {
         let family = rendered(id);
-        let mut seen = 0;
-        for chunk in family.called("cells") {
+        let mut compared = 0;
+        for chunk in family.calls("cells") {
             let curves = &chunk["curves"];
-            let (numbers, of) = (u32s(&chunk["number"]), u32s(&curves["cell"]));
+            let (numbers, owners) = (u32s(&chunk["number"]), u32s(&curves["cell"]));
             let (traces, circuits, counts) = (u16s(&curves["trace"]), u16s(&curves["circuit"]), u16s(&curves["count"]));
             let (boxes, points) = (f64s(&curves["box"]), u16s(&curves["points"]));
-            let mut at = 0;
-            for curve in 0..of.len() {
-                let samples = &family.points[&[numbers[of[curve]], traces[curve], circuits[curve]]];
+            let mut first = 0;
+            for curve in 0..owners.len() {
+                let samples = &family.points[&[numbers[owners[curve]], traces[curve], circuits[curve]]];
                 let [x0, y0, x1, y1] = [0, 1, 2, 3].map(|k| boxes[4 * curve + k]);
                 // Half a step either way, and the rounding of the sum.
                 let near = |a: f64, b: f64, size: f64| (a - b).abs() <= size * (0.5 / 65535.0 + 1e-12);
                 let mut next = 0;
-                for k in at..at + counts[curve] {
-                    let place = |part: usize, from: f64, to: f64| from + (to - from) * part as f64 / 65535.0;
-                    let [x, y] = [place(points[2 * k], x0, x1), place(points[2 * k + 1], y0, y1)];
+                for k in first..first + counts[curve] {
+                    let unpack = |step: usize, from: f64, to: f64| from + (to - from) * step as f64 / 65535.0;
+                    let [x, y] = [unpack(points[2 * k], x0, x1), unpack(points[2 * k + 1], y0, y1)];
                     // In the order of the samples.
                     let found = samples[next..].iter().position(|p| near(p[0], x, x1 - x0) && near(p[1], y, y1 - y0));
                     next += found.unwrap_or_else(|| panic!("{id}: no sample at {x}, {y}")) + 1;
                 }
                 assert!(counts[curve] == samples.len().min(128), "{id}: {} of {}", counts[curve], samples.len());
-                at += counts[curve];
-                seen += 1;
+                first += counts[curve];
+                compared += 1;
             }
         }
-        assert_eq!(seen, family.points.len());
+        assert_eq!(compared, family.points.len());
     }
 }
 
@@ -182,32 +184,32 @@ fn points_are_samples_to_a_65535th_of_the_extent() {
 fn pages_say_where_their_curves_are() {
     for id in ["evans", "watt", "grid"] {
         let family = rendered(id);
-        let pages = family.called("page");
-        for (page, told) in (1..).zip(&pages) {
-            assert_eq!(told["page"], page);
+        let pages = family.calls("page");
+        for (page, data) in (1..).zip(&pages) {
+            assert_eq!(data["page"], page);
             let svg = fs::read(family.atlas.out().join(family.id).join(format!("{id}-{page:03}.svg"))).unwrap();
             let mut drawn = read_drawn_curves(&svg).unwrap().into_iter();
-            for view in told["views"].as_array().unwrap() {
+            for view in data["views"].as_array().unwrap() {
                 for curve in view["curves"].as_array().unwrap() {
-                    let is = drawn.next().unwrap();
+                    let drawn = drawn.next().unwrap();
                     let number = |value: &Value| value.as_f64().unwrap();
-                    let at = is.page_from_plane;
-                    let told =
+                    let values =
                         [&view["cell"], &curve[0], &curve[1], &view["scale"], &view["origin"][0], &view["origin"][1]];
-                    let is = [is.cell as f64, is.trace as f64, is.circuit as f64, at.scale, at.origin.x, at.origin.y];
-                    assert_eq!(told.map(number), is);
+                    let [cell, trace, circuit] = [drawn.cell, drawn.trace, drawn.circuit].map(|number| number as f64);
+                    let view = drawn.page_from_plane;
+                    assert_eq!(values.map(number), [cell, trace, circuit, view.scale, view.origin.x, view.origin.y]);
                 }
             }
             assert!(drawn.next().is_none());
         }
     }
-    assert_eq!(rendered("evans").called("page").len(), 2);
+    assert_eq!(rendered("evans").calls("page").len(), 2);
     let charts = rendered("over");
-    assert_eq!(charts.called("page")[0]["views"], serde_json::json!([]));
+    assert_eq!(charts.calls("page")[0]["views"], serde_json::json!([]));
 }
 
 #[test]
-fn text_of_the_manifest_ends_no_script() {
+fn text_of_the_manifest_cannot_end_the_script() {
     let family = rendered("evans");
-    assert_eq!(family.called("begin")[0]["title"], "Evans' <i>linkage</i>");
+    assert_eq!(family.calls("begin")[0]["title"], "Evans' <i>linkage</i>");
 }

@@ -1,5 +1,5 @@
-//! The gallery: its data, its page, the files the page is joined from, and its solver. What takes a browser is in
-//! `tests/gallery/`, and run by `.ci/gallery`.
+//! The gallery: its data, its page, the files the page is joined from, and its solver. Tests that need a browser are in
+//! `tests/gallery/` and run by `.ci/gallery`.
 
 mod data;
 mod page;

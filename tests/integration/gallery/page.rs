@@ -1,4 +1,4 @@
-//! The page as it is written.
+//! The page that the program writes, `index.html`.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest, Sha256};
 
-use crate::folder::{Atlas, record_is_true, times};
+use crate::folder::{Atlas, check_record, times};
 
 const MANIFEST: &str = r#"[atlas]
 title = "</script><b>T</b> & \"quotes\""
@@ -30,18 +30,22 @@ fn page(atlas: &Atlas) -> String {
     fs::read_to_string(atlas.out().join("index.html")).unwrap()
 }
 
-/// What stands between two texts, of which each must be there.
+/// The text between two others.
+///
+/// # Panics
+///
+/// If one of them is missing.
 fn between<'t>(text: &'t str, before: &str, after: &str) -> &'t str {
     text.split_once(before).unwrap().1.split_once(after).unwrap().0
 }
 
-fn manifest() -> Atlas {
+fn new_atlas() -> Atlas {
     Atlas::new(MANIFEST)
 }
 
 #[test]
-fn it_may_run_its_own_script_and_nothing_else() {
-    let page = page(&manifest());
+fn the_page_allows_its_own_script_and_style_only() {
+    let page = page(&new_atlas());
     let policy = between(&page, "http-equiv=\"Content-Security-Policy\" content=\"", "\"");
     let digest = |text: &str| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)));
     let script = between(&page, "<script type=\"module\">", "</script>");
@@ -52,15 +56,18 @@ fn it_may_run_its_own_script_and_nothing_else() {
     for wide in ["unsafe", "http:", "https:", "*"] {
         assert!(!policy.contains(wide), "{policy}");
     }
-    // The names of the languages of SVG and XLink are no addresses of anything.
-    let without_names = page.replace("http://www.w3.org/", "");
-    assert!(!without_names.contains("http://") && !without_names.contains("https://"), "an address of another place");
+    // The namespaces of SVG and XLink are not links.
+    let without_namespaces = page.replace("http://www.w3.org/", "");
+    assert!(
+        !without_namespaces.contains("http://") && !without_namespaces.contains("https://"),
+        "the page has a link to another site"
+    );
     assert_eq!(page.matches("<script").count(), 2);
 }
 
 #[test]
-fn text_of_the_manifest_is_text() {
-    let page = page(&manifest());
+fn text_of_the_manifest_is_escaped() {
+    let page = page(&new_atlas());
     assert_eq!(between(&page, "<title>", "</title>"), "&lt;/script&gt;&lt;b&gt;T&lt;/b&gt; &amp; &quot;quotes&quot;");
     let atlas = between(&page, "<script type=\"application/json\" id=\"atlas\">", "</script>");
     assert!(!atlas.contains('<'));
@@ -74,24 +81,24 @@ fn text_of_the_manifest_is_text() {
 }
 
 #[test]
-fn a_second_run_leaves_it_alone_and_one_that_was_edited_is_written_again() {
-    let atlas = manifest();
+fn a_second_run_keeps_an_unchanged_page_and_restores_an_edited_one() {
+    let atlas = new_atlas();
     let first = page(&atlas);
     let before = times(&atlas.out());
     assert_eq!(page(&atlas), first);
     assert_eq!(times(&atlas.out()), before);
-    record_is_true(&atlas.out());
+    check_record(&atlas.out());
     fs::write(atlas.out().join("index.html"), "edited").unwrap();
     fs::remove_file(atlas.out().join("evans/gallery.js")).unwrap();
     assert_eq!(page(&atlas), first);
-    record_is_true(&atlas.out());
+    check_record(&atlas.out());
 }
 
 #[test]
-fn it_has_the_families_of_all_runs_into_its_folder() {
-    let atlas = manifest();
-    let one = page(&atlas);
-    assert!(!one.contains("\"bare\""));
+fn the_page_lists_the_families_of_all_runs_into_its_folder() {
+    let atlas = new_atlas();
+    let first = page(&atlas);
+    assert!(!first.contains("\"bare\""));
     let (code, _, err) = atlas.run(&["--only", "bare"]);
     assert_eq!(code, 0, "{err}");
     let both = fs::read_to_string(atlas.out().join("index.html")).unwrap();

@@ -66,27 +66,27 @@ fn every_file_of_the_page_is_in_it() {
 }
 
 #[test]
-fn a_module_comes_after_those_it_imports_and_they_export_what_it_asks_for() {
-    let mut known: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+fn a_module_comes_after_its_imports_and_they_export_the_names_it_uses() {
+    let mut exports: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for part in SCRIPTS {
         for (name, from) in imports(part) {
             let exported =
-                known.get(from.as_str()).unwrap_or_else(|| panic!("{}: {from} comes later, or not at all", part.name));
-            assert!(exported.contains(&name), "{}: {from} has no {name}", part.name);
+                exports.get(from.as_str()).unwrap_or_else(|| panic!("{}: {from} does not come before it", part.name));
+            assert!(exported.contains(&name), "{}: {from} does not export {name}", part.name);
         }
         let exported = definitions(part).into_iter().filter(|(_, is_exported)| *is_exported).map(|(name, _)| name);
-        known.insert(part.name, exported.collect());
+        exports.insert(part.name, exported.collect());
     }
 }
 
 #[test]
-fn no_name_is_used_twice() {
-    let mut of: BTreeMap<String, &str> = BTreeMap::new();
+fn no_name_is_defined_twice() {
+    let mut files: BTreeMap<String, &str> = BTreeMap::new();
     for part in SCRIPTS {
         for (name, _) in definitions(part) {
             assert!(!name.is_empty(), "{}: a definition without a single name", part.name);
-            if let Some(other) = of.insert(name.clone(), part.name) {
-                panic!("{name} is in {other} and in {}", part.name);
+            if let Some(other) = files.insert(name.clone(), part.name) {
+                panic!("{name} is defined in {other} and in {}", part.name);
             }
         }
     }
@@ -127,7 +127,7 @@ fn text_never_becomes_markup_or_code() {
     }
 }
 
-/// A file of a few hundred lines reads in one go.
+/// Each file is short enough to be read as a whole.
 #[test]
 fn files_are_small() {
     for part in SCRIPTS.iter().chain(STYLES) {

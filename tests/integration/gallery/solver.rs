@@ -1,4 +1,4 @@
-//! The page's own solver, held against the program's: node runs it, where there is node.
+//! The page's own solver, compared with the program's; skipped if node is not installed.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -15,18 +15,21 @@ use coupler_curves::motion::{Circuit, Motion, Sampler};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// A number, or nothing where it is not one: JSON has no other way.
+/// A number in JSON: infinities as strings, NaN as null.
 fn number(value: f64) -> Value {
     if value.is_infinite() { json!(value.to_string()) } else { json!(value) }
 }
 
 fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
-    let rows = |of: &dyn Fn(JointId) -> Vec<Value>| linkage.joint_ids().map(of).collect::<Vec<_>>();
+    let rows = |row: &dyn Fn(JointId) -> Vec<Value>| linkage.joint_ids().map(row).collect::<Vec<_>>();
     let column = |values: &[f64]| values.iter().map(|value| json!(value)).collect::<Vec<_>>();
-    let sides = |signs: coupler_curves::linkage::AssemblyMode| {
-        linkage.dyad_ids().map(|dyad| signs.sign(dyad)).collect::<Vec<_>>()
+    let sides = |mode: coupler_curves::linkage::AssemblyMode| {
+        linkage.dyad_ids().map(|dyad| mode.sign(dyad)).collect::<Vec<_>>()
     };
-    let pass = |pass: &coupler_curves::motion::Pass| json!({ "from": pass.from.input.value, "to": pass.to.input.value, "signs": sides(pass.mode) });
+    let pass = |pass: &coupler_curves::motion::Pass| {
+        let [from, to] = [&pass.from, &pass.to].map(|end| end.input.value);
+        json!({ "from": from, "to": to, "signs": sides(pass.mode) })
+    };
     json!({
         "closed": circuit.is_closed,
         "input": circuit.inputs,
@@ -38,10 +41,10 @@ fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
 }
 
 fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
-    let mut told = Vec::new();
+    let mut measures = Vec::new();
     for (trace, &joint) in (1..).zip(&linkage.traced) {
-        for (number_of_circuit, circuit) in (1..).zip(&motion.circuits) {
-            let subject = TracedCurve::new(linkage, motion, circuit, joint).with_straight_criterion(family.straight);
+        for (circuit_number, circuit) in (1..).zip(&motion.circuits) {
+            let curve = TracedCurve::new(linkage, motion, circuit, joint).with_straight_criterion(family.straight);
             let value = |value: Measured| match value {
                 Measured::Number(value) => number(value),
                 Measured::Word(word) => json!(word),
@@ -49,32 +52,32 @@ fn measures(family: &Family, linkage: &Linkage, motion: &Motion) -> Vec<Value> {
             };
             let values: serde_json::Map<String, Value> = measure::ALL
                 .iter()
-                .zip(measure::compute_all(&subject))
-                .map(|(measure, taken)| (measure.name.to_owned(), value(taken)))
+                .zip(measure::compute_all(&curve))
+                .map(|(measure, computed)| (measure.name.to_owned(), value(computed)))
                 .collect();
-            told.push(json!({ "trace": trace, "circuit": number_of_circuit, "values": values }));
+            measures.push(json!({ "trace": trace, "circuit": circuit_number, "values": values }));
         }
     }
-    told
+    measures
 }
 
-/// Every further column of the first traced joint, sample by sample.
+/// Every additional column of the first traced joint, sample by sample.
 fn rates(linkage: &Linkage, motion: &Motion) -> Vec<Value> {
-    let of_circuit = |(number_of_circuit, circuit): (usize, &Circuit)| {
-        let taken: Vec<Vec<f64>> = (0..circuit.len())
+    let circuit_columns = |(circuit_number, circuit): (usize, &Circuit)| {
+        let rows: Vec<Vec<f64>> = (0..circuit.len())
             .map(|sample| compute_columns(&COLUMNS, linkage, (circuit, linkage.traced[0]), sample))
             .collect();
         let values: serde_json::Map<String, Value> = COLUMNS
             .iter()
             .enumerate()
-            .map(|(k, column)| (column.name.to_owned(), taken.iter().map(|row| number(row[k])).collect()))
+            .map(|(k, column)| (column.name.to_owned(), rows.iter().map(|row| number(row[k])).collect()))
             .collect();
-        json!({ "trace": 1, "circuit": number_of_circuit, "values": values })
+        json!({ "trace": 1, "circuit": circuit_number, "values": values })
     };
-    (1..).zip(&motion.circuits).map(of_circuit).collect()
+    (1..).zip(&motion.circuits).map(circuit_columns).collect()
 }
 
-/// A cell of a family as the page's solver is given it, and what the program makes of it.
+/// A cell of a family as input of the page's solver, with the program's results.
 fn case(family: &Family, cell: usize, name: &str) -> Value {
     let cell = family.cell(cell);
     let linkage = family.linkage(&cell).unwrap();
@@ -94,16 +97,16 @@ fn case(family: &Family, cell: usize, name: &str) -> Value {
     })
 }
 
-/// A family with other ways to travel.
-fn travelling(family: &Family, circuits: CircuitSelection, continuation: Continuation) -> Family {
+/// The family with other circuits selected and continued in another way.
+fn with_circuits(family: &Family, circuits: CircuitSelection, continuation: Continuation) -> Family {
     let template = coupler_curves::template::Template { circuits, continuation, ..(*family.template).clone() };
     Family { template: template.into(), ..family.clone() }
 }
 
-/// So many cells, the first and the last among them.
-fn some(count: usize, of: usize) -> impl Iterator<Item = usize> {
-    let shown = count.min(of);
-    (0..shown).map(move |k| if shown < 2 { 0 } else { k * (of - 1) / (shown - 1) })
+/// The indices of at most this many cells, evenly spread, the first and the last among them.
+fn spread_cells(count: usize, total: usize) -> impl Iterator<Item = usize> {
+    let count = count.min(total);
+    (0..count).map(move |k| if count < 2 { 0 } else { k * (total - 1) / (count - 1) })
 }
 
 fn cases() -> Vec<Value> {
@@ -113,15 +116,15 @@ fn cases() -> Vec<Value> {
     for planned in &atlas.families {
         let family = &planned.family;
         linkages.insert(family.template.id.clone());
-        for cell in some(6, family.cell_count()) {
+        for cell in spread_cells(6, family.cell_count()) {
             cases.push(case(family, cell, &family.id));
         }
         for (circuits, continuation) in
             [(CircuitSelection::All, Continuation::Smooth), (CircuitSelection::All, Continuation::Branch)]
         {
-            let other = travelling(family, circuits, continuation);
+            let other = with_circuits(family, circuits, continuation);
             let name = format!("{}, all circuits, {continuation:?}", family.id);
-            cases.extend(some(2, family.cell_count()).map(|cell| case(&other, cell, &name)));
+            cases.extend(spread_cells(2, family.cell_count()).map(|cell| case(&other, cell, &name)));
         }
     }
     for template in catalogue::all() {
@@ -130,16 +133,16 @@ fn cases() -> Vec<Value> {
     cases
 }
 
-/// Runs a script of `tests/gallery` under node, and tells what it said; nothing where there is no node.
+/// Runs a script of `tests/gallery` under node; its standard output, or `None` if node is not installed.
 fn node(script: &str, arguments: &[&Path]) -> Option<String> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gallery").join(script);
-    let Ok(run) = Command::new("node").arg(&script).args(arguments).output() else {
-        eprintln!("skipped: node is not installed, and {} is not run", script.display());
+    let Ok(output) = Command::new("node").arg(&script).args(arguments).output() else {
+        eprintln!("skipped: node is not installed, and {} cannot run", script.display());
         return None;
     };
-    let told = String::from_utf8_lossy(&run.stdout).into_owned();
-    assert!(run.status.success(), "{told}{}", String::from_utf8_lossy(&run.stderr));
-    Some(told)
+    let stdout = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{stdout}{}", String::from_utf8_lossy(&output.stderr));
+    Some(stdout)
 }
 
 #[test]
@@ -148,20 +151,20 @@ fn the_page_solves_every_catalogue_linkage_as_the_program_does() {
     let path = folder.path().join("cases.json");
     let cases = cases();
     fs::write(&path, serde_json::to_vec(&cases).unwrap()).unwrap();
-    let Some(told) = node("solver.mjs", &[&path]) else { return };
-    // It compares what it is given.
-    assert!(told.contains(&format!("{} cases", cases.len())), "{told}");
+    let Some(stdout) = node("solver.mjs", &[&path]) else { return };
+    // The script compares all cases.
+    assert!(stdout.contains(&format!("{} cases", cases.len())), "{stdout}");
 }
 
 #[test]
-fn the_pages_solver_and_measures_keep_to_closed_forms() {
+fn the_pages_solver_and_measures_agree_with_closed_forms() {
     node("kinematics.mjs", &[]);
     node("measures.mjs", &[]);
 }
 
 /// Tests plates, filters and exports with the families of the committed atlas.
 #[test]
-fn the_page_reckons_with_the_committed_atlas() {
+fn the_page_computes_with_the_committed_atlas() {
     let atlas = Path::new(env!("CARGO_MANIFEST_DIR")).join("output");
     for script in ["plate-parts.mjs", "find.mjs", "export.mjs"] {
         node(script, &[&atlas]);

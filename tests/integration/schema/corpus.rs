@@ -1,4 +1,4 @@
-//! Whatever the reader accepts satisfies the schema.
+//! Every manifest that the parser accepts satisfies the schema.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,41 +7,45 @@ use std::process::Command;
 use coupler_atlas::manifest;
 use serde_json::{Value, json};
 
-use super::{json, objections};
+use super::{json, schema_errors};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// Collects the files with an extension below a folder.
 fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
     for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
         match path.is_dir() {
             true => files(&path, extension, found),
-            false if path.extension().is_some_and(|known| known == extension) => found.push(path),
+            false if path.extension().is_some_and(|other| other == extension) => found.push(path),
             false => {}
         }
     }
 }
 
-/// The parts of a text between two marks.
-fn between<'a>(text: &'a str, from: &str, to: &str) -> Vec<&'a str> {
-    text.split(from).skip(1).filter_map(|rest| rest.split(to).next()).collect()
+/// The parts of a text between an opening and a closing delimiter.
+fn between<'a>(text: &'a str, open: &str, close: &str) -> Vec<&'a str> {
+    text.split(open).skip(1).filter_map(|rest| rest.split(close).next()).collect()
 }
 
-/// Checks the manifest, if the reader takes it for one.
-fn satisfies(text: &str, name: &str) -> bool {
-    let is_manifest = manifest::parse(text).plan.is_some();
-    if is_manifest {
-        let objections = objections(&json(text));
-        assert!(objections.is_empty(), "{name}: {objections}");
+/// Whether the parser accepts a text as a manifest.
+///
+/// # Panics
+///
+/// If the parser accepts it and the schema does not.
+fn is_manifest(text: &str, name: &str) -> bool {
+    let is_accepted = manifest::parse(text).plan.is_some();
+    if is_accepted {
+        let errors = schema_errors(&json(text));
+        assert!(errors.is_empty(), "{name}: {errors}");
     }
-    is_manifest
+    is_accepted
 }
 
 #[test]
 fn every_manifest_of_the_repository_satisfies_the_schema() {
-    let whole = ["atlas.toml", "examples", "src/cli/starter.toml", "tests/integration/schema/every-key.toml"];
-    for name in whole {
+    for name in ["atlas.toml", "examples", "src/cli/starter.toml", "tests/integration/schema/every-key.toml"] {
         let path = root().join(name);
         let mut found = vec![path.clone()];
         if path.is_dir() {
@@ -49,19 +53,25 @@ fn every_manifest_of_the_repository_satisfies_the_schema() {
             files(&path, "toml", &mut found);
         }
         for path in found {
-            assert!(satisfies(&fs::read_to_string(&path).unwrap(), name), "{} is a manifest", path.display());
+            assert!(is_manifest(&fs::read_to_string(&path).unwrap(), name), "{} is not a manifest", path.display());
         }
     }
-    let readme = fs::read_to_string(root().join("docs/manifest.md")).unwrap();
-    assert!(between(&readme, "```toml\n", "```").into_iter().all(|text| satisfies(text, "docs/manifest.md")));
-    // Those of the tests, so far as they stand there whole and good.
+    for name in ["README.md", "docs/manifest.md", "docs/tutorial.md"] {
+        let document = fs::read_to_string(root().join(name)).unwrap();
+        let blocks = between(&document, "```toml\n", "```");
+        assert!(!blocks.is_empty(), "{name} has no TOML block");
+        for block in blocks {
+            assert!(is_manifest(block, name), "{name} has a TOML block that is not a manifest:\n{block}");
+        }
+    }
+    // The manifests of the tests, as far as they are written as one valid text.
     let mut tests = Vec::new();
     files(&root().join("tests/integration"), "rs", &mut tests);
     let checked = tests.iter().map(|path| {
         let text = fs::read_to_string(path).unwrap();
-        between(&text, "r#\"", "\"#").into_iter().filter(|text| satisfies(text, &path.to_string_lossy())).count()
+        between(&text, "r#\"", "\"#").into_iter().filter(|text| is_manifest(text, &path.to_string_lossy())).count()
     });
-    assert!(checked.sum::<usize>() > 8, "the tests' manifests are found");
+    assert!(checked.sum::<usize>() > 8, "too few manifests found in the tests");
 }
 
 #[test]
@@ -74,8 +84,8 @@ fn the_catalogue_and_what_the_program_writes_satisfy_the_schema() {
         let mut manifest = json(&fs::read_to_string(&path).unwrap());
         manifest["atlas"] = json!({ "title": "T" });
         manifest["family"] = Value::Array(vec![family.clone()]);
-        let objections = objections(&manifest);
-        assert!(objections.is_empty(), "{}: {objections}", path.display());
+        let errors = schema_errors(&manifest);
+        assert!(errors.is_empty(), "{}: {errors}", path.display());
     }
     for arguments in [
         &["design", "straight-line", "--input", "motor", "--p", "2.5", "--toml"][..],
@@ -83,6 +93,6 @@ fn the_catalogue_and_what_the_program_writes_satisfy_the_schema() {
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(arguments).output().unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
-        assert!(satisfies(&text, arguments[0]), "{arguments:?}: {text}{}", String::from_utf8_lossy(&output.stderr));
+        assert!(is_manifest(&text, arguments[0]), "{arguments:?}: {text}{}", String::from_utf8_lossy(&output.stderr));
     }
 }

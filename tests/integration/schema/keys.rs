@@ -1,4 +1,4 @@
-//! The schema has the reader's keys, and no others.
+//! The schema has the same keys as the parser.
 
 use std::collections::BTreeSet;
 
@@ -6,9 +6,9 @@ use coupler_atlas::manifest::{self, MANIFEST, PlannedFamily, TableSchema, ValueS
 use coupler_curves::template::Template;
 use serde_json::Value;
 
-use super::{EVERY_KEY, SCHEMA, complaints, is_valid, json, places, toml};
+use super::{EVERY_KEY, SCHEMA, collect_pointers, is_valid, json, parser_errors, toml};
 
-/// The tables a schema may stand for: itself, or those of its alternatives.
+/// The table schemas of a schema: itself, or those among its alternatives.
 fn tables(schema: &Value) -> Vec<&Value> {
     if schema.get("properties").is_some() {
         return vec![schema];
@@ -17,7 +17,7 @@ fn tables(schema: &Value) -> Vec<&Value> {
     alternatives.flatten().flat_map(tables).collect()
 }
 
-/// The schemas of what is in a value of a schema, by the key; of a list, that of all its items.
+/// The schemas of the values one level below a schema: of the key in a table, of all items in a list.
 fn inner<'s>(schema: &'s Value, key: &str) -> Vec<&'s Value> {
     let mut found = Vec::new();
     found.extend(schema.get("properties").and_then(|properties| properties.get(key)));
@@ -28,10 +28,10 @@ fn inner<'s>(schema: &'s Value, key: &str) -> Vec<&'s Value> {
     found
 }
 
-/// The tables of the program's own that may stand at a place of a manifest, without those that do not have its keys.
-fn tables_at<'s>(place: &str, value: &Value) -> Vec<&'s Value> {
+/// The table schemas at a JSON pointer of a manifest that have all keys of the value there.
+fn tables_at<'s>(pointer: &str, value: &Value) -> Vec<&'s Value> {
     let mut schemas = vec![&*SCHEMA];
-    for key in place.split('/').skip(1) {
+    for key in pointer.split('/').skip(1) {
         schemas = schemas.into_iter().flat_map(|schema| inner(schema, key)).collect();
     }
     let entries = value.as_object().unwrap();
@@ -39,132 +39,133 @@ fn tables_at<'s>(place: &str, value: &Value) -> Vec<&'s Value> {
     schemas.into_iter().flat_map(tables).filter(has_keys).collect()
 }
 
-/// The words in backticks.
-fn quoted(text: &str) -> BTreeSet<&str> {
+/// The words in backquotes.
+fn quoted_words(text: &str) -> BTreeSet<&str> {
     text.split('`').skip(1).step_by(2).collect()
 }
 
-/// Asked for a key that is like none, the reader names all it knows.
+/// Compares the schema with the parser's help for a key that resembles none, which lists all keys of the table.
 #[test]
-fn each_table_has_the_keys_that_the_reader_knows() {
+fn each_table_has_the_keys_that_the_parser_knows() {
     let whole = json(EVERY_KEY);
-    let mut all = Vec::new();
-    places(&whole, "", &mut all);
-    let mut seen = 0;
-    for place in all {
-        let value = whole.pointer(&place).unwrap();
+    let mut pointers = Vec::new();
+    collect_pointers(&whole, "", &mut pointers);
+    let mut compared = 0;
+    for pointer in pointers {
+        let value = whole.pointer(&pointer).unwrap();
         if !value.is_object() {
             continue;
         }
-        let tables = tables_at(&place, value);
-        let mut strange = whole.clone();
-        strange.pointer_mut(&place).unwrap()["zzzzzzzzzzzzzzzzzzzzzzzz"] = Value::from("1");
-        let said = complaints(&toml(&strange)).unwrap_or_default();
-        let Some((_, help)) = said.iter().find(|(message, _)| message.contains(" has no key `zzz")) else {
-            assert!(tables.is_empty(), "{place} has keys of its own in the schema only");
+        let tables = tables_at(&pointer, value);
+        let mut changed = whole.clone();
+        changed.pointer_mut(&pointer).unwrap()["zzzzzzzzzzzzzzzzzzzzzzzz"] = Value::from("1");
+        let errors = parser_errors(&toml(&changed)).unwrap_or_default();
+        let Some((_, help)) = errors.iter().find(|(message, _)| message.contains(" has no key `zzz")) else {
+            assert!(tables.is_empty(), "{pointer} has fixed keys in the schema only");
             continue;
         };
-        assert!(!is_valid(&strange), "{place}");
+        assert!(!is_valid(&changed), "{pointer}");
         let known: Vec<BTreeSet<&str>> = tables
             .iter()
             .map(|table| table["properties"].as_object().unwrap().keys().map(String::as_str).collect())
             .collect();
-        assert!(known.contains(&quoted(help)), "{place}: the reader says {help}, the schema {known:?}");
-        seen += 1;
+        assert!(known.contains(&quoted_words(help)), "{pointer}: the parser says {help}, the schema {known:?}");
+        compared += 1;
     }
-    assert_eq!(seen, 45, "tables were compared");
+    assert_eq!(compared, 45, "the number of tables compared");
 }
 
-/// The keys that a manifest gives in the tables of its form, each by its table and its name.
-fn given(form: &ValueSchema, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
-    match (form, value) {
-        (ValueSchema::Table(table), Value::Object(_)) => given_in(table, value, found),
-        (ValueSchema::List(of, _) | ValueSchema::Set(of, _) | ValueSchema::OneOrMore(of, _), Value::Array(items)) => {
-            items.iter().for_each(|item| given(of, item, found));
+/// Collects the keys that a manifest gives, each with the name of its table.
+fn collect_given_keys(schema: &ValueSchema, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
+    match (schema, value) {
+        (ValueSchema::Table(table), Value::Object(_)) => collect_given_keys_of(table, value, found),
+        (
+            ValueSchema::List(inner, _) | ValueSchema::Set(inner, _) | ValueSchema::OneOrMore(inner, _),
+            Value::Array(items),
+        ) => {
+            items.iter().for_each(|item| collect_given_keys(inner, item, found));
         }
-        (ValueSchema::OneOrMore(of, _) | ValueSchema::WithExamples(of, _), value) => given(of, value, found),
-        (ValueSchema::IdentifierMap(of) | ValueSchema::Map(of), Value::Object(entries)) => {
-            entries.values().for_each(|value| given(of, value, found));
+        (ValueSchema::OneOrMore(inner, _) | ValueSchema::WithExamples(inner, _), value) => {
+            collect_given_keys(inner, value, found);
         }
-        (ValueSchema::Variants(kinds), Value::Object(entries)) => {
-            let kind = kinds.iter().find(|(key, _)| entries.contains_key(*key)).unwrap();
-            given_in(&kind.1, value, found);
+        (ValueSchema::IdentifierMap(inner) | ValueSchema::Map(inner), Value::Object(entries)) => {
+            entries.values().for_each(|value| collect_given_keys(inner, value, found));
         }
-        (ValueSchema::AnyOf(forms), value) => forms.iter().for_each(|form| given(form, value, found)),
+        (ValueSchema::Variants(variants), Value::Object(entries)) => {
+            let variant = variants.iter().find(|(key, _)| entries.contains_key(*key)).unwrap();
+            collect_given_keys_of(&variant.1, value, found);
+        }
+        (ValueSchema::AnyOf(schemas), value) => {
+            schemas.iter().for_each(|schema| collect_given_keys(schema, value, found));
+        }
         _ => {}
     }
 }
 
-fn given_in(table: &TableSchema, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
+fn collect_given_keys_of(table: &TableSchema, value: &Value, found: &mut BTreeSet<(&'static str, &'static str)>) {
     for key in table.keys {
         if let Some(value) = value.get(key.name) {
             found.insert((table.display_name, key.name));
-            given(&key.value, value, found);
+            collect_given_keys(&key.value, value, found);
         }
     }
 }
 
-/// Every table of a form, with its keys.
-fn known(form: &ValueSchema, found: &mut BTreeSet<(&'static str, &'static str)>) {
-    match form {
-        ValueSchema::Table(table) => known_in(table, found),
-        ValueSchema::List(of, _)
-        | ValueSchema::Set(of, _)
-        | ValueSchema::OneOrMore(of, _)
-        | ValueSchema::WithExamples(of, _) => known(of, found),
-        ValueSchema::IdentifierMap(of) | ValueSchema::Map(of) => known(of, found),
-        ValueSchema::Variants(kinds) => kinds.iter().for_each(|(_, table)| known_in(table, found)),
-        ValueSchema::AnyOf(forms) => forms.iter().for_each(|form| known(form, found)),
+/// Collects the keys of all tables in a schema, each with the name of its table.
+fn collect_known_keys(schema: &ValueSchema, found: &mut BTreeSet<(&'static str, &'static str)>) {
+    match schema {
+        ValueSchema::Table(table) => collect_known_keys_of(table, found),
+        ValueSchema::List(inner, _)
+        | ValueSchema::Set(inner, _)
+        | ValueSchema::OneOrMore(inner, _)
+        | ValueSchema::WithExamples(inner, _) => collect_known_keys(inner, found),
+        ValueSchema::IdentifierMap(inner) | ValueSchema::Map(inner) => collect_known_keys(inner, found),
+        ValueSchema::Variants(variants) => variants.iter().for_each(|(_, table)| collect_known_keys_of(table, found)),
+        ValueSchema::AnyOf(schemas) => schemas.iter().for_each(|schema| collect_known_keys(schema, found)),
         _ => {}
     }
 }
 
-fn known_in(table: &TableSchema, found: &mut BTreeSet<(&'static str, &'static str)>) {
+fn collect_known_keys_of(table: &TableSchema, found: &mut BTreeSet<(&'static str, &'static str)>) {
     for key in table.keys {
         assert!(
             key.description.ends_with(['.']) && key.description.len() > 8,
-            "{} of {} is described",
+            "the description of `{}` of {} is too short or has no full stop",
             key.name,
             table.display_name
         );
         let is_json = |default: fn() -> String| serde_json::from_str::<Value>(&default()).is_ok();
-        assert!(
-            key.default.is_none_or(is_json),
-            "the default of {} of {} is JSON",
-            key.name,
-            table.display_name
-        );
+        assert!(key.default.is_none_or(is_json), "the default of `{}` of {} is not JSON", key.name, table.display_name);
         found.insert((table.display_name, key.name));
-        known(&key.value, found);
+        collect_known_keys(&key.value, found);
     }
 }
 
-/// Without this, the tests that go by that manifest would say nothing of a new key.
+/// Ensures that the tests based on that manifest cover every new key.
 #[test]
 fn the_manifest_with_every_key_has_every_key() {
-    let (mut here, mut all) = (BTreeSet::new(), BTreeSet::new());
-    given_in(&MANIFEST, &json(EVERY_KEY), &mut here);
-    known_in(&MANIFEST, &mut all);
-    let missing: Vec<_> = all.difference(&here).collect();
-    assert!(missing.is_empty() && all.len() > 120, "{missing:?} of {}", all.len());
+    let (mut given, mut known) = (BTreeSet::new(), BTreeSet::new());
+    collect_given_keys_of(&MANIFEST, &json(EVERY_KEY), &mut given);
+    collect_known_keys_of(&MANIFEST, &mut known);
+    let missing: Vec<_> = known.difference(&given).collect();
+    assert!(missing.is_empty() && known.len() > 120, "{missing:?} of {}", known.len());
 }
 
-/// A default that is written out changes nothing.
 #[test]
-fn defaults_are_what_holds_without_them() {
-    let least = "[atlas]\ntitle = \"T\"\n[page]\ntheme = {}\n[[family]]\nid = \"f\"\nlinkage = \"own\"\nplace = {}\n\
+fn writing_out_a_default_changes_nothing() {
+    let minimal = "[atlas]\ntitle = \"T\"\n[page]\ntheme = {}\n[[family]]\nid = \"f\"\nlinkage = \"own\"\nplace = {}\n\
                  sampling = { samples = 9 }\ncases = [{ g = 4 }]\n[[linkage]]\nid = \"own\"\ntrace = [\"M\"]\n\
                  parameters = { g = {} }\n[linkage.joints]\nO = { fixed = [0, 0] }\nC = { fixed = [\"g\", 0] }\n\
                  A = { crank = \"O\", length = 1 }\nB = { dyad = [\"A\", \"C\"], lengths = [3, 3], side = \"left\" }\n\
                  M = { point = [\"A\", \"B\"] }\nG = { gear = \"A\", about = \"C\", length = 1, ratio = [1, 1] }\n\
                  N = { dyad = [\"G\", \"M\"], lengths = [9, 9], side = \"left\" }\n";
-    let least = least.replace("trace = [\"M\"]", "trace = [\"M\", \"N\"]");
+    let minimal = minimal.replace("trace = [\"M\"]", "trace = [\"M\", \"N\"]");
     let plan = |manifest: &Value| {
         let plan = manifest::parse(&toml(manifest)).plan.unwrap_or_else(|| panic!("{}", toml(manifest)));
         let PlannedFamily { family, layout, chart, formats, source, .. } = &plan.families[0];
         let Template { circuits, continuation, coincident, orientation: placement, .. } = &*family.template;
         let linkage = family.linkage(&family.cell(0)).unwrap();
-        let asked = (
+        let options = (
             &family.sampling,
             &family.columns,
             &family.is_computed,
@@ -173,24 +174,24 @@ fn defaults_are_what_holds_without_them() {
             continuation,
             coincident,
         );
-        let whole = (&plan.title, &plan.output, plan.volume_pages, &plan.page, plan.dpi, plan.text_mode);
-        format!("{whole:?} {layout:?} {chart:?} {formats:?} {source} {asked:?} {placement:?} {linkage:?}")
+        let atlas = (&plan.title, &plan.output, plan.volume_pages, &plan.page, plan.dpi, plan.text_mode);
+        format!("{atlas:?} {layout:?} {chart:?} {formats:?} {source} {options:?} {placement:?} {linkage:?}")
     };
-    let (whole, mut seen) = (json(&least), 0);
-    let without = plan(&whole);
-    let mut all = Vec::new();
-    places(&whole, "", &mut all);
-    for place in all {
-        let value = whole.pointer(&place).unwrap();
-        let tables = if value.is_object() { tables_at(&place, value) } else { Vec::new() };
+    let (whole, mut compared) = (json(&minimal), 0);
+    let expected = plan(&whole);
+    let mut pointers = Vec::new();
+    collect_pointers(&whole, "", &mut pointers);
+    for pointer in pointers {
+        let value = whole.pointer(&pointer).unwrap();
+        let tables = if value.is_object() { tables_at(&pointer, value) } else { Vec::new() };
         let [table] = tables[..] else { continue };
         for (key, property) in table["properties"].as_object().unwrap() {
             let Some(default) = property.get("default").filter(|_| value.get(key).is_none()) else { continue };
-            let mut with = whole.clone();
-            with.pointer_mut(&place).unwrap()[key] = default.clone();
-            assert_eq!(plan(&with), without, "{place}/{key}");
-            seen += 1;
+            let mut changed = whole.clone();
+            changed.pointer_mut(&pointer).unwrap()[key] = default.clone();
+            assert_eq!(plan(&changed), expected, "{pointer}/{key}");
+            compared += 1;
         }
     }
-    assert!(seen >= 25, "{seen} defaults were written out");
+    assert!(compared >= 25, "only {compared} defaults were written out");
 }

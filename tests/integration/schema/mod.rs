@@ -1,4 +1,4 @@
-//! The schema of manifests, held against what their reader accepts.
+//! The JSON schema of manifests, compared with what the parser accepts.
 
 mod corpus;
 mod keys;
@@ -13,7 +13,7 @@ use jsonschema::Validator;
 use serde_json::{Map, Number, Value};
 use toml::de::{DeTable, DeValue};
 
-/// A manifest with every key there is.
+/// A manifest with every key.
 const EVERY_KEY: &str = include_str!("every-key.toml");
 
 /// What `list schema` prints.
@@ -25,24 +25,24 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
 
 static VALIDATOR: LazyLock<Validator> = LazyLock::new(|| jsonschema::draft202012::new(&SCHEMA).unwrap());
 
-/// Whether the schema has nothing against a manifest.
+/// Whether a manifest satisfies the schema.
 fn is_valid(manifest: &Value) -> bool {
     VALIDATOR.is_valid(manifest)
 }
 
-/// What the schema has against a manifest.
-fn objections(manifest: &Value) -> String {
+/// The violations of the schema by a manifest, a line each.
+fn schema_errors(manifest: &Value) -> String {
     VALIDATOR.iter_errors(manifest).map(|error| format!("{}: {error}\n", error.instance_path())).collect()
 }
 
-/// What the reader has against a manifest; none where it makes a plan of it.
-fn complaints(text: &str) -> Option<Vec<(String, String)>> {
+/// The messages and help texts of the parser's errors; `None` if it accepts the manifest.
+fn parser_errors(text: &str) -> Option<Vec<(String, String)>> {
     let loaded = manifest::parse(text);
-    let said = loaded.problems.into_iter().filter(|problem| problem.is_error());
-    loaded.plan.is_none().then(|| said.map(|problem| (problem.message, problem.help)).collect())
+    let errors = loaded.problems.into_iter().filter(|problem| problem.is_error());
+    loaded.plan.is_none().then(|| errors.map(|problem| (problem.message, problem.help)).collect())
 }
 
-/// TOML as editors' schemas see it.
+/// A TOML text as JSON, as editors check it against a schema.
 fn json(text: &str) -> Value {
     let table = DeTable::parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     table_as_json(table.get_ref())
@@ -58,14 +58,14 @@ fn as_json(value: &DeValue) -> Value {
         DeValue::String(text) => Value::String(text.to_string()),
         DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).unwrap().into(),
         DeValue::Float(number) => Number::from_f64(number.as_str().parse().unwrap()).unwrap().into(),
-        DeValue::Boolean(truth) => (*truth).into(),
+        DeValue::Boolean(value) => (*value).into(),
         DeValue::Datetime(date) => date.to_string().into(),
         DeValue::Array(items) => items.iter().map(|item| as_json(item.get_ref())).collect(),
         DeValue::Table(table) => table_as_json(table),
     }
 }
 
-/// A table as a TOML text; no table of manifests needs headers.
+/// A manifest as a TOML text, with inline tables instead of headers.
 fn toml(manifest: &Value) -> String {
     let root = manifest.as_object().unwrap();
     root.iter().map(|(key, value)| format!("{} = {}\n", Value::String(key.clone()), inline(value))).collect()
@@ -82,17 +82,21 @@ fn inline(value: &Value) -> String {
             }
             out + " }"
         }
-        // JSON writes these as TOML does.
+        // These are written alike in JSON and TOML.
         _ => value.to_string(),
     }
 }
 
-/// The places of a value, each a JSON pointer: of the whole, and of all that is in it.
-fn places(value: &Value, at: &str, found: &mut Vec<String>) {
-    found.push(at.to_owned());
+/// Collects the JSON pointers of a value and of all values in it.
+fn collect_pointers(value: &Value, pointer: &str, found: &mut Vec<String>) {
+    found.push(pointer.to_owned());
     match value {
-        Value::Array(items) => items.iter().enumerate().for_each(|(k, item)| places(item, &format!("{at}/{k}"), found)),
-        Value::Object(entries) => entries.iter().for_each(|(key, value)| places(value, &format!("{at}/{key}"), found)),
+        Value::Array(items) => {
+            items.iter().enumerate().for_each(|(k, item)| collect_pointers(item, &format!("{pointer}/{k}"), found));
+        }
+        Value::Object(entries) => {
+            entries.iter().for_each(|(key, value)| collect_pointers(value, &format!("{pointer}/{key}"), found));
+        }
         _ => {}
     }
 }

@@ -1,11 +1,11 @@
-//! What is wrong with a manifest's form its reader and the schema find; what the reader accepts, the schema does.
+//! The parser and the schema both reject errors of form, and the schema accepts whatever the parser accepts.
 
 use serde_json::{Value, json};
 
-use super::{EVERY_KEY, complaints, is_valid, json, objections, places, toml};
+use super::{EVERY_KEY, collect_pointers, is_valid, json, parser_errors, schema_errors, toml};
 
-/// Replacements in the manifest that has every key, at least one in each table: unknown keys, wrong types, words that
-/// are none, numbers out of range.
+/// Replacements in the manifest that has every key, at least one in each table: unknown keys, wrong types, unknown
+/// words, numbers out of range.
 const SLIPS: [(&str, &str); 62] = [
     ("[atlas]\n", "[atlass]\n[atlas]\n"),
     ("[atlas]\n", "families = 3\n[atlas]\n"),
@@ -72,17 +72,17 @@ const SLIPS: [(&str, &str); 62] = [
 ];
 
 #[test]
-fn slips_are_found_by_both() {
-    assert!(complaints(EVERY_KEY).is_none() && is_valid(&json(EVERY_KEY)));
+fn slips_are_found_by_the_parser_and_the_schema() {
+    assert!(parser_errors(EVERY_KEY).is_none() && is_valid(&json(EVERY_KEY)));
     for (from, to) in SLIPS {
         let text = EVERY_KEY.replacen(from, to, 1);
         assert_ne!(text, EVERY_KEY, "{from}");
-        assert!(complaints(&text).is_some(), "the reader accepts {to}");
+        assert!(parser_errors(&text).is_some(), "the parser accepts {to}");
         assert!(!is_valid(&json(&text)), "the schema accepts {to}");
     }
 }
 
-/// How the reader speaks of what is wrong with a manifest's form, whatever its values mean.
+/// Parts of the parser's messages about errors of form, which do not depend on the meaning of the values.
 const FORM: [&str; 25] = [
     ", found a string",
     ", found a number",
@@ -99,7 +99,7 @@ const FORM: [&str; 25] = [
     "does not say how it is placed",
     ", not both",
     "needs a step or a ",
-    "asked for by one of",
+    "takes exactly one of",
     " has no values",
     "there are no cases",
     "`y` is empty",
@@ -111,44 +111,44 @@ const FORM: [&str; 25] = [
     "`where` must be a condition in quotes",
 ];
 
-/// Every value of the manifest that has every key in turn is left out, replaced by others, or given a strange key.
+/// Removes each value of the manifest that has every key, and replaces it by others.
 #[test]
-fn the_reader_and_the_schema_agree_wherever_a_manifest_is_spoilt() {
+fn the_parser_and_the_schema_agree_on_every_changed_value() {
     let whole = json(EVERY_KEY);
-    let mut all = Vec::new();
-    places(&whole, "", &mut all);
+    let mut pointers = Vec::new();
+    collect_pointers(&whole, "", &mut pointers);
     let others = [json!(true), json!(3), json!(-1), json!(2.5), json!("x"), json!([]), json!([1]), json!({})];
-    let (mut accepted, mut refused) = (0, 0);
-    let mut check = |spoilt: &Value, what: &str| {
-        let valid = is_valid(spoilt);
-        match complaints(&toml(spoilt)) {
+    let (mut accepted, mut rejected) = (0, 0);
+    let mut check = |changed: &Value, change: &str| {
+        let is_valid = is_valid(changed);
+        match parser_errors(&toml(changed)) {
             None => {
                 accepted += 1;
-                assert!(valid, "{what}: the reader accepts it, and the schema says {}", objections(spoilt));
+                assert!(is_valid, "{change}: the parser accepts it, but the schema says {}", schema_errors(changed));
             }
-            Some(said) => {
-                let of_form = said.iter().find(|(message, _)| FORM.iter().any(|form| message.contains(form)));
-                if let Some((message, _)) = of_form {
-                    refused += 1;
-                    assert!(!valid, "{what}: the schema accepts it, and the reader says {message}");
+            Some(errors) => {
+                let form_error = errors.iter().find(|(message, _)| FORM.iter().any(|form| message.contains(form)));
+                if let Some((message, _)) = form_error {
+                    rejected += 1;
+                    assert!(!is_valid, "{change}: the schema accepts it, but the parser says {message}");
                 }
             }
         }
     };
-    for place in all.iter().filter(|place| !place.is_empty()) {
+    for pointer in pointers.iter().filter(|pointer| !pointer.is_empty()) {
         for other in &others {
-            let mut spoilt = whole.clone();
-            *spoilt.pointer_mut(place).unwrap() = other.clone();
-            check(&spoilt, &format!("{place} = {other}"));
+            let mut changed = whole.clone();
+            *changed.pointer_mut(pointer).unwrap() = other.clone();
+            check(&changed, &format!("{pointer} = {other}"));
         }
-        let (parent, name) = place.rsplit_once('/').unwrap();
-        let mut spoilt = whole.clone();
-        match spoilt.pointer_mut(parent).unwrap() {
+        let (parent, name) = pointer.rsplit_once('/').unwrap();
+        let mut changed = whole.clone();
+        match changed.pointer_mut(parent).unwrap() {
             Value::Object(entries) => drop(entries.remove(name)),
             Value::Array(items) => drop(items.remove(name.parse().unwrap())),
             _ => unreachable!("a value is in a table or a list"),
         }
-        check(&spoilt, &format!("without {place}"));
+        check(&changed, &format!("without {pointer}"));
     }
-    assert!(accepted > 100 && refused > 1000, "{accepted} were accepted, {refused} refused for their form");
+    assert!(accepted > 100 && rejected > 1000, "{accepted} were accepted, {rejected} rejected for their form");
 }

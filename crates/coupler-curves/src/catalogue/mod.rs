@@ -1,6 +1,6 @@
-//! The built-in linkages: one TOML file each, in the language of a manifest's own `[[linkage]]`.
+//! The built-in linkages: one TOML file each, in the format of a manifest's `[[linkage]]` tables.
 //!
-//! A new linkage is a file here and a line in `FILES`; lists and validation follow.
+//! To add a linkage, add a file here and a line in `FILES`; lists and validation include it.
 
 use std::sync::{Arc, LazyLock};
 
@@ -31,9 +31,9 @@ const FILES: [&str; 20] = [
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {
-    let read =
+    let parse =
         |text: &&str| linkage_format::parse_templates(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
-    FILES.iter().flat_map(read).map(Arc::new).collect()
+    FILES.iter().flat_map(parse).map(Arc::new).collect()
 });
 
 /// Every built-in linkage.
@@ -41,7 +41,7 @@ pub fn all() -> &'static [Arc<Template>] {
     &TEMPLATES
 }
 
-/// The built-in linkage of that name.
+/// The built-in linkage with an id.
 pub fn find(id: &str) -> Option<Arc<Template>> {
     all().iter().find(|template| template.id == id).cloned()
 }

@@ -1,24 +1,24 @@
 use crate::geometry::{Bounds, Point, cross, trig};
 
-/// A circle, or the part of one that a path goes over.
+/// A circle, or the arc of one that a path covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Circle {
     pub centre: Point,
     pub radius: f64,
-    /// From and to, in degrees counter-clockwise; none where it is the whole circle.
+    /// The start and the end of the arc, in degrees counter-clockwise; `None` for the whole circle.
     pub arc_deg: Option<[f64; 2]>,
 }
 
-/// How far a point of a circle may be from it, in parts of its radius.
+/// The greatest distance of a point from the circle, relative to the radius.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 
-/// A part of a circle larger than this, in parts of the path's extent, is drawn as a line.
+/// The greatest radius of an arc, relative to the path's extent; a flatter path remains a polyline.
 const MAX_RELATIVE_RADIUS: f64 = 1e4;
 
-/// Through fewer points than this there may be a circle by chance.
+/// The least number of points: fewer may lie on a circle by chance.
 const MIN_POINTS: usize = 12;
 
-/// The circle on which all points of a path are, where there is one; the path may go over it to and fro.
+/// The circle through all points of a path and all `further` points, if there is one; the path may reverse on it.
 pub(super) fn fit_circle(path: &[Point], further: &[Point]) -> Option<Circle> {
     let all = || path.iter().chain(further);
     if path.len() + further.len() < MIN_POINTS {
@@ -30,7 +30,7 @@ pub(super) fn fit_circle(path: &[Point], further: &[Point]) -> Option<Circle> {
     if radius > MAX_RELATIVE_RADIUS * extent || !all().all(is_on) {
         return None;
     }
-    // How far it goes round, with its sign, from where it begins.
+    // The signed angle about the centre from the first point.
     let mut angle = 0.0;
     let [mut least, mut most] = [(0.0, path[0]); 2];
     for pair in path.windows(2) {
@@ -45,12 +45,12 @@ pub(super) fn fit_circle(path: &[Point], further: &[Point]) -> Option<Circle> {
     }
     let is_whole = trig::degrees(most.0 - least.0) >= 360.0 * (1.0 - RELATIVE_TOLERANCE);
     let arc_deg = (!is_whole).then(|| [least, most].map(|(_, p)| direction_deg(p, centre)));
-    // Digits beyond what the points are good for say nothing.
+    // Digits beyond the precision of the points are rounded off.
     let place = 12 - trig::log10(radius).ceil() as i32;
     Some(Circle { centre: centre.map(|c| round_to_places(c, place)), radius: round_to_places(radius, place), arc_deg })
 }
 
-/// The circle through the first point, the one furthest from it, and the one furthest from their line.
+/// The circle through the first point, the point furthest from it, and the point furthest from their line.
 fn circumcircle(path: &[Point]) -> Option<(Point, f64)> {
     let a = *path.first()?;
     let by = |value: &dyn Fn(&Point) -> f64| path.iter().copied().max_by(|p, q| value(p).total_cmp(&value(q)));
@@ -64,17 +64,17 @@ fn circumcircle(path: &[Point]) -> Option<(Point, f64)> {
     radius.is_finite().then(|| (a + from_a.coords, radius)).filter(|_| radius > 0.0)
 }
 
-/// The direction of a point from another, in degrees from 0 up to 360, to nine places.
+/// The direction of a point from another, in degrees in [0, 360), to nine decimal places.
 fn direction_deg(p: Point, from: Point) -> f64 {
     let deg = round_to_places(trig::degrees(trig::atan2(p.y - from.y, p.x - from.x)), 9);
     let deg = if deg < 0.0 { deg + 360.0 } else { deg };
     round_to_places(deg, 9)
 }
 
-/// A number to so many decimal places, none where that is negative.
+/// Rounds a number to decimal places; to an integer if `places` is negative.
 fn round_to_places(value: f64, places: i32) -> f64 {
     let places = usize::try_from(places).unwrap_or(0).min(100);
-    // What was written as a number can be read as one; zero has no sign.
+    // A formatted number can always be parsed. Adding 0 removes the sign of zero.
     format!("{value:.places$}").parse::<f64>().unwrap_or(value) + 0.0
 }
 
@@ -91,19 +91,19 @@ mod tests {
     }
 
     #[test]
-    fn circles_and_arcs_are_told_from_what_is_none() {
+    fn circles_and_arcs_are_recognised() {
         let whole = fit_circle(&arc(0, 360, 5), &[]).unwrap();
         assert_eq!(whole, Circle { centre: Point::new(3.0, -1.0), radius: 2.0, arc_deg: None });
-        let mut there_and_back = arc(-30, 50, 4);
-        there_and_back.extend(arc(-30, 50, 4).into_iter().rev());
-        let part = fit_circle(&there_and_back, &[]).unwrap();
+        let mut reversing = arc(-30, 50, 4);
+        reversing.extend(arc(-30, 50, 4).into_iter().rev());
+        let part = fit_circle(&reversing, &[]).unwrap();
         assert_eq!(part.arc_deg, Some([330.0, 50.0]));
         let mut dented = arc(0, 360, 5);
         dented[20].x += 1e-7;
         assert_eq!(fit_circle(&dented, &[]), None);
         let line: Vec<Point> = (0..20).map(|k| Point::new(f64::from(k), 2.0)).collect();
         assert_eq!(fit_circle(&line, &[]), None);
-        assert_eq!(fit_circle(&arc(0, 8, 4), &[]), None, "three points are on some circle always");
+        assert_eq!(fit_circle(&arc(0, 8, 4), &[]), None, "three points always lie on a circle");
         assert_eq!(fit_circle(&[Point::origin(); 20], &[]), None);
     }
 }

@@ -1,7 +1,8 @@
 //! A drawing in the Drawing Interchange Format of AutoCAD R12 (AC1009), which every CAD program reads.
 //!
-//! The curve is a polyline, or a circle or an arc where it is one; the linkage is lines in one pose, its joints points, the
-//! fixed ones on a layer of their own. Lengths are in the manifest's own unit: R12 has no way to name a unit.
+//! The curve is a polyline, or a circle or an arc if it is one. The linkage is drawn as lines in one pose, and its
+//! joints as points, the pivots on a separate layer. Lengths are in the manifest's own unit, for R12 cannot name a
+//! unit.
 //!
 //! # Source
 //! *AutoCAD Release 12 Customization Manual*, chapter 11.
@@ -19,25 +20,25 @@ const LINKAGE: &str = "LINKAGE";
 const JOINTS: &str = "JOINTS";
 const PIVOTS: &str = "PIVOTS";
 
-/// The layers, each with its colour by AutoCAD's numbers: 0 is always there, 1 is red, 7 black on white.
+/// The layers, each with its AutoCAD colour number: 1 is red, 5 is blue, 7 is black on white. Layer 0 always exists.
 const LAYERS: [(&str, u8); 5] = [("0", 7), (CURVE, 1), (LINKAGE, 7), (JOINTS, 5), (PIVOTS, 7)];
 
-/// The whole drawing; no chord of a polyline is further from the curve than `chord` parts of its extent.
-pub(super) fn document(chosen: &SelectedCurve, chord: f64) -> String {
-    let (path, closed) = curve_path(chosen, chord);
-    let pose = chosen.pose();
-    let linkage = &chosen.solved.linkage;
-    let joints = shown_joints(chosen);
+/// The whole drawing; no chord of a polyline is further from the curve than `chord` times its extent.
+pub(super) fn document(selected: &SelectedCurve, chord: f64) -> String {
+    let (path, closed) = curve_path(selected, chord);
+    let pose = selected.pose();
+    let linkage = &selected.solved.linkage;
+    let joints = shown_joints(selected);
     let mut out = DxfWriter(String::new());
     out.group(999, concat!("coupler-atlas ", env!("CARGO_PKG_VERSION")));
-    out.group(999, chosen.name());
+    out.group(999, selected.name());
     out.group(999, "lengths are in the unit of the manifest");
     write_header(Bounds::from_points(path.iter().chain(joints.iter().map(|&joint| &pose[joint])).copied()), &mut out);
     write_tables(&mut out);
     out.section("BLOCKS");
     out.end_marker("ENDSEC");
     out.section("ENTITIES");
-    let samples: Vec<Point> = chosen.circuit().points(chosen.curve().joint).filter(is_finite).collect();
+    let samples: Vec<Point> = selected.circuit().points(selected.curve().joint).filter(is_finite).collect();
     match fit_circle(&path, &samples) {
         Some(circle) => out.circle(&circle),
         None => out.polyline(&path, closed),
@@ -54,13 +55,13 @@ pub(super) fn document(chosen: &SelectedCurve, chord: f64) -> String {
     out.0
 }
 
-/// The curve's path, and whether it is closed; its beginning does not stand at its end once more then.
-fn curve_path(chosen: &SelectedCurve, chord: f64) -> (Vec<Point>, bool) {
-    let (circuit, joint) = (chosen.circuit(), chosen.curve().joint);
+/// The curve's path, and whether it is closed.
+fn curve_path(selected: &SelectedCurve, chord: f64) -> (Vec<Point>, bool) {
+    let (circuit, joint) = (selected.circuit(), selected.curve().joint);
     let extent = Bounds::from_points(circuit.points(joint)).size().max();
-    // The arc that a source shows parts a path of pages, and none of this drawing's.
-    let travel = MotionOptions { figure_arc: None, ..chosen.solved.linkage.motion_options.clone() };
-    let (alone, joint) = Linkage { motion_options: travel, ..chosen.solved.linkage.clone() }.with_one_point(joint);
+    // On pages the source's arc divides the path, but not in this drawing.
+    let motion_options = MotionOptions { figure_arc: None, ..selected.solved.linkage.motion_options.clone() };
+    let (alone, joint) = Linkage { motion_options, ..selected.solved.linkage.clone() }.with_one_point(joint);
     let unbroken = DashPattern { period: f64::INFINITY, dash_span: f64::INFINITY };
     let paths = motion::joint_paths(&alone, circuit, &[joint], unbroken, chord * extent);
     let whole = paths.into_iter().flat_map(|path| path.points);
@@ -85,15 +86,15 @@ fn link_segments(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
     bars
 }
 
-/// The joints that are shown: those of links and of the frame, and the one that draws the curve.
-fn shown_joints(chosen: &SelectedCurve) -> Vec<JointId> {
-    let linkage = &chosen.solved.linkage;
+/// The joints that are drawn: those of links, the pivots, and the traced joint.
+fn shown_joints(selected: &SelectedCurve) -> Vec<JointId> {
+    let linkage = &selected.solved.linkage;
     let mut joints: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
     joints.extend(linkage.pivots());
-    joints.push(chosen.curve().joint);
+    joints.push(selected.curve().joint);
     joints.sort_unstable();
     joints.dedup();
-    let pose = chosen.pose();
+    let pose = selected.pose();
     joints.retain(|&joint| is_finite(&pose[joint]));
     joints
 }
@@ -113,14 +114,14 @@ fn write_header(bounds: Bounds, out: &mut DxfWriter) {
     corner(out, "$EXTMAX", bounds.max, 3);
     corner(out, "$LIMMIN", bounds.min, 2);
     corner(out, "$LIMMAX", bounds.max, 2);
-    // Decimal numbers, of as many places as it shows; angles in decimal degrees from the x-axis, counter-clockwise.
+    // Decimal numbers with eight places; angles in decimal degrees from the x-axis, counter-clockwise.
     for (name, value) in [("$LUNITS", 2), ("$LUPREC", 8), ("$AUNITS", 0), ("$AUPREC", 8), ("$ANGDIR", 0)] {
         out.group(9, name);
         out.group(70, value);
     }
     out.group(9, "$ANGBASE");
     out.number(50, 0.0);
-    // Points are shown as circles with a cross, of a hundredth of the drawing.
+    // Points are shown as circles with a cross, a hundredth of the drawing in size.
     out.group(9, "$PDMODE");
     out.group(70, 34);
     out.group(9, "$PDSIZE");
@@ -151,7 +152,7 @@ fn write_tables(out: &mut DxfWriter) {
     out.end_marker("ENDSEC");
 }
 
-/// Groups of a code and a value, each on a line of its own.
+/// Writes groups: a code and a value, each on its own line.
 struct DxfWriter(String);
 
 impl DxfWriter {
@@ -160,10 +161,10 @@ impl DxfWriter {
         let _ = write!(self.0, "{code:3}\n{value}\n");
     }
 
-    /// A number in the fewest digits that read back to it, with a point or an exponent: some readers take one without
-    /// either for a whole number.
+    /// Writes a number in the fewest digits that read back to the same value, with a point or an exponent: some
+    /// programs read a number without either as an integer.
     fn number(&mut self, code: u16, value: f64) {
-        // Zero has no sign.
+        // Adding 0 removes the sign of zero.
         self.group(code, format_args!("{:?}", value + 0.0));
     }
 
@@ -213,11 +214,11 @@ impl DxfWriter {
         }
     }
 
-    /// A polyline; of a closed one the last point is the first, and is not said twice.
+    /// Writes a polyline. In a closed path the last point equals the first and is omitted.
     fn polyline(&mut self, path: &[Point], closed: bool) {
         let vertices = if closed && path.len() > 1 { &path[..path.len() - 1] } else { path };
         self.entity("POLYLINE", CURVE);
-        // Vertices follow; the place is a dummy, but for its height.
+        // Vertices follow; the coordinates are a dummy point, of which only the elevation is used.
         self.group(66, 1);
         self.coordinates(10, Point::origin());
         self.group(70, u8::from(closed));

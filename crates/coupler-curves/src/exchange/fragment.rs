@@ -1,4 +1,4 @@
-//! A piece of a manifest that has the cells of curves once more: a family for each linkage and the way it is sampled.
+//! A manifest fragment that reproduces the cells of curves: a family for each linkage and its settings.
 
 use std::fmt::Write;
 
@@ -8,8 +8,8 @@ use crate::family::{Family, StraightCriterion};
 use crate::geometry::{Vector, trig};
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
-/// The families of some parameter sets, in their order; to be put into a manifest that has an `[atlas]`, and the linkages of
-/// one's own that they name. A cell that several curves are taken of stands once.
+/// The families of some parameter sets, in their order, to be put into a manifest that has an `[atlas]` and the custom
+/// linkages that they use. A cell with several curves is written once.
 pub fn manifest_fragment(cases: &[ParameterSet]) -> String {
     let mut families: Vec<(String, Vec<&ParameterSet>)> = Vec::new();
     for case in cases {
@@ -31,7 +31,7 @@ pub fn manifest_fragment(cases: &[ParameterSet]) -> String {
     out
 }
 
-/// The id of the n-th family of a linkage: its own, but no longer than an id may be.
+/// The id of the n-th family of a linkage: the linkage's id, shortened if needed, and a suffix.
 fn family_id(linkage: &str, number: usize) -> String {
     let stem: String = linkage.chars().take(50).collect();
     let stem = stem.trim_end_matches('-');
@@ -74,7 +74,7 @@ fn is_built_in(template: &Template) -> bool {
     catalogue::find(&template.id).is_some()
 }
 
-/// What a family says beside its cells: by it families of one linkage are told apart.
+/// The settings of a family other than its cells, which distinguish the families of one linkage.
 fn family_settings(family: &Family) -> String {
     let template = &family.template;
     let is_length = template.is_driven_by_length();
@@ -99,7 +99,7 @@ fn family_settings(family: &Family) -> String {
         CoincidentDyads::First => "first",
         CoincidentDyads::Last => "last",
     };
-    // No linkage of the catalogue says otherwise than `together`.
+    // Every linkage of the catalogue has `together`.
     if template.coincident != CoincidentDyads::Together || !is_built_in(template) {
         let _ = writeln!(out, "coincident = \"{coincident}\"");
     }
@@ -121,7 +121,8 @@ fn family_settings(family: &Family) -> String {
     out
 }
 
-/// Mirrored or not, and turned by so many degrees: to nine places, the digits a manifest will have had.
+/// The `place` of a family, with the angle to nine decimal places if that gives the same orientation: these are
+/// likely the digits of the manifest it came from.
 fn placement_to_toml(placement: &Orientation) -> String {
     let axis = placement.transform_vector(Vector::new(1.0, 0.0));
     let deg = trig::degrees(trig::atan2(axis.y, axis.x));
@@ -131,7 +132,7 @@ fn placement_to_toml(placement: &Orientation) -> String {
     format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(deg))
 }
 
-/// A text in TOML.
+/// A string in TOML.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {

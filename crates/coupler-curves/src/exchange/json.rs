@@ -1,4 +1,4 @@
-//! Everything that is known of a curve, for programs; docs/export.md describes it.
+//! A curve as JSON, with all data; `docs/export.md` describes the format.
 
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -69,7 +69,7 @@ struct CircuitDocument<'a> {
 struct PassDocument<'a> {
     from: EndDocument<'a>,
     to: EndDocument<'a>,
-    /// The sides of all two-valued joints.
+    /// The sides of all dyads.
     branches: Vec<f64>,
     turns: bool,
 }
@@ -77,7 +77,7 @@ struct PassDocument<'a> {
 #[derive(Serialize)]
 struct EndDocument<'a> {
     input: f64,
-    /// The joints whose dyads lie flat there.
+    /// The joints of the dyads that are flat there.
     flat: Vec<&'a str>,
 }
 
@@ -109,12 +109,12 @@ pub(super) fn document(selected: &SelectedCurve) -> String {
         status: solved.status().name(),
         reason: solved.motion.assembly_error.as_ref().map(ToString::to_string),
         circuits: solved.motion.circuits.iter().map(|circuit| circuit_document(linkage, circuit)).collect(),
-        // The numbers of the curve are members of their own.
+        // The first three columns, the numbers of the curve, are members of the document.
         columns: PointTable::new(family).header().trim_end().split(',').skip(3).map(str::to_owned).collect(),
         points: rows(selected),
         measures: Members(measure::ALL.iter().zip(&curve.values).map(|(m, v)| (m.name, value(v))).collect()),
     };
-    to_pretty_string(&document).expect("names are text and numbers are numbers")
+    to_pretty_string(&document).expect("every member can be represented in JSON")
 }
 
 fn sampling(selected: &SelectedCurve) -> Members<'static, SamplingField> {
@@ -138,7 +138,7 @@ fn circuit_document<'a>(linkage: &'a Linkage, circuit: &Circuit) -> CircuitDocum
     CircuitDocument { closed: circuit.is_closed, passes: circuit.passes.iter().enumerate().map(pass).collect() }
 }
 
-/// A row of `points.csv` for each sample, without the numbers of the curve.
+/// The rows of `points.csv`, one for each sample, without the three columns that identify the curve.
 fn rows(selected: &SelectedCurve) -> Vec<Vec<f64>> {
     let (circuit, joint) = (selected.circuit(), selected.curve().joint);
     let linkage = &selected.solved.linkage;

@@ -1,7 +1,7 @@
 //! The exchange formats of a curve: CSV, JSON, DXF and a fragment of a manifest.
 //!
-//! Each format is a file here and makes text of a [`SelectedCurve`] curve; none of them decides which curves are exported or where the
-//! text goes.
+//! Each format is a submodule that turns a [`SelectedCurve`] into text; selecting curves and writing files happen
+//! elsewhere.
 
 mod circle;
 mod dxf;
@@ -21,16 +21,16 @@ use crate::geometry::Point;
 use crate::motion::Circuit;
 use crate::solve::{MeasuredCurve, SolvedCell};
 
-/// One curve that is taken away.
+/// A curve to be exported.
 #[derive(Clone, Debug)]
 pub struct SelectedCurve<'a> {
     /// Its family.
     pub family: &'a Family,
-    /// What stands under the title of its plate.
+    /// The source of the linkage, printed under the title of the plate.
     pub source: &'a str,
-    /// Its cell, solved, with this one curve left of it.
+    /// Its solved cell, with this curve only.
     pub solved: SolvedCell,
-    /// The parameters it has in place of its cell's.
+    /// The parameters that replace those of its cell.
     overrides: &'a [(String, f64)],
 }
 
@@ -40,66 +40,66 @@ impl<'a> SelectedCurve<'a> {
         SelectedCurve { family, source, solved, overrides: &[] }
     }
 
-    /// Each curve of a solved cell by itself; `changed` are the parameters it has in place of those of the cell of its
-    /// number.
+    /// Each curve of a solved cell by itself; `overrides` are the parameters that replace those of the cell with the
+    /// same number.
     pub fn all_from_cell(
         family: &'a Family,
         source: &'a str,
-        changed: &'a [(String, f64)],
+        overrides: &'a [(String, f64)],
         solved: &SolvedCell,
     ) -> Vec<SelectedCurve<'a>> {
-        let alone = |curve: &MeasuredCurve| SolvedCell { curves: vec![curve.clone()], ..solved.clone() };
+        let with_curve = |curve: &MeasuredCurve| SolvedCell { curves: vec![curve.clone()], ..solved.clone() };
         solved
             .curves
             .iter()
-            .map(|curve| SelectedCurve { family, source, solved: alone(curve), overrides: changed })
+            .map(|curve| SelectedCurve { family, source, solved: with_curve(curve), overrides })
             .collect()
     }
 
-    /// The curve's rows of `points.csv`, under its header.
+    /// The curve's rows of `points.csv`, with the header.
     pub fn to_csv(&self) -> Vec<u8> {
         points::document(self)
     }
 
-    /// A drawing in DXF; no chord of its polyline is further from the curve than `chord` times the curve's extent, the longer
-    /// side of the box around its samples.
+    /// A drawing in DXF. No chord of its polyline is further from the curve than `chord` times the curve's extent,
+    /// the longer side of the bounds of its samples.
     pub fn to_dxf(&self, chord: f64) -> String {
         dxf::document(self, chord)
     }
 
-    /// Linkage, parameters, circuits, points and measures as JSON.
+    /// The linkage, parameters, circuits, points and measures as JSON.
     pub fn to_json(&self) -> String {
         json::document(self)
     }
 
-    /// A family of a manifest that has this one curve's cell.
+    /// A manifest fragment: a family with this curve's cell.
     pub fn to_toml(&self) -> String {
         manifest_fragment(&[ParameterSet::from_curve(self)])
     }
 
-    /// What it is called: `evans:12.1.1`, with the parameters that are not its cell's, `evans:12.1.1?p=2.5&k=2`.
+    /// Its name: `evans:12.1.1`, or with overridden parameters `evans:12.1.1?p=2.5&k=2`.
     pub fn name(&self) -> String {
         let [cell, trace, circuit] = self.cell_trace_circuit();
-        let changed = self.format_overrides(|name, value| format!("{name}={value}"));
-        let query = if changed.is_empty() { String::new() } else { format!("?{}", changed.join("&")) };
+        let overrides = self.format_overrides(|name, value| format!("{name}={value}"));
+        let query = if overrides.is_empty() { String::new() } else { format!("?{}", overrides.join("&")) };
         format!("{}:{cell}.{trace}.{circuit}{query}", self.family.id)
     }
 
     /// The name of its files, without an extension: `evans-12-1-1`, `evans-12-1-1-p-2.5`.
     pub fn file_stem(&self) -> String {
         let [cell, trace, circuit] = self.cell_trace_circuit();
-        let changed = self.format_overrides(|name, value| format!("-{name}-{value}")).concat();
-        format!("{}-{cell}-{trace}-{circuit}{changed}", self.family.id)
+        let overrides = self.format_overrides(|name, value| format!("-{name}-{value}")).concat();
+        format!("{}-{cell}-{trace}-{circuit}{overrides}", self.family.id)
     }
 
-    /// The numbers of its cell, its trace and its circuit.
+    /// The numbers of its cell, trace and circuit, each from 1.
     fn cell_trace_circuit(&self) -> [usize; 3] {
         let curve = self.curve();
         [self.solved.cell.number, curve.trace, curve.circuit]
     }
 
-    fn format_overrides(&self, written: impl Fn(&str, String) -> String) -> Vec<String> {
-        self.overrides.iter().map(|(name, value)| written(name, format_number(*value))).collect()
+    fn format_overrides(&self, format: impl Fn(&str, String) -> String) -> Vec<String> {
+        self.overrides.iter().map(|(name, value)| format(name, format_number(*value))).collect()
     }
 
     /// The curve in its cell.
@@ -107,13 +107,13 @@ impl<'a> SelectedCurve<'a> {
         &self.solved.curves[0]
     }
 
-    /// The circuit it is traced on.
+    /// The circuit of the curve.
     pub fn circuit(&self) -> &Circuit {
         self.solved.circuit(self.curve())
     }
 
-    /// The places of all joints in the pose it is shown in for CAD: at the sample a third of the way through its circuit,
-    /// where no dyad of a linkage that goes there and back is near its limit.
+    /// The positions of all joints in the pose drawn for CAD: at the sample a third of the way through the circuit,
+    /// where a linkage that oscillates is not near a limit.
     fn pose(&self) -> Vec<Point> {
         let circuit = self.circuit();
         let sample = circuit.len() / 3;
@@ -121,33 +121,33 @@ impl<'a> SelectedCurve<'a> {
     }
 }
 
-/// A parameter set that is taken away.
+/// A parameter set to be exported.
 #[derive(Clone, Debug)]
 pub struct ParameterSet<'a> {
     /// Its family.
     pub family: &'a Family,
     /// The values of its template's parameters.
     pub values: Vec<f64>,
-    /// The name of the curve it is taken for.
+    /// The name of the curve it belongs to.
     pub curve_name: String,
 }
 
 impl<'a> ParameterSet<'a> {
-    /// That of a curve.
-    pub fn from_curve(chosen: &SelectedCurve<'a>) -> ParameterSet<'a> {
-        let values = chosen.family.parameter_values(&chosen.solved.cell).to_vec();
-        ParameterSet { family: chosen.family, values, curve_name: chosen.name() }
+    /// The parameter set of a curve.
+    pub fn from_curve(selected: &SelectedCurve<'a>) -> ParameterSet<'a> {
+        let values = selected.family.parameter_values(&selected.solved.cell).to_vec();
+        ParameterSet { family: selected.family, values, curve_name: selected.name() }
     }
 }
 
-/// A number in the fewest digits that read back to it.
+/// A number in the fewest digits that read back to the same value.
 fn format_number(value: f64) -> String {
     let mut out = Vec::new();
     append_number(value, &mut out);
     String::from_utf8(out).unwrap_or_default()
 }
 
-/// How circuits are sampled: the key, its number, and the spacing where it is not even.
+/// The fields of a `sampling` table: the key, its number, and the spacing if it is not even.
 fn sampling_fields(sampling: Sampling) -> (&'static str, f64, Option<&'static str>) {
     match sampling {
         Sampling::Step(step) => ("step", step, None),

@@ -1,8 +1,9 @@
 use std::io::Write;
 
-/// Appends a number in the fewest digits that read back to the same f64; zero is `0` whatever its sign.
+/// Appends a number in the fewest digits that read back to the same f64; zero is `0`, without a sign.
 ///
-/// From 1e-5 up to 1e16 it is written out, beyond with an exponent. Infinity is `inf`; not a number is an empty field.
+/// Magnitudes from 1e-5 to below 1e16 are written without an exponent, all others with one. Infinity is `inf` or
+/// `-inf`; NaN is an empty field.
 pub fn append_number(value: f64, out: &mut Vec<u8>) {
     if value == 0.0 {
         out.push(b'0');
@@ -54,7 +55,7 @@ mod tests {
             if value.is_finite() {
                 assert_eq!(written(value).parse::<f64>().unwrap(), value);
             }
-            // Of a size that is written out; the standard library's digits are the shortest, too.
+            // In the range without an exponent; the standard library's digits are the shortest, too.
             let usual = (value % 1e4) * 1e-3;
             if (1e-5..1e16).contains(&usual.abs()) {
                 assert_eq!(written(usual), usual.to_string());

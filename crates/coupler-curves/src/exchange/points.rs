@@ -1,10 +1,10 @@
 use super::PointTable;
 use super::SelectedCurve;
 
-/// The curve's rows of `points.csv`, under its header.
-pub(super) fn document(chosen: &SelectedCurve) -> Vec<u8> {
-    let points = PointTable::new(chosen.family);
+/// The curve's rows of `points.csv`, with the header.
+pub(super) fn document(selected: &SelectedCurve) -> Vec<u8> {
+    let points = PointTable::new(selected.family);
     let mut out = points.header().into_bytes();
-    points.append_rows(&chosen.solved, &mut out);
+    points.append_rows(&selected.solved, &mut out);
     out
 }

@@ -1,4 +1,4 @@
-//! JSON that people can read: a line for each member of an object, lists of plain values on one line.
+//! Human-readable JSON: a line for each member of an object, and lists of scalars on one line.
 
 use std::io::{self, Write};
 
@@ -7,23 +7,23 @@ use serde_json::ser::Formatter;
 
 use super::append_number;
 
-/// A value as JSON text with a line break at its end. Numbers have the fewest digits that read back to them; one that is not
-/// finite is `null`.
+/// A value as JSON text that ends with a line break. Numbers have the fewest digits that read back to the same value;
+/// NaN and infinities are `null`.
 pub(super) fn to_pretty_string(value: &impl Serialize) -> serde_json::Result<String> {
     let mut out = Vec::new();
     value.serialize(&mut serde_json::Serializer::with_formatter(&mut out, Layout::default()))?;
     out.push(b'\n');
-    String::from_utf8(out).map_err(|error| serde::ser::Error::custom(error))
+    String::from_utf8(out).map_err(serde::ser::Error::custom)
 }
 
 /// Whether an item is the first of its list.
 type IsFirst = bool;
 
-/// Indents by two blanks. Whether a list takes one line is known when its first item begins: a list or an object takes a line of
-/// its own, so the separator before an item is written with the item.
+/// The layout, indented by two spaces. Whether a list takes one line depends on its items: a list or an object is put
+/// on its own line. So the separator before an item is written when the item begins.
 #[derive(Default)]
 struct Layout {
-    /// For each open list or object: whether its items are on lines of their own.
+    /// For each open list or object, whether its items are on separate lines.
     has_lines: Vec<bool>,
     /// The list item whose separator is not yet written.
     pending: Option<IsFirst>,
@@ -35,7 +35,7 @@ impl Layout {
         (0..self.has_lines.len()).try_for_each(|_| writer.write_all(b"  "))
     }
 
-    /// The separator before a plain item.
+    /// Writes the separator before a scalar item.
     fn plain<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
         match self.pending.take() {
             Some(false) => writer.write_all(b", "),
@@ -43,7 +43,7 @@ impl Layout {
         }
     }
 
-    /// The separator before an item that is a list or an object, and its bracket.
+    /// Writes the separator before an item that is a list or an object, and its opening bracket.
     fn open<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
         if let Some(is_first) = self.pending.take() {
             if !is_first {
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_of_plain_values_take_one_line_and_the_text_reads_back() {
+    fn lists_of_scalars_take_one_line_and_the_text_reads_back() {
         let value = Example {
             n: 0.1,
             none: f64::INFINITY,

@@ -5,21 +5,21 @@ use crate::linkage::DyadId;
 use crate::measure::compute_columns;
 use crate::solve::SolvedCell;
 
-/// `points.csv`: every sample of every curve.
+/// The table `points.csv`: every sample of every curve.
 #[derive(Clone, Copy, Debug)]
 pub struct PointTable<'a> {
-    /// How many two-valued joints the linkage has: a column of branches for each, and at least one.
+    /// The number of dyads, each with a column of branches; there is always at least one such column.
     dyad_count: usize,
-    /// The column of the input.
+    /// The name of the input's column.
     input_column: &'static str,
-    /// The columns that follow.
+    /// The additional columns.
     columns: &'a [Column],
 }
 
 impl<'a> PointTable<'a> {
     /// The table of a family.
     pub fn new(family: &'a Family) -> PointTable<'a> {
-        // All its linkages have as many two-valued joints.
+        // All its linkages have the same number of dyads.
         let dyads = family.linkage(&family.cell(0)).map_or(0, |linkage| linkage.dyad_count());
         let input = if family.template.is_driven_by_length() { "input_length" } else { "input_deg" };
         PointTable { dyad_count: dyads, input_column: input, columns: &family.columns }
@@ -44,14 +44,14 @@ impl<'a> PointTable<'a> {
             }
             for sample in 0..circuit.len() {
                 out.extend_from_slice(&head);
-                let signs = circuit.mode_at(sample);
+                let mode = circuit.mode_at(sample);
                 for dyad in (0..self.dyad_count.max(1)).map(DyadId::new) {
-                    out.extend_from_slice(if signs.sign(dyad) > 0 { b"1," } else { b"-1," });
+                    out.extend_from_slice(if mode.sign(dyad) > 0 { b"1," } else { b"-1," });
                 }
                 append_integer(sample, out);
-                let at = circuit.positions.point(curve.joint, sample);
+                let point = circuit.positions.point(curve.joint, sample);
                 let columns = compute_columns(self.columns, &solved.linkage, (circuit, curve.joint), sample);
-                for value in [circuit.inputs[sample], at.x, at.y].into_iter().chain(columns) {
+                for value in [circuit.inputs[sample], point.x, point.y].into_iter().chain(columns) {
                     out.push(b',');
                     append_number(value, out);
                 }

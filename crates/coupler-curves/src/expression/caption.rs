@@ -1,3 +1,5 @@
+//! Captions: text with expressions in braces.
+
 use super::{Error, Expression};
 
 /// A line of text with expressions in braces: `p = {p:.2}, area {p * r}`.

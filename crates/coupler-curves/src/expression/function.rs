@@ -1,3 +1,5 @@
+//! The functions of expressions.
+
 use crate::geometry::trig;
 
 /// A function an expression can call.

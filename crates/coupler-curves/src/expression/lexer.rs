@@ -1,3 +1,5 @@
+//! Splits the text of an expression into tokens.
+
 use super::Error;
 use crate::problem::Span;
 

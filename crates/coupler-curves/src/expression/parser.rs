@@ -1,3 +1,5 @@
+//! Parses expressions into programs, by precedence climbing.
+
 use super::lexer::{Token, tokenize};
 use super::program::{Expression, Instruction, Operator};
 use super::{CONSTANTS, Error, Function, MAX_DEPTH};

@@ -1,3 +1,5 @@
+//! Quantities: expressions with a unit.
+
 use super::{Error, Expression, parser};
 use crate::geometry::trig;
 

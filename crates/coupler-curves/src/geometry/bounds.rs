@@ -1,6 +1,6 @@
 use super::{Point, Vector};
 
-/// The smallest upright box round some points.
+/// The smallest axis-parallel rectangle around some points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The lower left corner.
@@ -10,11 +10,11 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box of no points: [`Bounds::include`] makes it one of some.
+    /// The bounds of no points, to be extended by [`Bounds::include`].
     pub const EMPTY: Bounds =
         Bounds { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
 
-    /// The box round all finite points of `points`.
+    /// The bounds of all finite points of `points`.
     pub fn from_points(points: impl IntoIterator<Item = Point>) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for p in points {
@@ -23,7 +23,7 @@ impl Bounds {
         bounds
     }
 
-    /// Widens the box to hold `p`; a point that is not finite is passed over.
+    /// Extends the bounds to contain `p`; a point that is not finite is ignored.
     pub fn include(&mut self, p: Point) {
         if p.x.is_finite() && p.y.is_finite() {
             self.min = self.min.inf(&p);
@@ -31,7 +31,7 @@ impl Bounds {
         }
     }
 
-    /// The box round both.
+    /// The bounds of both.
     pub fn union(self, other: Bounds) -> Bounds {
         Bounds { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
@@ -41,12 +41,12 @@ impl Bounds {
         self.min.x > self.max.x
     }
 
-    /// Width and height; zero where empty.
+    /// The width and the height; zero if empty.
     pub fn size(&self) -> Vector {
         if self.is_empty() { Vector::zeros() } else { self.max - self.min }
     }
 
-    /// The middle of the box; the origin where empty.
+    /// The centre; the origin if empty.
     pub fn centre(&self) -> Point {
         if self.is_empty() { Point::origin() } else { nalgebra::center(&self.min, &self.max) }
     }

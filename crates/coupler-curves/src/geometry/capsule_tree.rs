@@ -1,6 +1,6 @@
 use super::{Bounds, Point, distance_to_segment};
 
-/// All points that are no further than `radius` from a segment.
+/// The points within a distance `radius` of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
     /// The ends of the segment.
@@ -9,18 +9,18 @@ pub struct Capsule {
     pub radius: f64,
 }
 
-/// Many tubes, ready to be asked how far points lie outside of all of them.
+/// A set of capsules, indexed for the distance of a point from the nearest of them.
 ///
-/// Tubes that follow each other are taken for neighbours: a binary tree of boxes stands over runs of them. An answer
-/// takes about the logarithm of their number where they do follow each other, and is right in any order.
+/// The index is a binary tree of bounds over runs of consecutive capsules. A query takes logarithmic time if
+/// consecutive capsules are neighbours; its result is correct in any order.
 #[derive(Clone, Debug)]
 pub struct CapsuleTree {
     capsules: Vec<Capsule>,
-    /// The root at 1, the children of node `k` at `2k` and `2k + 1`, the leaves last; empty boxes fill up the last row.
+    /// The root is at 1, the children of node `k` at `2k` and `2k + 1`, the leaves last; empty bounds pad the last row.
     nodes: Vec<Node>,
 }
 
-/// The box round the segments of some tubes, and their largest radius.
+/// The bounds of the segments of some capsules, and their greatest radius.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
@@ -28,27 +28,27 @@ struct Node {
 }
 
 impl CapsuleTree {
-    /// How many tubes a leaf of the tree has.
+    /// The number of capsules in a leaf of the tree.
     const LEAF_SIZE: usize = 4;
 
-    /// Tubes, best in the order in which they hang together.
-    pub fn new(tubes: Vec<Capsule>) -> CapsuleTree {
-        let leaves = tubes.len().div_ceil(Self::LEAF_SIZE).next_power_of_two();
+    /// Builds the tree; neighbouring capsules should be consecutive.
+    pub fn new(capsules: Vec<Capsule>) -> CapsuleTree {
+        let leaves = capsules.len().div_ceil(Self::LEAF_SIZE).next_power_of_two();
         let mut nodes = vec![Node { bounds: Bounds::EMPTY, radius: 0.0 }; 2 * leaves];
-        for (node, run) in nodes[leaves..].iter_mut().zip(tubes.chunks(Self::LEAF_SIZE)) {
-            let bounds = Bounds::from_points(run.iter().flat_map(|tube| tube.ends));
-            *node = Node { bounds, radius: run.iter().map(|tube| tube.radius).fold(0.0, f64::max) };
+        for (node, run) in nodes[leaves..].iter_mut().zip(capsules.chunks(Self::LEAF_SIZE)) {
+            let bounds = Bounds::from_points(run.iter().flat_map(|capsule| capsule.ends));
+            *node = Node { bounds, radius: run.iter().map(|capsule| capsule.radius).fold(0.0, f64::max) };
         }
         for k in (1..leaves).rev() {
             let [a, b] = [nodes[2 * k], nodes[2 * k + 1]];
             nodes[k] = Node { bounds: a.bounds.union(b.bounds), radius: a.radius.max(b.radius) };
         }
-        CapsuleTree { capsules: tubes, nodes }
+        CapsuleTree { capsules, nodes }
     }
 
-    /// How far a point is outside of the tube that is nearest, negative inside of one; infinite where there is none.
+    /// The distance of a point from the nearest capsule, negative inside one; infinite if there is no capsule.
     ///
-    /// The search ends as soon as it is known to be no more than `enough`: what is returned is then no more than that,
+    /// The search ends as soon as the distance is known to be at most `enough`; the result is then at most `enough`,
     /// but need not be the least.
     pub fn signed_distance(&self, point: Point, enough: f64) -> f64 {
         let mut least = f64::INFINITY;
@@ -60,11 +60,11 @@ impl CapsuleTree {
         let leaves = self.nodes.len() / 2;
         if k >= leaves {
             let from = (k - leaves) * Self::LEAF_SIZE;
-            for tube in self.capsules.iter().skip(from).take(Self::LEAF_SIZE) {
-                let outside = distance_to_segment(point, tube.ends[0], tube.ends[1]) - tube.radius;
-                // What is not a number, of places beyond all numbers, is near to nothing.
-                if outside < *least {
-                    *least = outside;
+            for capsule in self.capsules.iter().skip(from).take(Self::LEAF_SIZE) {
+                let distance = distance_to_segment(point, capsule.ends[0], capsule.ends[1]) - capsule.radius;
+                // NaN, which overflow may give, is ignored.
+                if distance < *least {
+                    *least = distance;
                 }
             }
             return;
@@ -82,7 +82,7 @@ impl CapsuleTree {
 }
 
 impl Node {
-    /// No tube of the node is nearer than this.
+    /// A lower bound of the distances from the capsules of the node.
     fn lower_bound(&self, p: Point) -> f64 {
         let Bounds { min, max } = self.bounds;
         let x = (min.x - p.x).max(p.x - max.x).max(0.0);
@@ -96,8 +96,8 @@ mod tests {
     use super::*;
     use crate::geometry::trig;
 
-    /// A rose of 500 chords in tubes of several radii.
-    fn tubes(count: u32) -> Vec<Capsule> {
+    /// Consecutive chords of a rose curve, as capsules of several radii.
+    fn capsules(count: u32) -> Vec<Capsule> {
         let at = |k: u32| {
             let (cos, sin) = trig::cos_sin_deg(f64::from(k) * 0.72);
             let (petal, _) = trig::cos_sin_deg(f64::from(k) * 2.88);
@@ -107,26 +107,26 @@ mod tests {
     }
 
     #[test]
-    fn the_tree_finds_what_a_look_at_each_finds() {
+    fn the_tree_agrees_with_a_linear_search() {
         for count in [1, 2, 4, 5, 31, 500] {
-            let tubes = tubes(count);
-            let tree = CapsuleTree::new(tubes.clone());
+            let capsules = capsules(count);
+            let tree = CapsuleTree::new(capsules.clone());
             for k in 0..400 {
                 let point = Point::new(f64::from(k % 20) * 4.0 - 38.0, f64::from(k / 20) * 4.0 - 37.0);
-                let each = tubes.iter().map(|t| distance_to_segment(point, t.ends[0], t.ends[1]) - t.radius);
+                let each = capsules.iter().map(|t| distance_to_segment(point, t.ends[0], t.ends[1]) - t.radius);
                 let least = each.fold(f64::INFINITY, f64::min);
                 assert_eq!(tree.signed_distance(point, f64::NEG_INFINITY), least);
-                let soon = tree.signed_distance(point, 3.0);
-                assert!(soon == least || (least..=3.0).contains(&soon));
+                let early = tree.signed_distance(point, 3.0);
+                assert!(early == least || (least..=3.0).contains(&early));
             }
         }
     }
 
     #[test]
-    fn nothing_is_near_to_nothing_and_to_places_beyond_all_numbers() {
+    fn the_distance_from_no_capsules_or_overflowing_ones_is_infinite() {
         let far = Capsule { ends: [Point::new(1e200, 0.0), Point::new(-1e200, f64::NAN)], radius: 0.0 };
-        for tubes in [vec![], vec![far; 9]] {
-            assert_eq!(CapsuleTree::new(tubes).signed_distance(Point::origin(), 0.0), f64::INFINITY);
+        for capsules in [vec![], vec![far; 9]] {
+            assert_eq!(CapsuleTree::new(capsules).signed_distance(Point::origin(), 0.0), f64::INFINITY);
         }
     }
 }

@@ -1,6 +1,6 @@
-//! Points, vectors, similarities and boxes of the plane, and the trigonometry everyone shares.
+//! Points, vectors, transforms and bounds in the plane, and deterministic trigonometry.
 //!
-//! Axes are right-handed, counter-clockwise is positive, y points up. Angles are radians unless a name ends in
+//! Axes are right-handed, counter-clockwise is positive, y points up. Angles are in radians unless a name ends in
 //! `_deg`. Trigonometry and powers go through the `libm` crate, so that a manifest gives the same bits on every
 //! machine; `+ - * / sqrt` are exact everywhere by IEEE 754.
 
@@ -23,12 +23,12 @@ pub type Point = nalgebra::Point2<f64>;
 /// A vector of the plane.
 pub type Vector = nalgebra::Vector2<f64>;
 
-/// The vector turned a quarter turn counter-clockwise: the positive normal of its direction.
+/// The vector rotated a quarter turn counter-clockwise: the positive normal of its direction, with the same length.
 pub fn left_normal(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
-/// The product of two vectors as complex numbers: `b` turned by the angle of `a`, and longer by its length.
+/// The product of two vectors as complex numbers: `b` rotated by the angle of `a` and scaled by its length.
 pub fn complex_product(a: Vector, b: Vector) -> Vector {
     Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
@@ -38,15 +38,15 @@ pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// Distance of `p` from the segment `a b`; from `a` where the segment has no length.
+/// The distance of `p` from the segment `a b`; from `a` if the segment has length 0.
 pub fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let along = b - a;
-    let length2 = along.norm_squared();
-    if length2 == 0.0 {
+    let direction = b - a;
+    let length_squared = direction.norm_squared();
+    if length_squared == 0.0 {
         return (p - a).norm();
     }
-    let t = ((p - a).dot(&along) / length2).clamp(0.0, 1.0);
-    (p - (a + along * t)).norm()
+    let t = ((p - a).dot(&direction) / length_squared).clamp(0.0, 1.0);
+    (p - (a + direction * t)).norm()
 }
 
 #[cfg(test)]
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn distance_to_a_segment_is_taken_at_its_ends_too() {
+    fn the_nearest_point_of_a_segment_may_be_an_end() {
         let (a, b) = (Point::new(0.0, 0.0), Point::new(2.0, 0.0));
         assert_eq!(distance_to_segment(Point::new(1.0, 3.0), a, b), 3.0);
         assert_eq!(distance_to_segment(Point::new(5.0, 4.0), a, b), 5.0);

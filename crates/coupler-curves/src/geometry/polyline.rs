@@ -1,10 +1,10 @@
 use super::{Point, Vector, cross};
 
-/// A polyline with as few of its points as a sweep from its beginning finds, first and last among them: none of the
-/// others is further than `tolerance` from it.
+/// Simplifies a polyline to a subset of its points, including the first and the last, so that no omitted point is
+/// further than `tolerance` from the result.
 ///
-/// From each point kept, the next is the last of those that lie in the cone of directions in which a line passes all
-/// between within the tolerance, before the polyline turns back.
+/// From each point kept, a greedy sweep chooses as the next the last point that lies in the cone of directions in
+/// which a line passes all points between within the tolerance, before the polyline turns back.
 ///
 /// # Source
 /// Zhao and Saalfeld, *Linear-time sleeve-fitting polyline simplification algorithms*, Auto-Carto 13, 1997.
@@ -27,12 +27,12 @@ pub fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
     out
 }
 
-/// The directions from a point in which a line passes all points so far within a tolerance.
+/// The cone of directions from a point in which a line passes all points so far within a tolerance.
 struct Sleeve {
     anchor: Point,
-    /// The rightmost and the leftmost direction; all where there are none yet.
+    /// The rightmost and the leftmost direction; `None` while all directions are allowed.
     sides: Option<[Vector; 2]>,
-    /// How far the furthest point is, of those that are no longer at the anchor.
+    /// The greatest distance from the anchor of the points further away than the tolerance.
     max_distance: f64,
 }
 
@@ -41,7 +41,7 @@ impl Sleeve {
         Sleeve { anchor, sides: None, max_distance: 0.0 }
     }
 
-    /// Narrows the sleeve by a point, if the line may end there.
+    /// Narrows the cone by a point; returns `false` if the line cannot end at that point.
     fn try_extend(&mut self, point: Point, tolerance: f64) -> bool {
         let to = point - self.anchor;
         let distance = to.norm();
@@ -73,8 +73,8 @@ mod tests {
     use crate::geometry::{distance_to_segment, trig};
 
     #[test]
-    fn what_is_left_out_is_within_the_tolerance() {
-        // A Lissajous curve with turns of every sharpness, and a cusp where it turns back.
+    fn omitted_points_are_within_the_tolerance() {
+        // A curve with a wide range of curvatures, and a cusp.
         let at = |k: i32| {
             let (cos, sin) = trig::cos_sin_deg(f64::from(k) / 4.0);
             Point::new(cos * cos * cos, sin * cos * cos)
@@ -86,11 +86,11 @@ mod tests {
             assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[1440]));
             for point in &points {
                 let nearest = kept.windows(2).map(|pair| distance_to_segment(*point, pair[0], pair[1]));
-                // The sleeve is exact but for the rounding of its tangents.
+                // The cone is exact up to the rounding of its tangents.
                 assert!(nearest.fold(f64::INFINITY, f64::min) <= tolerance * (1.0 + 1e-9), "{tolerance}");
             }
         }
-        // An arc of sagitta s has chords of about sqrt(8 s): no more of them than twice what a circle needs.
+        // An arc of sagitta s has a chord of about sqrt(8 s): the result has at most twice the chords a circle needs.
         let circle: Vec<Point> = (0..=3600)
             .map(|k| {
                 let (cos, sin) = trig::cos_sin_deg(f64::from(k) / 10.0);
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_its_ends_and_a_turn_back_is_kept() {
+    fn a_line_is_reduced_to_its_ends_and_a_reversal_is_kept() {
         let line: Vec<Point> = (0..5).map(|k| Point::new(f64::from(k), 0.0)).collect();
         assert_eq!(simplify_polyline(&line, 1e-9), [line[0], line[4]]);
         let back = [line[0], line[3], line[1]];

@@ -1,21 +1,21 @@
 use super::{Bounds, Point, Vector};
 
-/// A similarity without rotation: scales, may turn y upside down, and moves.
+/// A similarity without rotation: a scale, optionally a reflection of y, and a translation.
 ///
-/// A transform is named by its two spaces, target first: `page_from_plane` takes plane units to millimetres on
-/// paper, and is the one place where the y of the plane (up) becomes the y of the page (down).
+/// A transform is named by its two spaces, target first: `page_from_plane` maps plane units to millimetres on paper,
+/// and is the only place where y up (plane) becomes y down (page).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Similarity {
-    /// Target units to a source unit, positive.
+    /// Target units per source unit, positive.
     pub scale: f64,
     /// Whether y changes sign.
     pub flips_y: bool,
-    /// Where the source's origin goes.
+    /// The image of the source's origin.
     pub origin: Point,
 }
 
 impl Similarity {
-    /// The transform that brings the centre of `plane` (y up) to `centre` on the page (y down) at `scale` mm a unit.
+    /// The transform that maps the centre of `plane` (y up) to `centre` on the page (y down), at `scale` mm per unit.
     pub fn page_from_plane(plane: Bounds, centre: Point, scale: f64) -> Similarity {
         let c = plane.centre();
         Similarity { scale, flips_y: true, origin: centre - Vector::new(c.x, -c.y) * scale }

@@ -14,11 +14,10 @@ pub fn degrees(rad: f64) -> f64 {
     rad * (180.0 / PI)
 }
 
-/// Cosine and sine of an angle in degrees.
+/// The cosine and the sine of an angle in degrees.
 ///
-/// The angle is first brought within 45 degrees of a quarter turn, which is exact in binary, so that the quarter
-/// turns have exact zeros and ones and symmetric angles have exactly symmetric values.
-/// Not a number for an angle that is not finite.
+/// The angle is first reduced to within 45 degrees of a quarter turn, which is exact in binary, so that quarter turns
+/// have exact zeros and ones and symmetric angles have exactly symmetric values. NaN for an angle that is not finite.
 pub fn cos_sin_deg(deg: f64) -> (f64, f64) {
     let turn = deg % 360.0;
     let turn = if turn < 0.0 { turn + 360.0 } else { turn };
@@ -63,7 +62,7 @@ mod tests {
         for k in -2000..2000 {
             let deg = f64::from(k) * 0.37;
             let (c, s) = cos_sin_deg(deg);
-            // The reference loses digits in forming radians(deg): half an ulp of the angle, which is below 13.
+            // The reference loses digits in computing radians(deg): half an ulp of the angle, which is below 13.
             assert!((c - cos(radians(deg))).abs() < 4e-15 && (s - sin(radians(deg))).abs() < 4e-15, "{deg}");
             assert!((c * c + s * s - 1.0).abs() < 5e-16);
         }

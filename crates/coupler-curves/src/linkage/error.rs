@@ -2,6 +2,7 @@ use super::MAX_DYADS;
 
 /// Why a joint cannot be placed as described, at any input.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// One joint was given where two different joints are required.
     #[error("`{joint}` is placed from `{base}` and `{base}`, which are the same joint")]
@@ -104,7 +105,9 @@ impl Error {
             Error::InvalidLength { .. } => "give a length greater than 0",
             Error::NoDirection { .. } => "name two joints at different points",
             Error::NoTriangle { .. } => "give distances that form a triangle with it",
-            Error::AmbiguousLink { .. } => "give each of these links its own pivot, or its own second joint of the line",
+            Error::AmbiguousLink { .. } => {
+                "give each of these links its own pivot, or its own second joint of the line"
+            }
             Error::SlotParallelToGuide { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
             Error::InvalidRatio { .. } => "write it like ratio = [2, 3]",
             Error::TooManyDyads { .. } => "remove joints, or place some as points of links",

@@ -1,8 +1,8 @@
-//! Indices of joints, links and dyads, each of a type of its own.
+//! Indices of joints, links and dyads, each with a distinct type.
 
 use std::ops::{Index, IndexMut};
 
-/// Defines an index type, which also indexes slices and vectors that have one entry for each of its things.
+/// Defines an index type, which also indexes slices and vectors.
 macro_rules! index_type {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*

@@ -14,6 +14,7 @@ pub struct Joint {
 
 /// How a joint is placed from joints before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum JointKind {
     /// At a fixed point of the frame.
     Fixed(Point),

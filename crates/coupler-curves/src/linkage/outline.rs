@@ -42,8 +42,8 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
             && (name(index + 1) == name(index) || index.checked_sub(1).and_then(name) == name(index))
     };
     let joints: Vec<(JointId, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();
-    let centre = joints.iter().map(|(_, place)| place).sum::<Vector>() / joints.len().max(1) as f64;
-    let points: Vec<Point> = joints.iter().map(|(_, place)| Point::from(*place)).collect();
+    let centre = joints.iter().map(|(_, position)| position).sum::<Vector>() / joints.len().max(1) as f64;
+    let points: Vec<Point> = joints.iter().map(|(_, position)| Point::from(*position)).collect();
     let mut order: Vec<usize> = (0..joints.len()).collect();
     if is_flat(&points) {
         let direction = points.last().zip(points.first()).map_or(Vector::zeros(), |(b, a)| b - a);

@@ -35,7 +35,11 @@ impl<'v, 't> Fields<'v, 't> {
     }
 
     /// The keys of a table that may have any keys. `None` if the value is not a table.
-    pub fn with_any_keys(value: &'v TomlValue<'t>, display_name: &str, parser: &mut TomlParser<'t>) -> Option<Fields<'v, 't>> {
+    pub fn with_any_keys(
+        value: &'v TomlValue<'t>,
+        display_name: &str,
+        parser: &mut TomlParser<'t>,
+    ) -> Option<Fields<'v, 't>> {
         match value.get_ref() {
             DeValue::Table(table) => {
                 Some(Fields { table, span: value.span(), display_name: display_name.to_owned(), schema: None })

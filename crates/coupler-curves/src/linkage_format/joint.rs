@@ -1,7 +1,7 @@
-//! Parses a joint: how it is placed, and its numbers.
+//! Parses a joint: its kind and its dimensions.
 
 use super::fields::Fields;
-use super::joint_kinds::{JOINT_KINDS, MAX_GRID_POINTS, RANGE, SIDES, SLIDE_SIDES};
+use super::joint_kinds::{DEFAULT_SLOT_ANGLE_DEG, JOINT_KINDS, MAX_GRID_POINTS, RANGE, SIDES, SLIDE_SIDES};
 use super::schema::TableSchema;
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::{CompiledExpression, Kind};
@@ -19,8 +19,9 @@ pub(super) fn parse_joint<'t>(
     let any_fields = Fields::with_any_keys(value, "a joint", parser)?;
     let is_present = |(kind, _): &&(&str, TableSchema)| any_fields.get(kind).is_some();
     let Some((kind, schema)) = JOINT_KINDS.iter().find(is_present) else {
-        let problem = Problem::error(any_fields.span.clone(), format!("the joint `{name}` does not say how it is placed"));
-        parser.report(problem.with_help("it is `fixed`, a `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot`, `parallelogram` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
+        let problem =
+            Problem::error(any_fields.span.clone(), format!("the joint `{name}` does not say how it is placed"));
+        parser.report(problem.with_help("add one of `fixed`, `crank`, `gear`, `piston`, `dyad`, `slide`, `yoke`, `slot`, `parallelogram` or `point`, as in { dyad = [\"A\", \"C\"], lengths = [2, 3], side = \"left\" }"));
         return None;
     };
     let fields = Fields::from_value(value, schema, parser)?;
@@ -89,7 +90,7 @@ pub(super) fn parse_joint<'t>(
                 .and_then(|v| parse_joint_pair(v, names, parser));
             let offset = parse_offset(&fields, scope, parser);
             let angle = match fields.get("angle") {
-                None => Some(InputValue { value: CompiledExpression::constant(90.0), unit: None }),
+                None => Some(InputValue { value: CompiledExpression::constant(DEFAULT_SLOT_ANGLE_DEG), unit: None }),
                 Some(value) => parser.angle(value, scope),
             };
             Some(JointKindTemplate::Yoke { from: from?, line: line?, offset: offset?, angle: angle? })
@@ -165,7 +166,7 @@ fn parse_ratio<'t>(
             return Some(compiled);
         }
         let problem = Problem::error(value.span(), format!("a gear ratio cannot contain {number}"));
-        parser.report(problem.with_help("give whole numbers from 1 to 100; a negative one turns the other way"));
+        parser.report(problem.with_help("give whole numbers from 1 to 100; a negative one reverses the direction"));
         None
     };
     let (a, b) = (whole(a), whole(b));

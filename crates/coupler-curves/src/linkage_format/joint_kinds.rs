@@ -12,16 +12,20 @@ pub(super) const SLIDE_SIDES: [(&str, Side); 2] = [("ahead", Side::Left), ("behi
 /// The most points that a grid in one joint may have.
 pub(super) const MAX_GRID_POINTS: usize = 10_000;
 
+/// The angle of a yoke's slot to its guide.
+pub(super) const DEFAULT_SLOT_ANGLE_DEG: f64 = 90.0;
+
 /// The name of a joint.
 const JOINT_NAME: ValueSchema = ValueSchema::Text;
 /// The names of two joints.
 const TWO_JOINTS: ValueSchema = ValueSchema::Set(&JOINT_NAME, [2, 2]);
 /// Two numbers.
 const TWO_NUMBERS: ValueSchema = ValueSchema::List(&ValueSchema::Number, [2, 2]);
-const OFFSET: KeySchema =
-    KeySchema::new("offset", ValueSchema::Number, "The distance to the left of the line.").with_default(|| "0".to_owned());
+const OFFSET: KeySchema = KeySchema::new("offset", ValueSchema::Number, "The distance to the left of the line.")
+    .with_default(|| "0".to_owned());
 const LINE_OFFSET: KeySchema =
-    KeySchema::new("offset", ValueSchema::Number, "The distance of the line from the first pivot.").with_default(|| "0".to_owned());
+    KeySchema::new("offset", ValueSchema::Number, "The distance of the line from the first pivot.")
+        .with_default(|| "0".to_owned());
 const LENGTH: KeySchema = KeySchema::required("length", ValueSchema::Positive, "The length of the link.");
 const LINE: KeySchema = KeySchema::required(
     "line",
@@ -143,8 +147,12 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 ),
                 LINE,
                 OFFSET,
-                KeySchema::new("angle", ValueSchema::Quantity(Dimension::Angle), "The angle from the line to the slot.")
-                    .with_default(|| "\"90 deg\"".to_owned()),
+                KeySchema::new(
+                    "angle",
+                    ValueSchema::Quantity(Dimension::Angle),
+                    "The angle from the line to the slot.",
+                )
+                .with_default(|| format!("\"{DEFAULT_SLOT_ANGLE_DEG} deg\"")),
             ],
         ),
     ),
@@ -194,7 +202,8 @@ pub(super) static JOINT_KINDS: [(&str, TableSchema); 11] = [
                 KeySchema::required("point", TWO_JOINTS, "A point of the link that carries these two joints."),
                 KeySchema::new("along", COORDINATE, "The distance along the line from the first to the second.")
                     .with_default(|| "0".to_owned()),
-                KeySchema::new("across", COORDINATE, "The distance to the left of that line.").with_default(|| "0".to_owned()),
+                KeySchema::new("across", COORDINATE, "The distance to the left of that line.")
+                    .with_default(|| "0".to_owned()),
             ],
         ),
     ),

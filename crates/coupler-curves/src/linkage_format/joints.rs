@@ -98,7 +98,8 @@ fn check_inputs(
     }
     for &k in inputs.iter().skip(1) {
         let (first, second) = (entries[inputs[0]].0, entries[k].0);
-        let problem = Problem::error(entries[k].2.span(), format!("`{second}` is a second input in addition to `{first}`"));
+        let problem =
+            Problem::error(entries[k].2.span(), format!("`{second}` is a second input in addition to `{first}`"));
         let help = "a linkage of one degree of freedom has one input; place the other joints by dyads or gears";
         parser.report(problem.with_help(help));
     }
@@ -154,7 +155,8 @@ fn order_joints(
             let names = |joints: &[usize]| joints.iter().map(|&k| format!("`{}`", entries[k].0)).collect::<Vec<_>>();
             let (cycle_names, unresolved) = (names(&cycle), names(&unresolved));
             let first = &cycle_names[0];
-            let problem = Problem::error(entries[cycle[0]].2.span(), format!("the joint {first} is placed from itself"));
+            let problem =
+                Problem::error(entries[cycle[0]].2.span(), format!("the joint {first} is placed from itself"));
             let help = if cycle.len() <= 2 {
                 format!("{first} needs its own position; place it from joints already placed")
             } else {

@@ -3,7 +3,7 @@
 use super::fields::Fields;
 use super::joint_kinds::JOINT_KINDS;
 use super::joints;
-use super::schema::{KeySchema, TableSchema, ValueSchema, words};
+use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::Kind;
 use crate::problem::{Problem, Span};
@@ -17,7 +17,8 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
     "a [[linkage]]",
     &[
         KeySchema::required("id", ValueSchema::Slug, "Its name, which families refer to; not one of the catalogue's."),
-        KeySchema::new("source", ValueSchema::Text, "Its source: a book or a paper.").with_default(|| "\"\"".to_owned()),
+        KeySchema::new("source", ValueSchema::Text, "Its source: a book or a paper.")
+            .with_default(|| "\"\"".to_owned()),
         KeySchema::new("legend", ValueSchema::Text, "The meaning of its parameters, printed under the title.")
             .with_default(|| "\"\"".to_owned()),
         KeySchema::new(
@@ -38,9 +39,9 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             ValueSchema::Map(&ValueSchema::Variants(&JOINT_KINDS)),
             "Its joints, by their names, in any order.",
         ),
-        CIRCUITS_KEY.with_default(|| "\"start\"".to_owned()),
-        CONTINUATION_KEY.with_default(|| "\"smooth\"".to_owned()),
-        COINCIDENT_KEY.with_default(|| "\"together\"".to_owned()),
+        CIRCUITS_KEY.with_default(|| default_word(&CIRCUIT_SELECTIONS)),
+        CONTINUATION_KEY.with_default(|| default_word(&CONTINUATIONS)),
+        COINCIDENT_KEY.with_default(|| default_word(&COINCIDENT_DYADS)),
         KeySchema::new("start", ValueSchema::Input, "The value of the input at which the sides of the joints hold."),
         KeySchema::new(
             "input",
@@ -269,7 +270,8 @@ fn parse_arc<'t>(
             1.0 => 1,
             -1.0 => -1,
             _ => {
-                parser.report(Problem::error(branch.span(), "a branch must be 1 or -1").with_help("1 is left, -1 right"));
+                parser
+                    .report(Problem::error(branch.span(), "a branch must be 1 or -1").with_help("1 is left, -1 right"));
                 return None;
             }
         },

@@ -24,11 +24,8 @@ use crate::problem::Problem;
 use crate::template::Template;
 
 /// The key of `[[linkage]]` tables.
-pub const LINKAGES_KEY: KeySchema = KeySchema::new(
-    "linkage",
-    ValueSchema::List(&LINKAGE_SCHEMA, [0, usize::MAX]),
-    "Custom linkages, joint by joint.",
-);
+pub const LINKAGES_KEY: KeySchema =
+    KeySchema::new("linkage", ValueSchema::List(&LINKAGE_SCHEMA, [0, usize::MAX]), "Custom linkages, joint by joint.");
 static LINKAGE_SCHEMA: ValueSchema = ValueSchema::Table(&LINKAGE);
 
 static FILE: TableSchema = TableSchema::new("the file", &[LINKAGES_KEY]);

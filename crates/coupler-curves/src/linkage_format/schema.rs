@@ -117,6 +117,12 @@ impl KeySchema {
     }
 }
 
+/// The JSON of the word for the default of a table of words and their meanings.
+pub fn default_word<T: Default + PartialEq>(table: &[(&'static str, T)]) -> String {
+    let default = T::default();
+    table.iter().find(|(_, value)| *value == default).map(|(word, _)| format!("\"{word}\"")).unwrap_or_default()
+}
+
 /// The words of a table of words and their meanings.
 pub fn words<T>(table: &[(&'static str, T)]) -> Vec<&'static str> {
     table.iter().map(|(word, _)| *word).collect()

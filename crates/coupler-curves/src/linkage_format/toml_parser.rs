@@ -306,8 +306,8 @@ impl<'t> TomlParser<'t> {
         let DeValue::String(content) = value.get_ref() else { return whole };
         let source = self.source_text(value);
         let quotes = source.len().saturating_sub(content.len()) / 2;
-        let is_verbatim = matches!(quotes, 1 | 3) && source.get(quotes..source.len() - quotes) == Some(content.as_ref());
-        if is_verbatim {
+        let is_quoted = matches!(quotes, 1 | 3) && source.get(quotes..source.len() - quotes) == Some(content.as_ref());
+        if is_quoted {
             let start = whole.start + quotes;
             start + inner.start..start + inner.end.max(inner.start)
         } else {

@@ -7,7 +7,7 @@ pub const CLASS: Measure = Measure {
     unit: "",
     is_word: true,
     definition: "Grashof's class of a four-bar with respect to its frame (Natesan, table 3.1)",
-    compute: |subject: &TracedCurve| match FourBar::from_linkage(subject.linkage) {
+    compute: |curve: &TracedCurve| match FourBar::from_linkage(curve.linkage) {
         Some(four_bar) => Value::Word(four_bar.class().name()),
         None => Value::Missing,
     },

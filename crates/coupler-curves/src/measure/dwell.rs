@@ -40,29 +40,29 @@ pub const MEASURES: [Measure; 6] = [
         "dwell_input_deg",
         "deg",
         "greatest input span of a portion within 0.0005 of the curve's greatest extent of a circle; a length for an actuator",
-        |subject| dwell_value(subject, |dwell| dwell.input_span),
+        |curve| dwell_value(curve, |dwell| dwell.input_span),
     ),
     Measure::number(
         "dwell_radius",
         "",
         "radius of that circle, no more than the curve's length, in the manifest's unit",
-        |subject| dwell_value(subject, |dwell| dwell.radius),
+        |curve| dwell_value(curve, |dwell| dwell.radius),
     ),
-    Measure::number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |subject| {
-        dwell_value(subject, |dwell| dwell.deviation)
+    Measure::number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |curve| {
+        dwell_value(curve, |dwell| dwell.deviation)
     }),
     Measure::number(
         "dwell_start_deg",
         "deg",
         "input at which the circular portion begins; a length for an actuator",
-        |subject| dwell_value(subject, |dwell| dwell.start_input),
+        |curve| dwell_value(curve, |dwell| dwell.start_input),
     ),
-    Measure::number("dwell_x", "", "x of the circle's centre", |subject| dwell_value(subject, |dwell| dwell.centre.x)),
-    Measure::number("dwell_y", "", "y of the circle's centre", |subject| dwell_value(subject, |dwell| dwell.centre.y)),
+    Measure::number("dwell_x", "", "x of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.x)),
+    Measure::number("dwell_y", "", "y of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.y)),
 ];
 
-fn dwell_value(subject: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {
-    subject.dwell().map_or(Value::Missing, |dwell| Value::Number(value(dwell)))
+fn dwell_value(curve: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {
+    curve.dwell().map_or(Value::Missing, |dwell| Value::Number(value(dwell)))
 }
 
 /// The best circular portion of a curve; `None` for a point or a straight line.

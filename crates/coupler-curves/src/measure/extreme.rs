@@ -8,11 +8,11 @@ use crate::motion::{self, Pass};
 /// The least and the greatest value over a circuit of a quantity of the pose, from its samples and then from parabolas
 /// between them. `quantity` is called with the positions of the joints. The error of the value is of the second order
 /// in that of the input at the extreme.
-pub(super) fn extremes(subject: &TracedCurve, quantity: impl Fn(&dyn Fn(JointId) -> Point) -> f64) -> [f64; 2] {
-    let circuit = subject.circuit;
+pub(super) fn extremes(curve: &TracedCurve, quantity: impl Fn(&dyn Fn(JointId) -> Point) -> f64) -> [f64; 2] {
+    let circuit = curve.circuit;
     let values: Vec<f64> = (0..circuit.len()).map(|i| quantity(&|joint| circuit.positions.point(joint, i))).collect();
     let at = |pass: &Pass, input: f64| {
-        let pose = motion::pose(subject.single_point_linkage().0, pass, input);
+        let pose = motion::pose(curve.single_point_linkage().0, pass, input);
         quantity(&|joint| pose[joint])
     };
     [1.0, -1.0].map(|sign| {

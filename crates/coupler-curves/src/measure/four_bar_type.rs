@@ -7,8 +7,8 @@ pub const TYPE: Measure = Measure {
     unit: "",
     is_word: true,
     definition: "McCarthy's type of a four-bar (Geometric Design of Linkages, table 2.2): 0 and π are the directions that a rocker swings through",
-    compute: |subject: &TracedCurve| {
-        FourBar::from_linkage(subject.linkage).map_or(Value::Missing, |bar| Value::Word(bar.mccarthy_type()))
+    compute: |curve: &TracedCurve| {
+        FourBar::from_linkage(curve.linkage).map_or(Value::Missing, |bar| Value::Word(bar.mccarthy_type()))
     },
 };
 
@@ -18,8 +18,8 @@ pub const SHORTEST: Measure = Measure {
     unit: "",
     is_word: true,
     definition: "shortest link of a four-bar with respect to its frame; if several are equal, the first of frame, crank, coupler, rocker",
-    compute: |subject: &TracedCurve| {
-        let Some(FourBar { frame, crank, coupler, rocker }) = FourBar::from_linkage(subject.linkage) else {
+    compute: |curve: &TracedCurve| {
+        let Some(FourBar { frame, crank, coupler, rocker }) = FourBar::from_linkage(curve.linkage) else {
             return Value::Missing;
         };
         let links = [("frame", frame), ("crank", crank), ("coupler", coupler), ("rocker", rocker)];

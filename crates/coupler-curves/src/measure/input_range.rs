@@ -6,7 +6,7 @@ pub const INPUT_MIN: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "least input of the circuit; empty on a full turn",
-    compute: |subject: &TracedCurve| extreme_input(subject, f64::INFINITY, f64::min),
+    compute: |curve: &TracedCurve| extreme_input(curve, f64::INFINITY, f64::min),
 };
 
 /// The measure `input_max_deg`.
@@ -15,13 +15,13 @@ pub const INPUT_MAX: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "greatest input of the circuit; empty on a full turn",
-    compute: |subject: &TracedCurve| extreme_input(subject, f64::NEG_INFINITY, f64::max),
+    compute: |curve: &TracedCurve| extreme_input(curve, f64::NEG_INFINITY, f64::max),
 };
 
-fn extreme_input(subject: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
-    let passes = &subject.circuit.passes;
+fn extreme_input(curve: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
+    let passes = &curve.circuit.passes;
     let reverses = passes.iter().any(|pass| pass.input_direction() != passes[0].input_direction());
-    if subject.circuit.is_closed && !reverses {
+    if curve.circuit.is_closed && !reverses {
         return Value::Missing;
     }
     let ends = passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);

@@ -135,7 +135,8 @@ impl SampledCurve {
             let point = self.points[sample as usize];
             s[k] = if k == 0 { 0.0 } else { s[k - 1] + (point - previous).norm() };
             let offset = point - own;
-            divided[k] = PointAndInput::new(offset.x, offset.y, self.inputs[sample as usize] + input_offset - self.inputs[i]);
+            divided[k] =
+                PointAndInput::new(offset.x, offset.y, self.inputs[sample as usize] + input_offset - self.inputs[i]);
             previous = point;
         }
         let at_own = s[(2 - shift) as usize];

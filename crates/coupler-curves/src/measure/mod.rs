@@ -155,6 +155,7 @@ pub enum Value {
 
 /// A measure.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Measure {
     /// Its name: a column of `cells.csv` and a variable in `where`.
     pub name: &'static str,
@@ -247,7 +248,8 @@ pub fn compute_all(curve: &TracedCurve) -> Vec<Value> {
 /// Computes the selected measures of a curve, in the order of [`ALL`]; the others are [`Value::Missing`]. `is_selected`
 /// is called with indices of [`ALL`].
 pub fn compute_selected(curve: &TracedCurve, is_selected: impl Fn(usize) -> bool) -> Vec<Value> {
-    let value = |(k, measure): (usize, &Measure)| if is_selected(k) { (measure.compute)(curve) } else { Value::Missing };
+    let value =
+        |(k, measure): (usize, &Measure)| if is_selected(k) { (measure.compute)(curve) } else { Value::Missing };
     ALL.iter().enumerate().map(value).collect()
 }
 

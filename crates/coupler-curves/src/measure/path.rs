@@ -13,7 +13,7 @@ pub const LENGTH: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "length of the path over the circuit, in the manifest's unit",
-    compute: |subject: &TracedCurve| Value::Number(subject.sampled_curve().arc_lengths().iter().sum()),
+    compute: |curve: &TracedCurve| Value::Number(curve.sampled_curve().arc_lengths().iter().sum()),
 };
 
 /// The measure `area`.
@@ -22,7 +22,7 @@ pub const AREA: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "area enclosed by the path, in the manifest's unit squared: positive counter-clockwise; empty if it is not closed",
-    compute: |subject: &TracedCurve| subject.sampled_curve().area().map_or(Value::Missing, Value::Number),
+    compute: |curve: &TracedCurve| curve.sampled_curve().area().map_or(Value::Missing, Value::Number),
 };
 
 /// The measures `bbox_x_min`, `bbox_x_max`, `bbox_y_min` and `bbox_y_max`.
@@ -32,66 +32,66 @@ pub const BOUNDING_BOX: [Measure; 4] = [
         unit: "",
         is_word: false,
         definition: "least x of the curve",
-        compute: |subject: &TracedCurve| extent_measure(subject, Vector::new(-1.0, 0.0)),
+        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(-1.0, 0.0)),
     },
     Measure {
         name: "bbox_x_max",
         unit: "",
         is_word: false,
         definition: "greatest x of the curve",
-        compute: |subject: &TracedCurve| extent_measure(subject, Vector::new(1.0, 0.0)),
+        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(1.0, 0.0)),
     },
     Measure {
         name: "bbox_y_min",
         unit: "",
         is_word: false,
         definition: "least y of the curve",
-        compute: |subject: &TracedCurve| extent_measure(subject, Vector::new(0.0, -1.0)),
+        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(0.0, -1.0)),
     },
     Measure {
         name: "bbox_y_max",
         unit: "",
         is_word: false,
         definition: "greatest y of the curve",
-        compute: |subject: &TracedCurve| extent_measure(subject, Vector::new(0.0, 1.0)),
+        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(0.0, 1.0)),
     },
 ];
 
-fn extent_measure(subject: &TracedCurve, direction: Vector) -> Value {
-    let curve = subject.sampled_curve();
-    let Some(top) = curve.furthest_sample(direction) else { return Value::Missing };
+fn extent_measure(curve: &TracedCurve, direction: Vector) -> Value {
+    let samples = curve.sampled_curve();
+    let Some(top) = samples.furthest_sample(direction) else { return Value::Missing };
     // Around a limit samples are far apart: poses of the linkage are computed there.
-    let reach = match is_near_limit(subject, top) {
-        true => direction.dot(&curve.points[top].coords).max(extent_by_poses(subject, direction, top)),
-        false => curve.max_extent(direction, top),
+    let reach = match is_near_limit(curve, top) {
+        true => direction.dot(&samples.points[top].coords).max(extent_by_poses(curve, direction, top)),
+        false => samples.max_extent(direction, top),
     };
     // The least coordinate is the negative of the greatest in the opposite direction.
     Value::Number(if direction.x + direction.y < 0.0 { -reach } else { reach })
 }
 
 /// Whether a limit is at most two samples away.
-fn is_near_limit(subject: &TracedCurve, i: usize) -> bool {
-    let curve = subject.sampled_curve();
+fn is_near_limit(curve: &TracedCurve, i: usize) -> bool {
+    let samples = curve.sampled_curve();
     let ends =
-        || subject.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]).filter(|end| !end.flat_dyads.is_empty());
+        || curve.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]).filter(|end| !end.flat_dyads.is_empty());
     let is_limit = |offset: isize| {
-        curve.neighbour(i, offset).is_some_and(|k| ends().any(|end| end.input.value == curve.inputs[k]))
+        samples.neighbour(i, offset).is_some_and(|k| ends().any(|end| end.input.value == samples.inputs[k]))
     };
     (-2..=2).any(is_limit)
 }
 
 /// The greatest extent in a direction between a sample and its neighbours, from poses of the linkage.
-fn extent_by_poses(subject: &TracedCurve, direction: Vector, top: usize) -> f64 {
-    let (curve, circuit) = (subject.sampled_curve(), subject.circuit);
-    let (linkage, joint) = subject.single_point_linkage();
+fn extent_by_poses(curve: &TracedCurve, direction: Vector, top: usize) -> f64 {
+    let (samples, circuit) = (curve.sampled_curve(), curve.circuit);
+    let (linkage, joint) = curve.single_point_linkage();
     let mut most = f64::NEG_INFINITY;
-    for (from, to) in [(curve.neighbour(top, -1), Some(top)), (Some(top), curve.neighbour(top, 1))] {
+    for (from, to) in [(samples.neighbour(top, -1), Some(top)), (Some(top), samples.neighbour(top, 1))] {
         let (Some(from), Some(to)) = (from, to) else { continue };
         // The interval before a sample has the assembly mode of that sample, also if it is the end of a pass.
-        let (low, high) = (curve.inputs[from].min(curve.inputs[to]), curve.inputs[from].max(curve.inputs[to]));
+        let (low, high) = (samples.inputs[from].min(samples.inputs[to]), samples.inputs[from].max(samples.inputs[to]));
         let has_interval = |pass: &&Pass| {
             let [first, last] = pass.input_range();
-            pass.mode == circuit.mode_at(curve.sample_indices[to]) && first <= low && high <= last
+            pass.mode == circuit.mode_at(samples.sample_indices[to]) && first <= low && high <= last
         };
         let Some(pass) = circuit.passes.iter().find(has_interval) else { continue };
         let height = |input: f64| {

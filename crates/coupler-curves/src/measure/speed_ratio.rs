@@ -8,20 +8,20 @@ pub const SPEED_RATIO: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "ratio of the longest dash to the shortest: the first 3 of every 5 deg of input, from input 0, except those cut by the end of a pass",
-    compute: |subject: &TracedCurve| ratio(subject).map_or(Value::Missing, Value::Number),
+    compute: |curve: &TracedCurve| ratio(curve).map_or(Value::Missing, Value::Number),
 };
 
-fn ratio(subject: &TracedCurve) -> Option<f64> {
+fn ratio(curve: &TracedCurve) -> Option<f64> {
     const PERIOD: f64 = 5.0;
     const DASH_SPAN: f64 = 3.0;
     /// Points of a dash.
     const POINTS: usize = 5;
-    if subject.linkage.input() == Input::Length {
+    if curve.linkage.input() == Input::Length {
         return None;
     }
-    let (linkage, joint) = subject.single_point_linkage();
+    let (linkage, joint) = curve.single_point_linkage();
     let mut lengths: Vec<f64> = Vec::new();
-    for pass in &subject.circuit.passes {
+    for pass in &curve.circuit.passes {
         let [low, high] = pass.input_range();
         let (first, last) = ((low / PERIOD).ceil() as i64, ((high - DASH_SPAN) / PERIOD).floor() as i64);
         let input_at = |k: i64, i: usize| k as f64 * PERIOD + DASH_SPAN * i as f64 / (POINTS - 1) as f64;

@@ -53,30 +53,30 @@ pub const MEASURES: [Measure; 4] = [
         "straight_length",
         "",
         "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`",
-        |subject| portion_value(subject, |portion| portion.length),
+        |curve| portion_value(curve, |portion| portion.length),
     ),
     Measure::number(
         "straight_deviation",
         "",
         "greatest distance of the straightest portion from its line, half the width of its strip, in the manifest's unit",
-        |subject| portion_value(subject, |portion| portion.deviation),
+        |curve| portion_value(curve, |portion| portion.deviation),
     ),
     Measure::number(
         "straight_start_deg",
         "deg",
         "input at which the straightest portion begins; a length for an actuator",
-        |subject| portion_value(subject, |portion| portion.start_input),
+        |curve| portion_value(curve, |portion| portion.start_input),
     ),
     Measure::number(
         "straight_input_deg",
         "deg",
         "input that the straightest portion spans; a length for an actuator",
-        |subject| portion_value(subject, |portion| portion.input_span),
+        |curve| portion_value(curve, |portion| portion.input_span),
     ),
 ];
 
-fn portion_value(subject: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Value {
-    subject.straight().map_or(Value::Missing, |portion| Value::Number(value(portion)))
+fn portion_value(curve: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Value {
+    curve.straight().map_or(Value::Missing, |portion| Value::Number(value(portion)))
 }
 
 /// The portion of a curve that meets a criterion; `None` if the curve is too short.

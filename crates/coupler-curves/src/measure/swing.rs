@@ -9,12 +9,12 @@ pub const OUTPUT_SWING: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "angle that the output link of a four-bar swings through over the circuit; 360 if it turns fully",
-    compute: |subject: &TracedCurve| swing(subject).map_or(Value::Missing, Value::Number),
+    compute: |curve: &TracedCurve| swing(curve).map_or(Value::Missing, Value::Number),
 };
 
-fn swing(subject: &TracedCurve) -> Option<f64> {
-    let [_, _, b, c] = FourBar::pins(subject.linkage)?;
-    let circuit = subject.circuit;
+fn swing(curve: &TracedCurve) -> Option<f64> {
+    let [_, _, b, c] = FourBar::pins(curve.linkage)?;
+    let circuit = curve.circuit;
     let arm = |i: usize| circuit.positions.point(b, i) - circuit.positions.point(c, i);
     let angle = |from: Vector, to: Vector| trig::degrees(trig::atan2(cross(from, to), from.dot(&to)));
     // The rotation from the first sample to each sample, and over the whole circuit.
@@ -32,6 +32,6 @@ fn swing(subject: &TracedCurve) -> Option<f64> {
     let (cos, sin) = trig::cos_sin_deg((low + high) / 2.0);
     let first = arm(0);
     let middle = complex_product(Vector::new(cos, sin), first);
-    let [least, greatest] = extremes(subject, |position| angle(middle, position(b) - position(c)));
+    let [least, greatest] = extremes(curve, |position| angle(middle, position(b) - position(c)));
     Some(greatest - least)
 }

@@ -41,7 +41,7 @@ pub const SYMMETRY: Measure = Measure {
     unit: "",
     is_word: true,
     definition: "theorem 1 (crank = rocker, point on the coupler's bisector) or theorem 2 (coupler = rocker = pin to point, or coupler = crank) of Natesan's chapter 7; other: another curve whose mirror image is within 1e-4 of its extent; empty for a curve without symmetry",
-    compute: |subject: &TracedCurve| match subject.symmetry() {
+    compute: |curve: &TracedCurve| match curve.symmetry() {
         Some(Symmetry { theorem: Some(theorem), .. }) => Value::Word(theorem),
         Some(symmetry) if symmetry.residual <= Symmetry::TOLERANCE => Value::Word("other"),
         _ => Value::Missing,
@@ -54,8 +54,8 @@ pub const AXIS: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty for a circle",
-    compute: |subject: &TracedCurve| {
-        subject.symmetry().and_then(|s| s.axis).map_or(Value::Missing, |axis| Value::Number(axis.direction_deg()))
+    compute: |curve: &TracedCurve| {
+        curve.symmetry().and_then(|s| s.axis).map_or(Value::Missing, |axis| Value::Number(axis.direction_deg()))
     },
 };
 
@@ -65,44 +65,46 @@ pub const RESIDUAL: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent",
-    compute: |subject: &TracedCurve| subject.symmetry().map_or(Value::Missing, |s| Value::Number(s.residual)),
+    compute: |curve: &TracedCurve| curve.symmetry().map_or(Value::Missing, |s| Value::Number(s.residual)),
 };
 
 /// The symmetry of a curve; `None` for a point.
-pub(super) fn find_symmetry(subject: &TracedCurve) -> Option<Symmetry> {
+pub(super) fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     /// If the residual for a theorem's axis is greater than this, the mirror image is the curve of another circuit.
     const MAX_ROUGH_RESIDUAL: f64 = 0.1;
-    let curve = subject.sampled_curve();
-    let extent = diameter(&convex_hull(curve.points.clone()));
-    if curve.points.len() < 3 || extent <= 0.0 {
+    let samples = curve.sampled_curve();
+    let extent = diameter(&convex_hull(samples.points.clone()));
+    if samples.points.len() < 3 || extent <= 0.0 {
         return None;
     }
     // If a linkage has two circuits, their curves may be mirror images of each other, and not of themselves.
-    if let Some((axis, theorem)) = axis_by_theorem(subject)
-        && (has_one_circuit(subject) || rough_residual(curve, axis) <= MAX_ROUGH_RESIDUAL * extent)
+    if let Some((axis, theorem)) = axis_by_theorem(curve)
+        && (has_one_circuit(curve) || rough_residual(samples, axis) <= MAX_ROUGH_RESIDUAL * extent)
     {
-        let residual = residual_by_sextic(subject, axis).unwrap_or_else(|| refine_axis(curve, axis, true).1) / extent;
+        let residual = residual_by_sextic(curve, axis).unwrap_or_else(|| refine_axis(samples, axis, true).1) / extent;
         return Some(Symmetry { axis: Some(axis), residual, theorem: Some(theorem) });
     }
-    let Some(axis) = axis_by_moments(curve) else { return Some(Symmetry { axis: None, residual: 0.0, theorem: None }) };
-    let rough = rough_residual(curve, axis);
+    let Some(axis) = axis_by_moments(samples) else {
+        return Some(Symmetry { axis: None, residual: 0.0, theorem: None });
+    };
+    let rough = rough_residual(samples, axis);
     // If it is smaller than that, the curve is interpolated between its samples.
-    if rough > 4.0 * curve.max_sagitta() {
+    if rough > 4.0 * samples.max_sagitta() {
         return Some(Symmetry { axis: Some(axis), residual: rough / extent, theorem: None });
     }
-    let (axis, most) = refine_axis(curve, axis, false);
+    let (axis, most) = refine_axis(samples, axis, false);
     Some(Symmetry { axis: Some(axis), residual: most / extent, theorem: None })
 }
 
 /// Whether a four-bar has only one circuit, as a triple-rocker has.
-fn has_one_circuit(subject: &TracedCurve) -> bool {
-    FourBar::from_linkage(subject.linkage).is_some_and(|bar| bar.class() == FourBarClass::TripleRocker)
+fn has_one_circuit(curve: &TracedCurve) -> bool {
+    FourBar::from_linkage(curve.linkage).is_some_and(|bar| bar.class() == FourBarClass::TripleRocker)
 }
 
 /// The greatest distance of the mirrored samples from the curve of a coupler point, from its sextic.
-fn residual_by_sextic(subject: &TracedCurve, axis: SymmetryAxis) -> Option<f64> {
+fn residual_by_sextic(curve: &TracedCurve, axis: SymmetryAxis) -> Option<f64> {
     let PlacedFourBar { pivots: [origin, end], lengths, coupler_point: point } =
-        PlacedFourBar::from_linkage(subject.linkage, subject.joint).ok()?;
+        PlacedFourBar::from_linkage(curve.linkage, curve.joint).ok()?;
     let sextic = Sextic::from_four_bar(lengths, point)?;
     let frame = (end - origin).try_normalize(0.0)?;
     let distance = |point: &Point| {
@@ -113,21 +115,21 @@ fn residual_by_sextic(subject: &TracedCurve, axis: SymmetryAxis) -> Option<f64> 
         let distance = value.abs() / sextic.gradient(in_frame).norm();
         if value.abs() > 1e-13 * terms && distance.is_finite() { distance } else { 0.0 }
     };
-    Some(subject.sampled_curve().points.iter().map(distance).fold(0.0, f64::max))
+    Some(curve.sampled_curve().points.iter().map(distance).fold(0.0, f64::max))
 }
 
 /// The axis of the curves of a coupler point by a theorem, and the name of the theorem.
-fn axis_by_theorem(subject: &TracedCurve) -> Option<(SymmetryAxis, &'static str)> {
+fn axis_by_theorem(curve: &TracedCurve) -> Option<(SymmetryAxis, &'static str)> {
     /// The relative tolerance for equal lengths: the rounding of the expressions they come from.
     const EQUAL: f64 = 1e-12;
-    let linkage = subject.linkage;
-    let [o, a, b, c] = FourBar::coupler_pins(linkage, subject.joint)?;
+    let linkage = curve.linkage;
+    let [o, a, b, c] = FourBar::coupler_pins(linkage, curve.joint)?;
     let FourBar { frame, crank, coupler, rocker } = FourBar::from_linkage(linkage)?;
-    let link = linkage.links.iter().find(|link| [a, b, subject.joint].iter().all(|&j| link.position(j).is_some()))?;
-    let to_point = |pin| Some((link.position(subject.joint)? - link.position(pin)?).norm());
+    let link = linkage.links.iter().find(|link| [a, b, curve.joint].iter().all(|&j| link.position(j).is_some()))?;
+    let to_point = |pin| Some((link.position(curve.joint)? - link.position(pin)?).norm());
     let (from_crank, from_rocker) = (to_point(a)?, to_point(b)?);
     let is_equal = |x: f64, y: f64| (x - y).abs() <= EQUAL * (frame + crank + coupler + rocker);
-    let circuit = subject.circuit;
+    let circuit = curve.circuit;
     let position = |joint, k| circuit.positions.point(joint, k);
     let [origin, end] = [position(o, 0), position(c, 0)];
     let first = is_equal(crank, rocker) && is_equal(from_crank, from_rocker);
@@ -144,7 +146,7 @@ fn axis_by_theorem(subject: &TracedCurve) -> Option<(SymmetryAxis, &'static str)
     let ([pivot, other], [_, pin], ..) = second?;
     // The angle at the pivot from the pin to the point is the same in every pose; it is computed where both are far
     // from it.
-    let arms = |k: usize| [position(pin, k) - pivot, position(subject.joint, k) - pivot];
+    let arms = |k: usize| [position(pin, k) - pivot, position(curve.joint, k) - pivot];
     let reach = |k: usize| arms(k).map(|by| by.norm()).into_iter().fold(f64::INFINITY, f64::min);
     let best = (0..circuit.len()).max_by(|&j, &k| reach(j).total_cmp(&reach(k)))?;
     let [from, to] = arms(best);

@@ -8,14 +8,14 @@ pub const TIME_RATIO: Measure = Measure {
     unit: "",
     is_word: false,
     definition: "time ratio of a crank-rocker: crank angle of the rocker's slower stroke divided by that of its faster one; 1 or more",
-    compute: |subject: &TracedCurve| ratio(subject).map_or(Value::Missing, Value::Number),
+    compute: |curve: &TracedCurve| ratio(curve).map_or(Value::Missing, Value::Number),
 };
 
-fn ratio(subject: &TracedCurve) -> Option<f64> {
-    let bar = FourBar::from_linkage(subject.linkage).filter(|_| subject.linkage.seen_from.is_none())?;
+fn ratio(curve: &TracedCurve) -> Option<f64> {
+    let bar = FourBar::from_linkage(curve.linkage).filter(|_| curve.linkage.seen_from.is_none())?;
     let FourBar { frame, crank, coupler, rocker } = bar;
     // The rocker reverses where crank and coupler are collinear; the crank angles there are from triangles.
-    let is_full_turn = subject.circuit.is_closed && subject.circuit.passes.len() == 1;
+    let is_full_turn = curve.circuit.is_closed && curve.circuit.passes.len() == 1;
     if bar.mccarthy_type() != "crank-rocker" || !is_full_turn {
         return None;
     }

@@ -9,8 +9,8 @@ pub const MU_MIN: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "least transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins (McCarthy 2.3.3)",
-    compute: |subject: &TracedCurve| {
-        subject.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least))
+    compute: |curve: &TracedCurve| {
+        curve.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least))
     },
 };
 
@@ -20,9 +20,7 @@ pub const MU_MAX: Measure = Measure {
     unit: "deg",
     is_word: false,
     definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins",
-    compute: |subject: &TracedCurve| {
-        subject.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most))
-    },
+    compute: |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most)),
 };
 
 /// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 if the triangle is degenerate.
@@ -37,19 +35,19 @@ fn opposite_angle(side: f64, [x, y]: [f64; 2]) -> f64 {
 }
 
 /// The least and the greatest transmission angle over the circuit, in degrees.
-pub(super) fn transmission_angles(subject: &TracedCurve) -> Option<[f64; 2]> {
-    let linkage = subject.linkage;
+pub(super) fn transmission_angles(curve: &TracedCurve) -> Option<[f64; 2]> {
+    let linkage = curve.linkage;
     let FourBar { frame, crank, coupler, rocker } = FourBar::from_linkage(linkage)?;
     if linkage.seen_from.is_none() {
         // From the distance of the crank's pin from the rocker's pivot, which is extreme where the crank is on the
         // frame line.
         let [o, a, _, c] = FourBar::pins(linkage)?;
-        let [least, greatest] = pin_distance_range(subject, [o, a, c], [frame, crank]);
+        let [least, greatest] = pin_distance_range(curve, [o, a, c], [frame, crank]);
         return Some([least, greatest].map(|d| opposite_angle(d, [coupler, rocker])));
     }
     let [o, a, b, c] = FourBar::pins(linkage)?;
     let angle = |[from, to]: [JointId; 2], sides: [f64; 2]| {
-        extremes(subject, |position| (position(from) - position(to)).norm()).map(|side| opposite_angle(side, sides))
+        extremes(curve, |position| (position(from) - position(to)).norm()).map(|side| opposite_angle(side, sides))
     };
     let at_rocker = angle([a, c], [coupler, rocker]);
     if !is_driven(linkage, [a, b]) {
@@ -68,13 +66,13 @@ fn is_driven(linkage: &Linkage, pins: [JointId; 2]) -> bool {
 }
 
 /// The least and the greatest distance of the crank's pin from the other fixed pivot over a circuit.
-fn pin_distance_range(subject: &TracedCurve, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2]) -> [f64; 2] {
-    let circuit = subject.circuit;
+fn pin_distance_range(curve: &TracedCurve, [o, a, c]: [JointId; 3], [frame, crank]: [f64; 2]) -> [f64; 2] {
+    let circuit = curve.circuit;
     let at = |joint, i| circuit.positions.point(joint, i);
     // The input at which the crank points along the frame line.
     let along = at(c, 0) - at(o, 0);
     let arm = at(a, 0) - at(o, 0);
-    let angle_sine = cross(arm, along) * subject.linkage.placement.handedness();
+    let angle_sine = cross(arm, along) * curve.linkage.placement.handedness();
     let turn = trig::degrees(trig::atan2(angle_sine, arm.dot(&along)));
     let towards = circuit.inputs[0] + turn;
     let is_reached = |deg: f64| {

@@ -1,7 +1,7 @@
-//! What is wrong with a text, where in it, and the remedy.
+//! Problems in a text, each with its place and how to fix it.
 //!
-//! A reader of texts never stops at the first mistake: it notes a [`Problem`] and reads on, so that one run names
-//! them all. [`report`] draws them with the offending text underlined.
+//! A parser does not stop at the first mistake: it adds a [`Problem`] and continues, so that one run reports all of
+//! them. [`report()`] renders them with the offending text underlined.
 
 mod report;
 mod suggestion;
@@ -11,30 +11,30 @@ pub use suggestion::{nearest_word, suggestion};
 
 use std::ops::Range;
 
-/// A place in a text: a range of bytes.
+/// A range of bytes in a text.
 pub type Span = Range<usize>;
 
-/// How grave a problem is.
+/// The severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// Nothing can be made of the text.
+    /// The text is invalid.
     Error,
-    /// The text is understood, but perhaps not what was meant.
+    /// The text is valid, but may not be what was meant.
     Warning,
 }
 
-/// One thing wrong with a text.
+/// A problem in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Error or warning.
     pub severity: Severity,
-    /// What is wrong, in lower case and without a full stop.
+    /// The message, in lower case and without a full stop.
     pub message: String,
-    /// The offending text, in bytes from the start of the text.
+    /// The offending part of the text.
     pub span: Span,
-    /// A word beside the underline; may be empty.
+    /// A label next to the underline; may be empty.
     pub label: String,
-    /// The remedy; may be empty.
+    /// How to fix it; may be empty.
     pub help: String,
 }
 
@@ -49,19 +49,19 @@ impl Problem {
         Problem { severity: Severity::Warning, ..Problem::error(span, message) }
     }
 
-    /// The same with a word beside the underline.
+    /// Sets the label next to the underline.
     pub fn with_label(mut self, label: impl Into<String>) -> Problem {
         self.label = label.into();
         self
     }
 
-    /// The same with a remedy.
+    /// Sets the help, which says how to fix it.
     pub fn with_help(mut self, help: impl Into<String>) -> Problem {
         self.help = help.into();
         self
     }
 
-    /// Whether this is an error and not a warning.
+    /// Whether this is an error rather than a warning.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

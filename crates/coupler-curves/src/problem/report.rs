@@ -3,10 +3,10 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::{Problem, Severity};
 
-/// Draws problems for a person to read: each with file, line and column, the offending text underlined and `help:`.
+/// Renders problems for a terminal: each with file, line and column, the offending text underlined and `help:`.
 ///
-/// `path` is the name the text goes by. Spans beyond the text are brought to its end. With `styled` the report has
-/// a terminal's colours; it has no other control characters, whatever the text has.
+/// Errors come before warnings. `path` is the name of the text. Spans beyond the text are moved to its end. With
+/// `styled` the report has terminal colours; it has no other control characters, even if the text does.
 pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
     let mut ordered: Vec<&Problem> = problems.iter().collect();
@@ -14,18 +14,18 @@ pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> Str
     let mut out = String::new();
     for problem in ordered {
         let Problem { message, label, help, .. } = problem;
-        let [message, label, help] = [message, label, help].map(|words| replace_control_chars(words));
-        let shown = Problem { message, label, help, ..problem.clone() };
-        out.push_str(&renderer.render(&[group(&shown, path, text)]));
+        let [message, label, help] = [message, label, help].map(|text| replace_control_chars(text));
+        let sanitized = Problem { message, label, help, ..problem.clone() };
+        out.push_str(&renderer.render(&[group(&sanitized, path, text)]));
         out.push_str("\n\n");
     }
-    // Of the text itself the renderer shows those of ASCII by signs, and leaves the others, which terminals obey too.
+    // In the text itself the renderer replaces ASCII control characters, but not the C1 ones, which terminals obey too.
     out.replace(|c: char| ('\u{80}'..='\u{9f}').contains(&c), "\u{fffd}")
 }
 
-/// Words that may quote the text, without its control characters.
-fn replace_control_chars(words: &str) -> String {
-    words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
+/// Replaces control characters in a message that may quote the text.
+fn replace_control_chars(message: &str) -> String {
+    message.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
 }
 
 fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_snippets::Group<'a> {
@@ -46,7 +46,7 @@ fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_sni
     }
 }
 
-/// The span brought inside the text and onto whole characters; only the first line of a longer one is underlined.
+/// The span clamped to the text and to character boundaries; only the first line of a longer one is underlined.
 fn underlined_span(problem: &Problem, text: &str) -> std::ops::Range<usize> {
     let start = floor_char_boundary(text, problem.span.start);
     let end = floor_char_boundary(text, problem.span.end).max(start);
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_report_names_place_and_remedy() {
+    fn a_report_has_message_place_and_help() {
         let text = "title = \"x\"\nstep = 0\n";
         let problem = Problem::error(19..20, "a step of 0 never ends").with_help("give a step of more than 0");
         let report = report(&[problem], "atlas.toml", text, false);
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn no_span_is_too_odd_to_be_drawn() {
+    fn invalid_spans_are_rendered() {
         for (start, end) in [(0, 0), (3, 1), (900, 1000), (1, 2)] {
             report(&[Problem::error(start..end, "odd")], "x", "é\nü", false);
         }

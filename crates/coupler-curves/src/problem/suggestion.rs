@@ -1,4 +1,4 @@
-/// The candidate that `word` was most likely meant to be: fewest letters changed, and no more than a third of them.
+/// The candidate with the least edit distance from `word`, if that is at most a third of the word's length, or 1.
 pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
     candidates
@@ -9,11 +9,11 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
         .map(|(_, candidate)| candidate)
 }
 
-/// A remedy for an unknown word: the nearest candidate, or all of them where none is near.
+/// The help for an unknown word: the nearest candidate, or all of them if none is near.
 pub fn suggestion(word: &str, candidates: &[&str]) -> String {
     match nearest_word(word, candidates.iter().copied()) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
-        None if candidates.is_empty() => "there are none to choose from".to_owned(),
+        None if candidates.is_empty() => "none are defined".to_owned(),
         None => format!("it can be {}", alternatives(candidates)),
     }
 }
@@ -26,7 +26,8 @@ fn alternatives(words: &[&str]) -> String {
     }
 }
 
-/// Letters to insert, remove, replace or swap with a neighbour to make `a` into `b` (optimal string alignment).
+/// The number of letters to insert, remove, replace or swap with a neighbour to turn `a` into `b`, ignoring case
+/// (optimal string alignment).
 fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
@@ -50,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slip_of_the_pen_finds_its_word_and_a_strange_word_none() {
+    fn a_misspelt_word_has_a_suggestion_and_an_unrelated_word_has_none() {
         let keys = ["linkage", "layout", "sampling", "grid"];
         for (word, meant) in
             [("linkge", Some("linkage")), ("gird", Some("grid")), ("Grid", Some("grid")), ("xyz", None)]

@@ -1,7 +1,9 @@
+//! How the joints of a template are placed.
+
 use super::{InputValue, Side};
 use crate::expression::CompiledExpression;
 
-/// How a joint is placed; joints are named by their place in [`super::Template::joints`].
+/// How a joint is placed; other joints are given by their indices in [`super::Template::joints`].
 #[derive(Clone, Debug)]
 pub enum JointKindTemplate {
     /// At fixed coordinates.
@@ -21,12 +23,12 @@ pub enum JointKindTemplate {
         pivot: usize,
         /// The length.
         length: CompiledExpression,
-        /// Its turns to those of the first: whole numbers.
+        /// The turns of this crank and of the first, both whole.
         ratio: [CompiledExpression; 2],
-        /// Its angle where the first crank's is 0.
+        /// Its angle when the first crank's is 0.
         phase: InputValue,
     },
-    /// On a crank driven by a linear actuator, which is the input.
+    /// On a crank driven by a linear actuator, whose length is the input.
     Piston {
         /// The actuator's pivot, and the crank's.
         base: [usize; 2],
@@ -37,42 +39,42 @@ pub enum JointKindTemplate {
         /// The side of the base at the start.
         side: Side,
     },
-    /// By two links.
+    /// At the common pin of two links.
     Dyad {
-        /// The joints they hang on.
+        /// The joints the links are connected to.
         base: [usize; 2],
         /// Their lengths.
         lengths: [CompiledExpression; 2],
         /// The side of the base at the start.
         side: Side,
     },
-    /// By a link that slides on a line.
+    /// At the end of a link that slides on a line.
     Slide {
-        /// The joint the link hangs on.
+        /// The joint at the link's other end.
         from: usize,
         /// The link's length.
         length: CompiledExpression,
-        /// Two joints the line goes through, or beside.
+        /// Two joints that the line is parallel to.
         line: [usize; 2],
-        /// How far the line runs to the left of them.
+        /// The distance of the line to the left of them.
         offset: CompiledExpression,
-        /// Left is ahead along the line, right is behind.
+        /// [`Side::Left`] is ahead of `from` along the line, [`Side::Right`] behind it.
         side: Side,
     },
-    /// On the guide of a yoke, where the slot that a joint slides in meets it.
+    /// At the point where the slot of a yoke, in which a joint slides, meets the yoke's guide.
     Yoke {
         /// The joint that slides in the slot.
         from: usize,
-        /// Two joints the guide goes through, or beside.
+        /// Two joints that the guide is parallel to.
         line: [usize; 2],
-        /// How far the guide runs to the left of them.
+        /// The distance of the guide to the left of them.
         offset: CompiledExpression,
-        /// From the guide to the slot.
+        /// The angle from the guide to the slot.
         angle: InputValue,
     },
     /// At the foot of a line that slides through a joint.
     Slot {
-        /// The pivot, and the joint the line slides through.
+        /// The pivot, and the joint that the line slides through.
         base: [usize; 2],
         /// The line's distance from the pivot.
         offset: CompiledExpression,
@@ -81,25 +83,25 @@ pub enum JointKindTemplate {
     },
     /// At the fourth corner of a parallelogram.
     Parallelogram {
-        /// The other corners, in order round it.
+        /// The other corners, in order around it.
         corners: [usize; 3],
     },
-    /// On a link, by coordinates; ranges make a grid of points, `across` fastest.
+    /// On a link, by coordinates; ranges make a grid of points, in which `across` changes fastest.
     Point {
         /// Two joints of the link.
         base: [usize; 2],
-        /// From the first joint towards the second.
+        /// The distance from the first joint towards the second.
         along: Coordinate,
-        /// To the left.
+        /// The distance to the left of that line.
         across: Coordinate,
     },
-    /// On a link, by distances.
+    /// On a link, by distances from two of its joints.
     Distances {
         /// Two joints of the link.
         base: [usize; 2],
         /// The distances from them.
         distances: [CompiledExpression; 2],
-        /// The side of the first to the second.
+        /// The side of the line from the first joint to the second.
         side: Side,
     },
 }
@@ -123,22 +125,22 @@ impl JointKindTemplate {
         }
     }
 
-    /// The same with its joints renamed.
+    /// Replaces the indices of joints.
     #[must_use]
-    pub fn map_joints(mut self, now: impl Fn(usize) -> usize) -> JointKindTemplate {
+    pub fn map_joints(mut self, new_index: impl Fn(usize) -> usize) -> JointKindTemplate {
         match &mut self {
             JointKindTemplate::Fixed(_) => {}
-            JointKindTemplate::Crank { pivot, .. } => *pivot = now(*pivot),
-            JointKindTemplate::Gear { crank, pivot, .. } => (*crank, *pivot) = (now(*crank), now(*pivot)),
-            JointKindTemplate::Parallelogram { corners } => *corners = corners.map(now),
+            JointKindTemplate::Crank { pivot, .. } => *pivot = new_index(*pivot),
+            JointKindTemplate::Gear { crank, pivot, .. } => (*crank, *pivot) = (new_index(*crank), new_index(*pivot)),
+            JointKindTemplate::Parallelogram { corners } => *corners = corners.map(new_index),
             JointKindTemplate::Slide { from, line, .. } | JointKindTemplate::Yoke { from, line, .. } => {
-                (*from, *line) = (now(*from), line.map(now));
+                (*from, *line) = (new_index(*from), line.map(new_index));
             }
             JointKindTemplate::Dyad { base, .. }
             | JointKindTemplate::Piston { base, .. }
             | JointKindTemplate::Slot { base, .. }
             | JointKindTemplate::Point { base, .. }
-            | JointKindTemplate::Distances { base, .. } => *base = base.map(now),
+            | JointKindTemplate::Distances { base, .. } => *base = base.map(new_index),
         }
         self
     }
@@ -149,19 +151,19 @@ impl JointKindTemplate {
 pub enum Coordinate {
     /// A single value.
     Single(CompiledExpression),
-    /// Evenly spaced values, both ends among them.
+    /// Evenly spaced values, including both ends.
     Range {
-        /// The first.
+        /// The first value.
         from: CompiledExpression,
-        /// The last.
+        /// The last value.
         to: CompiledExpression,
-        /// How many, at least one.
+        /// The number of values, at least one.
         count: usize,
     },
 }
 
 impl Coordinate {
-    /// How many values it has.
+    /// The number of its values.
     pub fn count(&self) -> usize {
         match self {
             Coordinate::Single(_) => 1,
@@ -169,14 +171,14 @@ impl Coordinate {
         }
     }
 
-    /// Its values, each bound expression evaluated by `number`.
+    /// Its values, with expressions evaluated by `number`.
     pub fn values(&self, number: impl Fn(&CompiledExpression) -> f64) -> Vec<f64> {
         match self {
             Coordinate::Single(value) => vec![number(value)],
             Coordinate::Range { from, to, count } => {
                 let (from, to) = (number(from), number(to));
-                let step = |i: usize| if *count == 1 { 0.0 } else { i as f64 / (*count - 1) as f64 };
-                (0..*count).map(|i| from + (to - from) * step(i)).collect()
+                let fraction = |i: usize| if *count == 1 { 0.0 } else { i as f64 / (*count - 1) as f64 };
+                (0..*count).map(|i| from + (to - from) * fraction(i)).collect()
             }
         }
     }

@@ -1,4 +1,4 @@
-//! A linkage with expressions for numbers; a parameter set makes it a [`Linkage`].
+//! A template: a linkage whose dimensions are expressions. A parameter set turns it into a [`Linkage`].
 
 mod joint_kind;
 mod order;
@@ -11,40 +11,40 @@ use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
 
-/// A linkage family before it has numbers. All [`CompiledExpression`] expressions are over [`Template::parameters`].
+/// A linkage whose dimensions are expressions. Every [`CompiledExpression`] in it is over [`Template::parameters`].
 #[derive(Clone, Debug)]
 pub struct Template {
-    /// The name manifests call it by.
+    /// Its name in manifests.
     pub id: String,
-    /// Where it comes from.
+    /// Its source in the literature; may be empty.
     pub source: String,
-    /// What its letters mean; may be empty.
+    /// The meaning of its parameters; may be empty.
     pub legend: String,
     /// Its parameters, in the order of the columns of `cells.csv`.
     pub parameters: Vec<Parameter>,
-    /// The line under each figure.
+    /// The caption under each cell.
     pub caption: Option<Caption>,
-    /// A smaller line under that.
+    /// A second, smaller line under the caption.
     pub note: Option<Caption>,
     /// The joints in the order they are placed.
     pub joints: Vec<JointTemplate>,
-    /// The joints whose curves are wanted, by their place in `joints`.
+    /// The joints whose curves are traced, by their indices in `joints`.
     pub traced: Vec<usize>,
-    /// The link whose frame everything is reported in.
+    /// The link in whose frame everything is reported: the joint at its origin and a joint on its positive x-axis.
     pub seen_from: Option<[usize; 2]>,
-    /// Where the plane it is reported in is laid, after that.
+    /// The orientation applied to everything reported, after `seen_from`.
     pub orientation: Orientation,
-    /// Which circuits are wanted.
+    /// The circuits to solve.
     pub circuits: CircuitSelection,
-    /// What happens at a change point.
+    /// How the motion continues at a change point.
     pub continuation: Continuation,
-    /// Which dyads change their sides where several lie flat at one input.
+    /// The dyads that change sides where several are flat at one input.
     pub coincident: CoincidentDyads,
-    /// The input at which the sides hold.
+    /// The input at which the sides of the joints apply.
     pub start: Option<InputValue>,
     /// The range of the input.
     pub input: Option<[InputValue; 2]>,
-    /// The part of the curve that the source's figure shows: input from, to, and branch.
+    /// The part of the curve that the source's figure shows: the input at its ends, and the branch.
     pub arc: Option<([InputValue; 2], i8)>,
 }
 
@@ -53,16 +53,16 @@ pub struct Template {
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// Its value where none is given; may use the other parameters.
+    /// Its value where a family gives none; may use the other parameters.
     pub default: Option<Expression>,
-    /// Its least value; 0 itself is excluded.
+    /// Its least value; a bound of 0 is itself excluded.
     pub min: Option<f64>,
-    /// Its greatest value; 0 itself is excluded.
+    /// Its greatest value; a bound of 0 is itself excluded.
     pub max: Option<f64>,
 }
 
 impl Parameter {
-    /// What is wrong with a value, if anything.
+    /// The error in a value: not finite, or out of the bounds.
     pub fn value_error(&self, value: f64) -> Option<String> {
         let name = &self.name;
         if !value.is_finite() {
@@ -78,7 +78,7 @@ impl Parameter {
     }
 }
 
-/// A value of the input, with expressions in it: an angle, evaluated in degrees, or a length.
+/// A value of the input as an expression: an angle, evaluated in degrees, or a length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputValue {
     /// The number of units.
@@ -94,7 +94,7 @@ impl InputValue {
     }
 }
 
-/// A joint with expressions for numbers.
+/// A joint whose dimensions are expressions.
 #[derive(Clone, Debug)]
 pub struct JointTemplate {
     /// Its name.
@@ -103,27 +103,28 @@ pub struct JointTemplate {
     pub kind: JointKindTemplate,
 }
 
-/// Why a parameter set makes no linkage.
+/// Why a linkage cannot be built from a parameter set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// An expression has no finite value.
     #[error("{what} of `{joint}` is {value}, which is not a finite number")]
     NotFinite {
         /// The joint.
         joint: String,
-        /// Which number of it.
+        /// The number in question.
         what: &'static str,
         /// The value.
         value: f64,
     },
-    /// A value of the input is not finite, or a range has none to go over.
+    /// A value of the input is not finite, or its range is empty or longer than a period.
     #[error("{what} is {value}, {why}")]
     Input {
-        /// Which value.
+        /// The value in question.
         what: &'static str,
-        /// The value, in degrees or a length.
+        /// The value, in degrees or as a length.
         value: f64,
-        /// What is wrong with it.
+        /// The error in it, as a clause.
         why: &'static str,
     },
     /// A joint cannot be placed.
@@ -138,47 +139,49 @@ impl Template {
         parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
     }
 
-    /// Whether its input is the length of an actuator, and not an angle.
+    /// Whether its input is the length of an actuator rather than an angle.
     pub fn is_driven_by_length(&self) -> bool {
         self.joints.iter().any(|joint| matches!(joint.kind, JointKindTemplate::Piston { .. }))
     }
 
-    /// How many curves its traced joints draw on one circuit.
+    /// The number of curves that its traced joints trace on one circuit.
     pub fn curve_count(&self) -> usize {
-        let points = |placing: &JointKindTemplate| match placing {
+        let points = |kind: &JointKindTemplate| match kind {
             JointKindTemplate::Point { along, across, .. } => along.count() * across.count(),
             _ => 1,
         };
         self.traced.iter().map(|&joint| points(&self.joints[joint].kind)).sum()
     }
 
-    /// What the lengths of links are called, where it is one name or a number: the names of the joints at the ends, and
-    /// the word. Of the frame, the distance between two fixed joints on one level, of which one is at its origin.
+    /// The labels of link lengths that are a single name or number: the names of the joints at both ends, and the
+    /// label.
+    ///
+    /// The frame is included as the distance of a fixed joint on the x-axis from one at the origin.
     pub fn link_length_names(&self) -> Vec<([&str; 2], String)> {
         let name = |joint: usize| self.joints[joint].name.as_str();
         let origin = self.joints.iter().position(|joint| match &joint.kind {
-            JointKindTemplate::Fixed(at) => at.iter().all(|c| c.name_or_number().as_deref() == Some("0")),
+            JointKindTemplate::Fixed(xy) => xy.iter().all(|c| c.name_or_number().as_deref() == Some("0")),
             _ => false,
         });
         let mut out = Vec::new();
         for joint in &self.joints {
-            let mut call = |from: usize, length: &CompiledExpression| {
-                out.extend(length.name_or_number().map(|word| ([name(from), joint.name.as_str()], word)));
+            let mut add = |from: usize, length: &CompiledExpression| {
+                out.extend(length.name_or_number().map(|label| ([name(from), joint.name.as_str()], label)));
             };
             match (&joint.kind, origin) {
                 (JointKindTemplate::Crank { pivot, length } | JointKindTemplate::Gear { pivot, length, .. }, _) => {
-                    call(*pivot, length)
+                    add(*pivot, length)
                 }
-                (JointKindTemplate::Piston { base: [_, pivot], length, .. }, _) => call(*pivot, length),
-                (JointKindTemplate::Slide { from, length, .. }, _) => call(*from, length),
+                (JointKindTemplate::Piston { base: [_, pivot], length, .. }, _) => add(*pivot, length),
+                (JointKindTemplate::Slide { from, length, .. }, _) => add(*from, length),
                 (JointKindTemplate::Dyad { base: [p, q], lengths: [l0, l1], .. }, _) => {
-                    call(*p, l0);
-                    call(*q, l1);
+                    add(*p, l0);
+                    add(*q, l1);
                 }
                 (JointKindTemplate::Fixed([x, y]), Some(origin))
                     if y.name_or_number().as_deref() == Some("0") && name(origin) != joint.name =>
                 {
-                    call(origin, x);
+                    add(origin, x);
                 }
                 _ => {}
             }
@@ -191,20 +194,22 @@ impl Template {
     /// # Errors
     /// A number that is not finite, a length that is not positive, a joint that cannot be placed.
     pub fn linkage(&self, values: &[f64]) -> Result<Linkage, Error> {
-        self.build_with(values, |_, bound| bound.evaluate(|slot| values[slot]))
+        self.build_with(values, |_, expression| expression.evaluate(|slot| values[slot]))
     }
 
-    /// What is wrong with the joints whatever the numbers: one joint given twice, a point on no link, too many dyads.
+    /// The error in the joints that does not depend on numbers: one joint given twice, a point on no link, too many
+    /// dyads.
     pub fn structural_error(&self) -> Option<linkage::Error> {
-        // Any numbers will do; fixed joints and points in general position have distances to measure along.
-        let place = |joint: usize| (joint * joint) as f64;
+        // Any numbers will do, but fixed joints and points must not coincide, so that lines through them have
+        // directions.
+        let position = |joint: usize| (joint * joint) as f64;
         let numbers = |joint: usize, _: &CompiledExpression| match self.joints[joint].kind {
-            JointKindTemplate::Fixed(_) => place(joint),
-            JointKindTemplate::Point { .. } => 1.0 + place(joint),
+            JointKindTemplate::Fixed(_) => position(joint),
+            JointKindTemplate::Point { .. } => 1.0 + position(joint),
             _ => 1.0,
         };
         match self.build_with(&vec![1.0; self.parameters.len()], numbers) {
-            // These depend on the numbers after all: each cell is asked for them.
+            // These depend on the numbers after all; they are checked in each cell.
             Err(Error::Linkage(
                 linkage::Error::InvalidLength { .. }
                 | linkage::Error::NoTriangle { .. }
@@ -216,9 +221,9 @@ impl Template {
     }
 
     fn build_with(&self, values: &[f64], number: impl Fn(usize, &CompiledExpression) -> f64) -> Result<Linkage, Error> {
-        let mut assembly = LinkageBuilder::default();
-        // Where each joint of the template has gone: a grid of points makes several.
-        let mut made: Vec<Vec<JointId>> = Vec::with_capacity(self.joints.len());
+        let mut builder = LinkageBuilder::default();
+        // The joints built from each joint of the template: several for a grid of points.
+        let mut built: Vec<Vec<JointId>> = Vec::with_capacity(self.joints.len());
         for (k, joint) in self.joints.iter().enumerate() {
             let name = joint.name.as_str();
             let finite = |what, value: f64| {
@@ -228,45 +233,45 @@ impl Template {
                     Err(Error::NotFinite { joint: name.to_owned(), what, value })
                 }
             };
-            let two = |base: &[usize; 2]| base.map(|j| made[j][0]);
+            let two = |base: &[usize; 2]| base.map(|j| built[j][0]);
             let ids = match &joint.kind {
                 JointKindTemplate::Fixed([x, y]) => {
-                    let at = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
-                    vec![assembly.fixed(name, at.into())]
+                    let position = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
+                    vec![builder.fixed(name, position.into())]
                 }
                 JointKindTemplate::Crank { pivot, length } => {
-                    vec![assembly.crank(name, made[*pivot][0], number(k, length))?]
+                    vec![builder.crank(name, built[*pivot][0], number(k, length))?]
                 }
                 JointKindTemplate::Gear { pivot, length, ratio: [n, m], phase, .. } => {
                     let ratio = [number(k, n), number(k, m)];
                     let phase = finite("`phase`", phase.evaluate(values))?;
-                    vec![assembly.gear(name, (made[*pivot][0], number(k, length)), ratio, phase)?]
+                    vec![builder.gear(name, (built[*pivot][0], number(k, length)), ratio, phase)?]
                 }
                 JointKindTemplate::Piston { base, length, offset, side } => {
                     let crank = (number(k, length), finite("`offset`", number(k, offset))?);
-                    vec![assembly.piston(name, two(base), crank, *side)?]
+                    vec![builder.piston(name, two(base), crank, *side)?]
                 }
                 JointKindTemplate::Dyad { base, lengths: [l0, l1], side } => {
-                    vec![assembly.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
+                    vec![builder.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
                 }
                 JointKindTemplate::Slide { from, length, line, offset, side } => {
-                    let hung = (made[*from][0], number(k, length));
+                    let link = (built[*from][0], number(k, length));
                     let line = (two(line), finite("`offset`", number(k, offset))?);
-                    vec![assembly.slide(name, hung, line, *side)?]
+                    vec![builder.slide(name, link, line, *side)?]
                 }
                 JointKindTemplate::Yoke { from, line, offset, angle } => {
                     let line = (two(line), finite("`offset`", number(k, offset))?);
                     let angle = finite("`angle`", angle.evaluate(values))?;
-                    vec![assembly.yoke(name, made[*from][0], line, angle)?]
+                    vec![builder.yoke(name, built[*from][0], line, angle)?]
                 }
                 JointKindTemplate::Slot { base, offset, side } => {
-                    vec![assembly.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
+                    vec![builder.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
                 }
                 JointKindTemplate::Parallelogram { corners } => {
-                    vec![assembly.parallelogram(name, corners.map(|j| made[j][0]))?]
+                    vec![builder.parallelogram(name, corners.map(|j| built[j][0]))?]
                 }
                 JointKindTemplate::Distances { base, distances: [d0, d1], side } => {
-                    vec![assembly.point_at_distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
+                    vec![builder.point_at_distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
                 }
                 JointKindTemplate::Point { base, along, across } => {
                     let across = across.values(|b| number(k, b));
@@ -274,21 +279,21 @@ impl Template {
                     for along in along.values(|b| number(k, b)) {
                         for &across in &across {
                             let (along, across) = (finite("`along`", along)?, finite("`across`", across)?);
-                            ids.push(assembly.point(name, two(base), along, across)?);
+                            ids.push(builder.point(name, two(base), along, across)?);
                         }
                     }
                     ids
                 }
             };
-            made.push(ids);
+            built.push(ids);
         }
-        let traced = self.traced.iter().flat_map(|&k| made[k].clone()).collect();
-        let seen_from = self.seen_from.map(|joints| joints.map(|k| made[k][0]));
-        let linkage = assembly.build(traced, seen_from, self.motion_options(values)?)?;
+        let traced = self.traced.iter().flat_map(|&k| built[k].clone()).collect();
+        let seen_from = self.seen_from.map(|joints| joints.map(|k| built[k][0]));
+        let linkage = builder.build(traced, seen_from, self.motion_options(values)?)?;
         let linkage = Linkage { placement: self.orientation, ..linkage };
         match linkage.motion_options.range {
             Some([from, to]) if to - from > linkage.input().period() => {
-                let why = "more from `from` than it takes to come round";
+                let why = "which is more than a period from `from`";
                 Err(Error::Input { what: "the input's `to`", value: to, why })
             }
             _ => Ok(linkage),
@@ -296,23 +301,23 @@ impl Template {
     }
 
     fn motion_options(&self, values: &[f64]) -> Result<MotionOptions, Error> {
-        let degrees = |what, angle: &InputValue| match angle.evaluate(values) {
+        let finite = |what, input: &InputValue| match input.evaluate(values) {
             value if value.is_finite() => Ok(value),
             value => Err(Error::Input { what, value, why: "which is not a finite number" }),
         };
         let range = match &self.input {
             None => None,
             Some([from, to]) => {
-                let (from, to) = (degrees("the input's `from`", from)?, degrees("the input's `to`", to)?);
-                let too_far = |why| Err(Error::Input { what: "the input's `to`", value: to, why });
-                match to - from {
-                    length if length <= 0.0 => return too_far("and must be more than `from`"),
-                    _ => Some([from, to]),
+                let (from, to) = (finite("the input's `from`", from)?, finite("the input's `to`", to)?);
+                if to - from <= 0.0 {
+                    let why = "and must be more than `from`";
+                    return Err(Error::Input { what: "the input's `to`", value: to, why });
                 }
+                Some([from, to])
             }
         };
-        let start = self.start.as_ref().map(|start| degrees("`start`", start)).transpose()?;
-        // An arc whose ends do not exist for these lengths is no part of the curve: nothing is set apart then.
+        let start = self.start.as_ref().map(|start| finite("`start`", start)).transpose()?;
+        // An arc whose ends do not exist for these lengths is ignored.
         let arc = self.arc.as_ref().and_then(|([from, to], branch)| {
             let input_deg = [from.evaluate(values), to.evaluate(values)];
             input_deg.iter().all(|deg| deg.is_finite()).then_some(BranchArc { input_deg, branch: *branch })

@@ -1,18 +1,18 @@
-/// What cannot be put in order.
+/// Items that cannot be ordered because they depend on each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DependencyCycle {
-    /// A cycle, its first once more at the end.
+    /// One cycle, with its first item repeated at the end.
     pub cycle: Vec<usize>,
-    /// All that is in a cycle or needs what is.
+    /// All items that are in a cycle or depend on one.
     pub unresolved: Vec<usize>,
 }
 
-/// An order in which everything comes after what it needs; as numbered, where that is one.
+/// Orders the items `0..count` so that each comes after those it needs; ascending order where that is possible.
 ///
-/// `needs(k)` are the numbers, below `count`, of what `k` needs.
+/// `needs(k)` are the items that `k` needs, each below `count`.
 ///
 /// # Errors
-/// What stays open, where there is no such order.
+/// The items that depend on each other.
 pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Result<Vec<usize>, DependencyCycle> {
     let mut order: Vec<usize> = Vec::with_capacity(count);
     while order.len() < count {
@@ -20,19 +20,19 @@ pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Re
         match (0..count).find(is_ready) {
             Some(next) => order.push(next),
             None => {
-                let all = (0..count).filter(|k| !order.contains(k)).collect();
-                return Err(DependencyCycle { cycle: find_cycle(count, &needs, &order), unresolved: all });
+                let unresolved = (0..count).filter(|k| !order.contains(k)).collect();
+                return Err(DependencyCycle { cycle: find_cycle(count, &needs, &order), unresolved });
             }
         }
     }
     Ok(order)
 }
 
-/// What cannot be put in order needs something that cannot either: following those comes round.
+/// Finds a cycle among the items that are not in `order`: each needs another such item, so following these repeats.
 fn find_cycle(count: usize, needs: &impl Fn(usize) -> Vec<usize>, order: &[usize]) -> Vec<usize> {
-    let stuck = |k: &usize| !order.contains(k);
-    let mut path: Vec<usize> = (0..count).find(stuck).into_iter().collect();
-    while let Some(next) = path.last().and_then(|&at| needs(at).into_iter().find(stuck)) {
+    let is_unresolved = |k: &usize| !order.contains(k);
+    let mut path: Vec<usize> = (0..count).find(is_unresolved).into_iter().collect();
+    while let Some(next) = path.last().and_then(|&last| needs(last).into_iter().find(is_unresolved)) {
         if let Some(first) = path.iter().position(|&k| k == next) {
             path.drain(..first);
             path.push(next);
@@ -48,13 +48,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everything_comes_after_what_it_needs() {
+    fn items_come_after_those_they_need() {
         let needs = |k: usize| [vec![2], vec![], vec![1], vec![0, 2]][k].clone();
         assert_eq!(dependency_order(4, needs), Ok(vec![1, 2, 0, 3]));
     }
 
     #[test]
-    fn a_cycle_is_found_and_what_leads_to_it_left_out() {
+    fn a_cycle_excludes_the_items_that_lead_to_it() {
         let needs = |k: usize| [vec![1], vec![2], vec![3], vec![1]][k].clone();
         assert_eq!(
             dependency_order(4, needs),

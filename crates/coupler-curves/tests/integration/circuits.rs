@@ -1,4 +1,4 @@
-//! Circuits of four-bars of every class: how many, how far they go, and that nothing jumps.
+//! Circuits of four-bars of every class: their number, their input ranges, and that no joint jumps.
 
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{
@@ -7,29 +7,29 @@ use coupler_curves::linkage::{
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
-fn four_bar(lengths: [f64; 4], travel: MotionOptions) -> Linkage {
+fn four_bar(lengths: [f64; 4], options: MotionOptions) -> Linkage {
     let [frame, crank, coupler, rocker] = lengths;
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", Point::new(0.0, 0.0));
-    let c = assembly.fixed("C", Point::new(frame, 0.0));
-    let a = assembly.crank("A", o, crank).unwrap();
-    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
-    let m = assembly.point("M", [a, b], coupler / 3.0, coupler / 4.0).unwrap();
-    assembly.build(vec![m], None, travel).unwrap()
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", Point::new(0.0, 0.0));
+    let c = builder.fixed("C", Point::new(frame, 0.0));
+    let a = builder.crank("A", o, crank).unwrap();
+    let b = builder.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = builder.point("M", [a, b], coupler / 3.0, coupler / 4.0).unwrap();
+    builder.build(vec![m], None, options).unwrap()
 }
 
 fn all() -> MotionOptions {
     MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }
 }
 
-fn motion(lengths: [f64; 4], travel: MotionOptions, sampling: Sampling) -> Motion {
-    Motion::solve(&four_bar(lengths, travel), &Sampler::new(sampling))
+fn motion(lengths: [f64; 4], options: MotionOptions, sampling: Sampling) -> Motion {
+    Motion::solve(&four_bar(lengths, options), &Sampler::new(sampling))
 }
 
 /// Input ranges and branches of the passes of each circuit.
-fn passes(lengths: [f64; 4], travel: MotionOptions) -> Vec<Vec<(i64, i64, i8)>> {
+fn passes(lengths: [f64; 4], options: MotionOptions) -> Vec<Vec<(i64, i64, i8)>> {
     let milli = |deg: f64| (deg * 1000.0).round() as i64;
-    let motion = motion(lengths, travel, Sampling::Samples(12));
+    let motion = motion(lengths, options, Sampling::Samples(12));
     let pass = |p: &coupler_curves::motion::Pass| {
         (milli(p.from.input.value), milli(p.to.input.value), p.mode.sign(DyadId::FIRST))
     };
@@ -37,7 +37,7 @@ fn passes(lengths: [f64; 4], travel: MotionOptions) -> Vec<Vec<(i64, i64, i8)>> 
 }
 
 #[test]
-fn a_crank_rocker_has_a_turn_on_each_branch() {
+fn a_crank_rocker_turns_fully_on_each_branch() {
     assert_eq!(passes([4.0, 1.0, 3.0, 3.5], all()), [vec![(0, 360_000, 1)], vec![(0, 360_000, -1)]]);
     assert_eq!(passes([4.0, 1.0, 3.0, 3.5], MotionOptions::default()), [vec![(0, 360_000, 1)]]);
 }
@@ -72,11 +72,11 @@ fn change_points_continue_smoothly_or_on_their_branch() {
     let branch = MotionOptions { continuation: Continuation::Branch, ..all() };
     let kept = [(-limit, 0, 1), (0, limit, 1), (limit, 0, -1), (0, -limit, -1)];
     assert_eq!(passes([3.0, 2.0, 1.0, 2.0], branch.clone()), [kept.to_vec()]);
-    // Stretched at 180: smoothly two turns, else a turn on each branch.
+    // Stretched at 180: two turns if continued smoothly, otherwise one turn on each branch.
     let smooth = [(0, 180_000, 1), (180_000, 540_000, -1), (540_000, 720_000, 1)];
     assert_eq!(passes([3.0, 1.0, 2.0, 2.0], all()), [smooth.to_vec()]);
     assert_eq!(passes([3.0, 1.0, 2.0, 2.0], branch).len(), 2);
-    // A parallelogram: itself, and the antiparallelogram.
+    // Four-bars with equal opposite links have two circuits, the parallelogram and the antiparallelogram.
     let parallelogram = passes([3.0, 1.0, 3.0, 1.0], all());
     assert_eq!(
         parallelogram,
@@ -85,17 +85,17 @@ fn change_points_continue_smoothly_or_on_their_branch() {
 }
 
 #[test]
-fn a_kite_keeps_its_rocker_where_its_base_vanishes() {
+fn a_kite_does_not_jump_where_its_base_vanishes() {
     for continuation in [Continuation::Smooth, Continuation::Branch] {
-        let travel = MotionOptions { continuation, ..all() };
-        let motion = motion([2.0, 2.0, 3.0, 3.0], travel, Sampling::Step(1.0));
+        let options = MotionOptions { continuation, ..all() };
+        let motion = motion([2.0, 2.0, 3.0, 3.0], options, Sampling::Step(1.0));
         assert_eq!(motion.circuits.len(), 1);
-        no_jumps(&motion, 3.0, 1.0);
+        assert_no_jumps(&motion, 3.0, 1.0);
     }
 }
 
 #[test]
-fn two_turns_are_sampled_as_asked() {
+fn a_circuit_of_two_turns_is_sampled_over_both() {
     let step = motion([3.0, 1.0, 2.0, 2.0], all(), Sampling::Step(50.0));
     // Multiples of 50 and the change points at 180 and 540; 360 is neither.
     let expected = [0, 50, 100, 150, 180, 200, 250, 300, 350, 400, 450, 500, 540, 550, 600, 650, 700].map(f64::from);
@@ -105,7 +105,7 @@ fn two_turns_are_sampled_as_asked() {
 
 #[test]
 fn samples_can_be_dense_at_limits_or_even_along_the_path() {
-    // A triple-rocker: it turns round at both limits.
+    // A triple-rocker turns back at both limits.
     let lengths = [4.0, 2.0, 2.0, 2.0];
     let steps = |sampling| -> Vec<f64> {
         let circuit = motion(lengths, all(), sampling).circuits.remove(0);
@@ -120,13 +120,15 @@ fn samples_can_be_dense_at_limits_or_even_along_the_path() {
     let ratio = |steps: Vec<f64>| {
         steps.iter().copied().fold(0.0, f64::max) / steps.iter().copied().fold(f64::INFINITY, f64::min)
     };
-    // Beside a limit the path goes with the root of the input: of two even steps the first is 1 / (sqrt 2 - 1) = 2.41
-    // times as long, on the mean of both branches, for what goes with the input itself is opposite on them.
-    let beside = |steps: Vec<f64>| (steps[0] / steps[1] * steps[119] / steps[118]).sqrt();
-    let (even, smooth) = (beside(steps(Sampling::Samples(120))), beside(steps(Sampling::DenseAtLimits(120))));
+    // Near a limit the path length grows as the root of the input: of two equal input steps the first is
+    // 1 / (sqrt 2 - 1) = 2.41 times as long. The mean over both branches cancels the linear term, which has opposite
+    // signs on them.
+    let first_step_ratio = |steps: Vec<f64>| (steps[0] / steps[1] * steps[119] / steps[118]).sqrt();
+    let (even, smooth) =
+        (first_step_ratio(steps(Sampling::Samples(120))), first_step_ratio(steps(Sampling::DenseAtLimits(120))));
     assert!(even > 2.0 && (smooth - 1.0).abs() < 0.05, "{even} {smooth}");
-    // So many that a chord is as good as its arc. Each pass has a whole number of them, about a thousand: they may
-    // differ by one in as many between passes.
+    // With this many samples a chord is as long as its arc. Each pass has a whole number of them, about a thousand, so
+    // the steps of different passes may differ by one part in a thousand.
     let arc = ratio(steps(Sampling::ArcLength(2000)));
     assert!(arc < 1.003, "{arc}");
     let whole = motion([4.0, 1.0, 3.0, 3.5], MotionOptions::default(), Sampling::ArcLength(90));
@@ -134,7 +136,7 @@ fn samples_can_be_dense_at_limits_or_even_along_the_path() {
 }
 
 #[test]
-fn bases_that_vanish_but_for_rounding_are_kites_too() {
+fn bases_that_vanish_up_to_rounding_are_kites() {
     let decimals: [f64; 4] = [0.3, 0.1 + 0.2, 0.5, 0.5];
     for lengths in [decimals, [2.0, 2.0 + 4.0 * f64::EPSILON, 2.0, 2.0], [3.0, 3.000_000_000_000_000_4, 2.0, 2.0]] {
         let motion = motion(lengths, all(), Sampling::Step(1.0));
@@ -145,12 +147,12 @@ fn bases_that_vanish_but_for_rounding_are_kites_too() {
                 assert!((length - lengths[2]).abs() < 1e-12, "{lengths:?} at {}: {length}", circuit.inputs[i]);
             }
         }
-        no_jumps(&motion, lengths.iter().sum(), 1.0);
+        assert_no_jumps(&motion, lengths.iter().sum(), 1.0);
     }
 }
 
 #[test]
-fn limits_keep_short_links_beside_long_ones() {
+fn short_links_keep_their_lengths_next_to_long_ones() {
     for scale in [1e3, 1e6] {
         let motion = motion([scale, scale, 1.0, 1.5], all(), Sampling::Samples(40));
         for circuit in &motion.circuits {
@@ -159,7 +161,7 @@ fn limits_keep_short_links_beside_long_ones() {
                     (circuit.positions.point(JointId::new(3), i) - circuit.positions.point(JointId::new(2), i)).norm();
                 let rocker =
                     (circuit.positions.point(JointId::new(3), i) - circuit.positions.point(JointId::new(1), i)).norm();
-                // Places of the size of the scale are rounded to this.
+                // Coordinates of the size of the scale are rounded to this.
                 let rounding = 4.0 * f64::EPSILON * scale;
                 assert!((coupler - 1.0).abs() <= rounding && (rocker - 1.5).abs() <= rounding, "{coupler} {rocker}");
             }
@@ -168,17 +170,17 @@ fn limits_keep_short_links_beside_long_ones() {
 }
 
 #[test]
-fn places_beyond_all_numbers_are_reported() {
+fn positions_beyond_double_precision_are_reported() {
     for scale in [1e160, 1e-170] {
         let motion = motion([4.0, 1.0, 3.0, 3.5].map(|l| l * scale), all(), Sampling::Step(10.0));
-        let shortfall = motion.assembly_error.map(|error| error.to_string()).unwrap_or_default();
-        assert!(shortfall.contains("double precision"), "{scale}: {shortfall}");
+        let message = motion.assembly_error.map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.contains("double precision"), "{scale}: {message}");
         assert!(motion.circuits.is_empty());
     }
 }
 
 #[test]
-fn a_linkage_that_cannot_close_says_why() {
+fn a_linkage_that_cannot_be_assembled_has_a_reason() {
     let far = motion([9.0, 1.0, 2.0, 3.0], all(), Sampling::Step(2.0));
     assert!(!far.is_assembled());
     assert_eq!(
@@ -193,24 +195,25 @@ fn a_linkage_that_cannot_close_says_why() {
 }
 
 #[test]
-fn a_range_that_is_not_reached_is_reported() {
-    let travel = |range| MotionOptions { range: Some(range), ..MotionOptions::default() };
-    let whole = motion([4.0, 1.0, 3.0, 3.5], travel([30.0, 120.0]), Sampling::Step(10.0));
+fn an_input_range_that_is_not_reached_is_reported() {
+    let options = |range| MotionOptions { range: Some(range), ..MotionOptions::default() };
+    let whole = motion([4.0, 1.0, 3.0, 3.5], options([30.0, 120.0]), Sampling::Step(10.0));
     assert_eq!(whole.assembly_error, None);
     assert_eq!(whole.circuits[0].inputs, [30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]);
     assert!(!whole.circuits[0].is_closed);
-    let part = motion([4.0, 2.0, 2.0, 2.0], travel([0.0, 120.0]), Sampling::Step(10.0));
+    let part = motion([4.0, 2.0, 2.0, 2.0], options([0.0, 120.0]), Sampling::Step(10.0));
     assert!(part.assembly_error.unwrap().to_string().starts_with("the input goes from 0 to 75.5225 deg only"));
     assert_eq!(part.circuits[0].passes.len(), 2, "out on one branch and back on the other");
-    let none = motion([4.0, 2.0, 2.0, 2.0], travel([100.0, 120.0]), Sampling::Step(10.0));
+    let none = motion([4.0, 2.0, 2.0, 2.0], options([100.0, 120.0]), Sampling::Step(10.0));
     assert!(!none.is_assembled() && none.assembly_error.is_some());
     // From the upper end down to a limit and back.
-    let down = motion([2.0, 3.0, 1.0, 4.5], travel([0.0, 180.0]), Sampling::Step(10.0));
+    let down = motion([2.0, 3.0, 1.0, 4.5], options([0.0, 180.0]), Sampling::Step(10.0));
     assert_eq!((down.circuits[0].inputs[0], down.circuits[0].passes.len()), (180.0, 2));
 }
 
-/// Neighbouring samples are no further apart than the fastest joint can go: sqrt-like at a limit.
-fn no_jumps(motion: &Motion, size: f64, step_deg: f64) {
+/// Asserts that neighbouring samples are no further apart than the fastest joint can move: as the root of the step, at
+/// a limit.
+fn assert_no_jumps(motion: &Motion, size: f64, step_deg: f64) {
     for circuit in &motion.circuits {
         let n = circuit.len();
         let allowed = 12.0 * size * trig::radians(step_deg).sqrt();
@@ -223,7 +226,7 @@ fn no_jumps(motion: &Motion, size: f64, step_deg: f64) {
     }
 }
 
-/// Lengths with many a change point and near-change point among them.
+/// Link lengths, many of them with change points exactly or nearly.
 fn lengths() -> impl Strategy<Value = [f64; 4]> {
     let plain = prop::array::uniform4(0.1f64..4.0);
     let tenths = prop::array::uniform4((1..30u32).prop_map(|n| f64::from(n) / 10.0));
@@ -245,18 +248,18 @@ proptest! {
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
                 let p = |j| circuit.positions.point(JointId::new(j), i);
-                // A length beside a longer base keeps as many digits fewer as it is shorter.
+                // A link that is shorter than its base loses digits in proportion.
                 let scale = frame + crank;
                 prop_assert!(((p(3) - p(2)).norm() - coupler).abs() <= 1e-12 * coupler.max(1e-2 * scale));
                 prop_assert!(((p(3) - p(1)).norm() - rocker).abs() <= 1e-12 * rocker.max(1e-2 * scale));
             }
         }
-        // A change point turns a corner in branch mode, which is no jump.
-        no_jumps(&motion, lengths.iter().sum(), 0.5);
+        // If the branch is kept, the path has a corner at a change point, but no jump.
+        assert_no_jumps(&motion, lengths.iter().sum(), 0.5);
     }
 
     #[test]
-    fn a_crank_turns_fully_when_its_class_says_so(lengths in prop::array::uniform4(0.1f64..4.0)) {
+    fn cranks_turn_fully_in_drag_links_and_crank_rockers(lengths in prop::array::uniform4(0.1f64..4.0)) {
         use coupler_curves::linkage::FourBarClass;
         let [frame, crank, coupler, rocker] = lengths;
         let class = FourBar { frame, crank, coupler, rocker }.class();

@@ -11,8 +11,8 @@ use proptest::prelude::*;
 
 use crate::linkages::check_motion;
 
-/// What draws the traced joint of a linkage, evenly sampled along it.
-fn drawn(linkage: &Linkage) -> Vec<Vec<Point>> {
+/// The curves of the first traced joint of a linkage, one a circuit, sampled evenly along their lengths.
+fn curves(linkage: &Linkage) -> Vec<Vec<Point>> {
     let motion = Motion::solve(linkage, &Sampler::new(Sampling::ArcLength(500)));
     let path = |circuit: &Circuit| {
         let mut path: Vec<Point> = circuit.points(linkage.traced[0]).collect();
@@ -24,17 +24,18 @@ fn drawn(linkage: &Linkage) -> Vec<Vec<Point>> {
     motion.circuits.iter().map(path).collect()
 }
 
-/// The greatest distance of points of one drawing from the other, in parts of the other's longest chord.
-fn apart(one: &[Vec<Point>], other: &[Vec<Point>]) -> f64 {
+/// The greatest distance of the points of some curves from others, as a fraction of the longest chord of the others.
+fn relative_distance(one: &[Vec<Point>], other: &[Vec<Point>]) -> f64 {
     let chords = || other.iter().flat_map(|path| path.windows(2));
     let longest = chords().map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
     let from = |p: &Point| chords().map(|pair| distance_to_segment(*p, pair[0], pair[1])).fold(f64::INFINITY, f64::min);
     one.iter().flatten().map(from).fold(0.0, f64::max) / longest
 }
 
-fn same(one: &[Vec<Point>], other: &[Vec<Point>]) -> bool {
-    // Of a smooth curve a chord is off by far less than its length; the rest is for cusps.
-    one.is_empty() == other.is_empty() && (one.is_empty() || apart(one, other).max(apart(other, one)) < 0.5)
+fn is_same_curve(one: &[Vec<Point>], other: &[Vec<Point>]) -> bool {
+    // A chord of a smooth curve is off by far less than its length; the margin is for cusps.
+    one.is_empty() == other.is_empty()
+        && (one.is_empty() || relative_distance(one, other).max(relative_distance(other, one)) < 0.5)
 }
 
 /// Crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
@@ -45,7 +46,7 @@ fn poses(linkage: &Linkage, samples: usize) -> Vec<[Point; 4]> {
     (0..circuit.len()).map(|i| pins.map(|pin| circuit.positions.point(pin, i))).collect()
 }
 
-fn placed() -> impl Strategy<Value = PlacedFourBar> {
+fn placed_four_bar() -> impl Strategy<Value = PlacedFourBar> {
     let lengths = prop::array::uniform4(0.3f64..3.0);
     let point = (-3.0f64..3.0, prop_oneof![Just(0.0), -3.0f64..3.0]);
     (lengths, point, (-2.0f64..2.0, -2.0f64..2.0, -180.0f64..180.0)).prop_map(
@@ -68,9 +69,9 @@ fn all() -> MotionOptions {
 proptest! {
     #![proptest_config(crate::random())]
 
-    /// Every sample of each satisfies the equation of every other, and all are of one class of chain.
+    /// Every sample of each cognate satisfies the equation of every other, and all or none of them are Grashof.
     #[test]
-    fn cognates_have_one_equation(four_bar in placed()) {
+    fn cognates_have_one_equation(four_bar in placed_four_bar()) {
         let Ok(cognates) = Cognates::from_four_bar(four_bar) else { return Ok(()) };
         let three = cognates.all();
         let is_grashof = |c: FourBarClass| c != FourBarClass::TripleRocker;
@@ -85,53 +86,54 @@ proptest! {
                 for p in motion.circuits.iter().flat_map(|circuit| circuit.points(linkage.traced[0])) {
                     let own = Point::new(axis.dot(&(p - o)), cross(axis, p - o));
                     let [value, terms] = sextic.evaluate(own);
-                    // Sixty-odd terms of the sixth degree; the cognates' own lengths and places are rounded too.
+                    // Some sixty terms of the sixth degree; the lengths and positions of the cognates are rounded too.
                     prop_assert!(value.abs() <= 1e-10 * terms, "{value} of {terms}");
                 }
             }
         }
     }
 
-    /// All circuits together are the same set of points.
+    /// The circuits of each cognate together are the same set of points.
     #[test]
-    fn cognates_draw_one_curve(four_bar in placed()) {
+    fn cognates_trace_one_curve(four_bar in placed_four_bar()) {
         let Ok(cognates) = Cognates::from_four_bar(four_bar) else { return Ok(()) };
-        let [original, first, second] = cognates.all().map(|c| drawn(&c.to_linkage([], &all()).unwrap()));
-        prop_assert!(same(&original, &first) && same(&original, &second));
+        let [original, first, second] = cognates.all().map(|c| curves(&c.to_linkage([], &all()).unwrap()));
+        prop_assert!(is_same_curve(&original, &first) && is_same_curve(&original, &second));
     }
 
-    /// A circuit of the original is one circuit of each cognate: that through the start it is given.
+    /// A circuit of the original is traced by one circuit of each cognate: the one through the given poses.
     #[test]
-    fn cognates_draw_the_circuit_asked_for(four_bar in placed(), left: bool) {
+    fn cognates_trace_the_selected_circuit(four_bar in placed_four_bar(), left: bool) {
         let Ok(cognates) = Cognates::from_four_bar(four_bar) else { return Ok(()) };
         let side = if left { Side::Left } else { Side::Right };
         let original = four_bar.to_linkage(side, MotionOptions::default()).unwrap();
-        let curve = drawn(&original);
+        let curve = curves(&original);
         prop_assume!(!curve.is_empty());
         for cognate in cognates.others {
             let linkage = cognate.to_linkage(poses(&original, 90), &original.motion_options).unwrap();
-            prop_assert!(same(&curve, &drawn(&linkage)), "{cognate:?}");
+            prop_assert!(is_same_curve(&curve, &curves(&linkage)), "{cognate:?}");
         }
     }
 
-    /// Hung on, they keep all their lengths while the original moves, and each link turns as the one it should.
+    /// Assembled on the original, the cognates keep all their lengths while it moves, and each link turns as its
+    /// counterpart.
     #[test]
-    fn cognates_hang_together(four_bar in placed(), mirror: bool, turn in -180.0f64..180.0) {
+    fn assembled_cognates_move_together(four_bar in placed_four_bar(), mirror: bool, turn in -180.0f64..180.0) {
         let plain = four_bar.to_linkage(Side::Left, all()).unwrap();
         let linkage = Linkage { placement: Orientation::new(mirror, turn), ..plain };
         let m = linkage.traced[0];
-        let Ok((hung, links)) = Cognates::assemble(&linkage, m) else { return Ok(()) };
+        let Ok((assembled, links)) = Cognates::assemble(&linkage, m) else { return Ok(()) };
         let cognates = Cognates::from_four_bar(PlacedFourBar::from_linkage(&linkage, m).unwrap()).unwrap();
-        let motion = Motion::solve(&hung, &Sampler::new(Sampling::Samples(24)));
-        check_motion(&hung, &motion)?;
+        let motion = Motion::solve(&assembled, &Sampler::new(Sampling::Samples(24)));
+        check_motion(&assembled, &motion)?;
         prop_assert_eq!(links.concat().len(), 6);
-        let joint = |name: &str| hung.find_joint(name).unwrap();
+        let joint = |name: &str| assembled.find_joint(name).unwrap();
         let [o, c, q] = ["O", "C", "Q"].map(joint);
         let pins = FourBar::pins(&linkage).unwrap();
         for circuit in &motion.circuits {
             for i in 0..circuit.len() {
                 let at = |joint| circuit.positions.point(joint, i);
-                // Rounding of places and of their sums, lengths up to some hundred.
+                // Rounding of positions and of their sums, with lengths up to some hundred.
                 let close = |a: Point, b: Point| (a - b).norm() <= 1e-12 * (1.0 + a.coords.norm() + b.coords.norm());
                 prop_assert!(close(at(q), cognates.third_pivot));
                 for (cognate, [own, shared]) in cognates.others.iter().zip([["D", "E"], ["F", "G"]]) {
@@ -152,9 +154,9 @@ proptest! {
     }
 }
 
-/// A link on a pivot that is the shortest of all drives its cognate; and the pairs of links that turn alike.
+/// A cognate is driven by its shortest link if that is on a pivot; and counterparts turn alike.
 #[test]
-fn cognates_are_driven_by_what_turns_fully() {
+fn cognates_are_driven_by_links_that_turn_fully() {
     let bar = |frame, crank, coupler, rocker| PlacedFourBar {
         pivots: [Point::origin(), Point::new(frame, 0.0)],
         lengths: FourBar { frame, crank, coupler, rocker },
@@ -162,7 +164,7 @@ fn cognates_are_driven_by_what_turns_fully() {
     };
     use MovingLink::{Coupler, Crank, Rocker};
     for (bars, classes, turns) in [
-        // The crank turns fully: so does that of the cognate on the rocker's pivot, about the third.
+        // The crank turns fully, and so does that of the cognate on the rocker's pivot, about the third pivot.
         (bar(4.0, 1.0, 3.0, 3.5), [FourBarClass::DoubleRocker, FourBarClass::CrankRocker], [Coupler, Crank]),
         (bar(4.0, 3.5, 3.0, 1.0), [FourBarClass::CrankRocker, FourBarClass::DoubleRocker], [Rocker, Crank]),
         (bar(4.0, 3.5, 1.0, 3.0), [FourBarClass::CrankRocker, FourBarClass::CrankRocker], [Coupler, Coupler]),
@@ -174,15 +176,15 @@ fn cognates_are_driven_by_what_turns_fully() {
         assert_eq!(cognates.others.map(|c| c.counterparts[0]), turns, "{bars:?}");
         for (cognate, class) in cognates.others.iter().zip(classes) {
             let motion = Motion::solve(&cognate.to_linkage([], &all()).unwrap(), &Sampler::new(Sampling::Samples(8)));
-            let turns = motion.circuits.iter().all(|c| c.is_closed && c.passes.len() == 1);
-            assert_eq!(turns, matches!(class, FourBarClass::CrankRocker | FourBarClass::DragLink), "{bars:?}");
+            let turns_fully = motion.circuits.iter().all(|c| c.is_closed && c.passes.len() == 1);
+            assert_eq!(turns_fully, matches!(class, FourBarClass::CrankRocker | FourBarClass::DragLink), "{bars:?}");
         }
     }
 }
 
-/// Change points, whose circuits cross.
+/// Linkages with change points, whose circuits cross.
 #[test]
-fn cognates_go_through_change_points() {
+fn cognates_trace_one_curve_through_change_points() {
     for [frame, crank, coupler, rocker] in [[3.0, 2.0, 1.0, 2.0], [2.0, 1.0, 2.0, 1.0], [1.5, 2.0, 1.5, 2.0]] {
         let four_bar = PlacedFourBar {
             pivots: [Point::origin(), Point::new(frame, 0.0)],
@@ -190,13 +192,13 @@ fn cognates_go_through_change_points() {
             coupler_point: Vector::new(0.7, 0.6),
         };
         let [original, first, second] =
-            Cognates::from_four_bar(four_bar).unwrap().all().map(|c| drawn(&c.to_linkage([], &all()).unwrap()));
-        assert!(same(&original, &first) && same(&original, &second), "{four_bar:?}");
+            Cognates::from_four_bar(four_bar).unwrap().all().map(|c| curves(&c.to_linkage([], &all()).unwrap()));
+        assert!(is_same_curve(&original, &first) && is_same_curve(&original, &second), "{four_bar:?}");
     }
 }
 
-/// In Cayley's diagram the links on the third pivot, each parallel to a link of the others, end where the others' triangles
-/// have their corners: of any four-bar, on every circuit.
+/// In Cayley's diagram the links on the third pivot, each parallel to a link of the others, end at the corners of the
+/// others' triangles, for any four-bar and on every circuit.
 #[test]
 fn cayleys_diagram_closes() {
     let template = catalogue::find("cognates").unwrap();
@@ -220,11 +222,11 @@ fn cayleys_diagram_closes() {
         for circuit in &motion.circuits {
             for (i, [one, other]) in (0..circuit.len()).flat_map(|i| pairs.map(|pair| (i, pair))) {
                 let [one, other] = [one, other].map(|joint| circuit.positions.point(joint, i));
-                // Six sums of places of the size of ten.
+                // Rounding of six sums of coordinates of the order of ten.
                 assert!((one - other).norm() < 5e-14, "{values:?} at {}: {one} {other}", circuit.inputs[i]);
             }
         }
-        // The diagram's own four-bars are those found from the first.
+        // The cognates of the diagram are those computed from the first four-bar.
         let cognates =
             Cognates::from_four_bar(PlacedFourBar::from_linkage(&linkage, linkage.traced[0]).unwrap()).unwrap();
         let length = |name: &str, other: &str| {
@@ -237,35 +239,36 @@ fn cayleys_diagram_closes() {
         {
             let FourBar { frame, crank, coupler, rocker } = cognate.four_bar.lengths;
             let own = [length(pivot, "Q"), length(pivot, own), length(own, shared), length("Q", end)];
-            let found = if cognate.counterparts[0] == MovingLink::Coupler {
+            let computed = if cognate.counterparts[0] == MovingLink::Coupler {
                 [frame, crank, coupler, rocker]
             } else {
                 [frame, rocker, coupler, crank]
             };
-            assert!(own.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-14 * (a + b)), "{own:?} {found:?}");
+            assert!(own.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-14 * (a + b)), "{own:?} {computed:?}");
         }
     }
 }
 
-/// One of a grid of points stands alone on the coupler, so that it can be seen to carry all three.
+/// Assembling the cognates of a point of a grid removes the other points, so that all three couplers are seen to share
+/// it.
 #[test]
-fn a_point_of_a_grid_carries_the_cognates_alone() {
-    let linkage = crate::catalogue::defaults("hrones-nelson");
+fn cognates_of_a_grid_point_keep_only_that_point() {
+    let linkage = crate::catalogue::default_linkage("hrones-nelson");
     let joint = linkage.traced[2];
-    let (hung, links) = Cognates::assemble(&linkage, joint).unwrap();
-    let carriers = hung.links.iter().filter(|link| link.position(joint).is_some()).count();
+    let (assembled, links) = Cognates::assemble(&linkage, joint).unwrap();
+    let carriers = assembled.links.iter().filter(|link| link.position(joint).is_some()).count();
     assert_eq!((carriers, links.concat().len()), (3, 6));
     assert!(
         linkage
             .traced
             .iter()
-            .all(|&other| hung.links.iter().all(|link| other == joint || link.position(other).is_none()))
+            .all(|&other| assembled.links.iter().all(|link| other == joint || link.position(other).is_none()))
     );
-    assert_eq!(hung.joints[joint].name, "M3");
+    assert_eq!(assembled.joints[joint].name, "M3");
 }
 
 #[test]
-fn what_has_no_cognates_says_why() {
+fn errors_say_why_there_are_no_cognates() {
     let bars = |along, across| PlacedFourBar {
         pivots: [Point::origin(), Point::new(4.0, 0.0)],
         lengths: FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 },
@@ -280,12 +283,13 @@ fn what_has_no_cognates_says_why() {
         Cognates::assemble(&linkage, JointId::new(2)).unwrap_err(),
         CognateError::CouplerPointOnPin { pin: "crank" }
     );
-    let klann = crate::catalogue::defaults("klann");
+    let klann = crate::catalogue::default_linkage("klann");
     assert_eq!(PlacedFourBar::from_linkage(&klann, klann.traced[0]), Err(CognateError::NotFourBar));
 }
 
-/// Chebyshev's linkage, driven by its coupler, has Evans's at half size for its cognates: crank 1/2, frame p/2, coupler and
-/// rocker r/2, and the point as far again beyond the rocker pin. And Evans's has Chebyshev's at twice the size.
+/// Both cognates of Chebyshev's linkage are Evans's at half size, whose cranks turn as its coupler: crank 1/2, frame
+/// p/2, coupler and rocker r/2, and the coupler point a coupler length beyond the rocker pin. And a cognate of Evans's
+/// is Chebyshev's at twice the size.
 #[test]
 fn chebyshevs_cognate_is_evanss_at_half_size() {
     let [chebyshev, evans] = ["chebyshev", "evans"].map(|id| catalogue::find(id).unwrap());
@@ -295,7 +299,7 @@ fn chebyshevs_cognate_is_evanss_at_half_size() {
         // p, r, s, a and p, r, a, s, k.
         let chebyshev = chebyshev.linkage(&[p, a, a, 1.0, 0.5]).unwrap();
         let evans = evans.linkage(&[p, 1.0, a, a, 2.0]).unwrap();
-        let [of_chebyshev, of_evans] =
+        let [placed_chebyshev, placed_evans] =
             [&chebyshev, &evans].map(|linkage| PlacedFourBar::from_linkage(linkage, linkage.traced[0]).unwrap());
         let close = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * (x.abs() + y.abs());
         let is_scaled = |one: &PlacedFourBar, other: &PlacedFourBar, by: f64| {
@@ -311,21 +315,21 @@ fn chebyshevs_cognate_is_evanss_at_half_size() {
             };
             list(one).into_iter().zip(list(other)).all(|(x, y)| close(x, by * y))
         };
-        let cognates = Cognates::from_four_bar(of_chebyshev).unwrap();
+        let cognates = Cognates::from_four_bar(placed_chebyshev).unwrap();
         assert!(close(cognates.third_pivot.x, p / 2.0) && cognates.third_pivot.y == 0.0);
         for cognate in cognates.others {
-            assert!(is_scaled(&cognate.four_bar, &of_evans, 0.5), "p = {p}: {cognate:?}");
+            assert!(is_scaled(&cognate.four_bar, &placed_evans, 0.5), "p = {p}: {cognate:?}");
             assert_eq!(cognate.counterparts[0], MovingLink::Coupler, "crank-driven where Chebyshev's coupler turns");
             assert_eq!(cognate.four_bar.lengths.class(), FourBarClass::CrankRocker);
         }
-        let back = Cognates::from_four_bar(of_evans).unwrap().others[0];
-        assert!(is_scaled(&back.four_bar, &of_chebyshev, 2.0), "p = {p}: {back:?}");
-        // And so they are drawn: twice the half-size Evans is Evans.
+        let back = Cognates::from_four_bar(placed_evans).unwrap().others[0];
+        assert!(is_scaled(&back.four_bar, &placed_chebyshev, 2.0), "p = {p}: {back:?}");
+        // The curves they trace agree as well.
         let [one, other] = [
             chebyshev.clone(),
             cognates.others[0].to_linkage(poses(&chebyshev, 90), &chebyshev.motion_options).unwrap(),
         ]
-        .map(|linkage| drawn(&linkage));
-        assert!(same(&one, &other), "p = {p}");
+        .map(|linkage| curves(&linkage));
+        assert!(is_same_curve(&one, &other), "p = {p}");
     }
 }

@@ -1,10 +1,10 @@
-//! Expressions as they are written, against trees of them that are evaluated on their own.
+//! Parsed expressions against expression trees that are evaluated independently.
 
 use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity};
 use coupler_curves::geometry::trig;
 use proptest::prelude::*;
 
-/// An expression that is no text: numbers are not negative.
+/// An expression as a tree, whose numbers are not negative.
 #[derive(Clone, Debug)]
 enum Tree {
     Number(f64),
@@ -15,14 +15,14 @@ enum Tree {
     Call(&'static str, Vec<Tree>),
 }
 
-/// The last has no value.
+/// The names that expressions use, with their values; the last has none.
 const NAMES: [(&str, f64); 4] = [("p", 2.0), ("mu_min_deg", -0.75), ("_k1", 1e-3), ("missing", f64::NAN)];
 
 const ARITHMETIC: [&str; 5] = ["+", "-", "*", "/", "^"];
 const COMPARISONS: [&str; 6] = ["==", "!=", "<", "<=", ">", ">="];
 
-/// How tightly an expression holds together, from the table of the language; a number holds tightest.
-fn tightness(tree: &Tree) -> u8 {
+/// The precedence of an expression, from the table of the language; numbers, names and calls bind tightest.
+fn precedence(tree: &Tree) -> u8 {
     match tree {
         Tree::Binary("or", ..) => 1,
         Tree::Binary("and", ..) => 2,
@@ -36,27 +36,27 @@ fn tightness(tree: &Tree) -> u8 {
     }
 }
 
-/// The text of a tree with no more parentheses than it takes, or with all.
-fn written(tree: &Tree, fully: bool) -> String {
+/// The text of a tree, with only the necessary parentheses or with all of them.
+fn tree_text(tree: &Tree, has_all_parentheses: bool) -> String {
     let part = |tree: &Tree, least: u8| {
-        let text = written(tree, fully);
-        if fully || tightness(tree) < least { format!("({text})") } else { text }
+        let text = tree_text(tree, has_all_parentheses);
+        if has_all_parentheses || precedence(tree) < least { format!("({text})") } else { text }
     };
     match tree {
         Tree::Number(value) => format!("{value:?}"),
         Tree::Name(k) => NAMES[*k].0.to_owned(),
         Tree::Minus(inner) => format!("-{}", part(inner, 7)),
         Tree::Not(inner) => format!("not {}", part(inner, 3)),
-        // To the right, and the exponent may have a sign.
+        // It associates to the right, and the exponent may have a sign.
         Tree::Binary("^", a, b) => format!("{}^{}", part(a, 9), part(b, 7)),
-        Tree::Binary(sign, a, b) => format!("{} {sign} {}", part(a, tightness(tree)), part(b, tightness(tree) + 1)),
+        Tree::Binary(sign, a, b) => format!("{} {sign} {}", part(a, precedence(tree)), part(b, precedence(tree) + 1)),
         Tree::Call(name, arguments) => {
             format!("{name}({})", arguments.iter().map(|a| part(a, 0)).collect::<Vec<_>>().join(", "))
         }
     }
 }
 
-fn truth(is_true: bool) -> f64 {
+fn bool_value(is_true: bool) -> f64 {
     f64::from(u8::from(is_true))
 }
 
@@ -65,7 +65,7 @@ fn value(tree: &Tree) -> f64 {
         Tree::Number(value) => *value,
         Tree::Name(k) => NAMES[*k].1,
         Tree::Minus(inner) => -value(inner),
-        Tree::Not(inner) => truth(value(inner) != 1.0),
+        Tree::Not(inner) => bool_value(value(inner) != 1.0),
         Tree::Binary(sign, a, b) => {
             let (a, b) = (value(a), value(b));
             match *sign {
@@ -74,14 +74,14 @@ fn value(tree: &Tree) -> f64 {
                 "*" => a * b,
                 "/" => a / b,
                 "^" => trig::pow(a, b),
-                "==" => truth(a == b),
-                "!=" => truth(a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_ne)),
-                "<" => truth(a < b),
-                "<=" => truth(a <= b),
-                ">" => truth(a > b),
-                ">=" => truth(a >= b),
+                "==" => bool_value(a == b),
+                "!=" => bool_value(a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_ne)),
+                "<" => bool_value(a < b),
+                "<=" => bool_value(a <= b),
+                ">" => bool_value(a > b),
+                ">=" => bool_value(a >= b),
                 "and" => a * b,
-                _ => truth(a + b > 0.0),
+                _ => bool_value(a + b > 0.0),
             }
         }
         Tree::Call(name, arguments) => {
@@ -104,7 +104,7 @@ fn value(tree: &Tree) -> f64 {
 fn number() -> impl Strategy<Value = Tree> {
     let leaf = prop_oneof![
         (0..20u8).prop_map(|n| Tree::Number(f64::from(n))),
-        // As it is written in the shortest form, with an exponent where that is shorter.
+        // Written in the shortest form, with an exponent where that is shorter.
         (proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL | proptest::num::f64::ZERO)
             .prop_map(|x: f64| Tree::Number(x.abs())),
         (0..NAMES.len()).prop_map(Tree::Name),
@@ -135,31 +135,31 @@ fn condition() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// What is read from a tree's text is worth what the tree is.
-fn agrees(tree: &Tree) {
+/// Asserts that the parsed text of a tree has the value of the tree.
+fn assert_same_value(tree: &Tree) {
     let expected = value(tree);
-    for fully in [false, true] {
-        let text = written(tree, fully);
-        let read = Expression::parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
-        let load = |k: usize| NAMES.iter().find(|(name, _)| *name == read.names()[k]).unwrap().1;
-        let found = read.evaluate(load);
+    for has_all_parentheses in [false, true] {
+        let text = tree_text(tree, has_all_parentheses);
+        let parsed = Expression::parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let load = |k: usize| NAMES.iter().find(|(name, _)| *name == parsed.names()[k]).unwrap().1;
+        let found = parsed.evaluate(load);
         assert!(found == expected || found.is_nan() && expected.is_nan(), "{text}: {found}, not {expected}");
-        // Spaces do not count.
+        // White space does not matter.
         let spaced = format!(" \t{}\n", text.replace('(', " ( ").replace(',', " , ").replace(" - ", "-"));
         let again = Expression::parse(&spaced).unwrap().evaluate(load);
         assert!(again == found || again.is_nan() && found.is_nan(), "{spaced}");
     }
 }
 
-/// An error is in the text, on whole characters, and has a remedy.
-fn is_placed<T>(read: Result<T, Error>, text: &str) {
-    if let Err(Error { message, span, help }) = read {
+/// Asserts that an error has a span of whole characters of the text, and help.
+fn assert_error_is_placed<T>(result: Result<T, Error>, text: &str) {
+    if let Err(Error { message, span, help }) = result {
         assert!(text.get(span.clone()).is_some(), "{message} at {span:?} of {text:?}");
         assert!(!message.is_empty() && !help.is_empty(), "{message}");
     }
 }
 
-/// Text that is nearly an expression, with letters of several bytes.
+/// Texts that are nearly expressions, with characters of several bytes.
 const NEARLY: &str =
     "( |\\)|[-+*/^,=<>!&{}:.]|and |or|not |sqrt\\(|min\\(|p|_|1e|[0-9]{1,3}|°|−|é|\u{1F980}|deg|\u{0}){0,30}";
 
@@ -167,25 +167,25 @@ proptest! {
     #![proptest_config(crate::random())]
 
     #[test]
-    fn numbers_are_worth_what_is_written(tree in number()) {
-        agrees(&tree);
+    fn numbers_have_the_value_of_their_tree(tree in number()) {
+        assert_same_value(&tree);
     }
 
     #[test]
-    fn conditions_are_as_true_as_they_are_written(tree in condition()) {
-        agrees(&tree);
+    fn conditions_have_the_value_of_their_tree(tree in condition()) {
+        assert_same_value(&tree);
     }
 
     #[test]
-    fn no_text_is_too_odd(any: String, nearly in NEARLY) {
+    fn no_text_makes_the_parser_panic(any: String, nearly in NEARLY) {
         for text in [any, nearly] {
-            is_placed(Expression::parse(&text), &text);
-            is_placed(Expression::parse(&text).and_then(|read| read.check(&["p"], |_| None)), &text);
-            is_placed(Caption::parse(&text), &text);
-            is_placed(Quantity::parse(&text, Dimension::Angle), &text);
-            is_placed(Quantity::parse(&text, Dimension::PaperLength), &text);
-            if let Ok(read) = Expression::parse(&text) {
-                read.evaluate(|_| 1.5);
+            assert_error_is_placed(Expression::parse(&text), &text);
+            assert_error_is_placed(Expression::parse(&text).and_then(|parsed| parsed.check(&["p"], |_| None)), &text);
+            assert_error_is_placed(Caption::parse(&text), &text);
+            assert_error_is_placed(Quantity::parse(&text, Dimension::Angle), &text);
+            assert_error_is_placed(Quantity::parse(&text, Dimension::PaperLength), &text);
+            if let Ok(parsed) = Expression::parse(&text) {
+                parsed.evaluate(|_| 1.5);
             }
         }
     }

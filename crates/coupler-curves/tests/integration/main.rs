@@ -1,4 +1,5 @@
-//! The kinematics against closed forms, published tables, independent formulas and brute force; a topic a file.
+//! Tests of the kinematics against closed forms, published tables, independent formulas and brute force; one topic a
+//! file.
 
 mod catalogue;
 mod circuits;
@@ -13,12 +14,12 @@ mod sextic;
 mod straight_line;
 mod thesis;
 
-/// The same random cases in every run; `PROPTEST_CASES=20000` asks for more of them, and
-/// `PROPTEST_RNG_SEED=…` for others.
+/// The configuration of the property tests: the same random cases in every run. `PROPTEST_CASES=20000` runs more of
+/// them, and `PROPTEST_RNG_SEED=…` others.
 fn random() -> proptest::test_runner::Config {
     use proptest::test_runner::{Config, RngSeed};
     let default = Config::default();
-    // Of many cases as many more may be left out.
+    // Up to four times as many cases may be rejected as are run.
     let max_global_rejects = default.cases.saturating_mul(4).max(1024);
     let default = Config { failure_persistence: None, max_global_rejects, ..default };
     match default.rng_seed {

@@ -12,8 +12,8 @@ fn all() -> MotionOptions {
     MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }
 }
 
-/// The difference of two angles, brought into [-pi, pi].
-fn apart(a: f64, b: f64) -> f64 {
+/// The absolute difference of two angles, from 0 to pi.
+fn angle_difference(a: f64, b: f64) -> f64 {
     let d = a - b;
     trig::atan2(trig::sin(d), trig::cos(d)).abs()
 }
@@ -23,12 +23,12 @@ fn direction(v: Vector) -> f64 {
 }
 
 fn four_bar(bar: FourBar) -> Linkage {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", Point::origin());
-    let c = assembly.fixed("C", Point::new(bar.frame, 0.0));
-    let a = assembly.crank("A", o, bar.crank).unwrap();
-    let b = assembly.dyad("B", [a, c], [bar.coupler, bar.rocker], Side::Left).unwrap();
-    assembly.build(vec![b], None, all()).unwrap()
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", Point::origin());
+    let c = builder.fixed("C", Point::new(bar.frame, 0.0));
+    let a = builder.crank("A", o, bar.crank).unwrap();
+    let b = builder.dyad("B", [a, c], [bar.coupler, bar.rocker], Side::Left).unwrap();
+    builder.build(vec![b], None, all()).unwrap()
 }
 
 proptest! {
@@ -38,7 +38,7 @@ proptest! {
     fn all_derivations_of_the_4r_chain_agree(l in prop::array::uniform4(0.3f64..3.0), theta in -3.1f64..3.1) {
         let bar = FourBar { frame: l[0], crank: l[1], coupler: l[2], rocker: l[3] };
         let size: f64 = l.iter().sum();
-        // The roots lose digits as the dyad flattens: in proportion to its height, so a fixed share is kept clear.
+        // The roots lose digits as the dyad flattens, in proportion to its height, so nearly flat dyads are left out.
         prop_assume!(bar.solvability(theta) > 1e-3 * size * size * size * size);
         let (psi, phi) = (bar.output_angles(theta).unwrap(), bar.coupler_angles(theta).unwrap());
         let (cos, sin) = (trig::cos(theta), trig::sin(theta));
@@ -52,24 +52,24 @@ proptest! {
             let unit = rd / d;
             let r2 = Vector::new(height * unit.y, -height * unit.x) + unit * (foot - d);
             let b = a + r2;
-            prop_assert!(apart(psi[k], direction(b - c)) < 1e-11);
-            prop_assert!(apart(theta + phi[k], direction(r2)) < 1e-11);
-            prop_assert!(apart(phi[k], bar.coupler_angle(theta, psi[k])) < 1e-11);
+            prop_assert!(angle_difference(psi[k], direction(b - c)) < 1e-11);
+            prop_assert!(angle_difference(theta + phi[k], direction(r2)) < 1e-11);
+            prop_assert!(angle_difference(phi[k], bar.coupler_angle(theta, psi[k])) < 1e-11);
             let cosine = (a - b).dot(&(c - b)) / ((a - b).norm() * (c - b).norm());
             prop_assert!((bar.transmission_angle(theta).unwrap() - trig::acos(cosine)).abs() < 1e-11);
         }
     }
 
     #[test]
-    fn the_inverted_slider_crank_is_mccarthys(g in 0.3f64..3.0, r in 0.3f64..3.0, e in 0.05f64..2.0) {
+    fn the_inverted_slider_crank_follows_mccarthys_formulas(g in 0.3f64..3.0, r in 0.3f64..3.0, e in 0.05f64..2.0) {
         let formulas = InvertedSliderCrank { g, r, e };
-        let mut assembly = LinkageBuilder::default();
-        let o = assembly.fixed("O", Point::origin());
-        let c = assembly.fixed("C", Point::new(g, 0.0));
-        let a = assembly.crank("A", o, r).unwrap();
-        let b = assembly.slot("B", [c, a], e, Side::Right).unwrap();
-        let m = assembly.point("M", [c, a], 1.0, 0.25).unwrap();
-        let linkage = assembly.build(vec![m], None, all()).unwrap();
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", Point::origin());
+        let c = builder.fixed("C", Point::new(g, 0.0));
+        let a = builder.crank("A", o, r).unwrap();
+        let b = builder.slot("B", [c, a], e, Side::Right).unwrap();
+        let m = builder.point("M", [c, a], 1.0, 0.25).unwrap();
+        let linkage = builder.build(vec![m], None, all()).unwrap();
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(7.0)));
         prop_assert_eq!(motion.is_assembled(), formulas.crank_range().is_some());
         for circuit in &motion.circuits {
@@ -86,10 +86,10 @@ proptest! {
                 // McCarthy's slide is positive where the foot is right of C -> A.
                 let s = -f64::from(circuit.mode_at(i).sign(DyadId::FIRST)) * size;
                 prop_assert!(((at(a) - at(b)).norm() - size).abs() < 1e-10);
-                prop_assert!(apart(formulas.psi(theta, s), direction(cb)) < 1e-10);
+                prop_assert!(angle_difference(formulas.psi(theta, s), direction(cb)) < 1e-10);
                 prop_assert!((formulas.b(s) - (at(a) - at(c)).norm()).abs() < 1e-12);
                 prop_assert!((trig::cos(formulas.theta(s).unwrap()) - trig::cos(theta)).abs() < 1e-10);
-                // The line's link carries M: along the line as McCarthy's s is counted, and to its left.
+                // M is on the link of the line: along the line in the sense of McCarthy's s, and to its left.
                 let line = Vector::new(-cb.y, cb.x) / e;
                 let expected = at(c) + line - cb / e * 0.25;
                 prop_assert!((at(m) - expected).norm() < 1e-12);
@@ -103,14 +103,14 @@ proptest! {
 
     #[test]
     fn a_slider_stays_on_its_line(crank in 0.2f64..2.0, coupler in 0.2f64..3.0, offset in -2.0f64..2.0, turn in 0.0f64..6.0) {
-        let mut assembly = LinkageBuilder::default();
-        let o = assembly.fixed("O", Point::new(0.3, -0.2));
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", Point::new(0.3, -0.2));
         let (cos, sin) = (trig::cos(turn), trig::sin(turn));
-        let p = assembly.fixed("P", Point::new(0.3, -0.2));
-        let q = assembly.fixed("Q", Point::new(0.3 + 2.0 * cos, -0.2 + 2.0 * sin));
-        let a = assembly.crank("A", o, crank).unwrap();
-        let b = assembly.slide("B", (a, coupler), ([p, q], offset), Side::Left).unwrap();
-        let linkage = assembly.build(vec![b], None, all()).unwrap();
+        let p = builder.fixed("P", Point::new(0.3, -0.2));
+        let q = builder.fixed("Q", Point::new(0.3 + 2.0 * cos, -0.2 + 2.0 * sin));
+        let a = builder.crank("A", o, crank).unwrap();
+        let b = builder.slide("B", (a, coupler), ([p, q], offset), Side::Left).unwrap();
+        let linkage = builder.build(vec![b], None, all()).unwrap();
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(5.0)));
         prop_assert_eq!(motion.is_assembled(), offset.abs() < crank + coupler);
         for circuit in &motion.circuits {
@@ -122,7 +122,7 @@ proptest! {
             }
             for k in 0..circuit.passes.len() {
                 if circuit.passes[k].to.flat_dyads.contains(DyadId::FIRST) && circuit.is_closed {
-                    // A limit: the link stands square to the line.
+                    // At a limit the link is perpendicular to the line.
                     let theta = trig::radians(circuit.passes[k].to.input.value);
                     let distance = offset - crank * trig::sin(theta - turn);
                     prop_assert!((distance.abs() - coupler).abs() < 1e-7);
@@ -131,28 +131,28 @@ proptest! {
         }
     }
 
-    /// Rates in closed form against differences of high order, away from limits.
+    /// Rates in closed form against finite differences of high order, away from limits.
     #[test]
-    fn rates_are_those_of_differences(l in prop::array::uniform4(0.5f64..3.0), at in 0usize..720, kind in 0..3) {
+    fn rates_match_finite_differences(l in prop::array::uniform4(0.5f64..3.0), at in 0usize..720, kind in 0..3) {
         let linkage = match kind {
             0 => four_bar(FourBar { frame: l[0], crank: l[1], coupler: l[2], rocker: l[3] }),
             1 => {
-                let mut assembly = LinkageBuilder::default();
-                let o = assembly.fixed("O", Point::origin());
-                let x = assembly.fixed("X", Point::new(1.0, 0.4));
-                let a = assembly.crank("A", o, l[1]).unwrap();
-                let b = assembly.slide("B", (a, l[2] + 1.0), ([o, x], 0.3), Side::Left).unwrap();
-                assembly.build(vec![b], None, all()).unwrap()
+                let mut builder = LinkageBuilder::default();
+                let o = builder.fixed("O", Point::origin());
+                let x = builder.fixed("X", Point::new(1.0, 0.4));
+                let a = builder.crank("A", o, l[1]).unwrap();
+                let b = builder.slide("B", (a, l[2] + 1.0), ([o, x], 0.3), Side::Left).unwrap();
+                builder.build(vec![b], None, all()).unwrap()
             }
             _ => {
-                let mut assembly = LinkageBuilder::default();
-                let o = assembly.fixed("O", Point::origin());
-                let c = assembly.fixed("C", Point::new(l[0], 0.0));
-                let a = assembly.crank("A", o, l[1]).unwrap();
-                let b = assembly.slot("B", [c, a], 0.2, Side::Right).unwrap();
-                let m = assembly.point("M", [c, a], l[2], 0.3).unwrap();
+                let mut builder = LinkageBuilder::default();
+                let o = builder.fixed("O", Point::origin());
+                let c = builder.fixed("C", Point::new(l[0], 0.0));
+                let a = builder.crank("A", o, l[1]).unwrap();
+                let b = builder.slot("B", [c, a], 0.2, Side::Right).unwrap();
+                let m = builder.point("M", [c, a], l[2], 0.3).unwrap();
                 // Seen from the turning link, everything else moves.
-                assembly.build(vec![m], Some([c, b]), all()).unwrap()
+                builder.build(vec![m], Some([c, b]), all()).unwrap()
             }
         };
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(0.5)));
@@ -164,7 +164,7 @@ proptest! {
         let h = trig::radians(0.5);
         for &joint in &linkage.traced {
             prop_assert!((jets.position(joint) - circuit.positions.point(joint, i)).norm() < 1e-12);
-            // Where a joint all but turns round, eight orders of a step are not enough.
+            // Where a joint nearly turns back, differences of the eighth order are not accurate enough.
             prop_assume!(jets.jerk(joint).norm() < 30.0);
             for (found, expected) in [
                 (jets.velocity(joint), difference(circuit, joint, i, &VELOCITY) / h),
@@ -185,6 +185,7 @@ const ACCELERATION: [f64; 9] =
 const JERK: [f64; 9] =
     [-7.0 / 240.0, 0.3, -169.0 / 120.0, 61.0 / 30.0, 0.0, -61.0 / 30.0, 169.0 / 120.0, -0.3, 7.0 / 240.0];
 
+/// The central difference of a joint's positions about a sample.
 fn difference(circuit: &Circuit, joint: JointId, i: usize, weights: &[f64; 9]) -> Vector {
     (0..9).map(|k| circuit.positions.point(joint, i + k - 4).coords * weights[k]).sum()
 }
@@ -195,7 +196,7 @@ fn rates_at_a_limit_are_unbounded() {
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
     let end = motion.circuits[0].passes[0].to;
     let jets = JointDerivatives::new(&linkage, end.input, motion.circuits[0].passes[0].mode, end.flat_dyads);
-    assert!(jets.velocity(JointId::new(2)).norm().is_finite(), "the crank turns on");
+    assert!(jets.velocity(JointId::new(2)).norm().is_finite(), "the crank keeps turning");
     assert_eq!(jets.velocity(JointId::new(3)), Vector::new(f64::INFINITY, f64::INFINITY));
 }
 
@@ -212,11 +213,11 @@ fn columns_are_mccarthys_angles() {
             let theta = trig::radians(circuit.inputs[i]);
             let values = compute_columns(&columns, &linkage, (circuit, JointId::new(3)), i);
             let psi = bar.output_angles(theta).unwrap()[k];
-            assert!(apart(trig::radians(values[0]), psi) < 1e-12);
-            assert!(apart(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);
-            assert!(apart(trig::radians(values[2]), bar.transmission_angle(theta).unwrap()) < 1e-12);
+            assert!(angle_difference(trig::radians(values[0]), psi) < 1e-12);
+            assert!(angle_difference(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);
+            assert!(angle_difference(trig::radians(values[2]), bar.transmission_angle(theta).unwrap()) < 1e-12);
             assert!((values[3] - bar.solvability(theta)).abs() < 1e-9);
-            assert!((values[4] - values[5].abs() * bar.rocker).abs() < 1e-12, "B goes round C");
+            assert!((values[4] - values[5].abs() * bar.rocker).abs() < 1e-12, "B circles C");
             assert!(values[6].is_nan(), "there is no slide");
         }
     }

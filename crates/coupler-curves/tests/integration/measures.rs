@@ -1,4 +1,4 @@
-//! Measures against closed forms, and what they must not depend on.
+//! Measures against closed forms and brute force, and their invariances.
 
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{
@@ -8,25 +8,25 @@ use coupler_curves::measure::{self, StraightCriterion, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
-use crate::catalogue::defaults;
+use crate::catalogue::default_linkage;
 
 /// A four-bar with its pins A and B and a coupler point M traced.
 fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", Point::new(0.0, 0.0));
-    let c = assembly.fixed("C", Point::new(frame, 0.0));
-    let a = assembly.crank("A", o, crank).unwrap();
-    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
-    let m = assembly.point("M", [a, b], along, across).unwrap();
-    let travel = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
-    assembly.build(vec![a, b, m], None, travel).unwrap()
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", Point::new(0.0, 0.0));
+    let c = builder.fixed("C", Point::new(frame, 0.0));
+    let a = builder.crank("A", o, crank).unwrap();
+    let b = builder.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = builder.point("M", [a, b], along, across).unwrap();
+    let options = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
+    builder.build(vec![a, b, m], None, options).unwrap()
 }
 
 /// The measures of a traced joint on a circuit, by name.
-fn measured(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
+fn measures(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
     let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)));
-    let subject = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
-    let values = measure::compute_all(&subject);
+    let curve = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
+    let values = measure::compute_all(&curve);
     move |name| values[measure::ALL.iter().position(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))]
 }
 
@@ -37,7 +37,7 @@ fn number(value: Value) -> f64 {
 #[test]
 fn a_circle_is_measured_as_one() {
     let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
-    let value = measured(&linkage, 0, 0, 36);
+    let value = measures(&linkage, 0, 0, 36);
     let near = |name: &str, expected: f64| {
         let found = number(value(name));
         assert!((found - expected).abs() < 1e-6 * expected.abs().max(1.0), "{name}: {found} {expected}");
@@ -55,11 +55,11 @@ fn a_circle_is_measured_as_one() {
     }
 }
 
-/// A measure is one of the curve: few samples tell the same as many, to the last bit, and as thousands of its own to what a
-/// polynomial between samples a degree apart is off by.
+/// Measures are those of the curve: with few samples and with many they are the same to the last bit, and with
+/// thousands to the error of a polynomial between samples a degree apart.
 #[test]
-fn measures_are_of_the_curve_however_few_its_samples() {
-    // Over change points the branch stays, and curves have corners there.
+fn measures_do_not_depend_on_the_number_of_samples() {
+    // The branch is kept through change points, where curves have corners.
     let own = |bar, point| {
         let mut linkage = four_bar(bar, point);
         linkage.motion_options.continuation = Continuation::Branch;
@@ -71,11 +71,11 @@ fn measures_are_of_the_curve_however_few_its_samples() {
         // With change points.
         own([3.0, 1.0, 2.0, 2.0], (1.0, 1.5)),
         own([2.5, 1.0, 1.5, 2.0], (3.0, -0.5)),
-        (defaults("klann"), 0),
-        (defaults("geared-five-bar"), 0),
+        (default_linkage("klann"), 0),
+        (default_linkage("geared-five-bar"), 0),
     ];
     for (linkage, trace) in &linkages {
-        let [few, more, many] = [12, 100, 8000].map(|samples| measured(linkage, *trace, 0, samples));
+        let [few, more, many] = [12, 100, 8000].map(|samples| measures(linkage, *trace, 0, samples));
         for m in &measure::ALL {
             assert_eq!(few(m.name), more(m.name), "{}", m.name);
         }
@@ -94,7 +94,7 @@ fn measures_are_of_the_curve_however_few_its_samples() {
 #[test]
 fn transmission_swing_and_time_ratio_have_closed_forms() {
     let bar = [4.0, 1.0, 3.0, 3.5];
-    let value = measured(&four_bar(bar, (1.0, 1.0)), 2, 0, 50);
+    let value = measures(&four_bar(bar, (1.0, 1.0)), 2, 0, 50);
     let angle = |c: f64| trig::degrees(trig::acos(c));
     // McCarthy 2.3.3: cos mu = (h^2 + b^2 - d^2) / 2hb with d from g - a to g + a.
     let mu = |d: f64| angle((9.0 + 12.25 - d * d) / 21.0);
@@ -108,22 +108,22 @@ fn transmission_swing_and_time_ratio_have_closed_forms() {
     assert!((number(value("time_ratio")) - slower / (360.0 - slower)).abs() < 1e-12);
     assert_eq!((value("type"), value("shortest")), (Value::Word("crank-rocker"), Value::Word("crank")));
     // A triple-rocker: the angle is 0 or 180 at its limits, and 180 where the crank is on the frame line.
-    let value = measured(&four_bar([4.0, 2.0, 2.0, 2.0], (1.0, 1.0)), 2, 0, 50);
+    let value = measures(&four_bar([4.0, 2.0, 2.0, 2.0], (1.0, 1.0)), 2, 0, 50);
     assert!((number(value("mu_min_deg")) - angle(0.5)).abs() < 1e-12, "folded crank: 2, 2 and 2");
     assert_eq!(number(value("mu_max_deg")), 180.0);
     assert_eq!(value("type"), Value::Word("0π double-rocker"));
     assert_eq!(value("time_ratio"), Value::Missing);
     // A drag-link turns its output round.
-    let value = measured(&four_bar([1.0, 3.0, 3.5, 4.0], (1.0, 1.0)), 2, 0, 50);
+    let value = measures(&four_bar([1.0, 3.0, 3.5, 4.0], (1.0, 1.0)), 2, 0, 50);
     assert_eq!((value("output_swing_deg"), value("type")), (Value::Number(360.0), Value::Word("double-crank")));
     // A parallelogram's cranks keep the angle 0 at its change points.
-    let value = measured(&four_bar([3.0, 1.0, 3.0, 1.0], (1.0, 1.0)), 2, 0, 48);
+    let value = measures(&four_bar([3.0, 1.0, 3.0, 1.0], (1.0, 1.0)), 2, 0, 48);
     assert_eq!((number(value("mu_min_deg")), number(value("mu_max_deg"))), (0.0, 180.0));
 }
 
-/// Every type of McCarthy's has its motion: what is said of the input and the output is so.
+/// Input and output of each of McCarthy's types have the ranges that its name states.
 #[test]
-fn types_say_where_the_links_go() {
+fn mccarthys_types_describe_the_ranges_of_the_links() {
     let all = [[4.0, 1.0, 3.0, 3.5], [4.0, 3.5, 3.0, 1.0], [1.0, 3.0, 3.5, 4.0], [4.0, 3.0, 1.0, 3.5]];
     let kinds = ["crank-rocker", "rocker-crank", "double-crank", "double-rocker"];
     let rockers = [[2.0, 4.5, 1.0, 3.0], [4.0, 2.0, 2.0, 2.0], [2.0, 2.2, 4.4, 2.1], [2.0, 2.5, 1.0, 4.0]];
@@ -135,9 +135,9 @@ fn types_say_where_the_links_go() {
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
         let circuit = &motion.circuits[0];
         let turns = circuit.passes.len() == 1;
-        let goes_to = |at: Point, pivot: f64, way: f64| ((at.x - pivot) * way > 0.0) && at.y.abs() < 0.05;
-        let crank_goes = |way| circuit.points(JointId::new(2)).any(|p| goes_to(p, 0.0, way));
-        let rocker_goes = |way| circuit.points(JointId::new(3)).any(|p| goes_to(p, frame, way));
+        let goes_to = |at: Point, pivot: f64, sense: f64| ((at.x - pivot) * sense > 0.0) && at.y.abs() < 0.05;
+        let crank_goes = |sense| circuit.points(JointId::new(2)).any(|p| goes_to(p, 0.0, sense));
+        let rocker_goes = |sense| circuit.points(JointId::new(3)).any(|p| goes_to(p, frame, sense));
         let expected = match kind {
             "crank-rocker" | "double-crank" => turns,
             "rocker-crank" | "double-rocker" => !turns,
@@ -150,17 +150,18 @@ fn types_say_where_the_links_go() {
     }
 }
 
-/// Bernoulli's lemniscate: of half-width a its length is 5.24411510858424 a (the lemniscate constant twice), it crosses
-/// itself once and there bends the other way twice, and its two halves go round opposite ways.
+/// Bernoulli's lemniscate of half-width a: its length is 5.24411510858424 a (twice the lemniscate constant), it crosses
+/// itself once, where it has two inflections, and its two loops are traced in opposite senses.
 #[test]
 fn a_lemniscate_is_measured_as_one() {
     let root = 2f64.sqrt();
     let linkage = four_bar([2.0, root, 2.0, root], (1.0, 0.0));
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(360)));
-    // Of the parallelogram and the antiparallelogram, the one whose middle does not go on a circle.
-    let eight =
-        (0..2).find(|&k| motion.circuits[k].points(JointId::new(4)).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5)).unwrap();
-    let value = measured(&linkage, 2, eight, 360);
+    // Of the parallelogram and the antiparallelogram, the one whose middle does not move on a circle.
+    let eight = (0..2)
+        .find(|&k| motion.circuits[k].points(JointId::new(4)).any(|p| (p - Point::new(1.0, 0.0)).norm() < 0.5))
+        .unwrap();
+    let value = measures(&linkage, 2, eight, 360);
     assert!((number(value("length")) - 5.244_115_108_584_24 * root).abs() < 1e-5, "{:?}", value("length"));
     assert!(number(value("area")).abs() < 1e-6);
     assert_eq!((value("crunodes"), value("inflections")), (Value::Number(1.0), Value::Number(2.0)));
@@ -171,15 +172,15 @@ fn a_lemniscate_is_measured_as_one() {
 
 /// The published proportions of Hoeken's linkage, crank 1, frame 2, coupler and rocker 2.5.
 #[test]
-fn hoekens_box_is_that_of_its_crossings() {
-    let linkage = defaults("hoeken");
-    let value = measured(&linkage, 0, 0, 360);
+fn hoekens_bounding_box_reaches_its_axis_crossing() {
+    let linkage = default_linkage("hoeken");
+    let value = measures(&linkage, 0, 0, 360);
     // (8.3): on the axis at p the curve is at the roots of 4 a^2 - p^2 +- 2 p r - r^2.
     assert!((number(value("bbox_y_max")) - 24f64.sqrt()).abs() < 1e-7);
     assert_eq!((value("cusps"), value("crunodes")), (Value::Number(0.0), Value::Number(0.0)));
 }
 
-/// A coupler point on the moving centrode has a cusp where it comes to the pole.
+/// A coupler point on the moving centrode has a cusp where it passes the pole.
 #[test]
 fn a_point_of_the_moving_centrode_has_a_cusp() {
     use coupler_curves::motion::InstantaneousMotion;
@@ -187,7 +188,7 @@ fn a_point_of_the_moving_centrode_has_a_cusp() {
     let motion = Motion::solve(&plain, &Sampler::new(Sampling::Samples(360)));
     let jets = motion.circuits[0].derivatives(&plain, 100);
     let pole = InstantaneousMotion::from_link(&jets, [2, 3].map(JointId::new)).unwrap().moving_pole;
-    let value = measured(&four_bar([4.0, 1.0, 3.0, 3.5], (pole.x, pole.y)), 2, 0, 77);
+    let value = measures(&four_bar([4.0, 1.0, 3.0, 3.5], (pole.x, pole.y)), 2, 0, 77);
     assert_eq!((value("cusps"), value("curvature_max")), (Value::Number(1.0), Value::Number(f64::INFINITY)));
     assert_eq!(value("crunodes"), Value::Number(0.0));
 }
@@ -195,9 +196,9 @@ fn a_point_of_the_moving_centrode_has_a_cusp() {
 proptest! {
     #![proptest_config(crate::random())]
 
-    /// What is measured depends on neither size nor place; lengths and areas go with the scale.
+    /// Measures depend on neither size nor placement, except that lengths and areas scale.
     #[test]
-    fn measures_are_those_of_the_shape(
+    fn measures_are_invariant_under_similarities(
         lengths in prop::array::uniform4(0.3f64..3.0), (along, across) in (-2.0f64..2.0, -2.0f64..2.0),
         (scale, turn, mirrored) in (0.1f64..10.0, 0.0f64..360.0, any::<bool>()),
     ) {
@@ -209,11 +210,11 @@ proptest! {
         let motion = Motion::solve(&plain, &Sampler::new(Sampling::Samples(60)));
         let rocks: Vec<bool> = motion.circuits.iter().map(|circuit| circuit.passes.len() > 1).collect();
         for (circuit, rocks) in rocks.iter().enumerate() {
-            let (before, after) = (measured(&plain, 2, circuit, 60), measured(&moved, 2, circuit, 60));
+            let (before, after) = (measures(&plain, 2, circuit, 60), measures(&moved, 2, circuit, 60));
             for m in measure::ALL {
                 let power = match m.name {
                     "length" | "straight_length" | "straight_deviation" | "dwell_radius" | "dwell_deviation" => scale,
-                    // Of a symmetrical curve two portions are equally long; and a centre is a place.
+                    // A symmetrical curve has two equally long portions; and a centre is a position.
                     "straight_start_deg" | "dwell_start_deg" | "dwell_x" | "dwell_y" | "symmetry_deg" => continue,
                     "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
                     "curvature_max" => 1.0 / scale,
@@ -223,25 +224,26 @@ proptest! {
                 match (before(m.name), after(m.name)) {
                     (Value::Number(a), Value::Number(b)) => {
                         prop_assert!(!a.is_nan(), "{}", m.name);
-                        // Of a bend sharper than the samples lie, rounding decides which sample is nearest to it.
-                        // Beside a limit that is so of every bend.
+                        // Where the curve turns more sharply than the samples resolve, rounding decides which sample is
+                        // nearest to the peak of the curvature. Near a limit that is always so.
                         if m.name == "curvature_max" && (a * number(before("length")) > 60.0 || *rocks) {
                             continue;
                         }
-                        // Where a portion ends is sought to a hundredth of the way between samples, of which it has dozens.
-                        let is_sought = m.name.starts_with("straight") || m.name.starts_with("dwell");
-                        // Its length hardly changes with where it lies, but the input it spans there does, and so does
+                        // The ends of a portion are searched to a hundredth of the spacing of samples, of which it has
+                        // dozens.
+                        let is_searched = m.name.starts_with("straight") || m.name.starts_with("dwell");
+                        // Its length hardly changes with its location, but the input it spans there does, and so does
                         // the circle of a short arc.
                         let near = match m.name {
                             "straight_input_deg" | "dwell_radius" => 5e-2,
-                            // One that is shorter than the way between two samples is sought in windows of few points, and
+                            // A portion shorter than the spacing of samples is searched in windows of few points, and
                             // rounding decides in which of them it is found.
                             "straight_length" | "straight_deviation"
                                 if number(before("straight_length")) * 60.0 < number(before("length")) =>
                             {
                                 2e-2
                             }
-                            _ if is_sought => 2e-3,
+                            _ if is_searched => 2e-3,
                             _ => 1e-5,
                         };
                         let is_same = a * power == b || (a * power - b).abs() <= near * b.abs().max(scale.min(1.0) * 1e-3);
@@ -256,10 +258,10 @@ proptest! {
 
 /// An arc of angle phi lies in a strip r (1 - cos phi/2) wide over 2 r sin phi/2: their quotient is tan(phi/4) / 2.
 #[test]
-fn the_straight_portion_of_a_circle_is_that_of_its_strip() {
+fn the_straight_portion_of_a_circle_is_the_arc_in_the_strip() {
     let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
     for samples in [36, 360] {
-        let value = measured(&linkage, 0, 0, samples);
+        let value = measures(&linkage, 0, 0, samples);
         let angle = 4.0 * trig::atan2(0.002, 1.0);
         let length = 2.5 * trig::sin(angle / 2.0);
         let found = ["straight_length", "straight_deviation", "straight_input_deg"].map(|name| number(value(name)));
@@ -271,21 +273,21 @@ fn the_straight_portion_of_a_circle_is_that_of_its_strip() {
 
 /// The straightest portion of a given span may begin between the last sample and the first, or just beyond the first.
 #[test]
-fn a_portion_of_a_given_span_may_begin_about_the_first_sample() {
+fn a_portion_of_a_given_span_may_begin_near_the_first_sample() {
     let linkage = four_bar([3.211, 2.818, 3.872, 0.787], (1.753, 0.0));
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(120)));
     for circuit in &motion.circuits {
-        let portion = |asked: StraightCriterion| {
-            let subject =
-                TracedCurve::new(&linkage, &motion, circuit, linkage.traced[2]).with_straight_criterion(asked);
-            subject.straight().cloned().expect("a portion")
+        let portion = |criterion: StraightCriterion| {
+            let curve =
+                TracedCurve::new(&linkage, &motion, circuit, linkage.traced[2]).with_straight_criterion(criterion);
+            curve.straight().cloned().expect("a portion")
         };
         for span in [20.0, 60.0] {
             let by_input = portion(StraightCriterion::Input(span));
             assert!((by_input.input_span - span).abs() < 1e-9, "{by_input:?}");
-            let far = portion(StraightCriterion::Length(by_input.length));
-            // One that is as long and straighter may span another input.
-            assert!(far.deviation <= by_input.deviation * (1.0 + 1e-6), "{far:?} {by_input:?}");
+            let by_length = portion(StraightCriterion::Length(by_input.length));
+            // A portion that is as long and straighter may span another input.
+            assert!(by_length.deviation <= by_input.deviation * (1.0 + 1e-6), "{by_length:?} {by_input:?}");
         }
     }
 }
@@ -293,25 +295,25 @@ fn a_portion_of_a_given_span_may_begin_about_the_first_sample() {
 /// Peaucellier's line is straight from end to end, and spans the input from limit to limit.
 #[test]
 fn a_straight_line_is_straight_from_end_to_end() {
-    let linkage = defaults("peaucellier-lipkin");
+    let linkage = default_linkage("peaucellier-lipkin");
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(120)));
     let limit = motion.circuits[0].passes[0].to.input.value;
     let ends = motion.circuits[0].points(linkage.traced[0]).map(|p| p.y.abs()).fold(0.0, f64::max);
-    let value = measured(&linkage, 0, 0, 120);
+    let value = measures(&linkage, 0, 0, 120);
     assert!((number(value("straight_length")) - 2.0 * ends).abs() < 1e-9);
     assert!(number(value("straight_deviation")) < 1e-12);
     assert!((number(value("straight_input_deg")) - 2.0 * limit).abs() < 1e-6, "{:?}", value("straight_input_deg"));
 }
 
-/// Against every portion from sample to sample.
+/// The longest straight portion against every portion from sample to sample.
 #[test]
-fn no_portion_is_longer_than_the_one_found() {
+fn no_straight_portion_is_longer_than_the_one_found() {
     for (id, samples) in [("hoeken", 180), ("jansen", 180), ("klann", 360)] {
-        let linkage = defaults(id);
-        let value = measured(&linkage, 0, 0, samples);
+        let linkage = default_linkage(id);
+        let value = measures(&linkage, 0, 0, samples);
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
         let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
-        // Every portion from sample to sample, its strip by the chord's own and all other directions.
+        // Every portion from sample to sample, with its strip in directions about that of its chord.
         let mut longest: f64 = 0.0;
         for from in 0..samples {
             for span in 3..samples / 2 {
@@ -321,8 +323,10 @@ fn no_portion_is_longer_than_the_one_found() {
                     let (cos, sin) = (trig::cos(turn), trig::sin(turn));
                     let along =
                         [cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y].map(|c| c / chord.norm());
-                    let extent = |of: &dyn Fn(&Point) -> f64| {
-                        part.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)])
+                    let extent = |coordinate: &dyn Fn(&Point) -> f64| {
+                        part.iter()
+                            .map(coordinate)
+                            .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)])
                     };
                     let width = extent(&|p| along[0] * p.y - along[1] * p.x);
                     let length = extent(&|p| along[0] * p.x + along[1] * p.y);
@@ -339,21 +343,21 @@ fn no_portion_is_longer_than_the_one_found() {
             }
         }
         let found = number(value("straight_length"));
-        // Between samples it is longer by less than two of them.
+        // With its ends between samples the portion is longer by less than two spacings.
         assert!(found >= longest * 0.999 && found < 1.2 * longest, "{id}: {found} {longest}");
         assert!(number(value("straight_deviation")) <= 0.000_51 * found, "{id}");
     }
 }
 
-/// The pins go on circles: the crank's round its own, the rocker's there and back on its arc.
+/// The pins move on circles: the crank pin all the way round, the rocker pin back and forth on its arc.
 #[test]
-fn pins_dwell_all_the_time() {
+fn pins_dwell_during_the_whole_turn() {
     let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
     for (trace, radius, centre) in [(0, 1.25, [0.0, 0.0]), (1, 3.5, [4.0, 0.0])] {
-        let value = measured(&linkage, trace, 0, 120);
+        let value = measures(&linkage, trace, 0, 120);
         let found = ["dwell_input_deg", "dwell_radius", "dwell_x", "dwell_y"].map(|name| number(value(name)));
         for (found, expected) in found.into_iter().zip([360.0, radius, centre[0], centre[1]]) {
-            // Where the rocker turns back its pin's samples do not tell of a smooth curve.
+            // Where the rocker turns back, the samples of its pin are not those of a smooth curve.
             let near = if trace == 0 { 1e-9 } else { 1e-5 };
             assert!((found - expected).abs() < near, "{trace}: {found} {expected}");
         }
@@ -361,32 +365,34 @@ fn pins_dwell_all_the_time() {
     }
 }
 
-/// Against every portion from sample to sample, by circles whose centres are moved about to where the ring is narrowest.
+/// The longest circular portion against every portion from sample to sample, by circles whose centres are searched for
+/// the narrowest ring.
 #[test]
 fn no_circular_portion_spans_more_than_the_one_found() {
     let ring = |points: &[Point], centre: Point| {
-        let far = points.iter().map(|p| (p - centre).norm());
-        let [low, high] = far.fold([f64::INFINITY, 0.0f64], |[low, high], r| [low.min(r), high.max(r)]);
+        let radii = points.iter().map(|p| (p - centre).norm());
+        let [low, high] = radii.fold([f64::INFINITY, 0.0f64], |[low, high], r| [low.min(r), high.max(r)]);
         high - low
     };
     for id in ["hoeken", "jansen", "hrones-nelson"] {
-        let linkage = defaults(id);
+        let linkage = default_linkage(id);
         let samples = 90;
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
-        let subject = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
-        let dwell = subject.dwell().expect("a dwell");
+        let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+        let dwell = curve.dwell().expect("a dwell");
         let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
         let extent = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
-        let length = number(measured(&linkage, 0, 0, samples)("length"));
-        // What is found is what it is said to be, and no wider than is allowed but for the curve between its points.
+        let length = number(measures(&linkage, 0, 0, samples)("length"));
+        // The portion has the deviation it reports, and is no wider than is allowed except for the curve between its
+        // points.
         assert!((ring(&dwell.points, dwell.centre) - 2.0 * dwell.deviation).abs() < 1e-9 * extent, "{id}");
         assert!(dwell.deviation <= 0.000_505 * extent, "{id}: {} {extent}", dwell.deviation);
-        // No portion one sample longer fits: from the centre found, a pattern search for a narrower ring ends above.
+        // No portion one sample longer fits: a pattern search for its narrowest ring ends above the limit.
         let span = (dwell.input_span / 360.0 * samples as f64).floor() as usize + 1;
         for from in 0..samples {
             let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
             let circle = {
-                // Through the ends and the middle, to begin with.
+                // The search starts from the circle through the ends and the middle.
                 let [a, b, c] = [part[0], part[span / 2], part[span]];
                 let (u, v) = (b - a, c - a);
                 let d = 2.0 * (u.x * v.y - u.y * v.x);
@@ -412,9 +418,9 @@ fn no_circular_portion_spans_more_than_the_one_found() {
 proptest! {
     #![proptest_config(crate::random())]
 
-    /// Whatever the lengths, also of linkages that hardly move or not at all: no value is no number.
+    /// No measure is NaN, whatever the lengths, even if the linkage hardly moves or does not move at all.
     #[test]
-    fn every_four_bar_is_measured(
+    fn no_measure_of_any_four_bar_is_nan(
         lengths in prop::array::uniform4(prop_oneof![0.1f64..4.0, (1u8..9).prop_map(|k| f64::from(k) / 2.0)]),
         (along, across) in (-4.0f64..4.0, prop_oneof![Just(0.0), -4.0f64..4.0]), samples in 2usize..400,
     ) {
@@ -434,13 +440,14 @@ proptest! {
     }
 }
 
-/// Theorem 1: the perpendicular bisector of the frame. Theorem 2: through the rocker's pivot, half the angle at its pin.
+/// By theorem 1 the axis is the perpendicular bisector of the frame; by theorem 2 it goes through the rocker's pivot,
+/// at half the angle at its pin.
 #[test]
 fn the_theorems_of_chapter_7_are_recognised() {
     let axis = |linkage: &Linkage, circuit: usize| {
         let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(180)));
-        let subject = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
-        let symmetry = *subject.symmetry().expect("a curve");
+        let curve = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
+        let symmetry = *curve.symmetry().expect("a curve");
         (symmetry.theorem, symmetry.axis.expect("an axis"), symmetry.residual)
     };
     for height in [0.0, 0.7, -1.3] {
@@ -462,28 +469,29 @@ fn the_theorems_of_chapter_7_are_recognised() {
     }
 }
 
-/// Without a theorem the axis is found: of a slider-crank's point on the line, and of none elsewhere.
+/// Where no theorem applies the axis is found by shape: for a point of a slider-crank on the coupler line, and for no
+/// other.
 #[test]
 fn other_symmetrical_curves_are_found_by_their_shape() {
-    let measured = |across: f64, turn: f64| {
-        let mut assembly = LinkageBuilder::default();
-        let o = assembly.fixed("O", Point::new(0.0, 0.0));
-        let p = assembly.fixed("P", Point::new(1.0, 0.0));
-        let a = assembly.crank("A", o, 1.0).unwrap();
-        let b = assembly.slide("B", (a, 2.5), ([o, p], 0.0), Side::Left).unwrap();
-        let m = assembly.point("M", [a, b], 1.0, across).unwrap();
-        let linkage = assembly.build(vec![m], None, MotionOptions::default()).unwrap();
+    let symmetry = |across: f64, turn: f64| {
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", Point::new(0.0, 0.0));
+        let p = builder.fixed("P", Point::new(1.0, 0.0));
+        let a = builder.crank("A", o, 1.0).unwrap();
+        let b = builder.slide("B", (a, 2.5), ([o, p], 0.0), Side::Left).unwrap();
+        let m = builder.point("M", [a, b], 1.0, across).unwrap();
+        let linkage = builder.build(vec![m], None, MotionOptions::default()).unwrap();
         let linkage = Linkage { placement: Orientation::new(false, turn), ..linkage };
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(180)));
         *TracedCurve::new(&linkage, &motion, &motion.circuits[0], m).symmetry().expect("a curve")
     };
     for turn in [0.0, 33.0] {
-        let found = measured(0.0, turn);
+        let found = symmetry(0.0, turn);
         assert!(found.residual < 1e-7 && found.theorem.is_none(), "{found:?}");
         assert!((found.axis.expect("an axis").direction_deg() - turn).abs() < 1e-5, "{found:?}");
-        assert!(measured(0.5, turn).residual > 0.002);
+        assert!(symmetry(0.5, turn).residual > 0.002);
     }
-    // A circle has no axis of its own.
+    // No axis of a circle is distinguished from the others.
     let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(180)));
     let circle =

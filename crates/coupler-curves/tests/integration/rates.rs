@@ -1,5 +1,6 @@
 //! Velocity, acceleration and jerk of every kind of joint, against nested dual numbers: numbers that carry their exact
-//! derivative, here through formulas of their own (circles cut by the law of cosines, angles by a Taylor-free sine).
+//! derivative, here through independent formulas (circles intersected by the law of cosines, exact rules for sine and
+//! cosine).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,21 +12,21 @@ use coupler_curves::linkage::{
 use coupler_curves::motion::{InputPosition, JointDerivatives, Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
-/// A number and its derivative; of duals, its second derivative too, and so on.
+/// A number and its derivative; nested, its second derivative too, and so on.
 #[derive(Clone, Copy, Debug)]
 struct Dual<T>(T, T);
 
-/// What dual numbers are made of.
+/// The arithmetic that the components of dual numbers need, and dual numbers have in turn.
 trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    fn of(x: f64) -> Self;
+    fn from_f64(x: f64) -> Self;
     fn sqrt(self) -> Self;
     fn cos_sin(self) -> [Self; 2];
 }
 
 impl Real for f64 {
-    fn of(x: f64) -> f64 {
+    fn from_f64(x: f64) -> f64 {
         x
     }
     fn sqrt(self) -> f64 {
@@ -67,12 +68,12 @@ impl<T: Real> Div for Dual<T> {
     }
 }
 impl<T: Real> Real for Dual<T> {
-    fn of(x: f64) -> Self {
-        Dual(T::of(x), T::of(0.0))
+    fn from_f64(x: f64) -> Self {
+        Dual(T::from_f64(x), T::from_f64(0.0))
     }
     fn sqrt(self) -> Self {
         let root = self.0.sqrt();
-        Dual(root, self.1 / (T::of(2.0) * root))
+        Dual(root, self.1 / (T::from_f64(2.0) * root))
     }
     fn cos_sin(self) -> [Self; 2] {
         let [cos, sin] = self.0.cos_sin();
@@ -82,7 +83,7 @@ impl<T: Real> Real for Dual<T> {
 
 type Third = Dual<Dual<Dual<f64>>>;
 
-/// The variable, of which everything is differentiated three times.
+/// The variable by which everything is differentiated, three times.
 fn variable(x: f64) -> Third {
     Dual(Dual(Dual(x, 1.0), Dual(1.0, 0.0)), Dual(Dual(1.0, 0.0), Dual(0.0, 0.0)))
 }
@@ -92,9 +93,9 @@ fn orders(x: Third) -> [f64; 4] {
     [x.0.0.0, x.1.0.0, x.1.1.0, x.1.1.1]
 }
 
-/// Every joint by its step, the input in radians or as a length.
-fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2]> {
-    let n = Third::of;
+/// The position of every joint by its kind, with the input in radians or as a length.
+fn positions(linkage: &Linkage, input: Third, mode: AssemblyMode) -> Vec<[Third; 2]> {
+    let n = Third::from_f64;
     let minus = |a: [Third; 2], b: [Third; 2]| [a[0] - b[0], a[1] - b[1]];
     let dot = |a: [Third; 2], b: [Third; 2]| a[0] * b[0] + a[1] * b[1];
     let moved = |p: [Third; 2], u: [Third; 2], along: Third, across: Third| {
@@ -104,8 +105,8 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
         let length = dot(v, v).sqrt();
         [v[0] / length, v[1] / length]
     };
-    // Where circles about p and q cut each other, by the angle at p.
-    let cut = |p: [Third; 2], q: [Third; 2], [l0, l1]: [Third; 2], side: f64| {
+    // The intersection of circles about p and q, by the angle at p.
+    let intersection = |p: [Third; 2], q: [Third; 2], [l0, l1]: [Third; 2], side: f64| {
         let base = minus(q, p);
         let d = dot(base, base).sqrt();
         let cos = (l0 * l0 + d * d - l1 * l1) / (n(2.0) * l0 * d);
@@ -113,21 +114,21 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
     };
     let mut at: Vec<[Third; 2]> = Vec::new();
     for joint in &linkage.joints {
-        let side = |dyad| f64::from(signs.sign(dyad));
+        let side = |dyad| f64::from(mode.sign(dyad));
         let place = match joint.kind {
             JointKind::Fixed(p) => [n(p.x), n(p.y)],
             JointKind::Crank { pivot, length } => moved(at[pivot], input.cos_sin(), n(length), n(0.0)),
-            JointKind::Gear { pivot, length, ratio: [turns, of], phase_deg } => {
-                let angle = input * n(turns as f64 / of as f64) + n(trig::radians(phase_deg));
+            JointKind::Gear { pivot, length, ratio: [gear_turns, crank_turns], phase_deg } => {
+                let angle = input * n(gear_turns as f64 / crank_turns as f64) + n(trig::radians(phase_deg));
                 moved(at[pivot], angle.cos_sin(), n(length), n(0.0))
             }
             JointKind::Piston { base: [p, q], length, offset, dyad } => {
                 let reach = (input * input + n(offset * offset)).sqrt();
-                cut(at[p], at[q], [reach, n(length)], side(dyad))
+                intersection(at[p], at[q], [reach, n(length)], side(dyad))
             }
-            JointKind::Dyad { base: [p, q], lengths, dyad } => cut(at[p], at[q], lengths.map(n), side(dyad)),
+            JointKind::Dyad { base: [p, q], lengths, dyad } => intersection(at[p], at[q], lengths.map(n), side(dyad)),
             JointKind::Slide { from, length, line: [p, q], offset, dyad } => {
-                // Along the line from its foot below the hanging joint.
+                // Along the line from the foot of the joint to which the link is attached.
                 let u = unit(minus(at[q], at[p]));
                 let arm = minus(at[from], at[p]);
                 let off = n(offset) - (u[0] * arm[1] - u[1] * arm[0]);
@@ -135,7 +136,7 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
                 moved(at[p], u, dot(u, arm) + n(side(dyad)) * along, n(offset))
             }
             JointKind::Slot { base: [p, q], offset, dyad } => {
-                // The foot is on Thales' circle over the base, so far from the pivot.
+                // The foot is on Thales' circle over the base, at the offset from the pivot.
                 let base = minus(at[q], at[p]);
                 let d = dot(base, base).sqrt();
                 let cos = n(offset) / d;
@@ -152,7 +153,7 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
             JointKind::Aligned { from, line: [p, q], offset, direction: line_is, along, across } => {
                 let sense = if let LineDirection::BySide(dyad) = line_is { -side(dyad) } else { 1.0 };
                 let [along, across] = [along * sense, across * sense];
-                // The base's direction, turned to the right until the line through q runs beside p.
+                // The base's direction, turned to the right until the line through q passes p at the offset.
                 let base = minus(at[q], at[p]);
                 let sin = n(offset) / dot(base, base).sqrt();
                 let direction = moved([n(0.0); 2], unit(base), (n(1.0) - sin * sin).sqrt(), -sin);
@@ -160,48 +161,49 @@ fn places(linkage: &Linkage, input: Third, signs: AssemblyMode) -> Vec<[Third; 2
             }
             JointKind::Parallelogram { corners: [p, q, r] } => std::array::from_fn(|k| at[p][k] + at[r][k] - at[q][k]),
             JointKind::Rigid { base: [p, q], along, across } => moved(at[p], minus(at[q], at[p]), n(along), n(across)),
+            kind => panic!("{kind:?} has no position in dual numbers here"),
         };
         at.push(place);
     }
     at
 }
 
-/// A linkage with a joint of every kind but the piston, each hanging on moving ones.
-fn everything([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let c = assembly.fixed("C", [4.0, 0.5].into());
-    let f = assembly.fixed("F", [-3.0, 1.0].into());
-    let pin = assembly.crank("A", o, crank).unwrap();
-    let gear = assembly.gear("G", (c, 0.5 * crank), [-3.0, 2.0], phase).unwrap();
-    let dyad = assembly.dyad("B", [pin, gear], [a, b], Side::Left).unwrap();
-    let point = assembly.point("M", [pin, dyad], 1.2, -0.7).unwrap();
-    let slide = assembly.slide("S", (point, 7.0), ([f, o], offset), Side::Right).unwrap();
-    let block = assembly.point("K", [slide, o], 0.3, 0.4).unwrap();
-    let slot = assembly.slot("T", [f, block], offset, Side::Right).unwrap();
-    let carried = assembly.point("L", [f, block], 1.0, 0.5).unwrap();
-    let yoke = assembly.yoke("Y", carried, ([f, pin], 0.25), 70.0).unwrap();
-    let arm = assembly.point("N", [yoke, pin], 0.6, -0.2).unwrap();
-    let plain = assembly.slot("U", [c, arm], 0.0, Side::Left).unwrap();
-    let end = assembly.point("E", [c, arm], 2.0, 0.3).unwrap();
-    let corner = assembly.parallelogram("R", [o, pin, dyad]).unwrap();
-    assembly.point("W", [corner, dyad], 0.5, 0.4).unwrap();
-    assembly.build(vec![slot, plain, end], None, MotionOptions::default()).unwrap()
+/// A linkage with a joint of every kind but the piston, each attached to moving ones.
+fn all_kinds([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let c = builder.fixed("C", [4.0, 0.5].into());
+    let f = builder.fixed("F", [-3.0, 1.0].into());
+    let pin = builder.crank("A", o, crank).unwrap();
+    let gear = builder.gear("G", (c, 0.5 * crank), [-3.0, 2.0], phase).unwrap();
+    let dyad = builder.dyad("B", [pin, gear], [a, b], Side::Left).unwrap();
+    let point = builder.point("M", [pin, dyad], 1.2, -0.7).unwrap();
+    let slide = builder.slide("S", (point, 7.0), ([f, o], offset), Side::Right).unwrap();
+    let block = builder.point("K", [slide, o], 0.3, 0.4).unwrap();
+    let slot = builder.slot("T", [f, block], offset, Side::Right).unwrap();
+    let carried = builder.point("L", [f, block], 1.0, 0.5).unwrap();
+    let yoke = builder.yoke("Y", carried, ([f, pin], 0.25), 70.0).unwrap();
+    let arm = builder.point("N", [yoke, pin], 0.6, -0.2).unwrap();
+    let plain = builder.slot("U", [c, arm], 0.0, Side::Left).unwrap();
+    let end = builder.point("E", [c, arm], 2.0, 0.3).unwrap();
+    let corner = builder.parallelogram("R", [o, pin, dyad]).unwrap();
+    builder.point("W", [corner, dyad], 0.5, 0.4).unwrap();
+    builder.build(vec![slot, plain, end], None, MotionOptions::default()).unwrap()
 }
 
-fn actuated(offset: f64) -> Linkage {
-    let mut assembly = LinkageBuilder::default();
-    let c = assembly.fixed("C", [2.0, 0.3].into());
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let a = assembly.piston("A", [c, o], (1.0, offset), Side::Left).unwrap();
-    let p = assembly.point("P", [c, a], 0.7, 0.2).unwrap();
-    assembly.build(vec![p], None, MotionOptions::default()).unwrap()
+fn actuator(offset: f64) -> Linkage {
+    let mut builder = LinkageBuilder::default();
+    let c = builder.fixed("C", [2.0, 0.3].into());
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let a = builder.piston("A", [c, o], (1.0, offset), Side::Left).unwrap();
+    let p = builder.point("P", [c, a], 0.7, 0.2).unwrap();
+    builder.build(vec![p], None, MotionOptions::default()).unwrap()
 }
 
-/// The jets at an input against dual numbers, relative to how large each derivative gets in the linkage.
-fn compare(linkage: &Linkage, stop: InputPosition, variable: Third, signs: AssemblyMode) -> Result<(), TestCaseError> {
-    let jets = JointDerivatives::new(linkage, stop, signs, DyadSet::EMPTY);
-    let expected = places(linkage, variable, signs);
+/// Compares the derivatives at an input with dual numbers, relative to the greatest derivative of each joint.
+fn compare(linkage: &Linkage, input: InputPosition, variable: Third, mode: AssemblyMode) -> Result<(), TestCaseError> {
+    let jets = JointDerivatives::new(linkage, input, mode, DyadSet::EMPTY);
+    let expected = positions(linkage, variable, mode);
     for joint in linkage.joint_ids() {
         let found = [jets.position(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
         for axis in 0..2 {
@@ -222,22 +224,22 @@ proptest! {
     #![proptest_config(crate::random())]
 
     #[test]
-    fn rates_are_those_of_dual_numbers(
+    fn rates_match_dual_numbers(
         (crank, a, b) in (0.5f64..1.0, 3.0f64..4.0, 2.5f64..4.0),
         (offset, phase, deg) in (0.1f64..0.6, 0.0f64..360.0, 0.0f64..720.0),
     ) {
-        let linkage = everything([crank, a, b, offset, phase]);
+        let linkage = all_kinds([crank, a, b, offset, phase]);
         compare(&linkage, InputPosition::from_degrees(deg), variable(trig::radians(deg)), linkage.motion_options.mode)?;
-        let actuated = actuated(offset);
+        let actuator = actuator(offset);
         let s = 1.3 + deg / 720.0;
-        let stop = InputPosition { value: s, cos: 0.0, sin: 0.0 };
-        compare(&actuated, stop, variable(s), actuated.motion_options.mode)?;
+        let input = InputPosition { value: s, cos: 0.0, sin: 0.0 };
+        compare(&actuator, input, variable(s), actuator.motion_options.mode)?;
     }
 
-    /// The kernels place every joint where the jets do, in every placement, and bodies keep their shapes.
+    /// Sampling and derivatives place every joint alike, in every placement, which changes no shape.
     #[test]
-    fn kernels_and_jets_agree_however_the_linkage_is_placed(turn in -360.0f64..360.0, mirrored: bool, offset in 0.1f64..0.6) {
-        for linkage in [everything([0.8, 3.5, 3.0, offset, 20.0]), actuated(offset)] {
+    fn samples_and_derivatives_agree_in_every_placement(turn in -360.0f64..360.0, mirrored: bool, offset in 0.1f64..0.6) {
+        for linkage in [all_kinds([0.8, 3.5, 3.0, offset, 20.0]), actuator(offset)] {
             let placement = Orientation::new(mirrored, turn);
             let placed = Linkage { placement, ..linkage.clone() };
             let sampler = Sampler::new(Sampling::Samples(20));
@@ -262,17 +264,17 @@ fn find(linkage: &Linkage, name: &str) -> JointId {
     linkage.find_joint(name).unwrap()
 }
 
-/// A Scotch yoke goes with the cosine of its crank.
+/// A Scotch yoke moves as the cosine of its crank angle.
 #[test]
-fn a_scotch_yoke_goes_with_the_cosine() {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let q = assembly.fixed("Q", [1.0, 0.0].into());
-    let a = assembly.crank("A", o, 2.0).unwrap();
-    let y = assembly.yoke("Y", a, ([o, q], 0.5), 90.0).unwrap();
-    let leaning = assembly.yoke("Z", a, ([o, q], 0.5), 45.0).unwrap();
-    let arm = assembly.point("P", [y, q], 3.0, 1.0).unwrap();
-    let linkage = assembly.build(vec![y, leaning, arm], None, MotionOptions::default()).unwrap();
+fn a_scotch_yoke_moves_as_the_cosine() {
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let q = builder.fixed("Q", [1.0, 0.0].into());
+    let a = builder.crank("A", o, 2.0).unwrap();
+    let y = builder.yoke("Y", a, ([o, q], 0.5), 90.0).unwrap();
+    let leaning = builder.yoke("Z", a, ([o, q], 0.5), 45.0).unwrap();
+    let arm = builder.point("P", [y, q], 3.0, 1.0).unwrap();
+    let linkage = builder.build(vec![y, leaning, arm], None, MotionOptions::default()).unwrap();
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(15.0)));
     let circuit = &motion.circuits[0];
     assert!(circuit.is_closed && circuit.len() == 24);
@@ -284,11 +286,12 @@ fn a_scotch_yoke_goes_with_the_cosine() {
     }
 }
 
-/// An actuator's line stays the offset from its pivot, through the pin, and its points keep their places on it.
+/// An actuator's line keeps its offset from its pivot and goes through the pin, and its points keep their positions on
+/// it.
 #[test]
-fn points_of_an_actuator_go_with_its_line() {
+fn points_of_an_actuator_move_with_its_line() {
     for offset in [0.0, 0.5, -0.4] {
-        let linkage = actuated(offset);
+        let linkage = actuator(offset);
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(30)));
         for i in 0..motion.circuits[0].len() {
             let at = |name: &str| motion.circuits[0].positions.point(find(&linkage, name), i);
@@ -302,18 +305,18 @@ fn points_of_an_actuator_go_with_its_line() {
     }
 }
 
-/// The slide, its angles and their rates are McCarthy's without offset too, and of the actuator.
+/// The slide, its angles and their rates are McCarthy's for slots without offset, and for actuators, too.
 #[test]
-fn columns_know_sliders_without_offset_and_actuators() {
+fn columns_cover_slots_without_offset_and_actuators() {
     use coupler_curves::measure::{compute_columns, find_column};
     let columns = ["s", "b", "beta_deg", "psi_deg", "psi_ratio"].map(|name| find_column(name).unwrap());
     let (g, r) = (2.0, 1.0);
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let c = assembly.fixed("C", [g, 0.0].into());
-    let a = assembly.crank("A", o, r).unwrap();
-    let b = assembly.slot("B", [c, a], 0.0, Side::Right).unwrap();
-    let linkage = assembly.build(vec![b], None, MotionOptions::default()).unwrap();
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let c = builder.fixed("C", [g, 0.0].into());
+    let a = builder.crank("A", o, r).unwrap();
+    let b = builder.slot("B", [c, a], 0.0, Side::Right).unwrap();
+    let linkage = builder.build(vec![b], None, MotionOptions::default()).unwrap();
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(30.0)));
     for i in 0..motion.circuits[0].len() {
         let [s, length, beta, psi, ratio] =
@@ -326,8 +329,8 @@ fn columns_know_sliders_without_offset_and_actuators() {
         let turning = (arm.x * r * cos + arm.y * r * sin) / arm.norm_squared();
         assert!((ratio - turning).abs() < 1e-14);
     }
-    // The other way round the same angles belong to the same slides.
-    let linkage = actuated(0.3);
+    // Driven by the slide instead, the same angles belong to the same slides.
+    let linkage = actuator(0.3);
     let a = find(&linkage, "A");
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
     for i in 0..motion.circuits[0].len() {
@@ -342,22 +345,22 @@ fn columns_know_sliders_without_offset_and_actuators() {
 /// A slider on a fixed line has unbounded rates along it at its limit, and none across.
 #[test]
 fn rates_at_a_limit_are_bounded_across_a_fixed_line() {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let q = assembly.fixed("Q", [1.0, 0.0].into());
-    let a = assembly.crank("A", o, 2.0).unwrap();
-    let b = assembly.slide("B", (a, 1.0), ([o, q], 0.0), Side::Left).unwrap();
-    let linkage = assembly.build(vec![b], None, MotionOptions::default()).unwrap();
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let q = builder.fixed("Q", [1.0, 0.0].into());
+    let a = builder.crank("A", o, 2.0).unwrap();
+    let b = builder.slide("B", (a, 1.0), ([o, q], 0.0), Side::Left).unwrap();
+    let linkage = builder.build(vec![b], None, MotionOptions::default()).unwrap();
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(10)));
     let jets = motion.circuits[0].derivatives(&linkage, 0);
     assert_eq!(jets.velocity(b), Vector::new(f64::INFINITY, 0.0));
     assert_eq!(jets.jerk(b), Vector::new(f64::INFINITY, 0.0));
 }
 
-/// Through a change point the motion goes on smoothly, and so do its rates: of wheels on parallel rods, whose dyads all lie
-/// flat at once, and of Cardan's trammel, crank and link of one length.
+/// Through a change point the motion continues smoothly, and so do its rates: for wheels on parallel rods, whose dyads
+/// are all flat at once, and for Cardan's trammel, whose crank and link are equally long.
 #[test]
-fn rates_go_on_through_change_points() {
+fn rates_are_smooth_through_change_points() {
     let mut wheels = LinkageBuilder::default();
     let o = wheels.fixed("O", [0.0, 0.0].into());
     let c = wheels.fixed("C", [3.0, 0.0].into());
@@ -365,7 +368,7 @@ fn rates_go_on_through_change_points() {
     let a = wheels.crank("A", o, 1.0).unwrap();
     let b = wheels.dyad("B", [a, c], [3.0, 1.0], Side::Left).unwrap();
     let e = wheels.dyad("E", [b, d], [2.0, 1.0], Side::Left).unwrap();
-    // Of their circuits the first keeps the rods parallel.
+    // The first of their circuits keeps the rods parallel.
     let all = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
     let wheels = wheels.build(vec![b, e], None, all).unwrap();
     let mut trammel = LinkageBuilder::default();
@@ -374,18 +377,19 @@ fn rates_go_on_through_change_points() {
     let pin = trammel.crank("A", o, 1.0).unwrap();
     let slide = trammel.slide("B", (pin, 1.0), ([o, q], 0.0), Side::Right).unwrap();
     let trammel = trammel.build(vec![slide], None, MotionOptions::default()).unwrap();
-    let mut flat = 0;
+    let mut change_points = 0;
     for (linkage, joints) in [(&wheels, vec![a, b, e]), (&trammel, vec![slide])] {
         let motion = Motion::solve(linkage, &Sampler::new(Sampling::Step(15.0)));
         for i in 0..motion.circuits[0].len() {
             let circuit = &motion.circuits[0];
             let jets = circuit.derivatives(linkage, i);
             let (cos, sin) = trig::cos_sin_deg(circuit.inputs[i]);
-            flat += usize::from(circuit.passes.iter().any(|pass| pass.to.input.value == circuit.inputs[i]));
+            change_points += usize::from(circuit.passes.iter().any(|pass| pass.to.input.value == circuit.inputs[i]));
             for &joint in &joints {
                 let found = [jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
                 let slides = joint == slide && linkage.joints.len() == 4;
-                // The trammel's slider stands still on one of its circuits' halves, and goes twice the cosine on the other.
+                // The trammel's slider is at rest on one half of its circuit, and moves as twice the cosine on the
+                // other.
                 let size = if slides { jets.position(joint).x / if cos.abs() > 1e-9 { cos } else { 1.0 } } else { 1.0 };
                 if slides && cos.abs() < 1e-9 {
                     assert!(found[0].x.abs() < 1e-12 || (found[0].x.abs() - 2.0).abs() < 1e-12, "{}", found[0]);
@@ -402,5 +406,5 @@ fn rates_go_on_through_change_points() {
             }
         }
     }
-    assert!(flat >= 3, "change points were met: {flat}");
+    assert!(change_points >= 3, "only {change_points} change points were sampled");
 }

@@ -1,4 +1,4 @@
-//! The coupler curve's own equation.
+//! The equation of the coupler curve.
 
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{
@@ -9,15 +9,13 @@ use proptest::prelude::*;
 
 fn linkage(four_bar: FourBar, point: Vector) -> Linkage {
     let FourBar { frame, crank, coupler, rocker } = four_bar;
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", [0.0, 0.0].into());
-    let c = assembly.fixed("C", [frame, 0.0].into());
-    let a = assembly.crank("A", o, crank).unwrap();
-    let b = assembly.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
-    let m = assembly.point("M", [a, b], point.x, point.y).unwrap();
-    assembly
-        .build(vec![m], None, MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() })
-        .unwrap()
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let c = builder.fixed("C", [frame, 0.0].into());
+    let a = builder.crank("A", o, crank).unwrap();
+    let b = builder.dyad("B", [a, c], [coupler, rocker], Side::Left).unwrap();
+    let m = builder.point("M", [a, b], point.x, point.y).unwrap();
+    builder.build(vec![m], None, MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() }).unwrap()
 }
 
 /// Every sample of both circuits.
@@ -46,12 +44,12 @@ proptest! {
         prop_assert_eq!(sextic.circularity(), 3);
         for p in curve(bar, point, 40) {
             let [value, terms] = sextic.evaluate(p);
-            // Sixty-odd terms of the sixth degree, through coefficients that have lost a few digits themselves.
+            // Some sixty terms of the sixth degree, with coefficients that have lost a few digits themselves.
             prop_assert!(value.abs() <= 1e-11 * terms, "{} at {}: {} of {}", along, p, value, terms);
         }
     }
 
-    /// A level through a sample meets the curve there, and nowhere off it.
+    /// A line through a sample meets the curve there, and all its intersections are on the curve.
     #[test]
     fn a_line_meets_the_curve_in_its_points(bar in lengths(), (along, across) in (-3.0f64..3.0, 0.2f64..3.0)) {
         let point = Vector::new(along, across);
@@ -74,7 +72,7 @@ proptest! {
         }
     }
 
-    /// Through a double point the curve goes twice, or it stands alone there.
+    /// The curve passes twice through a double point, or the point is isolated.
     #[test]
     fn double_points_are_singular(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0)) {
         let point = Vector::new(along, across);
@@ -82,16 +80,16 @@ proptest! {
         let found = sextic.double_points();
         prop_assert!(found.len() <= 3);
         for double in &found {
-            let beside = sextic.gradient(double.point + Vector::new(0.1, 0.1)).norm();
-            prop_assert!(sextic.gradient(double.point).norm() <= 1e-6 * beside.max(1.0), "{:?}", double);
+            let nearby = sextic.gradient(double.point + Vector::new(0.1, 0.1)).norm();
+            prop_assert!(sextic.gradient(double.point).norm() <= 1e-6 * nearby.max(1.0), "{:?}", double);
         }
     }
 }
 
-/// Of the polynomials in the text, `[coefficient, a, p, r, x, y]`.
+/// A term of a polynomial of the thesis: its coefficient, and the powers of a, p, r, x and y.
 type Term = [i32; 6];
 
-/// (8.1), for a = b = s and the coupler point at 2a, put right: `- 2 p r^4 x` for `- 2 p^4 x`.
+/// (8.1), for a = b = s and the coupler point at 2a, corrected: `- 2 p r^4 x` for `- 2 p^4 x`.
 const EVANS: [Term; 42] = [
     [16, 4, 2, 0, 0, 0],
     [-8, 2, 2, 2, 0, 0],
@@ -183,15 +181,15 @@ const CHEBYSHEV: [Term; 42] = [
     [4, 0, 0, 0, 0, 6],
 ];
 
-/// The general equation's coefficients against a polynomial of the text.
+/// Compares the general equation's coefficients with a polynomial of the thesis.
 fn compare(sextic: &Sextic, terms: &[Term], [a, p, r]: [f64; 3]) {
     let power = |x: f64, n: i32| (0..n).fold(1.0, |product, _| product * x);
     for i in 0..=6 {
         for j in 0..=6 - i {
-            let of = |term: &&Term| (term[4], term[5]) == (i as i32, j as i32);
+            let has_powers = |term: &&Term| (term[4], term[5]) == (i as i32, j as i32);
             let value = |t: &Term| f64::from(t[0]) * power(a, t[1]) * power(p, t[2]) * power(r, t[3]);
-            let expected: f64 = terms.iter().filter(of).map(value).sum();
-            let size: f64 = terms.iter().filter(of).map(|t| value(t).abs()).sum();
+            let expected: f64 = terms.iter().filter(has_powers).map(value).sum();
+            let size: f64 = terms.iter().filter(has_powers).map(|t| value(t).abs()).sum();
             let lead: f64 = terms.iter().filter(|t| (t[4], t[5]) == (6, 0)).map(value).sum();
             let found = sextic.coefficient(i, j) * lead;
             assert!((found - expected).abs() <= 1e-12 * (size + 1.0), "x^{i} y^{j}: {found} {expected}");
@@ -210,7 +208,7 @@ fn the_equations_of_evans_and_chebyshev_are_special_cases() {
 }
 
 #[test]
-fn a_lemniscate_crosses_itself_in_its_middle() {
+fn a_lemniscate_crosses_itself_at_its_centre() {
     // Watt's curve with frame 2c, cranks c sqrt 2 and coupler 2c is Bernoulli's lemniscate.
     let c = 1.3;
     let bar = FourBar { frame: 2.0 * c, crank: c * 2f64.sqrt(), coupler: 2.0 * c, rocker: c * 2f64.sqrt() };
@@ -221,7 +219,7 @@ fn a_lemniscate_crosses_itself_in_its_middle() {
         doubles.iter().any(|d| (d.point - middle).norm() < 1e-9 && d.kind == DoublePointKind::Crunode),
         "{doubles:?}"
     );
-    // (x^2 + y^2)^2 = 2 c^2 (x^2 - y^2) about the middle, and a circle about it: along 45 degrees it goes off level.
+    // (x^2 + y^2)^2 = 2 c^2 (x^2 - y^2) about the middle, with its tangents there at 45 degrees, and a circle about it.
     for p in curve(bar, Vector::new(c, 0.0), 40) {
         let q = p - middle;
         let on_lemniscate = q.norm_squared() * q.norm_squared() - 2.0 * c * c * (q.x * q.x - q.y * q.y);
@@ -230,21 +228,24 @@ fn a_lemniscate_crosses_itself_in_its_middle() {
     }
 }
 
-/// Where all links lie on one line the linkage goes on in two ways, and the curve crosses itself.
+/// Where all links lie on one line the linkage can continue in two ways, and the curve crosses itself.
 #[test]
 fn a_change_point_is_a_double_point() {
     let bar = FourBar { frame: 4.0, crank: 1.5, coupler: 2.5, rocker: 3.0 };
     let sextic = Sextic::from_four_bar(bar, Vector::new(-1.0, 1.0)).unwrap();
-    let at = Point::new(-2.5, 1.0);
+    let node = Point::new(-2.5, 1.0);
     let doubles = sextic.double_points();
     assert_eq!(doubles.len(), 4);
-    assert!(doubles.iter().any(|double| double.point == at && double.kind == DoublePointKind::Crunode), "{doubles:?}");
+    assert!(
+        doubles.iter().any(|double| double.point == node && double.kind == DoublePointKind::Crunode),
+        "{doubles:?}"
+    );
     // The terms of the gradient are of the size of 1e4 there.
-    assert!(sextic.gradient(at).norm() < 1e-9, "{}", sextic.gradient(at));
+    assert!(sextic.gradient(node).norm() < 1e-9, "{}", sextic.gradient(node));
 }
 
 #[test]
-fn pins_have_no_sextic() {
+fn coupler_points_on_pins_have_no_sextic() {
     let bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
     assert!(
         Sextic::from_four_bar(bar, Vector::zeros()).is_none()

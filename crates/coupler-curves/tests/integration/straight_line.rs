@@ -7,8 +7,8 @@ use coupler_curves::motion::{Motion, Sampler, Sampling};
 
 const BOTH: [SymmetricalFourBar; 2] = [SymmetricalFourBar::Evans, SymmetricalFourBar::Chebyshev];
 
-/// From 1.1 to 10 by tenths.
-fn range() -> impl Iterator<Item = f64> {
+/// Frame lengths from 1.1 to 10 by tenths.
+fn frame_lengths() -> impl Iterator<Item = f64> {
     (11..=100).map(|k| f64::from(k) / 10.0)
 }
 
@@ -17,11 +17,11 @@ fn sextic(kind: SymmetricalFourBar, [frame, short, long]: [f64; 3]) -> Sextic {
     Sextic::from_four_bar(four_bar, point).unwrap()
 }
 
-/// (8.10) and (8.19), and in any size (8.8) and (8.16).
+/// The conditions (8.10) and (8.19), and at any size (8.8) and (8.16).
 #[test]
 fn the_conditions_are_those_of_the_thesis() {
     for kind in BOTH {
-        for p in range() {
+        for p in frame_lengths() {
             for size in [1.0, 0.37, 12.0] {
                 let derived = kind.straight_long_length(p * size, size).unwrap() / size;
                 let closed = trig::pow(1.0 + p, 1.5) / 2.0;
@@ -43,12 +43,12 @@ fn the_conditions_are_those_of_the_thesis() {
     }
 }
 
-/// (8.5) and (8.14): level whatever the lengths; and curved to either side of the condition, by what (8.7) and the equation
-/// after (8.14) come to at the crossings.
+/// (8.5) and (8.14): at its axis the curve is level whatever the lengths; and to either side of the condition it is
+/// curved, in the senses that (8.7) and the equation after (8.14) give at the crossings.
 #[test]
 fn the_curve_is_level_at_its_axis_and_straight_at_the_condition() {
     for kind in BOTH {
-        for p in range() {
+        for p in frame_lengths() {
             let straight = trig::pow(1.0 + p, 1.5) / 2.0;
             for (factor, sign) in [(0.9, 1.0), (1.0, 0.0), (1.1, -1.0)] {
                 let long = straight * factor;
@@ -73,7 +73,8 @@ fn the_second_derivatives_are_those_of_the_thesis() {
             let [xx, _, _] = sextic(kind, [p, short, long]).second_derivatives(crossing.unwrap());
             let (sum, l2) = (p + short, long * long);
             let cubic = sum * sum * sum - 4.0 * l2 * short;
-            // Evans in (8.8): p, r = short, a = long. Chebyshev in (8.16): 2 a = short, r = long, and (8.11) leads with 4.
+            // Evans in (8.8): p, r = short, a = long. Chebyshev in (8.16): 2 a = short, r = long, and (8.11) leads with
+            // 4.
             let expected = match kind {
                 SymmetricalFourBar::Evans => 8.0 * p * cubic,
                 SymmetricalFourBar::Chebyshev => 2.0 * p * cubic / 4.0,
@@ -83,21 +84,21 @@ fn the_second_derivatives_are_those_of_the_thesis() {
     }
 }
 
-/// (8.3) and (8.12): they satisfy the sextic, are all its points on the axis but the double one on the frame (8.2), and the
-/// linkage comes there.
+/// (8.3) and (8.12): the crossings satisfy the sextic, and are all its points on the axis but the double point on the
+/// frame (8.2).
 #[test]
 fn crossings_are_where_the_curve_meets_its_axis() {
     for kind in BOTH {
-        for p in range() {
-            // Over the condition and under it.
+        for p in frame_lengths() {
+            // Below, at and above the condition.
             for factor in [0.97, 1.0, 1.2] {
                 let lengths = [p, 1.0, factor * trig::pow(1.0 + p, 1.5) / 2.0];
                 let sextic = sextic(kind, lengths);
                 let crossings = kind.axis_crossings(p, 1.0, lengths[2]);
                 let axis = Point::new(kind.axis_x(p), 0.0);
-                let met = sextic.line_intersections(axis, Vector::new(0.0, 1.0));
-                let above: Vec<&Point> = met.iter().filter(|q| q.y > 1e-4).collect();
-                assert_eq!(above.len(), crossings.iter().flatten().count(), "{kind:?} {p}: {met:?}");
+                let intersections = sextic.line_intersections(axis, Vector::new(0.0, 1.0));
+                let above: Vec<&Point> = intersections.iter().filter(|q| q.y > 1e-4).collect();
+                assert_eq!(above.len(), crossings.iter().flatten().count(), "{kind:?} {p}: {intersections:?}");
                 for crossing in crossings.into_iter().flatten() {
                     let [value, terms] = sextic.evaluate(crossing);
                     assert!(value.abs() <= 1e-13 * terms, "{kind:?} {p}: {value} of {terms}");
@@ -111,7 +112,7 @@ fn crossings_are_where_the_curve_meets_its_axis() {
 }
 
 #[test]
-fn the_linkages_come_to_the_crossings() {
+fn the_linkages_pass_through_the_crossings() {
     for p in [1.5, 2.0, 3.0, 6.0, 10.0] {
         let long = trig::pow(1.0 + p, 1.5) / 2.0;
         for kind in BOTH {
@@ -125,7 +126,7 @@ fn the_linkages_come_to_the_crossings() {
             let path: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
             for crossing in kind.axis_crossings(p, 1.0, long).into_iter().flatten() {
                 let chords = path.windows(2).map(|pair| distance_to_segment(crossing, pair[0], pair[1]));
-                // A step of a tenth of a degree is a chord 1e-6 off at most, of a crank of 1.
+                // With a crank of 1 and steps of a tenth of a degree, a chord is off by 1e-6 at most.
                 let near = chords.fold(f64::INFINITY, f64::min);
                 assert!(near < 1e-6, "{id} {p}: {near}");
             }

@@ -1,4 +1,4 @@
-//! The programs of the thesis's Appendix B, less their slips, against our samples at the same input and branch.
+//! The programs of the thesis's Appendix B, with their slips corrected, against samples at the same input and branch.
 
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{DyadId, JointId, Linkage, LinkageBuilder, MotionOptions, Side};
@@ -28,14 +28,14 @@ fn four_bar(
     point: impl Fn(&mut LinkageBuilder, JointId, JointId) -> JointId,
     inverted: bool,
 ) -> Linkage {
-    let mut assembly = LinkageBuilder::default();
-    let o = assembly.fixed("O", Point::new(0.0, 0.0));
-    let c = assembly.fixed("C", Point::new(p, 0.0));
-    let pin = assembly.crank("A", o, r).unwrap();
-    let b = assembly.dyad("B", [pin, c], [a, s], Side::Left).unwrap();
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", Point::new(0.0, 0.0));
+    let c = builder.fixed("C", Point::new(p, 0.0));
+    let pin = builder.crank("A", o, r).unwrap();
+    let b = builder.dyad("B", [pin, c], [a, s], Side::Left).unwrap();
     // Seen from the link C-B, the coupler point sits on the crank O-A.
-    let m = if inverted { point(&mut assembly, o, pin) } else { point(&mut assembly, pin, b) };
-    assembly.build(vec![m], inverted.then_some([c, b]), MotionOptions::default()).unwrap()
+    let m = if inverted { point(&mut builder, o, pin) } else { point(&mut builder, pin, b) };
+    builder.build(vec![m], inverted.then_some([c, b]), MotionOptions::default()).unwrap()
 }
 
 fn evans(p: f64, s: f64) -> Figure {
@@ -60,7 +60,7 @@ fn chebyshev(p: f64, r: f64) -> Figure {
             let [x, y] = r2(lengths, w, branch);
             let (x1, y1) = (x + trig::cos(w), y + trig::sin(w));
             let (mx, my) = (0.5 * trig::cos(w) - r, 0.5 * trig::sin(w));
-            // The program's arcsines, with the quadrants they lose: the vector in the frame from O to C.
+            // The vector in the frame from O to C, in place of the program's arcsines, which lose the quadrant.
             let (ux, uy) = ((x1 - r) / p, y1 / p);
             Point::new(mx * ux + my * uy, my * ux - mx * uy)
         }),
@@ -142,7 +142,7 @@ fn size(circuit: &Circuit, joint: JointId) -> f64 {
 }
 
 #[test]
-fn every_sample_is_the_programs() {
+fn samples_match_the_programs_of_the_thesis() {
     for (number, figure) in figures() {
         let motion = Motion::solve(&figure.linkage, &Sampler::new(figure.sampling));
         assert_eq!(motion.circuits.len(), 1, "figure {number}");

@@ -102,7 +102,7 @@ impl<'a> Figure<'a> {
         area: &Area,
         whole: Rect,
         arrangement: Arrangement,
-        sheet: &PanelPage,
+        page: &PanelPage,
         (options, theme): (&Options, &Theme),
     ) {
         let [curve, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
@@ -111,7 +111,7 @@ impl<'a> Figure<'a> {
             let paths = self.paths(plot, period, theme);
             self.draw_solid_curves(area, &paths, theme.hair_width, theme);
             self.draw_marks(area, plot, theme);
-            self.draw_curves(area, plot, sheet, (paths, period), theme);
+            self.draw_curves(area, plot, page, (paths, period), theme);
         };
         let key = key.fitted_to(self.extents.linkage);
         key.draw_scale_bar(area, theme);
@@ -133,7 +133,7 @@ impl<'a> Figure<'a> {
         &self,
         area: &Area,
         plot: &Plot,
-        sheet: &PanelPage,
+        page: &PanelPage,
         (paths, period): (Vec<motion::JointPath>, f64),
         theme: &Theme,
     ) {
@@ -150,9 +150,9 @@ impl<'a> Figure<'a> {
             };
             let cell = self.solved_cell.cell.number;
             let element = CouplerCurve {
-                id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family_id),
+                id: format!("{}-{cell}-{trace}-{circuit}", page.heading.family_id),
                 class: "curve",
-                title: format!("{}, no. {cell}: {}", sheet.heading.family_title, self.panel.caption),
+                title: format!("{}, no. {cell}: {}", page.heading.family_title, self.panel.caption),
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 page_from_plane: plot.page_from_plane,
                 dashes: self.dashes(curve, period, theme),

@@ -11,29 +11,29 @@ use super::theme::Theme;
 use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Polyline, Scene};
 use coupler_curves::geometry::{Bounds, Point, Vector};
 
-pub(super) fn compose(scene: &mut Scene, sheet: &OverlayPage, theme: &Theme) {
+pub(super) fn compose(scene: &mut Scene, page: &OverlayPage, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
     heading::draw_border(&root, theme);
-    let mut at = heading::draw_title(&root, sheet.title, theme);
+    let mut at = heading::draw_title(&root, page.title, theme);
     let paper = size(&root);
     let width = paper.x - 2.0 * at.x;
-    for line in &sheet.details {
+    for line in &page.details {
         draw(&root, &theme.text_line(line, at, Anchor::Start, theme.source_size, theme.grey).fit_width(width));
         at.y += 1.35 * theme.source_size;
     }
     let foot = theme.border + theme.margin + 2.0 * theme.source_size;
     let frame = Rect { corner: Point::new(at.x, at.y), size: Vector::new(width, paper.y - foot - at.y) };
-    draw_figure(&root, frame, sheet, theme);
+    draw_figure(&root, frame, page, theme);
     let at = Point::new(paper.x - at.x, paper.y - theme.border - 0.6 * theme.margin);
-    draw(&root, &theme.text_line(sheet.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
+    draw(&root, &theme.text_line(page.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
 }
 
 /// The length at which the greatest difference is drawn, as a fraction of the height of the figure.
 const MAX_DIFFERENCE_PART: f64 = 0.08;
 
-fn draw_figure(area: &Area, frame: Rect, sheet: &OverlayPage, theme: &Theme) {
+fn draw_figure(area: &Area, frame: Rect, page: &OverlayPage, theme: &Theme) {
     let is_defined = |p: &&Point| p.x.is_finite() && p.y.is_finite();
-    let all = sheet.recorded.iter().chain(&sheet.current).chain(&sheet.current_path).filter(is_defined).copied();
+    let all = page.recorded.iter().chain(&page.current).chain(&page.current_path).filter(is_defined).copied();
     let bounds = Bounds::from_points(all);
     if bounds.is_empty() {
         return;
@@ -50,17 +50,17 @@ fn draw_figure(area: &Area, frame: Rect, sheet: &OverlayPage, theme: &Theme) {
         let line = |run: &[Point]| Polyline { points: run.iter().copied().map(on_page).collect(), is_closed: false };
         Item::Path(Path { polylines: runs.map(line).collect(), stroke: Some(theme.stroke(color, width)), fill: None })
     };
-    let mut recorded = sheet.recorded.clone();
-    if sheet.is_closed {
-        recorded.extend(sheet.recorded.first().copied());
+    let mut recorded = page.recorded.clone();
+    if page.is_closed {
+        recorded.extend(page.recorded.first().copied());
     }
     let faded = theme.faded(old);
     let recorded = vec![path(&recorded, faded, 2.0 * theme.curve_width)];
     draw(area, &Drawing { class: "recorded", title: "recorded".to_owned(), items: recorded });
-    let current = vec![path(&sheet.current_path, new, theme.hair_width)];
+    let current = vec![path(&page.current_path, new, theme.hair_width)];
     draw(area, &Drawing { class: "now", title: "current".to_owned(), items: current });
-    let pairs: Vec<(Point, Vector)> = match sheet.recorded.len() == sheet.current.len() {
-        true => sheet.current.iter().zip(&sheet.recorded).map(|(new, old)| (*new, old - new)).collect(),
+    let pairs: Vec<(Point, Vector)> = match page.recorded.len() == page.current.len() {
+        true => page.current.iter().zip(&page.recorded).map(|(new, old)| (*new, old - new)).collect(),
         false => Vec::new(),
     };
     let scale = plot.page_from_plane.scale;
@@ -77,7 +77,7 @@ fn draw_figure(area: &Area, frame: Rect, sheet: &OverlayPage, theme: &Theme) {
         let stroke = Some(theme.stroke(color, theme.fine_width));
         Item::Circle(Circle { centre: on_page(*p), radius: 1.6 * theme.joint_radius, stroke, fill: None })
     };
-    let worst = sheet.worst_points.iter().filter(is_defined);
+    let worst = page.worst_points.iter().filter(is_defined);
     draw(
         area,
         &Drawing {

@@ -11,20 +11,20 @@ use super::{Options, Panel, PanelPage, Paper};
 use crate::scene::{Anchor, Canvas, Color, Item, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
-pub(super) fn compose(scene: &mut Scene, sheet: &PanelPage, grid: (usize, usize), options: &Options, theme: &Theme) {
+pub(super) fn compose(scene: &mut Scene, page: &PanelPage, grid: (usize, usize), options: &Options, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
-    sheet.heading.draw(&root, theme);
-    draw_panels(&root, sheet, grid, options, theme);
+    page.heading.draw(&root, theme);
+    draw_panels(&root, page, grid, options, theme);
 }
 
-fn draw_panels(root: &Area, sheet: &PanelPage, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
+fn draw_panels(root: &Area, page: &PanelPage, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
     let [top, bottom, side] = margins(theme).map(Canvas::to_pixels);
     let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
     let theme = &theme.for_panel_size(size(&areas[0]));
-    let figures: Vec<Option<Figure>> = sheet.panels.iter().map(Figure::from_panel).collect();
-    let facts = FactsLayout::for_page(sheet, size(&areas[0]).x - 1.2 * theme.caption_size, theme);
+    let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
+    let facts = FactsLayout::for_page(page, size(&areas[0]).x - 1.2 * theme.caption_size, theme);
     let has_notes =
-        sheet.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.assembly_error.is_some());
+        page.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.assembly_error.is_some());
     let lines = f64::from(u8::from(has_notes) + facts.line_count());
     let foot = theme.caption_size * 1.5 + lines * theme.note_size * 1.5 + 2.2 * theme.caption_size;
     // One arrangement fits all panels: plotters splits a page to within a hundredth of a millimetre.
@@ -35,17 +35,17 @@ fn draw_panels(root: &Area, sheet: &PanelPage, (columns, rows): (usize, usize), 
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
     let arrangement = Arrangement::best(figure_rect(&areas[0]), 2.0 * theme.joint_radius, &extents);
-    for ((panel, figure), area) in sheet.panels.iter().zip(&figures).zip(&areas) {
+    for ((panel, figure), area) in page.panels.iter().zip(&figures).zip(&areas) {
         let frame = figure_rect(area);
         match figure {
-            Some(figure) => figure.draw(area, frame, arrangement, sheet, (options, theme)),
+            Some(figure) => figure.draw(area, frame, arrangement, page, (options, theme)),
             None => {
                 let error = panel.solved_cell.motion.assembly_error.as_ref();
                 let reason = error.map_or("it has no curve".to_owned(), ToString::to_string);
                 draw_not_assembled(area, frame, &reason, theme);
             }
         }
-        draw_caption(area, (foot, facts), panel, sheet.heading.symbols, theme);
+        draw_caption(area, (foot, facts), panel, page.heading.symbols, theme);
     }
 }
 
@@ -59,9 +59,9 @@ enum FactsLayout {
 
 impl FactsLayout {
     /// One line if the facts of every panel fit `width` at no less than 85 % of their size; otherwise two.
-    fn for_page(sheet: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
+    fn for_page(page: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
         const MIN_SCALE: f64 = 0.85;
-        let texts = || sheet.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
+        let texts = || page.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
         let natural = |text: String| {
             theme.text_line(&text, Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text.width()
         };

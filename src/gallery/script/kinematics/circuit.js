@@ -42,7 +42,7 @@ function incompleteReason({ passes }, { input, travel: { range } }) {
   const unit = input.isLength ? "" : " deg";
   const short = (at) => Math.round(at * 1e4) / 1e4 + 0;
   const reached = `the input goes from ${short(low)} to ${short(high)}${unit} only`;
-  return `${reached}, of the ${from} to ${to}${unit} asked for`;
+  return `${reached}, of the requested ${from} to ${to}${unit}`;
 }
 
 function inputRangeOfPasses(passes) {
@@ -56,11 +56,11 @@ function startInterval(linkage, intervals) {
   const { period } = input;
   const ours = intervals.map((_, k) => k).filter((k) => intervals[k].signs === travel.signs);
   const at = travel.start ?? middleOfFirstRange(intervals, ours, period);
-  if (at === null) return { reason: "no input allows the sides asked for" };
+  if (at === null) return { reason: "no input allows the sides requested at the start" };
   if (travel.start !== null && travel.range) {
     const [from, to] = travel.range;
     if (remainderOf(at - from, period) > to - from) {
-      return { reason: `its start, an input of ${at}, is not in the range asked for, from ${from} to ${to}` };
+      return { reason: `its start, an input of ${at}, is not in the requested range from ${from} to ${to}` };
     }
   }
   const interval = ours.find((k) => wrapIntoSpan(intervals[k].span, at, period) !== null);

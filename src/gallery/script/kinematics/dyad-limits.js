@@ -104,7 +104,7 @@ function shortfallOfDyad(linkage, dyad, span, signs) {
   const [low, high] = bounds;
   const nameOf = (id) => linkage.joints[id].name;
   const name = nameOf(joint);
-  if (step.kind === "piston") return `${name} cannot be placed by an actuator of any length asked for`;
+  if (step.kind === "piston") return `${name} cannot be placed by an actuator of any length in the range`;
   const isWhole = swing && !span.lower;
   const [least, greatest] = isWhole ? swing.extent : extentRange(linkage, dyad, span, signs);
   const size = Number.isFinite(high) ? Math.max(Math.abs(greatest), high) : Math.abs(greatest);
@@ -122,7 +122,7 @@ function shortfallOfDyad(linkage, dyad, span, signs) {
   }
   const [l0, l1] = step.lengths.map(shortNumber);
   if (greatest <= low && greatest <= lengthTolerance(high)) {
-    return `${name} has no place: ${from} and ${to} are one point throughout`;
+    return `${name} has no position: ${from} and ${to} coincide throughout`;
   }
   const links = `links of ${l0} and ${l1}`;
   if (least >= high) {
@@ -131,7 +131,7 @@ function shortfallOfDyad(linkage, dyad, span, signs) {
   if (greatest <= low) {
     return `${bases} are ${shortNumber(greatest)} or less apart, ${links} need ${shortNumber(low)}`;
   }
-  return `${bases} are nowhere in the range at a distance that ${links} span`;
+  return `${name} cannot be placed: ${links} never span the distance of ${from} and ${to} in the range`;
 }
 
 // Up to six significant digits.

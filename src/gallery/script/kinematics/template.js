@@ -109,7 +109,7 @@ function motionOptions(template, values, input) {
     const length = range[1] - range[0];
     const tooFar = (why) => new LinkageError(`the input's \`to\` is ${range[1]}, ${why}`);
     if (length <= 0) throw tooFar("and must be more than `from`");
-    if (length > input.period) throw tooFar("more from `from` than it takes to come round");
+    if (length > input.period) throw tooFar("which is more than a period from `from`");
   }
   const start = isGiven(template.start) ? finite("`start`", template.start) : null;
   // An arc whose ends do not exist for these lengths is no part of the curve.

@@ -14,7 +14,7 @@ impl Cognates {
     /// # Errors
     /// As [`PlacedFourBar::from_linkage`] and [`Cognates::from_four_bar`].
     pub fn assemble(linkage: &Linkage, joint: JointId) -> Result<(Linkage, [Vec<LinkId>; 2]), CognateError> {
-        let mut drawn = linkage.clone();
+        let mut assembled = linkage.clone();
         let mut placed = PlacedFourBar::from_linkage(linkage, joint)?;
         // In the plane of the joints themselves, before the linkage is mirrored.
         placed.coupler_point.y *= linkage.placement.handedness();
@@ -24,29 +24,29 @@ impl Cognates {
             return Err(CognateError::NotFourBar);
         };
         let rest = Vector::new(1.0, 0.0) - lambda;
-        isolate_from_grid(&mut drawn, joint);
-        let mut add = |name: &str, step| {
-            drawn.joints.push(Joint { name: name.to_owned(), kind: step });
-            JointId::new(drawn.joints.len() - 1)
+        isolate_from_grid(&mut assembled, joint);
+        let mut add = |name: &str, kind| {
+            assembled.joints.push(Joint { name: name.to_owned(), kind });
+            JointId::new(assembled.joints.len() - 1)
         };
-        let rigid = |base, by: Vector| JointKind::Rigid { base, along: by.x, across: by.y };
+        let rigid = |base, factor: Vector| JointKind::Rigid { base, along: factor.x, across: factor.y };
         let q = add("Q", rigid([o, c], lambda));
         let d = add("D", JointKind::Parallelogram { corners: [o, a, joint] });
         let e = add("E", rigid([d, joint], lambda));
         let f = add("F", JointKind::Parallelogram { corners: [c, b, joint] });
         let g = add("G", rigid([f, joint], rest));
-        let on_frame = drawn.links.iter_mut().find_map(|link| {
+        let on_frame = assembled.links.iter_mut().find_map(|link| {
             let (from, to) = (link.position(o)?, link.position(c)?);
             Some((from + complex_product(lambda, to - from), link))
         });
-        if let Some((place, link)) = on_frame {
-            link.joints.push((q, place));
+        if let Some((position, link)) = on_frame {
+            link.joints.push((q, position));
         }
         let FourBar { crank, rocker, coupler, .. } = placed.lengths;
         let (near, far) = (placed.coupler_point.norm(), (rest * coupler).norm());
         let mut link = |joints: &[(JointId, Vector)]| {
-            drawn.links.push(Link { joints: joints.to_vec() });
-            LinkId::new(drawn.links.len() - 1)
+            assembled.links.push(Link { joints: joints.to_vec() });
+            LinkId::new(assembled.links.len() - 1)
         };
         let zero = Vector::zeros();
         let along = |length: f64| Vector::new(length, 0.0);
@@ -60,7 +60,7 @@ impl Cognates {
             link(&[(f, zero), (joint, along(rocker)), (g, rest * rocker)]),
             link(&[(q, zero), (g, along(far / coupler * crank))]),
         ];
-        Ok((drawn, [first, second]))
+        Ok((assembled, [first, second]))
     }
 }
 
@@ -68,10 +68,10 @@ impl Cognates {
 fn isolate_from_grid(linkage: &mut Linkage, joint: JointId) {
     let name = linkage.joints[joint].name.clone();
     let grid: Vec<JointId> = linkage.joint_ids().filter(|&other| linkage.joints[other].name == name).collect();
-    if let ([_, _, ..], Some(place)) = (&grid[..], grid.iter().position(|&other| other == joint)) {
+    if let ([_, _, ..], Some(index)) = (&grid[..], grid.iter().position(|&other| other == joint)) {
         for link in &mut linkage.links {
             link.joints.retain(|(other, _)| *other == joint || !grid.contains(other));
         }
-        linkage.joints[joint].name = format!("{name}{}", place + 1);
+        linkage.joints[joint].name = format!("{name}{}", index + 1);
     }
 }

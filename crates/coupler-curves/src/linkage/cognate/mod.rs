@@ -76,6 +76,7 @@ pub struct Cognates {
 
 /// Why a linkage has no cognates.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CognateError {
     /// The linkage is not a four-bar.
     #[error("the linkage is not a four-bar of a crank and one dyad with points on their links")]

@@ -25,15 +25,15 @@ impl PlacedFourBar {
             return Err(CognateError::NotFourBar);
         };
         let [o, a, b, c] = pins;
-        let (Some(from), Some(to), Some(place)) = positions_on_link(linkage, [a, b], joint) else {
+        let (Some(from), Some(to), Some(position)) = positions_on_link(linkage, [a, b], joint) else {
             let joint = linkage.joints.get(joint.index()).map_or(String::new(), |joint| joint.name.clone());
             return Err(CognateError::NotOnCoupler { joint });
         };
         let along = (to - from) / lengths.coupler;
-        let (m, handedness) = (place - from, linkage.placement.handedness());
+        let (m, handedness) = (position - from, linkage.placement.handedness());
         let point = Vector::new(along.dot(&m), cross(along, m) * handedness);
-        let place = |joint| linkage.links[0].position(joint).map(Point::from);
-        let pivots = match (linkage.seen_from, place(o), place(c)) {
+        let pivot = |joint| linkage.links[0].position(joint).map(Point::from);
+        let pivots = match (linkage.seen_from, pivot(o), pivot(c)) {
             (None, Some(o), Some(c)) => [o, c],
             // `seen_from` puts the crank's pivot at the origin and the rocker's on the x-axis.
             _ => [Point::origin(), Point::new(lengths.frame, 0.0)],
@@ -79,6 +79,6 @@ fn positions_on_link(
 ) -> (Option<Vector>, Option<Vector>, Option<Vector>) {
     let has = |link: &&Link| base.iter().all(|&pin| link.position(pin).is_some());
     let link = linkage.links.iter().find(has);
-    let place = |joint| link.and_then(|link| link.position(joint));
-    (place(base[0]), place(base[1]), place(joint))
+    let position = |joint| link.and_then(|link| link.position(joint));
+    (position(base[0]), position(base[1]), position(joint))
 }

@@ -16,6 +16,7 @@ pub struct DoublePoint {
 
 /// The kinds of double points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum DoublePointKind {
     /// Two branches of the curve cross.
     Crunode,

@@ -2,8 +2,8 @@
 
 use crate::geometry::{Vector, cross, trig};
 use crate::linkage::{DyadId, length_tolerance};
-use crate::motion::pass::InputPosition;
 use crate::motion::interval::{EndCause, IntervalEnd, Span};
+use crate::motion::pass::InputPosition;
 
 /// An extent that is a monotonic function of the cosine of the input: with the angle measured from `near_direction`, it
 /// is least at 0 degrees and greatest at 180.

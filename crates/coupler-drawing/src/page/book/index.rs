@@ -25,8 +25,8 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, index_entries: &'a [In
     let sections = [
         Section {
             title: "By straightness",
-            note: "the straight portion of the straightest curve, in percent of the length of the curve; the straightest \
-                   first",
+            note: "the straight portion of the straightest curve, in percent of the length of the curve; the \
+                   straightest first",
             unit: " %",
             scale: 100.0,
             decimals: 1,
@@ -42,8 +42,8 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, index_entries: &'a [In
         },
         Section {
             title: "By symmetry",
-            note: "the deviation of the most symmetrical curve from its mirror image, in percent of its greatest extent; \
-                   the least first",
+            note: "the deviation of the most symmetrical curve from its mirror image, in percent of its greatest \
+                   extent; the least first",
             unit: " %",
             scale: 100.0,
             decimals: 2,

@@ -29,10 +29,10 @@ pub(super) struct ChartFigure<'a> {
 
 impl<'a> ChartFigure<'a> {
     /// The chart of the quantity at an index, for an area of a size in millimetres.
-    pub fn new(sheet: &'a ChartPage<'a>, quantity_index: usize, area: Vector, theme: &Theme) -> ChartFigure<'a> {
-        let chart = sheet.chart;
-        let labels = || sheet.series.iter().map(|series| series.label.as_str());
-        let right = line_labels::label_width(labels(), sheet.heading.symbols, theme).min(0.3 * area.x);
+    pub fn new(page: &'a ChartPage<'a>, quantity_index: usize, area: Vector, theme: &Theme) -> ChartFigure<'a> {
+        let chart = page.chart;
+        let labels = || page.series.iter().map(|series| series.label.as_str());
+        let right = line_labels::label_width(labels(), page.heading.symbols, theme).min(0.3 * area.x);
         let tick_count = |length: f64, spacing: f64, most: usize| ((length / spacing) as usize).clamp(2, most);
         let scale_options = |quantity: &Quantity, ends, ticks| ScaleOptions {
             is_log: quantity.is_log,
@@ -56,15 +56,15 @@ impl<'a> ChartFigure<'a> {
         let drawn = |index: usize| {
             let is_log = [chart.x.is_log, chart.y[index].is_log];
             let is_drawn = move |&(x, y): &(f64, f64)| is_drawable(x, is_log[0]) && is_drawable(y, is_log[1]);
-            sheet.series.iter().flat_map(move |series| series_points(series, index)).filter(is_drawn)
+            page.series.iter().flat_map(move |series| series_points(series, index)).filter(is_drawn)
         };
-        let x = Scale::from_values(sheet.quantity_range.clone().flat_map(drawn).map(|(x, _)| x), &options[0]);
+        let x = Scale::from_values(page.quantity_range.clone().flat_map(drawn).map(|(x, _)| x), &options[0]);
         let y = Scale::from_values(drawn(quantity_index).map(|(_, y)| y), &options[1]);
         let scales = x.zip(y).map(|(x, y)| [x, y]);
         let labels = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));
         let left = labels.map(|label| theme.typeface.regular().width(&label, theme.note_size)).fold(0.0, f64::max);
         let left = left + 2.0 * tick_length(theme) + 0.2 * theme.note_size;
-        ChartFigure { page: sheet, quantity_index, scales, left_margin: left, right_margin: right }
+        ChartFigure { page, quantity_index, scales, left_margin: left, right_margin: right }
     }
 
     /// The width of the tick labels on the left, in millimetres.

@@ -19,10 +19,10 @@ use coupler_curves::geometry::Vector;
 use figure::ChartFigure;
 
 /// Draws a page of charts.
-pub(super) fn compose(scene: &mut Scene, sheet: &ChartPage, theme: &Theme) {
-    let [columns, rows] = sheet.layout.grid();
-    sheet.heading.draw(&Canvas::new(scene).into_drawing_area(), theme);
-    for (k, quantity_index) in sheet.quantity_range.clone().enumerate() {
+pub(super) fn compose(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
+    let [columns, rows] = page.layout.grid();
+    page.heading.draw(&Canvas::new(scene).into_drawing_area(), theme);
+    for (k, quantity_index) in page.quantity_range.clone().enumerate() {
         // The items that plotters records are collected in a group.
         let first_item = scene.items.len();
         let data = {
@@ -30,15 +30,15 @@ pub(super) fn compose(scene: &mut Scene, sheet: &ChartPage, theme: &Theme) {
             let Some(area) = areas.get(k) else { continue };
             let theme = theme.for_panel_size(size(area));
             let figures: Vec<ChartFigure> =
-                sheet.quantity_range.clone().map(|index| ChartFigure::new(sheet, index, size(area), &theme)).collect();
+                page.quantity_range.clone().map(|index| ChartFigure::new(page, index, size(area), &theme)).collect();
             // The frames of all charts of a page have the same margin.
             let margin = figures.iter().map(ChartFigure::left_margin).fold(0.0, f64::max);
             figures[k].draw(area, margin, &theme)
         };
         let items = scene.items.split_off(first_item);
-        let quantity = &sheet.chart.y[quantity_index];
-        let title = format!("{} over {}", quantity.text, sheet.chart.x.text);
-        let id = format!("{}-chart-{}", sheet.heading.family_id, quantity_index + 1);
+        let quantity = &page.chart.y[quantity_index];
+        let title = format!("{} over {}", quantity.text, page.chart.x.text);
+        let id = format!("{}-chart-{}", page.heading.family_id, quantity_index + 1);
         scene.items.push(Item::Group(Group { id, class: "chart", title, data, items }));
     }
 }

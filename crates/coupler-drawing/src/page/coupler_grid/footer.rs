@@ -8,19 +8,19 @@ use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 
 /// Draws the foot; the result is its height from the edge of the paper.
-pub(super) fn draw(area: &Area, sheet: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
+pub(super) fn draw(area: &Area, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
     let paper = size(area);
     let (left, right) = (theme.border + theme.margin, paper.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
     let at = Point::new(left, paper.y - theme.border - 0.65 * theme.margin);
     // Some SVG viewers collapse consecutive spaces, but not an em space.
-    let proportions = sheet.panel.caption.replace("  ", "\u{2003}");
+    let proportions = page.panel.caption.replace("  ", "\u{2003}");
     let proportions = theme.text_line(&proportions, at, Anchor::Start, theme.title_size, theme.ink);
-    put(area, &proportions.with_italics(sheet.heading.symbols).fit_width(half));
+    put(area, &proportions.with_italics(page.heading.symbols).fit_width(half));
     let line =
         |text: &str, y: f64| theme.text_line(text, Point::new(right, y), Anchor::End, theme.source_size, theme.grey);
-    put(area, &line(&sheet.heading.titles(), at.y).fit_width_with_suffix(&sheet.heading.folio(), half));
-    let facts = facts(sheet, options);
+    put(area, &line(&page.heading.titles(), at.y).fit_width_with_suffix(&page.heading.folio(), half));
+    let facts = facts(page, options);
     if !facts.is_empty() {
         put(area, &line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
     }
@@ -28,25 +28,25 @@ pub(super) fn draw(area: &Area, sheet: &CouplerGridPage, options: &Options, them
 }
 
 /// The class, the range of the transmission angle, the note and, if a curve is drawn, the range of a dash.
-fn facts(sheet: &CouplerGridPage, options: &Options) -> String {
-    let solved = sheet.panel.solved_cell;
+fn facts(page: &CouplerGridPage, options: &Options) -> String {
+    let solved = page.panel.solved_cell;
     let dash = || {
         let span = figure::dash_period(solved, options);
         format!("one dash and its gap = {span}{} of input", super::input_unit(solved))
     };
-    let dash = if sheet.curve_indices.is_empty() { String::new() } else { dash() };
-    let parts = [sheet.panel.facts[0].as_str(), &sheet.panel.note, &dash];
+    let dash = if page.curve_indices.is_empty() { String::new() } else { dash() };
+    let parts = [page.panel.facts[0].as_str(), &page.panel.note, &dash];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
 }
 
 /// Draws the source, if there is one, at the foot of the column, in as many lines as needed.
-pub(super) fn draw_source(area: &Area, side: Rect, sheet: &CouplerGridPage, theme: &Theme) {
-    let symbols = sheet.heading.symbols;
-    if sheet.heading.source.is_empty() {
+pub(super) fn draw_source(area: &Area, side: Rect, page: &CouplerGridPage, theme: &Theme) {
+    let symbols = page.heading.symbols;
+    if page.heading.source.is_empty() {
         return;
     }
     let lines = theme
-        .text_line(&sheet.heading.source, Point::origin(), Anchor::End, theme.note_size, theme.grey)
+        .text_line(&page.heading.source, Point::origin(), Anchor::End, theme.note_size, theme.grey)
         .wrap(side.size.x);
     let right = side.corner.x + side.size.x;
     let step = 1.45 * theme.note_size;

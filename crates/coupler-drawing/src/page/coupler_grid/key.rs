@@ -11,15 +11,15 @@ use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_no
 use coupler_curves::linkage::{JointId, is_plate};
 
 /// Draws the key at the head of a column; the result is the rest of the column.
-pub(super) fn draw(area: &Area, side: Rect, sheet: &CouplerGridPage, mechanism: &Mechanism, theme: &Theme) -> Rect {
-    let linkage = &sheet.panel.solved_cell.linkage;
+pub(super) fn draw(area: &Area, side: Rect, page: &CouplerGridPage, mechanism: &Mechanism, theme: &Theme) -> Rect {
+    let linkage = &page.panel.solved_cell.linkage;
     let pose = |joint: &JointId| mechanism.pose[*joint];
     let (links, pivots) = (linkage.link_outlines(), linkage.pivots());
     let bounds = Bounds::from_points(links.iter().flat_map(|outline| &outline.joints).chain(&pivots).map(pose));
     let letter = 1.1 * theme.note_size;
     let height = 0.19 * side.size.y;
     // Labels need space outside the links on all sides.
-    let widest = sheet.labels.iter().map(|label| label_text(label, theme, letter).text.width()).fold(letter, f64::max);
+    let widest = page.labels.iter().map(|label| label_text(label, theme, letter).text.width()).fold(letter, f64::max);
     let frame = Rect { corner: side.corner, size: Vector::new(side.size.x, height) };
     let frame = Rect {
         corner: frame.corner + Vector::new(widest + 0.6 * letter, 1.4 * letter),
@@ -47,9 +47,9 @@ pub(super) fn draw(area: &Area, side: Rect, sheet: &CouplerGridPage, mechanism: 
     let is_link =
         |label: &&LinkLabel| !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end));
     let mut placed: Vec<LabelBox> = Vec::new();
-    for label in sheet.labels.iter().filter(is_link) {
+    for label in page.labels.iter().filter(is_link) {
         let ends = [at(&label.joints[0]), at(&label.joints[1])];
-        let mut text = label_text(label, theme, letter).with_italics(sheet.heading.symbols);
+        let mut text = label_text(label, theme, letter).with_italics(page.heading.symbols);
         let half = Vector::new(text.text.width() / 2.0, 0.36 * letter);
         let is_free = |spot: &LabelBox| placed.iter().all(|other| spot.distance_to_box(other) > 0.25 * letter);
         let spots = label_boxes(ends, centre, half, 0.45 * letter).filter(is_free);

@@ -46,25 +46,25 @@ impl ShownCurve<'_> {
     }
 }
 
-pub(super) fn compose(scene: &mut Scene, sheet: &CouplerGridPage, options: &Options, theme: &Theme) {
+pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
     let theme = &with_legible_notes(theme, size);
     let root = Canvas::new(scene).into_drawing_area();
     heading::draw_border(&root, theme);
-    let foot = footer::draw(&root, sheet, options, theme);
+    let foot = footer::draw(&root, page, options, theme);
     let edge = theme.border + theme.margin;
     let column = (0.19 * size.x).max(MIN_COLUMN_WIDTH * theme.note_size);
     let height = size.y - edge - foot;
     let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, height) };
     let figure = Rect { size: whole.size - Vector::new(column + GUTTER * theme.note_size, 0.0), ..whole };
     let side = Rect { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
-    let solved = sheet.panel.solved_cell;
-    let shown = shown_curves(solved, &sheet.curve_indices);
-    match posed_mechanism(&sheet.panel) {
+    let solved = page.panel.solved_cell;
+    let shown = shown_curves(solved, &page.curve_indices);
+    match posed_mechanism(&page.panel) {
         Some(mechanism) => {
-            draw_figure(&root, figure, sheet, &mechanism, &shown, options, theme);
-            let rest = key::draw(&root, side, sheet, &mechanism, theme);
-            table::draw(&root, rest, sheet, &shown, theme);
+            draw_figure(&root, figure, page, &mechanism, &shown, options, theme);
+            let rest = key::draw(&root, side, page, &mechanism, theme);
+            table::draw(&root, rest, page, &shown, theme);
         }
         None => {
             let error = solved.motion.assembly_error.as_ref();
@@ -72,7 +72,7 @@ pub(super) fn compose(scene: &mut Scene, sheet: &CouplerGridPage, options: &Opti
             super::panels::draw_not_assembled(&root, whole, &reason, theme);
         }
     }
-    footer::draw_source(&root, side, sheet, theme);
+    footer::draw_source(&root, side, page, theme);
 }
 
 /// The theme with notes large enough for the smallest text, which is set in proportion to them, to be legible, as far
@@ -121,13 +121,13 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<Mechanism<'a>> {
 fn draw_figure(
     area: &Area,
     frame: Rect,
-    sheet: &CouplerGridPage,
+    page: &CouplerGridPage,
     mechanism: &Mechanism,
     shown: &[ShownCurve],
     options: &Options,
     theme: &Theme,
 ) {
-    let solved = sheet.panel.solved_cell;
+    let solved = page.panel.solved_cell;
     let grid = grid::PointGrids::from_joints(&solved.linkage, shown.iter().map(|s| s.curve.joint));
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
     let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
@@ -135,7 +135,7 @@ fn draw_figure(
     plot.draw_scale_bar(area, theme);
     let period = figure::dash_period(solved, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
-    let paths = figure::curve_paths(solved, &sheet.curve_indices, plot.page_from_plane, dashes);
+    let paths = figure::curve_paths(solved, &page.curve_indices, plot.page_from_plane, dashes);
     let underlay = mechanism.underlay_items(&plot, theme);
     let grid = grid.items(&mechanism.pose, &plot, theme);
     let portion = |s: &ShownCurve| marks::straight_portion_item(solved, s.curve, s.ink(theme), &plot, theme);
@@ -166,7 +166,7 @@ fn draw_figure(
     };
     group("trail", shown.iter().zip(&paths).filter_map(underline).collect());
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
-        draw(area, &coupler_curve(sheet, shown, path, (plot.page_from_plane, dashes(k)), theme));
+        draw(area, &coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
     group("linkage", linkage);
     group("coupler-point", points);
@@ -194,19 +194,19 @@ fn point_numbers(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme
 }
 
 fn coupler_curve(
-    sheet: &CouplerGridPage,
+    page: &CouplerGridPage,
     shown: &ShownCurve,
     path: motion::JointPath,
     (page_from_plane, dashes): (Similarity, DashPattern),
     theme: &Theme,
 ) -> CouplerCurve {
     let MeasuredCurve { trace, circuit, .. } = shown.curve;
-    let cell = sheet.panel.solved_cell.cell.number;
+    let cell = page.panel.solved_cell.cell.number;
     let stroke = theme.curve_stroke(shown.point_index);
     CouplerCurve {
-        id: format!("{}-{cell}-{trace}-{circuit}", sheet.heading.family_id),
+        id: format!("{}-{cell}-{trace}-{circuit}", page.heading.family_id),
         class: "curve",
-        title: format!("{}, no. {cell}: {}, point {trace}", sheet.heading.family_title, sheet.panel.caption),
+        title: format!("{}, no. {cell}: {}, point {trace}", page.heading.family_title, page.panel.caption),
         data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
         page_from_plane,
         dashes,

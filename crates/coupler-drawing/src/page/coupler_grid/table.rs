@@ -20,8 +20,8 @@ const COLUMNS: [(&str, f64); 5] =
 const POINT_COLUMNS: usize = 3;
 
 /// Draws the table at the head of a frame.
-pub(super) fn draw(area: &Area, frame: Rect, sheet: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) {
-    let solved = sheet.panel.solved_cell;
+pub(super) fn draw(area: &Area, frame: Rect, page: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) {
+    let solved = page.panel.solved_cell;
     let has_circuits = solved.motion.circuits.len() > 1;
     let row = 1.5 * theme.note_size;
     let at = |column: usize, y: f64| Point::new(frame.corner.x + COLUMNS[column].1 * frame.size.x, y);

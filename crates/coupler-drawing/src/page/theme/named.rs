@@ -21,7 +21,7 @@ impl Theme {
         NamedTheme { name: "print", description: "the same inks on white, for a printer", theme: Theme::print },
         NamedTheme {
             name: "monochrome",
-            description: "greys on white: curves are told apart by lightness, weight and dashes",
+            description: "greys on white: curves differ in lightness, weight and dashes",
             theme: Theme::monochrome,
         },
         NamedTheme { name: "dark", description: "light inks on a dark ground, for screens", theme: Theme::dark },
