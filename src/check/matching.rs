@@ -30,7 +30,7 @@ pub(super) fn match_curves(recorded: &[CurveSamples], current: &[CurveSamples]) 
 /// Two curves of the same number match if more than this share of one lies on the other.
 const MIN_MATCH_SHARE: f64 = 0.5;
 
-/// Two curves are is_related if more than this share of one lies on the other.
+/// Two curves are related if more than this share of one lies on the other.
 const MIN_PIECE_SHARE: f64 = 0.1;
 
 fn match_by_position(recorded: &[CurveSamples], current: &[CurveSamples]) -> Matching {

@@ -170,7 +170,7 @@ impl FamilyWriter<'_> {
         let mut cells = AtomicFile::with_header(self.folder.join("cells.csv"), &cells_table.header())?;
         let mut script_file = AtomicFile::with_header(self.folder.join(gallery::SCRIPT_FILE), &script.begin())?;
         let (pipeline, sink) = (self.pipeline, self.sink);
-        pipeline.run(&sink, |off| match off {
+        pipeline.run(&sink, |output| match output {
             Output::Cells(rows) => {
                 points.append(&rows.points)?;
                 cells.append(&rows.cells)?;
@@ -199,7 +199,7 @@ impl FamilyWriter<'_> {
         }
     }
 
-    /// Adds a page to the record, and saves the record now and then.
+    /// Adds a page to the record, and saves the record after every [`PAGES_PER_RECORD`] drawn pages.
     fn record_page(
         &mut self,
         page: PageFiles,

@@ -151,7 +151,7 @@ impl AtomicFile {
         // A device or a pipe would be replaced by a file.
         if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
             let source =
-                io::Error::new(io::ErrorKind::InvalidInput, "it exists and is not a regular file: name a file");
+                io::Error::new(io::ErrorKind::InvalidInput, "it exists and is not a regular file; give another name");
             return Err(Error::Write { path, source });
         }
         let folder = path.parent().unwrap_or(Path::new(""));

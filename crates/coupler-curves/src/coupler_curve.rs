@@ -1,4 +1,4 @@
-//! The coupler curve of a four-bar, from its lengths to its points, measures and files.
+//! The coupler curve of a four-bar, from its lengths to its points, measures and exports.
 
 use crate::catalogue;
 use crate::exchange::SelectedCurve;
@@ -11,8 +11,8 @@ use crate::solve::{MeasuredCurve, SolvedCell, solve_cell};
 
 /// A coupler curve of a four-bar on one circuit, solved at 360 samples and measured.
 ///
-/// Lengths are in the unit of the four-bar's links. The crank's pivot is the origin, the rocker's is on the positive x-axis, and
-/// the input is the crank's angle from that axis, counter-clockwise.
+/// Lengths are in the unit of the four-bar's links. The crank's pivot is the origin, the rocker's is on the positive
+/// x-axis, and the input is the crank's angle from that axis, counter-clockwise.
 ///
 /// ```
 /// use coupler_curves::{FourBar, FourBarClass};
@@ -33,7 +33,7 @@ use crate::solve::{MeasuredCurve, SolvedCell, solve_cell};
 pub struct CouplerCurve {
     family: Family,
     source: String,
-    /// Its cell with this one curve.
+    /// The solved linkage with this curve only.
     solved: SolvedCell,
 }
 
@@ -50,11 +50,11 @@ pub enum CurveError {
 }
 
 impl FourBar {
-    /// The curve of a coupler point on the first circuit: the one that starts on branch 1, with the coupler to the left of the
-    /// line from crank pin to rocker pivot.
+    /// The curve of a coupler point on the first circuit: the one that starts on branch 1, with the rocker pin to the
+    /// left of the line from crank pin to rocker pivot.
     ///
-    /// The point is `along` the coupler from the crank pin towards the rocker pin, and `across` it to the left, in the unit of
-    /// the links.
+    /// The point is `along` the coupler from the crank pin towards the rocker pin, and `across` it to the left, in the
+    /// unit of the links.
     ///
     /// # Errors
     /// A length that is not positive, a value that is not finite, or links that cannot be assembled.
@@ -63,7 +63,8 @@ impl FourBar {
         self.coupler_curves(along, across).map(|mut curves| curves.swap_remove(0))
     }
 
-    /// The curves of a coupler point on every circuit, at least one: those that start on branch 1 first, then by least input.
+    /// The curves of a coupler point on every circuit, at least one: those that start on branch 1 first, then by least
+    /// input.
     ///
     /// # Errors
     /// As [`FourBar::coupler_curve`].
@@ -125,7 +126,7 @@ impl CouplerCurve {
         measure::ALL.iter().zip(self.measured().values.iter().copied())
     }
 
-    /// The curve as the exchange formats and plates take it.
+    /// The curve with its family and source, as the exchange formats and plates need it.
     pub fn selected(&self) -> SelectedCurve<'_> {
         SelectedCurve::new(&self.family, &self.source, self.solved.clone())
     }

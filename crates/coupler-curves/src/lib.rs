@@ -6,7 +6,10 @@
 //! linkage format -> template -> family x cell -> linkage -> motion -> measures -> solved cell -> exchange formats
 //! ```
 //!
-//! A four-bar, its class, its coupler curve and its longest straight portion:
+//! A template is a linkage whose dimensions are expressions in parameters; a family is a template with its parameter
+//! sets, the cells. A cell turns the template into a linkage with numeric dimensions.
+//!
+//! A four-bar, its class, one of its coupler curves and the longest straight portion of the curve:
 //!
 //! ```
 //! use coupler_curves::FourBar;

@@ -1,10 +1,10 @@
 //! Drawings of coupler curves: plates, atlas pages and books as SVG, PNG and PDF.
 //!
-//! Data flows one way: solved cells of [`coupler_curves`] are composed to pages ([`page`], or [`plate`] for one curve),
-//! a page is a list of items at fixed positions ([`scene`]), and a scene is rendered to bytes ([`render`]). [`chart`]
-//! collects the numbers that charts show. Nothing in this crate reads or writes a file.
+//! Data flows one way: solved cells of [`coupler_curves`] are composed into pages ([`page`], or [`plate`] for one
+//! curve), a page is a list of items at fixed positions ([`scene`]), and a scene is rendered to bytes ([`render`]).
+//! [`chart`] collects the numbers that charts show. Nothing in this crate reads or writes a file.
 //!
-//! A four-bar, its class, a coupler curve, the longest straight portion of that, and its plate:
+//! A four-bar, its class, one of its coupler curves, the longest straight portion of the curve, and the curve's plate:
 //!
 //! ```
 //! use coupler_curves::FourBar;

@@ -25,9 +25,9 @@ use selector::CurveSelector;
 
 /// Export curves as drawings, still or moving, CAD drawings, tables, JSON, or a fragment of a manifest.
 ///
-/// A curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, by its numbers in points.csv; FAMILY:CELL names
+/// A curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:3.1.1, by its numbers in points.csv; FAMILY:CELL names
 /// every curve of a cell, and FAMILY every curve of a family. Without a name, every curve of the manifest is exported.
-/// Parameters can be replaced: "evans:12.1.1?p=2.5&k=2". A single file is written to standard output unless --output is
+/// Parameters can be replaced: "evans:3.1.1?p=2.5&k=2". A single file is written to standard output unless --output is
 /// given; several need a folder. docs/export.md describes the formats.
 #[derive(Debug, Args)]
 pub struct Arguments {

@@ -1,12 +1,12 @@
-//! A traced point moved on its link by the overrides `M.along` and `M.across`.
+//! Moves a traced point on its link by the overrides `M.along` and `M.across`.
 
 use coupler_curves::expression::{CompiledExpression, Expression, Kind};
 use coupler_curves::template::{Coordinate, JointKindTemplate, JointTemplate, Template};
 
 /// Moves the point of a trace, counted from 1, on its link, and returns the new template and the number of its trace.
 ///
-/// `values` are the values of the template's parameters. A point of a grid is added to the template next to the grid,
-/// and becomes the last trace.
+/// `values` are the values of the template's parameters. If the point is one of a grid, the grid is unchanged, and the
+/// moved point is added to the template as a joint of its own, which becomes the last trace.
 ///
 /// # Errors
 /// The trace does not exist, its point cannot be moved, or an override has an unknown name.

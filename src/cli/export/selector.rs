@@ -16,10 +16,10 @@ pub(super) struct CurveSelector {
 }
 
 const SYNTAX_HELP: &str =
-    "a curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:12.1.1, and several at once FAMILY:CELL or FAMILY";
+    "a curve is named FAMILY:CELL.TRACE.CIRCUIT, as in evans:3.1.1, and several at once FAMILY:CELL or FAMILY";
 
 impl CurveSelector {
-    /// Parses `evans`, `evans:12`, `evans:12.1.1` or `evans:12.1.1?p=2.5&k=2`.
+    /// Parses `evans`, `evans:3`, `evans:3.1.1` or `evans:3.1.1?p=2.5&k=2`.
     ///
     /// # Errors
     /// A message, if the text has another form.

@@ -77,7 +77,7 @@ impl DrawnCurve {
     }
 }
 
-/// Points along a segment, including its ends, at most a millimetre apart; a long segment has only 64 steps.
+/// Points along a segment, including its ends, at most a millimetre apart; a segment longer than 64 mm has 64 steps.
 fn points_along(a: Point, b: Point) -> impl Iterator<Item = Point> {
     let steps = (b - a).norm().ceil().clamp(2.0, 64.0);
     (0..=steps as u32).map(move |k| a + (b - a) * (f64::from(k) / steps))

@@ -1,4 +1,5 @@
-//! A manifest fragment that reproduces the cells of curves: a family for each linkage and its settings.
+//! A fragment of a manifest, the TOML file that an atlas is made from, that reproduces the cells of some curves: one
+//! family for each combination of linkage and settings.
 
 use std::fmt::Write;
 
@@ -38,6 +39,7 @@ fn family_id(linkage: &str, number: usize) -> String {
     if number == 1 { format!("{stem}-taken") } else { format!("{stem}-taken-{number}") }
 }
 
+/// Writes one family, with a row of parameter values for each cell.
 fn write_family(id: &str, settings: &str, cases: &[&ParameterSet], out: &mut String) {
     let template = &cases[0].family.template;
     let mut rows: Vec<(String, Vec<&str>)> = Vec::new();
@@ -70,6 +72,7 @@ fn write_family(id: &str, settings: &str, cases: &[&ParameterSet], out: &mut Str
     out.push_str("]\n");
 }
 
+/// Whether a linkage is one of the catalogue's.
 fn is_built_in(template: &Template) -> bool {
     catalogue::find(&template.id).is_some()
 }
@@ -132,7 +135,7 @@ fn placement_to_toml(placement: &Orientation) -> String {
     format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(deg))
 }
 
-/// A string in TOML.
+/// A text as a quoted TOML string.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {

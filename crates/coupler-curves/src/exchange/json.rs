@@ -69,8 +69,9 @@ struct CircuitDocument<'a> {
 struct PassDocument<'a> {
     from: EndDocument<'a>,
     to: EndDocument<'a>,
-    /// The sides of all dyads.
+    /// The sides of all dyads: 1 is left, -1 right.
     branches: Vec<f64>,
+    /// Whether the input reverses at its end.
     turns: bool,
 }
 
@@ -81,6 +82,7 @@ struct EndDocument<'a> {
     flat: Vec<&'a str>,
 }
 
+/// The JSON document of a curve.
 pub(super) fn document(selected: &SelectedCurve) -> String {
     let SelectedCurve { family, solved, .. } = selected;
     let linkage = &solved.linkage;

@@ -2,7 +2,7 @@
 
 use super::{Error, Expression};
 
-/// A line of text with expressions in braces: `p = {p:.2}, area {p * r}`.
+/// A line of text with expressions in braces, as in `p = {p:.2}, area {p * r}`.
 ///
 /// `{expression}` is replaced by the value in up to six significant digits, `{expression:.2}` by the value with two
 /// decimals; `{{` and `}}` are literal braces.
@@ -63,7 +63,7 @@ impl Caption {
         })
     }
 
-    /// Whether one of its expressions uses a name.
+    /// Whether one of its expressions contains a name.
     pub fn uses(&self, name: &str) -> bool {
         self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
     }
@@ -102,6 +102,7 @@ fn round_to_six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
+/// Parses the expression and the number of decimals between the braces at `start - 1` and `end`.
 fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let inner = &text[start..end];
     let (source, decimals) = match inner.rfind(':') {

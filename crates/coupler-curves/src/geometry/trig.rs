@@ -16,8 +16,9 @@ pub fn degrees(rad: f64) -> f64 {
 
 /// The cosine and the sine of an angle in degrees.
 ///
-/// The angle is first reduced to within 45 degrees of a quarter turn, which is exact in binary, so that quarter turns
-/// have exact zeros and ones and symmetric angles have exactly symmetric values. NaN for an angle that is not finite.
+/// A multiple of 90 degrees is first subtracted, which is exact in binary and leaves at most 45 degrees, so that
+/// quarter turns have exact zeros and ones and symmetric angles have exactly symmetric values. NaN for an angle that is
+/// not finite.
 pub fn cos_sin_deg(deg: f64) -> (f64, f64) {
     let turn = deg % 360.0;
     let turn = if turn < 0.0 { turn + 360.0 } else { turn };

@@ -1,8 +1,8 @@
 //! A linkage with numeric dimensions: its joints, how each is placed, its links, input and traced points.
 //!
 //! A planar linkage of one degree of freedom is a list of [`Joint`]s, each placed by a [`JointKind`] from joints before
-//! it. Joints at constant distances from one another form a [`Link`]. Where a motion starts, its input range and its
-//! circuits are the [`MotionOptions`].
+//! it. Joints at constant distances from one another form a [`Link`]. The [`MotionOptions`] are the start of a motion,
+//! its input range and its circuits.
 //!
 //! A joint of a dyad can lie on either side of a line for the same input. The sides of all dyads together are the
 //! [`AssemblyMode`].
@@ -37,20 +37,21 @@ pub use symmetrical_four_bar::SymmetricalFourBar;
 pub use crate::geometry::Orientation;
 use crate::geometry::Vector;
 
-/// A linkage with numeric dimensions. Lengths are in the manifest's own unit.
+/// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linkage {
     /// The joints in the order they are placed: each refers to earlier joints only.
     pub joints: Vec<Joint>,
     /// The links; the first is the frame, which carries the fixed joints.
     pub links: Vec<Link>,
-    /// The joints whose curves are traced, in the order of the manifest.
+    /// The joints whose curves are traced, in the order of the curves.
     pub traced: Vec<JointId>,
-    /// The link in whose frame everything is reported: the joint at its origin and a joint on its positive x-axis.
+    /// Two joints of the link in whose frame everything is reported: the one at its origin and one on its positive
+    /// x-axis; `None` for the fixed frame.
     pub seen_from: Option<[JointId; 2]>,
     /// The orientation applied to everything reported, after `seen_from`.
     pub placement: Orientation,
-    /// Where the motion starts, its input range and its circuits.
+    /// The start of the motion, its input range and its circuits.
     pub motion_options: MotionOptions,
 }
 
@@ -119,12 +120,12 @@ impl Linkage {
         (0..self.dyad_count()).map(DyadId::new)
     }
 
-    /// The first joint of a name.
+    /// The first joint with a name.
     pub fn find_joint(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|joint| joint.name == name).map(JointId::new)
     }
 
-    /// The linkage reduced to one of the rigid points at the end of its joints, and that joint's index in it.
+    /// The linkage with only one of the rigid points at the end of the list of joints, and that joint's index in it.
     ///
     /// Of the trailing rigid points that no other joint refers to, only `joint` is kept, so that a computation for
     /// one point of a grid does not place the others. All joints before them keep their indices.

@@ -1,10 +1,11 @@
-//! The condition for a straight portion at the axis of a symmetrical coupler curve (Natesan, chapter 8).
+//! Four-bars with a symmetrical coupler curve, and the lengths for which it is straight at its axis (Natesan's thesis,
+//! chapter 8).
 
 use super::sextic::bisect;
 use super::{FourBar, Sextic};
 use crate::geometry::{Point, Vector};
 
-/// The symmetrical linkages of the thesis's chapter 8, given by three lengths: the frame p, one short link, and two
+/// The symmetrical linkages of Natesan's chapter 8, given by three lengths: the frame p, one short link, and two
 /// or three long ones of equal length. The origin is the crank's pivot, x towards the rocker's; the axis of the curve
 /// is perpendicular to the frame.
 ///
@@ -17,7 +18,7 @@ use crate::geometry::{Point, Vector};
 ///
 /// # Source
 /// Natesan, chapter 8: (8.1) to (8.10) for Evans, (8.11) to (8.19) for Chebyshev and Watt. Here the general sextic is
-/// differentiated instead, for the text has misprints:
+/// differentiated instead, because the equations have misprints:
 ///
 /// - (8.1): `- 2 p^4 x` is `- 2 p r^4 x`; in the sine before it the second term is added;
 /// - (8.4): `36 p x y^2` is `36 p x^2 y^2`; (8.7) and (8.13) are right;
@@ -51,8 +52,8 @@ impl SymmetricalFourBar {
         frame * self.curve_scale()
     }
 
-    /// The points where the curve crosses its axis above the frame, other than the pivots: the further one and the
-    /// nearer; `None` for one that does not exist.
+    /// The points, other than the pivots, where the curve crosses its axis above the frame: the one further from the
+    /// frame, then the nearer one; `None` for one that does not exist.
     ///
     /// # Source
     /// Natesan (8.3) and (8.12), with the radicands factored.

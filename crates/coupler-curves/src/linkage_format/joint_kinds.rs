@@ -6,13 +6,13 @@ use crate::template::Side;
 
 /// The sides of a line.
 pub(super) const SIDES: [(&str, Side); 2] = [("left", Side::Left), ("right", Side::Right)];
-/// The positions along a line.
+/// The sides of a slide: ahead of or behind the joint it is linked to, along the line.
 pub(super) const SLIDE_SIDES: [(&str, Side); 2] = [("ahead", Side::Left), ("behind", Side::Right)];
 
-/// The most points that a grid in one joint may have.
+/// The most points that the grid of one `point` joint may have.
 pub(super) const MAX_GRID_POINTS: usize = 10_000;
 
-/// The angle of a yoke's slot to its guide.
+/// The default angle from the line that a yoke slides along to its slot.
 pub(super) const DEFAULT_SLOT_ANGLE_DEG: f64 = 90.0;
 
 /// The name of a joint.

@@ -12,7 +12,7 @@ use crate::template::{CircuitSelection, CoincidentDyads, Continuation, InputValu
 /// The name of a joint.
 const JOINT_NAME: ValueSchema = ValueSchema::Text;
 
-/// A `[[linkage]]`.
+/// The schema of a `[[linkage]]` table.
 pub(super) static LINKAGE: TableSchema = TableSchema::new(
     "a [[linkage]]",
     &[
@@ -42,7 +42,7 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
         CIRCUITS_KEY.with_default(|| default_word(&CIRCUIT_SELECTIONS)),
         CONTINUATION_KEY.with_default(|| default_word(&CONTINUATIONS)),
         COINCIDENT_KEY.with_default(|| default_word(&COINCIDENT_DYADS)),
-        KeySchema::new("start", ValueSchema::Input, "The value of the input at which the sides of the joints hold."),
+        KeySchema::new("start", ValueSchema::Input, "The input at which the joints are on their given sides."),
         KeySchema::new(
             "input",
             ValueSchema::Table(&INPUT),
@@ -61,19 +61,19 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
     ],
 );
 
-/// The key of the circuits to solve.
+/// The key that selects the circuits to solve.
 pub const CIRCUITS_KEY: KeySchema = KeySchema::new(
     "circuits",
     ValueSchema::Word(|| words(&CIRCUIT_SELECTIONS)),
     "The circuits to draw: the one through the start pose, or all.",
 );
-/// The key of how a circuit continues at a change point.
+/// The key that selects the way in which a circuit continues at a change point.
 pub const CONTINUATION_KEY: KeySchema = KeySchema::new(
     "continuation",
     ValueSchema::Word(|| words(&CONTINUATIONS)),
     "How a circuit continues at a change point: smoothly, or on the same branch.",
 );
-/// The key of which dyads change sides where several are flat at one input.
+/// The key that selects the dyads that change sides where several are flat at one input.
 pub const COINCIDENT_KEY: KeySchema = KeySchema::new(
     "coincident",
     ValueSchema::Word(|| words(&COINCIDENT_DYADS)),
@@ -88,8 +88,8 @@ static PARAMETER: TableSchema = TableSchema::new(
             ValueSchema::Number,
             "The value where a family gives none; it may use other parameters.",
         ),
-        KeySchema::new("min", ValueSchema::Number, "The least value; 0 itself is excluded."),
-        KeySchema::new("max", ValueSchema::Number, "The greatest value; 0 itself is excluded."),
+        KeySchema::new("min", ValueSchema::Number, "The least value; a bound of 0 is itself excluded."),
+        KeySchema::new("max", ValueSchema::Number, "The greatest value; a bound of 0 is itself excluded."),
     ],
 );
 
@@ -257,6 +257,7 @@ fn parse_input_range<'t>(
     Some([from?, to?])
 }
 
+/// Parses an `arc` table: the input range and the branch.
 fn parse_arc<'t>(
     value: &TomlValue<'t>,
     scope: (bool, &[(&str, Kind)]),

@@ -1,5 +1,5 @@
-//! The best circular portion of a curve: a link from the coupler point to its centre dwells while the point traverses
-//! it.
+//! The best circular portion of a curve: the far end of a link that is as long as its radius dwells at its centre while
+//! the coupler point traverses it.
 //!
 //! A portion is circular if it lies in an *annulus*, the ring between two concentric circles, no wider than 0.001 of
 //! the curve's greatest extent, and the mean radius is no greater than the length of the curve, which excludes straight
@@ -76,8 +76,8 @@ pub(super) fn find_dwell(curve: &CurveSegment) -> Option<Dwell> {
     };
     let ends = search.longest()?;
     let points = curve.portion_points(ends);
-    // On a long arc the exchange of points may end at an annulus that is not the narrowest: then the one of the search,
-    // in which the portion was found to fit, is better.
+    // On a long arc the exchange algorithm may end at an annulus that is not the narrowest. The annulus in which the
+    // search found that the portion fits is then better.
     let narrowest = AlternatingPoints::default().narrowest_annulus_within(&points, f64::INFINITY, search.max_radius);
     let known_centre =
         search.fitting_portions.borrow().iter().rev().find(|(other, _)| *other == ends).map(|(_, centre)| *centre);
@@ -97,6 +97,7 @@ struct DwellSearch<'a> {
 }
 
 impl DwellSearch<'_> {
+    /// The ends of the portion that spans the most input.
     fn longest(&self) -> Option<[f64; 2]> {
         const MOVES: usize = 4;
         let curve = self.segment;
@@ -121,7 +122,8 @@ impl DwellSearch<'_> {
         Some(best.1)
     }
 
-    /// The input span and the ends of a portion extended between points.
+    /// Moves the ends of a portion outwards, between points, as far as it fits; the input span and the ends of the
+    /// result.
     fn extend(&self, ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let curve = self.segment;
         let [from, to] = curve.clamp(ends);
@@ -181,14 +183,15 @@ impl DwellSearch<'_> {
 
     /// The first point at which a portion from another point ends that spans more input than `span`.
     fn first_end_beyond(&self, from: usize, span: f64) -> Option<usize> {
-        /// Fewer points are always close to a circle.
-        const FEW: usize = 5;
+        /// A portion of fewer intervals is always close to a circle.
+        const MIN_INTERVALS: usize = 5;
         let travel = &self.segment.input_travel;
-        let (first, last) = (from + FEW, self.segment.last_end(from));
+        let (first, last) = (from + MIN_INTERVALS, self.segment.last_end(from));
         let beyond = first + travel.get(first..=last)?.partition_point(|at| at - travel[from] <= span * (1.0 + 1e-9));
         (beyond <= last).then_some(beyond)
     }
 
+    /// The narrowest annulus around the points of a portion, if it is no wider than `most`.
     fn annulus(&self, [from, to]: [usize; 2], most: f64) -> Option<Annulus> {
         AlternatingPoints::default().narrowest_annulus_within(&self.segment.points[from..=to], most, self.max_radius)
     }
@@ -199,7 +202,7 @@ fn last_holding([first, last]: [usize; 2], holds: impl Fn(usize) -> bool) -> Opt
     if !holds(first) {
         return None;
     }
-    // Gallop, then bisect.
+    // Double the step, then bisect.
     let (mut low, mut step) = (first, 1);
     while low + step <= last && holds(low + step) {
         low += step;

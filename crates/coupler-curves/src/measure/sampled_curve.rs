@@ -1,4 +1,4 @@
-//! A curve as a row of samples, with its arc lengths, area and curvatures.
+//! A curve as a list of samples, with its arc lengths, area and curvatures.
 
 use std::cell::OnceCell;
 
@@ -7,20 +7,20 @@ use crate::geometry::{Point, Vector, cross, distance_to_segment, trig};
 use crate::linkage::{Input, JointId};
 use crate::motion::Circuit;
 
-/// A curve as a row of samples.
+/// A curve as a list of samples.
 ///
 /// Between two samples the curve is approximated by an arc whose curvature is the mean of those at both; a circle is
-/// measured exactly, and any smooth curve to the fourth order of the distance of its samples. That is true across
-/// limits too, where the curve is smooth though the input reverses.
+/// measured exactly, and any smooth curve with an error of the fourth order in the distance between samples. That is
+/// true across limits too, where the curve is smooth though the input reverses.
 #[derive(Clone, Debug)]
 pub(super) struct SampledCurve {
-    /// The samples whose position is defined.
+    /// The positions of the samples whose position is defined.
     pub points: Vec<Point>,
-    /// The index of each in its circuit.
+    /// The index of each sample in its circuit.
     pub sample_indices: Vec<usize>,
-    /// The input at each.
+    /// The input at each sample.
     pub inputs: Vec<f64>,
-    /// Whether the last is followed by the first.
+    /// Whether the last sample is followed by the first.
     pub is_closed: bool,
     /// The change of the input over one round of a closed curve: whole turns, or zero.
     pub net_input: f64,
@@ -58,7 +58,7 @@ impl Arc {
         }
         let square = sine * sine;
         if square < 1e-4 {
-            // asin(x)/x and (d - sin d)/(2 k^2) by their series, accurate to 1e-16 in this range.
+            // The formulas below as series in the sine, accurate to 1e-16 in this range.
             let length = chord * (1.0 + square / 6.0 * (1.0 + square * 9.0 / 20.0 * (1.0 + square * 25.0 / 42.0)));
             let area = chord * chord * sine / 6.0 * (1.0 + square * 3.0 / 10.0 * (1.0 + square * 25.0 / 28.0));
             return Arc { length, area };
@@ -210,8 +210,8 @@ impl SampledCurve {
         self.arcs().iter().map(|arc| arc.length).collect()
     }
 
-    /// The length of the path from the first sample to a point on it that is reached after an input travel; `lengths`
-    /// are those up to each sample.
+    /// The length of the path from the first sample to a point on it at which the input has travelled by `travelled`;
+    /// `lengths` are those up to each sample.
     pub fn length_at(&self, point: Point, travelled: f64, lengths: &[f64]) -> f64 {
         let i = self.input_travel[..self.points.len()].partition_point(|&travel| travel <= travelled).max(1) - 1;
         let next = self.neighbour(i, 1).unwrap_or(i);

@@ -17,8 +17,8 @@ type JointSeries = VectorSeries<f64, 4>;
 pub struct JointDerivatives(Vec<JointSeries>);
 
 impl JointDerivatives {
-    /// The derivatives at an input in an assembly mode; those of the dyads in `flat`, which are flat there, are
-    /// unbounded.
+    /// The derivatives at an input in an assembly mode; those of the dyads in `flat`, which are fully stretched or
+    /// folded there, are unbounded.
     ///
     /// # Source
     /// The constraints of each dyad, differentiated as series.
@@ -81,7 +81,8 @@ impl JointDerivatives {
     }
 }
 
-/// Terms of a series at an end of a pass: each dyad that touches its flat pose there uses up one of them.
+/// The number of terms of a series at an end of a pass. The square root that places each dyad at a change
+/// point there loses one of them.
 const END_TERMS: usize = 8;
 
 /// Positions and derivatives in the frame of the fixed joints, by series of `N` terms; `inwards` is 1 where the pass
@@ -115,12 +116,13 @@ fn differentiate_joints<const N: usize>(
 struct DyadHeight<const N: usize> {
     /// Along a slider's line or perpendicular to a base; of any length.
     direction: VectorSeries<f64, N>,
-    /// The square of the distance, in lengths of the direction.
+    /// The square of the distance divided by the squared length of the direction.
     height_squared: Series<f64, N>,
-    /// The magnitude of the terms that the square is the sum of.
+    /// The magnitude of the terms whose sum is `height_squared`, to which its rounding errors are relative.
     magnitude: f64,
 }
 
+/// The height of a dyad over its flat pose; `None` for a joint that is not a dyad's, and for a slot without offset.
 fn dyad_height<const N: usize>(kind: JointKind, at: &[VectorSeries<f64, N>]) -> Option<DyadHeight<N>> {
     let between = |[p, q]: [JointId; 2]| at[q].minus(at[p]);
     let left_normal = |base: VectorSeries<f64, N>| VectorSeries { x: -base.y, y: base.x };
@@ -189,7 +191,7 @@ fn to_view_frame(linkage: &Linkage, mut at: Vec<JointSeries>) -> Vec<JointSeries
             let v = place.minus(from);
             *place = VectorSeries { x: unit.dot(v), y: unit.cross(v) };
         }
-        // The joints of the link the linkage is seen from are at rest; their computed derivatives are rounding.
+        // The joints of the link the linkage is seen from are at rest; their computed derivatives are rounding errors.
         for (joint, _) in &linkage.ground().joints {
             let VectorSeries { x, y } = at[*joint];
             at[*joint] = VectorSeries { x: Series::constant(x.0[0]), y: Series::constant(y.0[0]) };

@@ -29,7 +29,7 @@ pub enum Sampling {
 /// The most samples a circuit may have.
 pub const MAX_SAMPLES: usize = 100_000;
 
-/// Samples circuits. Contains the sines and cosines of a full turn, computed once for all cells.
+/// Samples circuits. Contains the sines and cosines of a full turn, computed once for all linkages that it samples.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     sampling: Sampling,
@@ -113,7 +113,7 @@ impl Sampler {
         let turn = match sampling {
             Sampling::Step(step) => {
                 assert!(step > 0.0, "a step of {step}");
-                // The step may be one of a length and very short; the table is not used then.
+                // The step may be that of an actuator's length and very short; the table is not used then.
                 multiples(step, 0.0, 360.0).take(MAX_SAMPLES).map(InputPosition::from_degrees).collect()
             }
             Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => {
@@ -129,7 +129,7 @@ impl Sampler {
         &self.full_turn
     }
 
-    /// The error of a step that is too short for a circuit, if it is.
+    /// The error to report if the step is too short for a circuit.
     pub(super) fn excess_error(&self, circuit: &UnsampledCircuit) -> Option<AssemblyError> {
         let Sampling::Step(step) = self.sampling else { return None };
         // A full turn may have `MAX_SAMPLES` samples, and one more by rounding.
@@ -143,16 +143,16 @@ impl Sampler {
         let mut positions = JointPositions::new(linkage.joints.len(), plan.inputs.len());
         let inputs = InputColumns::new(&plan.inputs);
         let all = linkage.joints.len();
-        for (run, pass) in plan.pass_ranges.iter().zip(&circuit.passes) {
+        for (range, pass) in plan.pass_ranges.iter().zip(&circuit.passes) {
             let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
-            place_leading_joints(linkage, all, inputs.slice(run.clone()), &signs, &mut positions, run.clone());
+            place_leading_joints(linkage, all, inputs.slice(range.clone()), &signs, &mut positions, range.clone());
         }
         for &(sample, pass, is_first) in &plan.pass_ends {
             place_at_end(linkage, &circuit.passes[pass], is_first, &mut positions, sample);
             plan.sample_passes[sample] = pass;
         }
         convert_to_view_frame(linkage, &mut positions);
-        let input = plan.inputs.iter().map(|stop| stop.value).collect();
+        let input = plan.inputs.iter().map(|position| position.value).collect();
         Circuit {
             is_closed: circuit.is_closed,
             passes: circuit.passes,
@@ -320,7 +320,7 @@ fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
         None => k * step,
     };
     let first = (from / step).ceil() as i64;
-    (first..).map(move |k| multiple(k as f64)).skip_while(move |deg| *deg < from).take_while(move |deg| *deg < to)
+    (first..).map(move |k| multiple(k as f64)).skip_while(move |at| *at < from).take_while(move |at| *at < to)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use coupler_curves::expression::{CompiledExpression, Kind};
 use coupler_curves::family::Family;
 use coupler_curves::measure;
 
-/// The names of a sample other than columns; `input_deg` is `input_length` if the input is a length.
+/// The names of the values of a sample other than the columns; `input_deg` is `input_length` if the input is a length.
 pub(super) const SAMPLE_NAMES: [&str; 4] = ["x", "y", "input_deg", "arc"];
 
 /// The names that the expressions of a chart may use, with their kinds: those of [`Family::scope`], then those of a
@@ -23,7 +23,7 @@ pub fn is_per_sample(value: &CompiledExpression, names: &[String]) -> bool {
     value.slots().iter().any(|&slot| slot >= curve_slots)
 }
 
-/// The unit of an expression: `deg` for the single name of an angle, otherwise empty.
+/// The unit of an expression: `deg` if it is only the name of an angle, otherwise empty.
 pub fn unit(text: &str, is_driven_by_length: bool) -> &'static str {
     // The input of an actuator is a length even in a measure whose name ends in `_deg`.
     let is_input = text.starts_with("input_") || (text.starts_with("straight_") && text.ends_with("_deg"));

@@ -7,7 +7,7 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
-/// A typeface of the DejaVu family, which is part of the program.
+/// A typeface of the DejaVu family; its font files are embedded in the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Typeface {
     /// DejaVu Serif.
@@ -59,7 +59,7 @@ impl Typeface {
     }
 }
 
-/// A face of a typeface.
+/// The upright or the italic face of a typeface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Face {
     /// The typeface.
@@ -83,6 +83,7 @@ pub enum OutlineSegment {
     Close,
 }
 
+/// A parsed font file with its cached glyphs.
 struct Font {
     bytes: &'static [u8],
     font: FontRef<'static>,
@@ -107,7 +108,7 @@ const CACHED_CHARACTERS: usize = 0x2300;
 
 impl Font {
     fn new(bytes: &'static [u8]) -> Font {
-        let font = FontRef::new(bytes).expect("the dejavu crate ships whole fonts");
+        let font = FontRef::new(bytes).expect("the fonts of the dejavu crate are valid");
         let units_per_em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
         Font { bytes, font, units_per_em, glyphs: vec![OnceLock::new(); CACHED_CHARACTERS] }
     }

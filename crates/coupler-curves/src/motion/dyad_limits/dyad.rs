@@ -1,4 +1,4 @@
-//! A dyad and the extent that decides whether it closes.
+//! A dyad and its extent, the length that decides whether it closes.
 
 use super::closed_form::SinusoidalExtent;
 use crate::geometry::{cross, left_normal};
@@ -35,13 +35,13 @@ impl Dyad {
         }
     }
 
-    /// Whether its joint is not determined where its base vanishes, and is placed by continuity.
+    /// Whether its base can have length zero, where its joint is not determined and is placed by continuity.
     pub fn base_can_vanish(&self) -> bool {
         matches!(self.kind, JointKind::Dyad { .. } | JointKind::Slot { offset: 0.0, .. })
     }
 
     /// The range of a piston's length: from the pose in which crank and frame are folded, or from zero, to that in
-    /// which they are stretched.
+    /// which they are stretched. Its ends are numbered from `next_id + 1`.
     pub fn stroke(&self, linkage: &Linkage, next_id: &mut usize) -> Option<Span> {
         let JointKind::Piston { base: [c, o], length, offset, .. } = self.kind else { return None };
         let frame = (linkage.links[0].position(c)? - linkage.links[0].position(o)?).norm();
@@ -70,8 +70,8 @@ impl Dyad {
         }
     }
 
-    /// The extent as a function of the cosine of the crank's angle, if it depends on a point of the crank's link and on
-    /// the frame only.
+    /// The extent as a function of the cosine of the crank's angle, if it depends only on the frame and on a point of
+    /// the crank's link.
     pub fn sinusoidal_extent(&self, linkage: &Linkage) -> Option<SinusoidalExtent> {
         if linkage.input() != (Input::Angle { turns: 1 }) {
             return None;

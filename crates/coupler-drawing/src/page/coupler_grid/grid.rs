@@ -1,4 +1,4 @@
-//! The grids that traced points lie on: hairlines through the points, and the axis of the link.
+//! Grids of traced points: hairlines through the points, and the line of the two joints they are placed from.
 
 use super::super::plot::Plot;
 use super::super::theme::Theme;
@@ -6,15 +6,16 @@ use crate::scene::{Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Vector, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, Linkage};
 
-/// The grids of a linkage, one for each base that traced points have coordinates on.
+/// The grids of a linkage, one for each base that traced points are placed from.
 pub(super) struct PointGrids {
     grids: Vec<PointGrid>,
 }
 
 /// The grid of the points on one base.
 struct PointGrid {
+    /// The two joints of the link that the coordinates are measured from.
     base: [JointId; 2],
-    /// The coordinates of its lines along the base and to the left of it, in lengths of the base, ascending.
+    /// The coordinates of its lines along the base and to the left of it, as multiples of the base's length, ascending.
     coordinates: [Vec<f64>; 2],
 }
 
