@@ -120,7 +120,7 @@ const tests = [
       await page.click(".export-button");
       await page.getByRole("menuitem", { name: "Copy command line" }).click();
       const command = await page.locator(".export-copy textarea").inputValue();
-      assert.match(command, /^# The atlas does not contain the circuit of evans:1\.1\.1\?circuit=2\.\n[\s\S]*coupler-atlas export circuits\.toml evans-taken:1\.1\.2 --format/);
+      assert.match(command, /^# The atlas does not contain the circuit of evans:1\.1\.1\?circuit=2\.\n[\s\S]*coupler-atlas export circuits\.toml evans-exported:1\.1\.2 --format/);
     })],
   ["6.3", "the command line and the fragment are copied, or shown for copying", async ({ browser }) => {
     await onPlate(browser, "/evans/curve/1.1.1", async (page) => {

@@ -412,7 +412,7 @@ fn a_fragment_of_a_manifest_draws_the_same_curves() {
         FAMILIES.into_iter().zip(["evans", "watt", "mine", "hoeken", "linear-actuator", "hrones-nelson"])
     {
         let (header, curves) = points(folder.path(), family);
-        let (new_header, new) = points(again.path(), &format!("{linkage}-taken"));
+        let (new_header, new) = points(again.path(), &format!("{linkage}-exported"));
         assert_eq!(header, new_header, "{manifest}");
         // The second cell of `watt` is not assembled and has no curve to export.
         assert_eq!(curves, new, "{family}");

@@ -36,7 +36,7 @@ pub fn manifest_fragment(cases: &[ParameterSet]) -> String {
 fn family_id(linkage: &str, number: usize) -> String {
     let stem: String = linkage.chars().take(50).collect();
     let stem = stem.trim_end_matches('-');
-    if number == 1 { format!("{stem}-taken") } else { format!("{stem}-taken-{number}") }
+    if number == 1 { format!("{stem}-exported") } else { format!("{stem}-exported-{number}") }
 }
 
 /// Writes one family, with a row of parameter values for each cell.

@@ -37,7 +37,7 @@ export function manifestOfCurves(curves) {
 }
 
 /**
- * The names in the manifest of curves on circuits that the atlas does not contain, "evans-taken:1.1.2"; null
+ * The names in the manifest of curves on circuits that the atlas does not contain, "evans-exported:1.1.2"; null
  * if the traced point was moved, which no parameter describes.
  */
 export function curveNamesInManifest(curves) {
@@ -78,7 +78,7 @@ function rowsOfFamily({ curves }) {
 }
 
 function idInManifest({ linkage, number }) {
-  return `${linkage.slice(0, 50).replace(/-+$/, "")}-taken${number > 1 ? `-${number}` : ""}`;
+  return `${linkage.slice(0, 50).replace(/-+$/, "")}-exported${number > 1 ? `-${number}` : ""}`;
 }
 
 function familyInManifest(group) {
