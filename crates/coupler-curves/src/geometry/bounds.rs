@@ -24,6 +24,7 @@ impl Bounds {
     }
 
     /// Extends the bounds to contain `p`; a point that is not finite is ignored.
+    #[inline]
     pub fn include(&mut self, p: Point) {
         if p.x.is_finite() && p.y.is_finite() {
             self.min = self.min.inf(&p);
@@ -32,21 +33,25 @@ impl Bounds {
     }
 
     /// The bounds of both.
+    #[inline]
     pub fn union(self, other: Bounds) -> Bounds {
         Bounds { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
     /// Whether no point was included.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x
     }
 
     /// The width and the height; zero if empty.
+    #[inline]
     pub fn size(&self) -> Vector {
         if self.is_empty() { Vector::zeros() } else { self.max - self.min }
     }
 
     /// The centre; the origin if empty.
+    #[inline]
     pub fn centre(&self) -> Point {
         if self.is_empty() { Point::origin() } else { nalgebra::center(&self.min, &self.max) }
     }

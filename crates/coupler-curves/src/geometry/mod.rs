@@ -24,21 +24,25 @@ pub type Point = nalgebra::Point2<f64>;
 pub type Vector = nalgebra::Vector2<f64>;
 
 /// The vector rotated a quarter turn counter-clockwise: the positive normal of its direction, with the same length.
+#[inline]
 pub fn left_normal(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
 /// The product of two vectors as complex numbers: `b` rotated by the angle of `a` and scaled by its length.
+#[inline]
 pub fn complex_product(a: Vector, b: Vector) -> Vector {
     Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 
 /// The cross product `a.x b.y - a.y b.x`: positive when `b` points to the left of `a`.
+#[inline]
 pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
 /// The distance of `p` from the segment `a b`; from `a` if the segment has length 0.
+#[inline]
 pub fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let direction = b - a;
     let length_squared = direction.norm_squared();

@@ -23,6 +23,7 @@ impl Orientation {
     }
 
     /// The image of a vector.
+    #[inline]
     pub fn transform_vector(&self, v: Vector) -> Vector {
         let (cos, sin) = (self.axis.x, self.axis.y);
         let y = if self.is_mirrored { -v.y } else { v.y };
@@ -30,6 +31,7 @@ impl Orientation {
     }
 
     /// The image of a point.
+    #[inline]
     pub fn transform_point(&self, p: Point) -> Point {
         Point::from(self.transform_vector(p.coords))
     }

@@ -22,6 +22,7 @@ impl Similarity {
     }
 
     /// The image of a point.
+    #[inline]
     pub fn apply(&self, p: Point) -> Point {
         let y = if self.flips_y { -p.y } else { p.y };
         self.origin + Vector::new(p.x, y) * self.scale

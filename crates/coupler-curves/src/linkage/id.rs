@@ -11,11 +11,13 @@ macro_rules! index_type {
 
         impl $name {
             /// The id of an index.
+            #[inline]
             pub const fn new(index: usize) -> $name {
                 $name(index)
             }
 
             /// The index, from 0.
+            #[inline]
             pub const fn index(self) -> usize {
                 self.0
             }
@@ -24,12 +26,14 @@ macro_rules! index_type {
         impl<T> Index<$name> for [T] {
             type Output = T;
 
+            #[inline]
             fn index(&self, id: $name) -> &T {
                 &self[id.0]
             }
         }
 
         impl<T> IndexMut<$name> for [T] {
+            #[inline]
             fn index_mut(&mut self, id: $name) -> &mut T {
                 &mut self[id.0]
             }
@@ -38,12 +42,14 @@ macro_rules! index_type {
         impl<T> Index<$name> for Vec<T> {
             type Output = T;
 
+            #[inline]
             fn index(&self, id: $name) -> &T {
                 &self[id.0]
             }
         }
 
         impl<T> IndexMut<$name> for Vec<T> {
+            #[inline]
             fn index_mut(&mut self, id: $name) -> &mut T {
                 &mut self[id.0]
             }

@@ -41,6 +41,7 @@ impl JointPositions {
     }
 
     /// The position of a joint at a sample; NaN where it is undefined.
+    #[inline]
     pub fn point(&self, joint: JointId, sample: usize) -> Point {
         Point::new(self.x(joint)[sample], self.y(joint)[sample])
     }

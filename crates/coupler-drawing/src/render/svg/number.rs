@@ -1,6 +1,7 @@
 //! Numbers of an SVG, in as few characters as possible.
 
 /// A length in whole micrometres.
+#[inline]
 pub(super) fn to_micrometres(mm: f64) -> i64 {
     (mm * 1000.0).round() as i64
 }
@@ -12,6 +13,7 @@ pub(super) struct Number(pub i64);
 impl Number {
     /// The text of the number, at the end of a buffer. An SVG consists mostly of numbers, and this is faster than
     /// `fmt`.
+    #[inline]
     pub fn format_into(self, buffer: &mut [u8; 24]) -> &str {
         let (mut whole, mut part) = (self.0.unsigned_abs() / 1000, self.0.unsigned_abs() % 1000);
         let mut at = buffer.len();

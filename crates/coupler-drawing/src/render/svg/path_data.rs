@@ -45,6 +45,7 @@ pub(super) struct PathWriter {
 
 impl PathWriter {
     /// Appends a command with its points.
+    #[inline]
     pub fn write_command(&mut self, out: &mut String, command: char, points: &[Point]) {
         let from = self.current;
         if self.last_command == Some(command) && command != 'm' || self.last_command == Some('m') && command == 'l' {
@@ -65,6 +66,7 @@ impl PathWriter {
         }
     }
 
+    #[inline]
     fn write_point(&mut self, out: &mut String, from: [i64; 2], point: Point, is_separated: bool) {
         self.current = [to_micrometres(point.x), to_micrometres(point.y)];
         let (x, y) = (self.current[0] - from[0], self.current[1] - from[1]);
