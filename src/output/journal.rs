@@ -35,11 +35,13 @@ impl<'a> Journal<'a> {
     }
 
     /// The record of the book.
+    #[cfg(feature = "pdf")]
     pub fn book(&self) -> Option<&BookRecord> {
         self.book.as_ref()
     }
 
     /// Replaces the record of the book, on disk too.
+    #[cfg(feature = "pdf")]
     pub fn set_book(&mut self, record: Option<BookRecord>) -> Result<(), Error> {
         self.book = record;
         self.save()?;

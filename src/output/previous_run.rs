@@ -10,6 +10,7 @@ use super::{Error, Event, files};
 use crate::gallery;
 use crate::pipeline::page_file_name;
 use crate::record::{FamilyRecord, FileRecord, ReadError, RunRecord};
+#[cfg(feature = "pdf")]
 use coupler_drawing::page::book::Volume;
 use coupler_drawing::render::PageFormat;
 
@@ -24,6 +25,7 @@ pub(super) fn parse_page_number(family: &str, name: &str, format: PageFormat) ->
 }
 
 /// The file name of a volume, or of the book if it has only one.
+#[cfg(feature = "pdf")]
 pub(super) fn volume_name(volume: &Volume) -> String {
     let Volume { number, volume_count, .. } = *volume;
     match volume_count.to_string().len() {

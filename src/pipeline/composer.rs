@@ -98,6 +98,7 @@ impl Composer<'_> {
     }
 
     /// The frontispiece of a book: a single panel of a cell.
+    #[cfg(feature = "pdf")]
     pub fn frontispiece<'s>(&'s self, solved: &'s SolvedCell) -> PanelPage<'s> {
         let heading = self.heading(1, String::new());
         PanelPage {

@@ -4,7 +4,9 @@
 mod composer;
 mod pagination;
 
-pub use composer::{Composer, curves_by_page};
+pub use composer::Composer;
+#[cfg(feature = "pdf")]
+pub use composer::curves_by_page;
 pub use pagination::{Pagination, measures_used_on_pages};
 
 use std::sync::atomic::AtomicBool;
