@@ -76,9 +76,6 @@ pub struct Options {
 impl Options {
     /// The default of `chord_tolerance`.
     pub const DEFAULT_CHORD_TOLERANCE: f64 = 1e-4;
-
-    /// The paper of plates.
-    pub const PLATE_PAPER: page::Paper = plate::PAPER;
 }
 
 /// Renders a curve in a format; as manifest text, this curve alone.

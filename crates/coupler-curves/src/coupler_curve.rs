@@ -89,7 +89,7 @@ impl FourBar {
         let curves = solved.curves.iter().map(|curve| CouplerCurve {
             family: family.clone(),
             source: source.clone(),
-            solved: SolvedCell { curves: vec![curve.clone()], ..solved.clone() },
+            solved: solved.with_curve(curve),
         });
         Ok(curves.collect())
     }

@@ -15,6 +15,7 @@ use coupler_curves::exchange::{ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, Sampling};
 use coupler_curves::problem::suggestion;
 use coupler_drawing::page;
+use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::TextMode;
 
 use super::linkage::{self, DEFAULT_SAMPLES};
@@ -270,8 +271,8 @@ fn count_curves(selections: &[CurveSelection]) -> anyhow::Result<usize> {
 
 fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {
     let page = match plan {
-        Some(plan) => plan.page.clone().with_paper(Options::PLATE_PAPER),
-        None => page::Options::for_paper(Options::PLATE_PAPER),
+        Some(plan) => plan.page.clone().with_paper(PAPER),
+        None => page::Options::for_paper(PAPER),
     };
     let dpi = arguments.dpi.map(f64::from).or(plan.map(|plan| plan.dpi)).unwrap_or(f64::from(DEFAULT_DPI));
     Options {

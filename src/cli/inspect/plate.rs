@@ -1,10 +1,9 @@
 //! A drawing of the linkage.
 
-use coupler_atlas::export;
 use coupler_curves::motion;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, PoseChoice};
-use coupler_drawing::plate::moving_view;
+use coupler_drawing::plate::{PAPER, moving_view};
 use coupler_drawing::render::{self, TextMode};
 
 use super::{Report, cognates};
@@ -30,7 +29,7 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
         .with_source(template.source.clone())
         .with_symbols(&family.names);
     let sheet = PanelPage { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] };
-    let options = Options::for_paper(export::Options::PLATE_PAPER);
+    let options = Options::for_paper(PAPER);
     render::svg(&page::compose_panels(&sheet, &options), TextMode::Text)
 }
 

@@ -48,11 +48,10 @@ impl<'a> SelectedCurve<'a> {
         overrides: &'a [(String, f64)],
         solved: &SolvedCell,
     ) -> Vec<SelectedCurve<'a>> {
-        let with_curve = |curve: &MeasuredCurve| SolvedCell { curves: vec![curve.clone()], ..solved.clone() };
         solved
             .curves
             .iter()
-            .map(|curve| SelectedCurve { family, source, solved: with_curve(curve), overrides })
+            .map(|curve| SelectedCurve { family, source, solved: solved.with_curve(curve), overrides })
             .collect()
     }
 

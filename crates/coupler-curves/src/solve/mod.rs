@@ -77,6 +77,11 @@ impl SolvedCell {
         }
     }
 
+    /// The same cell with only one of its curves.
+    pub(crate) fn with_curve(&self, curve: &MeasuredCurve) -> SolvedCell {
+        SolvedCell { curves: vec![curve.clone()], ..self.clone() }
+    }
+
     /// The column `reason` of `cells.csv`: the message of the assembly error, empty without one.
     pub fn reason(&self) -> String {
         self.motion.assembly_error.as_ref().map(ToString::to_string).unwrap_or_default()

@@ -10,6 +10,7 @@ use super::theme::Theme;
 use super::{Options, Panel, PanelPage, Paper};
 use crate::scene::{Anchor, Canvas, Color, Item, Scene};
 use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::solve::SolvedCell;
 
 pub(super) fn compose(scene: &mut Scene, page: &PanelPage, grid: (usize, usize), options: &Options, theme: &Theme) {
     let root = Canvas::new(scene).into_drawing_area();
@@ -40,9 +41,7 @@ fn draw_panels(root: &Area, page: &PanelPage, (columns, rows): (usize, usize), o
         match figure {
             Some(figure) => figure.draw(area, frame, arrangement, page, (options, theme)),
             None => {
-                let error = panel.solved_cell.motion.assembly_error.as_ref();
-                let reason = error.map_or("it has no curve".to_owned(), ToString::to_string);
-                draw_not_assembled(area, frame, &reason, theme);
+                draw_not_assembled(area, frame, panel.solved_cell, theme);
             }
         }
         draw_caption(area, (foot, facts), panel, page.heading.symbols, theme);
@@ -130,13 +129,14 @@ fn draw_caption(area: &Area, (foot, facts): (f64, FactsLayout), panel: &Panel, s
 }
 
 /// Draws a message in place of a figure: the cell is not assembled, and the reason.
-pub(super) fn draw_not_assembled(area: &Area, frame: Rect, reason: &str, theme: &Theme) {
+pub(super) fn draw_not_assembled(area: &Area, frame: Rect, cell: &SolvedCell, theme: &Theme) {
+    let reason = cell.motion.assembly_error.as_ref().map_or("it has no curve".to_owned(), ToString::to_string);
     let centre = frame.centre();
     let text_line = |text: &str, size: f64, color: Color| {
         theme.text_line(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color)
     };
     let mut lines = vec![text_line("not assembled", theme.caption_size, theme.curve_ink(0)).text];
-    let reason = text_line(reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
+    let reason = text_line(&reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
     lines.extend(reason.iter().map(|line| text_line(line, theme.note_size, theme.grey).text));
     let step = 1.5 * theme.note_size;
     let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;

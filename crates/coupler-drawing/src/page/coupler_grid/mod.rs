@@ -67,9 +67,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
             table::draw(&root, rest, page, &shown, theme);
         }
         None => {
-            let error = solved.motion.assembly_error.as_ref();
-            let reason = error.map_or("it has no curve".to_owned(), ToString::to_string);
-            super::panels::draw_not_assembled(&root, whole, &reason, theme);
+            super::panels::draw_not_assembled(&root, whole, solved, theme);
         }
     }
     footer::draw_source(&root, side, page, theme);
