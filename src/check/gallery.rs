@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::finding::{Change, Finding, Location};
 use super::tables::file_change;
-use crate::record::{FileRecord, TableError, TextDigests, open_regular_file};
+use crate::record::{Digest, FileError, FileRecord, TextDigests, open_regular_file};
 
 /// The finding on a file of the gallery, if it has changed; `name` is its path in the folder of the atlas.
 pub(super) fn check_file(output: &Path, name: &str, record: &FileRecord) -> Option<Finding> {
@@ -18,9 +18,8 @@ pub(super) fn check_file(output: &Path, name: &str, record: &FileRecord) -> Opti
 }
 
 /// The digests of a file: of its bytes, and of its text with plain line endings.
-fn digests(path: &Path) -> Result<[String; 2], TableError> {
+fn digests(path: &Path) -> Result<[Digest; 2], FileError> {
     let mut digests = TextDigests::default();
-    let read = io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digests);
-    read.map_err(|error| TableError::Unreadable(error.to_string()))?;
+    io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digests)?;
     Ok(digests.finish())
 }

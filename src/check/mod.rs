@@ -11,8 +11,10 @@ mod family;
 mod finding;
 mod gallery;
 mod hausdorff;
+mod images;
 mod matching;
 mod numbering;
+mod outdated;
 mod overlays;
 mod pages;
 mod tables;
@@ -20,9 +22,9 @@ mod tables;
 pub use finding::{Change, Displacement, Finding, Location};
 pub use overlays::{Overlay, draw_overlays};
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::convert::Infallible;
-use std::fs::{File, TryLockError};
+use std::fs::TryLockError;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
@@ -30,8 +32,9 @@ use serde::Serialize;
 
 use crate::gallery::{PAGE_FILE, SCRIPT_FILE};
 use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
-use crate::pipeline::{FamilyPipeline, Output};
-use crate::record::{FamilyRecord, LOCK_FILE_NAME, ReadError, RunRecord};
+use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
+use crate::record::{FamilyRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, ReadError, open_regular_file};
+use coupler_drawing::render::PageFormat;
 use family::FamilyCheck;
 
 /// The families to check, and the tolerances.
@@ -78,7 +81,7 @@ pub struct Report {
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The record of the atlas cannot be used.
-    #[error("cannot use {}: {source}", path.display())]
+    #[error("cannot use {}: {source}; {}", path.display(), outdated::record_remedy(source))]
     Record {
         /// The path of the record.
         path: PathBuf,
@@ -138,28 +141,45 @@ pub fn check_atlas(
     if is_locked(recorded) {
         return Err(Error::Busy { folder: recorded.to_owned() });
     }
-    let path = recorded.join("run.json");
-    let record = RunRecord::read(&path).map_err(|source| Error::Record { path, source })?;
+    let path = recorded.join(RUN_FILE_NAME);
+    let folder_record = FolderRecord::read(recorded).map_err(|source| Error::Record { path, source })?;
+    let record = &folder_record.run;
     let is_requested = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
     let mut report = Report::default();
+    let outdated = outdated::check_version(record);
+    let is_outdated = outdated.is_some();
+    report.add_findings(outdated.into_iter().collect());
     for family in record.families.iter().filter(|family| is_requested(&family.id)) {
         if plan.families.iter().all(|planned| planned.family.id != family.id) {
             report.add_findings(vec![Location::in_family(&family.id).finding(Change::FamilyRemoved)]);
         }
     }
-    if let Some(book) = record.book.as_ref().filter(|_| options.only.is_empty()) {
-        report.add_findings(book.files.iter().filter_map(|file| pages::check_volume(recorded, &file.name)).collect());
-    }
-    if let Some(page) = record.gallery.as_ref().filter(|_| options.only.is_empty()) {
-        report.add_findings(gallery::check_file(recorded, PAGE_FILE, page).into_iter().collect());
+    if options.only.is_empty() && !is_outdated {
+        let volumes = record.book.iter().flat_map(|book| &book.files);
+        report.add_findings(volumes.filter_map(|file| images::check_volume(recorded, file)).collect());
+        report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
+        let page = match &record.gallery {
+            Some(page) => gallery::check_file(recorded, PAGE_FILE, page),
+            None if folder_record.is_unfinished => None,
+            None => {
+                let message = format!("does not list {PAGE_FILE}");
+                Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message }))
+            }
+        };
+        report.add_findings(page.into_iter().collect());
     }
     for planned in plan.families.iter().filter(|planned| is_requested(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {
             Some(family_record) => {
-                check_family(plan, planned, family_record, recorded, options, &mut report, on_event);
+                let family = (planned, family_record);
+                check_family(plan, family, (recorded, is_outdated), options, &mut report, on_event);
             }
             None => report.add_findings(vec![Location::in_family(&planned.family.id).finding(Change::FamilyAdded)]),
         }
+    }
+    if report.findings.is_empty() && record.title != plan.title {
+        let message = format!("has the title {:?}, expected {:?}", record.title, plan.title);
+        report.add_findings(vec![Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message })]);
     }
     sort_worst_first(&mut report.findings);
     Ok(report)
@@ -167,16 +187,15 @@ pub fn check_atlas(
 
 /// Whether a run has locked a folder; the lock file of a run that was killed is not locked.
 fn is_locked(folder: &Path) -> bool {
-    let lock = File::open(folder.join(LOCK_FILE_NAME));
+    let lock = open_regular_file(&folder.join(LOCK_FILE_NAME), u64::MAX);
     lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 /// Checks a family, and adds the findings to the report.
 fn check_family(
     plan: &Plan,
-    planned: &PlannedFamily,
-    record: &FamilyRecord,
-    recorded: &Path,
+    (planned, record): (&PlannedFamily, &FamilyRecord),
+    (recorded, is_outdated): (&Path, bool),
     options: &Options,
     report: &mut Report,
     on_event: &mut dyn FnMut(Event),
@@ -188,7 +207,7 @@ fn check_family(
     let mut findings = Vec::new();
     let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut findings);
     let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
-    let result = pipeline.run(&family_check, |output| {
+    let result = pipeline.run(&family_check, GroupsDone::default(), |output| {
         match output {
             Output::Cells(cells) => {
                 findings.extend(cells.findings);
@@ -199,6 +218,7 @@ fn check_family(
                 pages.push(page);
                 on_event(Event::Page);
             }
+            Output::Done(_) => {}
         }
         Ok::<(), Infallible>(())
     });
@@ -209,6 +229,46 @@ fn check_family(
     if let Some(script) = record.files.iter().find(|file| file.name == SCRIPT_FILE) {
         findings.extend(gallery::check_file(recorded, &format!("{}/{SCRIPT_FILE}", planned.family.id), script));
     }
+    if is_outdated {
+        findings.retain(outdated::is_comparable);
+    } else if findings.is_empty() {
+        findings.extend(check_counts(&pipeline, record));
+    }
     report.add_findings(findings);
     on_event(Event::End);
+}
+
+/// The finding on the record of a family whose files are as recorded, if it does not say what is in them.
+fn check_counts(pipeline: &FamilyPipeline, record: &FamilyRecord) -> Option<Finding> {
+    let family = &pipeline.composer.planned.family;
+    let location = Location::in_family(&family.id).with_file(RUN_FILE_NAME);
+    let message = if record.inputs_sha256.is_none() {
+        "does not say that the family is complete"
+    } else if (record.cells, record.kept) != (family.cell_count(), pipeline.arrangement.kept.len()) {
+        "has another number of cells"
+    } else if record.title != family.title {
+        "has another title of the family"
+    } else if !lists_all_pages(pipeline, record) {
+        "does not list all pages of the family"
+    } else {
+        return None;
+    };
+    Some(location.finding(Change::Damaged { message: message.to_owned() }))
+}
+
+/// Whether the record of a family lists each of its pages in the same formats, and no other pages.
+fn lists_all_pages(pipeline: &FamilyPipeline, record: &FamilyRecord) -> bool {
+    let page_count = pipeline.pagination.page_count;
+    let listed: HashSet<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
+    let data_files = ["cells.csv", "points.csv", SCRIPT_FILE].iter().filter(|name| listed.contains(**name)).count();
+    let page_files: usize = PageFormat::ALL
+        .into_iter()
+        .map(|format| {
+            let is_listed =
+                |page: &usize| listed.contains(page_file_name(&record.id, (*page, page_count), format).as_str());
+            (1..=page_count).filter(is_listed).count()
+        })
+        .filter(|&count| count == page_count)
+        .sum();
+    data_files == 3 && data_files + page_files == record.files.len()
 }

@@ -8,7 +8,7 @@ use super::family::FamilyCheck;
 use super::{Change, Finding, Options, Report};
 use crate::manifest::Plan;
 use crate::pipeline::FamilyPipeline;
-use crate::record::RunRecord;
+use crate::record::FolderRecord;
 use coupler_curves::geometry::Point;
 use coupler_curves::motion::{self, DashPattern};
 use coupler_drawing::page::{self, OverlayPage};
@@ -40,7 +40,7 @@ pub fn draw_overlays<'r>(
     let mut seen = HashSet::new();
     findings.retain(|finding| seen.insert(finding.location.to_string()));
     findings.truncate(max_overlays);
-    let Ok(run) = RunRecord::read(&recorded.join("run.json")) else { return };
+    let Ok(FolderRecord { run, .. }) = FolderRecord::read(recorded) else { return };
     for planned in &plan.families {
         let family_findings: Vec<&Finding> =
             findings.iter().copied().filter(|f| f.location.family == planned.family.id).collect();

@@ -1,16 +1,15 @@
 //! Compares the recorded pages of a family with the current ones, and with the recorded points.
 
 use std::collections::HashMap;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::curve_samples::CurveSamples;
 use super::finding::{Change, Finding, Location};
+use super::images::image_change;
 use super::tables::file_change;
 use crate::pipeline::{FamilyPipeline, PageContent, PageJob, page_file_name};
-use crate::record::{
-    FamilyRecord, FileRecord, TableError, TextDigests, is_intact_png, open_regular_file, read_drawn_curves,
-};
+use crate::record::{FamilyRecord, FileRecord, TextDigests, read_drawn_curves, read_regular_file};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::render::{self, PageFormat};
 
@@ -55,14 +54,16 @@ impl<'a> RecordedPages<'a> {
         };
         let mut page = PageFindings { cells, ..PageFindings::default() };
         let plan = self.pipeline.composer.plan;
-        let name = |format| page_file_name(&self.location.family, job.number, format);
+        let number = (job.number, self.pipeline.pagination.page_count);
+        let name = |format| page_file_name(&self.location.family, number, format);
         let [svg_name, png_name] = PageFormat::ALL.map(name);
         let (svg_record, png_record) = (self.files.get(svg_name.as_str()), self.files.get(png_name.as_str()));
         if svg_record.is_none() && png_record.is_none() {
             return page;
         }
         let content = job.content;
-        let svg = render::svg(&job.compose(), plan.text_mode);
+        let scene = job.compose();
+        let svg = render::svg(&scene, plan.text_mode);
         if let Some(record) = svg_record {
             let recorded_svg = self.check_svg(record, &svg, &mut page);
             if let (Some(bytes), PageContent::Cells { cells, .. }) = (recorded_svg, content) {
@@ -70,17 +71,13 @@ impl<'a> RecordedPages<'a> {
             }
         }
         if let Some(record) = png_record {
-            let current_record = FileRecord::from_page_svg(&record.name, &svg, plan.dpi);
-            if record.drawn_from_sha256 != current_record.drawn_from_sha256 {
+            let is_current = record.drawn_from_sha256 == Some(FileRecord::drawing_digest(&svg, plan.dpi));
+            if !is_current {
                 page.differing_files.push(record.name.clone());
             }
-            let error = match read_file(&self.folder.join(&record.name)) {
-                Ok(bytes) if is_intact_png(&bytes) => None,
-                Ok(_) => Some("is not a complete PNG image".to_owned()),
-                Err(error) => Some(error.to_string()),
-            };
-            let finding = |message| self.file_location(&record.name).finding(Change::Damaged { message });
-            page.findings.extend(error.map(finding));
+            let draw = || if is_current { render::png(&scene, plan.dpi).ok() } else { None };
+            let change = image_change(&self.folder, record, draw);
+            page.findings.extend(change.map(|change| self.file_location(&record.name).finding(change)));
         }
         page
     }
@@ -88,7 +85,7 @@ impl<'a> RecordedPages<'a> {
     /// Compares the bytes of a recorded page with the current drawing, and returns them; `None` if they cannot be read.
     fn check_svg(&self, record: &FileRecord, current: &[u8], page: &mut PageFindings) -> Option<Vec<u8>> {
         let location = self.file_location(&record.name);
-        let bytes = match read_file(&self.folder.join(&record.name)) {
+        let bytes = match read_regular_file(&self.folder.join(&record.name), MAX_BYTES) {
             Ok(bytes) => bytes,
             Err(error) => {
                 page.findings.push(location.finding(Change::Damaged { message: error.to_string() }));
@@ -168,29 +165,5 @@ impl<'a> RecordedPages<'a> {
 
     fn file_location(&self, name: &str) -> Location {
         self.location.with_file(&format!("{}/{name}", self.location.family))
-    }
-}
-
-/// The finding on a volume of the book, if it is missing. Its bytes are not compared: they may differ between machines.
-pub(super) fn check_volume(output: &Path, name: &str) -> Option<Finding> {
-    // A record is not trusted: a name with a folder would lead out of the atlas.
-    let is_file_name = Path::new(name).components().count() == 1;
-    let result = match is_file_name {
-        true => open_regular_file(&output.join(name), u64::MAX).map(drop),
-        false => Err(TableError::NotFound),
-    };
-    let finding = |error: TableError| Change::Damaged { message: error.to_string() };
-    result.err().map(|error| Location::default().with_file(name).finding(finding(error)))
-}
-
-/// Reads a file.
-///
-/// # Errors
-/// It is missing, not a regular file, or cannot be read.
-fn read_file(path: &Path) -> Result<Vec<u8>, TableError> {
-    let mut bytes = Vec::new();
-    match open_regular_file(path, MAX_BYTES)?.take(MAX_BYTES).read_to_end(&mut bytes) {
-        Ok(_) => Ok(bytes),
-        Err(error) => Err(TableError::Unreadable(error.to_string())),
     }
 }

@@ -6,7 +6,7 @@ use super::cells::CellColumns;
 use super::curve_samples::{CurveSamples, PointColumns};
 use super::finding::{Change, Finding, Location};
 use crate::pipeline::FamilyPipeline;
-use crate::record::{CellTable, FamilyRecord, FileRecord, RecordedTable, Row, TableError, parse_rows};
+use crate::record::{CellTable, Digest, FamilyRecord, FileRecord, RecordedTable, Row, TableError, parse_rows};
 use coupler_curves::exchange::PointTable;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::SolvedCell;
@@ -197,7 +197,7 @@ impl<'a> Tables<'a> {
 
 /// The change of a file since it was recorded; `digests` are that of its bytes, and that of its text with plain line
 /// endings.
-pub(super) fn file_change(record: Option<&FileRecord>, digests: &[String; 2]) -> Option<Change> {
+pub(super) fn file_change(record: Option<&FileRecord>, digests: &[Digest; 2]) -> Option<Change> {
     let Some(recorded) = record.and_then(|record| record.sha256.as_ref()) else {
         return Some(Change::Damaged { message: "is not in the record of the run".to_owned() });
     };

@@ -104,7 +104,14 @@ fn report_failure(error: &anyhow::Error) -> ExitCode {
     let is_input = error.downcast_ref::<InputError>().is_some()
         || matches!(
             error.downcast_ref(),
-            Some(output::Error::Read { .. } | output::Error::Record { .. } | output::Error::Format { .. })
+            Some(
+                output::Error::Read { .. }
+                    | output::Error::Record { .. }
+                    | output::Error::ForeignRecord { .. }
+                    | output::Error::OtherManifest { .. }
+                    | output::Error::ForeignFile { .. }
+                    | output::Error::TooManyFiles { .. }
+            )
         )
         || matches!(error.downcast_ref(), Some(coupler_atlas::check::Error::Record { .. }));
     let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted));

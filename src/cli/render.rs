@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use clap::Args;
 use coupler_atlas::output::{self, Event};
@@ -17,10 +18,11 @@ use super::{EXIT_INTERRUPTED, Outcome, pluralize, print, print_stderr};
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The manifest.
+    /// The manifest; - for standard input, which needs --output.
     #[arg(default_value = DEFAULT_MANIFEST)]
     manifest: PathBuf,
-    /// The folder to write to [default: `output` of the manifest, relative to the manifest].
+    /// The folder to write to [default: `output` of the manifest, relative to it, or else its path without the
+    /// extension].
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// The formats of pages, instead of the manifest's: svg, png, pdf (one book); pages that an earlier run wrote in
@@ -33,6 +35,9 @@ pub struct Arguments {
     /// Draw every page, including those that are up to date.
     #[arg(long)]
     force: bool,
+    /// Replace the atlas of another manifest, and files that no earlier run wrote.
+    #[arg(long)]
+    overwrite: bool,
     /// The number of threads [default: one for each processor].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
@@ -64,9 +69,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    let output = source.output_folder(arguments.output.as_deref());
-    let (formats, only, force) = (arguments.format.clone(), arguments.only.clone(), arguments.force);
-    let options = output::Options { formats, only, force, interrupt: interrupt_flag()? };
+    let output = source.output_folder(arguments.output.as_deref())?;
+    let options = output::Options {
+        formats: arguments.format.clone(),
+        only: arguments.only.clone(),
+        force: arguments.force,
+        overwrite: arguments.overwrite,
+        manifest: Some(source.file_name()),
+        interrupt: interrupt_flag()?,
+    };
     let mut reporter =
         ProgressReporter { is_quiet: arguments.quiet, bar: ProgressBar::hidden(), warnings: 0, not_assembled: 0 };
     let mut lines = String::new();
@@ -80,6 +91,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(if arguments.strict && reporter.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
 }
 
+/// How long a run may take to end after Ctrl-C before the process ends.
+const GRACE_PERIOD: Duration = Duration::from_millis(700);
+
 /// A flag that the first Ctrl-C sets; the second ends the program at once.
 fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
     let interrupt = Arc::new(AtomicBool::new(false));
@@ -88,6 +102,13 @@ fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
         if flag.swap(true, Ordering::Relaxed) {
             std::process::exit(EXIT_INTERRUPTED.into());
         }
+        // A cell of very many samples, or a large page, may not look at the flag soon enough. Whatever the threads are
+        // doing, files are complete and in the journal.
+        std::thread::spawn(|| {
+            std::thread::sleep(GRACE_PERIOD);
+            print_stderr(&format!("error: {}\n", output::Error::Interrupted));
+            std::process::exit(EXIT_INTERRUPTED.into());
+        });
     })?;
     Ok(interrupt)
 }
@@ -145,7 +166,7 @@ impl ProgressReporter {
             Event::UnusableRecord { record, error } => {
                 let record = record.display();
                 print_stderr(&format!(
-                    "warning: cannot use {record}: {error}; every page is drawn, and no file is removed\n"
+                    "warning: {record} is replaced: {error}; every page is drawn, and no file is removed\n"
                 ));
             }
         }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::output;
+use coupler_atlas::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
 use super::{InputError, pluralize, print_stderr};
@@ -62,11 +63,40 @@ impl ManifestSource {
         }
     }
 
-    /// The output folder: the one given on the command line, or that of the manifest, relative to the manifest.
-    pub fn output_folder(&self, given: Option<&Path>) -> PathBuf {
-        match given {
-            Some(folder) => folder.to_owned(),
-            None => self.path.parent().unwrap_or(Path::new("")).join(&self.plan.output),
+    /// The output folder: the one given on the command line; or that of the manifest, relative to it; or the manifest's
+    /// path without its extension.
+    ///
+    /// # Errors
+    /// None is given, and the manifest has no folder or no extension.
+    pub fn output_folder(&self, given: Option<&Path>) -> Result<PathBuf, InputError> {
+        if let Some(folder) = given {
+            return Ok(folder.to_owned());
+        }
+        if self.path.as_os_str() == RunRecord::STANDARD_INPUT {
+            return Err(InputError(
+                "a manifest from standard input has no folder: name one to write to with -o".to_owned(),
+            ));
+        }
+        if let Some(output) = &self.plan.output {
+            return Ok(self.path.parent().unwrap_or(Path::new("")).join(output));
+        }
+        let stem = self.path.with_extension("");
+        if stem == self.path {
+            let message = format!(
+                "{} has no extension, without which it would name the folder to write to: add `output = \"…\"` to [atlas], \
+                 or name a folder with -o",
+                self.path.display()
+            );
+            return Err(InputError(message));
+        }
+        Ok(stem)
+    }
+
+    /// The name of the manifest in the record of a run: its file name, without the folder.
+    pub fn file_name(&self) -> String {
+        match self.path.file_name() {
+            Some(name) => name.to_string_lossy().into_owned(),
+            None => RunRecord::STANDARD_INPUT.to_owned(),
         }
     }
 }

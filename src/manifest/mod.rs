@@ -36,8 +36,8 @@ use coupler_drawing::render::{Format, TextMode};
 pub struct Plan {
     /// The atlas's title.
     pub title: String,
-    /// The output folder, as the manifest gives it.
-    pub output: String,
+    /// The output folder, as the manifest gives it, if it does.
+    pub output: Option<String>,
     /// The most pages of a volume of the book.
     pub volume_pages: usize,
     /// The options that all pages share.
@@ -71,6 +71,21 @@ pub struct PlannedFamily {
     pub span: Span,
     /// The place of its `where` in the manifest.
     pub filter_span: Option<Span>,
+}
+
+impl PlannedFamily {
+    /// The most pages that the family can have, if `where` keeps all its cells.
+    pub fn max_pages(&self) -> usize {
+        let cells = self.family.cell_count();
+        let points = self.family.template.curve_count();
+        match (&self.chart, self.layout) {
+            (Some(chart), layout) => chart.y.len().div_ceil(layout.cells_per_page()),
+            (None, page::Layout::CouplerGrid) => {
+                cells.saturating_mul(points.div_ceil(page::Layout::POINTS_PER_PAGE).max(1))
+            }
+            (None, layout) => cells.div_ceil(layout.cells_per_page()),
+        }
+    }
 }
 
 /// The result of parsing a manifest.

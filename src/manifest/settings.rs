@@ -11,13 +11,10 @@ use coupler_drawing::render::{Format, TextMode};
 /// The settings of `[atlas]`.
 pub(super) struct AtlasSettings {
     pub title: String,
-    pub output: String,
+    pub output: Option<String>,
     pub formats: Vec<Format>,
     pub volume_pages: usize,
 }
-
-/// The default output folder.
-const DEFAULT_OUTPUT: &str = "output";
 
 /// The default formats of pages.
 const DEFAULT_FORMATS: [Format; 2] = [Format::Svg, Format::Png];
@@ -61,9 +58,9 @@ pub(super) static ATLAS: TableSchema = TableSchema::new(
         KeySchema::new(
             "output",
             ValueSchema::Text,
-            "The output folder, relative to the manifest; / and \\ both separate folders, on every system.",
-        )
-        .with_default(|| default_value::string(DEFAULT_OUTPUT)),
+            "The output folder, relative to the manifest; by default the manifest's file name without its extension. / and \\ \
+             both separate folders, on every system.",
+        ),
         FORMATS.with_default(|| default_value::strings(DEFAULT_FORMATS.map(Format::name))),
         KeySchema::new(
             "volume_pages",
@@ -140,10 +137,11 @@ pub(super) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> O
     let fields = Fields::from_value(value, &ATLAS, parser)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", parser);
     let output = match fields.get("output") {
-        None => Some(DEFAULT_OUTPUT.to_owned()),
+        None => Some(None),
         Some(value) => parser.text(value).and_then(|text| {
             let folder = normalize_folder(&text, cfg!(windows));
-            folder.map_err(|message| parser.report(Problem::error(value.span(), message).with_help(FOLDER_HELP))).ok()
+            let folder = folder.map_err(|message| Problem::error(value.span(), message).with_help(FOLDER_HELP));
+            folder.map(Some).map_err(|problem| parser.report(problem)).ok()
         }),
     };
     let formats = match fields.get("formats") {

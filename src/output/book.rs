@@ -6,11 +6,11 @@ use coupler_curves::solve;
 use std::path::Path;
 
 use super::inputs::Inputs;
-use super::journal::Journal;
+use super::journal::{Journal, JournalFile};
 use super::{Error, Event, Options, files, previous_run};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::pipeline::{Composer, FamilyPipeline, Pagination, curves_by_page, measures_used_on_pages};
-use crate::record::{BookRecord, FileRecord};
+use crate::record::{BookRecord, Digest, FileRecord, JournalEntry};
 use crate::sweep::{self, CellGroups, CellSelection};
 use coupler_curves::solve::SolvedCell;
 use coupler_curves::template::CircuitSelection;
@@ -44,24 +44,25 @@ pub(super) fn write(
     }
     let earlier = journal.book().cloned();
     if selected.is_empty() {
+        if earlier.is_some() {
+            journal.file()?;
+        }
         remove_stale_volumes(earlier.as_ref(), &[], output)?;
         return journal.set_book(None);
     }
     let inputs_sha256 = Inputs::book_digest(&selected, plan.volume_pages);
     let is_unchanged = |record: &&BookRecord| {
         let is_intact = |file: &FileRecord| file.inputs_sha256.is_some() && files::is_intact(output, file);
-        record.inputs_sha256.as_ref() == Some(&inputs_sha256) && record.files.iter().all(is_intact)
+        record.inputs_sha256 == Some(inputs_sha256) && record.files.iter().all(is_intact)
     };
     if let Some(record) = earlier.as_ref().filter(|_| !options.force).filter(is_unchanged) {
         report(Event::Book { record, is_drawn: false });
         return Ok(());
     }
-    if let Some(earlier) = &earlier {
-        // From here on, the files of the earlier run may be replaced at any time.
-        let files = earlier.files.iter().map(|file| FileRecord::from_name(&file.name)).collect();
-        journal.set_book(Some(BookRecord { inputs_sha256: None, files, ..earlier.clone() }))?;
-    }
-    let files = write_volumes(plan, &selected, (output, &inputs_sha256), options, report)?;
+    // From here on, the files of an earlier run may be replaced at any time.
+    let earlier_files = earlier.iter().flat_map(|earlier| earlier.files.clone()).collect();
+    journal.set_book(Some(BookRecord { inputs_sha256: None, pages: 0, files: earlier_files }))?;
+    let files = write_volumes(plan, &selected, (output, inputs_sha256, &*journal.file()?), options, report)?;
     let pages = files.iter().map(|(_, pages)| pages).sum();
     let files: Vec<FileRecord> = files.into_iter().map(|(file, _)| file).collect();
     remove_stale_volumes(earlier.as_ref(), &files, output)?;
@@ -108,7 +109,7 @@ fn chapter<'a>(planned: &'a PlannedFamily, selection: &CellSelection, pagination
 fn write_volumes(
     plan: &Plan,
     selected: &[&PlannedFamily],
-    (output, inputs_sha256): (&Path, &str),
+    (output, inputs_sha256, journal): (&Path, Digest, &JournalFile),
     options: &Options,
     report: &mut dyn FnMut(Event),
 ) -> Result<Vec<(FileRecord, usize)>, Error> {
@@ -133,6 +134,7 @@ fn write_volumes(
         frontispiece: frontispiece.as_ref(),
         output,
         inputs_sha256,
+        journal,
         remaining_volumes: volumes.iter(),
         open_volume: None,
         geometries: Vec::new(),
@@ -255,7 +257,8 @@ struct BookWriter<'a> {
     atlas: &'a Atlas<'a>,
     frontispiece: Option<&'a PanelPage<'a>>,
     output: &'a Path,
-    inputs_sha256: &'a str,
+    inputs_sha256: Digest,
+    journal: &'a JournalFile,
     /// The volumes not begun yet.
     remaining_volumes: std::slice::Iter<'a, Volume>,
     open_volume: Option<OpenVolume<'a>>,
@@ -314,8 +317,11 @@ impl<'a> BookWriter<'a> {
         self.geometries = self.geometries.pop().into_iter().collect();
         let pages = book.page_count();
         let bytes = book.finish(&book::outline(self.atlas, volume, [front, index.len()])).map_err(Error::Book)?;
-        let record = FileRecord::from_name(previous_run::volume_name(volume)).with_inputs(self.inputs_sha256);
-        files::write(&self.output.join(&record.name), &bytes)?;
+        let name = previous_run::volume_name(volume);
+        self.journal.append(&JournalEntry::Writing(name.clone()))?;
+        files::write(&self.output.join(&name), &bytes)?;
+        let record = FileRecord::from_book(name, &bytes).with_inputs(self.inputs_sha256);
+        self.journal.append(&JournalEntry::written("", record.clone()))?;
         self.files.push((record, pages));
         Ok(())
     }

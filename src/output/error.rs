@@ -24,23 +24,61 @@ pub enum Error {
         source: io::Error,
     },
     /// The record of an earlier run cannot be used.
-    #[error("cannot use {}, which records the other families: {source}; render all of them", path.display())]
+    #[error("cannot use {}, which records the other families: {source}; render all of them with --overwrite", path.display())]
     Record {
         /// The record.
         path: PathBuf,
         /// Why.
         source: ReadError,
     },
-    /// The folder has a record of an unknown format, which would be overwritten.
-    #[error(
-        "cannot overwrite {}: {source}; render with the version that wrote it, or into another folder with -o",
-        path.display()
-    )]
-    Format {
+    /// The folder has a record that this program cannot read, and that would be overwritten.
+    #[error("cannot overwrite {}: {source}; {}", path.display(), record_remedy(source))]
+    ForeignRecord {
         /// The record.
         path: PathBuf,
-        /// What format it has.
+        /// Why it cannot be read.
         source: ReadError,
+    },
+    /// The folder has the atlas of another manifest.
+    #[error(
+        "{} has the atlas of another manifest, {manifest}, with the title {title:?}: write to another folder with -o, \
+         or replace that atlas with --overwrite",
+        folder.display()
+    )]
+    OtherManifest {
+        /// The folder.
+        folder: PathBuf,
+        /// The file name of the other manifest.
+        manifest: String,
+        /// Its title.
+        title: String,
+    },
+    /// Files would be overwritten that no earlier run wrote.
+    #[error(
+        "no earlier run wrote {}{}: move {} away, write to another folder with -o, or replace {} with --overwrite",
+        first.display(),
+        if *others == 0 { String::new() } else { format!(" and {others} more") },
+        if *others == 0 { "it" } else { "them" },
+        if *others == 0 { "it" } else { "them" }
+    )]
+    ForeignFile {
+        /// The first of the files.
+        first: PathBuf,
+        /// The number of the others.
+        others: usize,
+    },
+    /// The atlas would have more files than a record may list.
+    #[error(
+        "family `{family}` has {files} page files, and with them the atlas more than {max}: put more panels on a page, \
+         write fewer formats, or divide the manifest"
+    )]
+    TooManyFiles {
+        /// The id of the family.
+        family: String,
+        /// The number of its page files.
+        files: usize,
+        /// The most files of an atlas.
+        max: usize,
     },
     /// A page cannot be drawn as an image.
     #[error("cannot draw {name}: {error}")]
@@ -63,6 +101,16 @@ pub enum Error {
     /// The run was interrupted.
     #[error("interrupted: finished files are kept, and the next run continues from there")]
     Interrupted,
+}
+
+/// What to do about a record that cannot be read.
+fn record_remedy(error: &ReadError) -> &'static str {
+    match error {
+        ReadError::UnsupportedFormat { .. } => {
+            "render with the version that wrote it, or into another folder with -o, or replace it with --overwrite"
+        }
+        _ => "write to another folder with -o, or replace what is there with --overwrite",
+    }
 }
 
 /// What to do about a file or folder that cannot be written.

@@ -1,18 +1,19 @@
 //! Writes the tables of a family, and those of its pages that are not up to date.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::files::{self, AtomicFile};
+use super::family_writer::{FamilyTask, FamilyWriter};
+use super::files;
 use super::inputs::Inputs;
 use super::journal::Journal;
-use super::pages::{OutputSink, PageFiles, TableRows};
+use super::pages::OutputSink;
 use super::registry::FileRegistry;
 use super::{Error, Event, Options, previous_run};
-use crate::gallery::{self, FamilyScript};
+use crate::gallery::FamilyScript;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::{FamilyPipeline, Output};
-use crate::record::{CellTable, FamilyRecord, FileRecord, read_unassembled_cells};
+use crate::pipeline::FamilyPipeline;
+use crate::record::{CellTable, FamilyRecord, FileRecord, open_regular_file, read_unassembled_cells};
 use coupler_curves::exchange::PointTable;
 use coupler_drawing::render::{Format, PageFormat};
 
@@ -32,59 +33,56 @@ pub(super) fn write(
     let inputs_sha256 = inputs.family_digest();
     let earlier = journal.family(&family.id).cloned();
     let unchanged = |record: &FamilyRecord| {
-        let record = previous_run::unchanged_record(record, &inputs_sha256, &formats, &folder)?;
+        let record = previous_run::unchanged_record(record, inputs_sha256, &formats, &folder)?;
         let shortfalls = recorded_shortfalls(&record, &folder)?;
         Some((record, shortfalls))
     };
     if let Some((mut record, shortfalls)) = earlier.as_ref().filter(|_| !options.force).and_then(unchanged) {
         record.files.extend(pages_in_other_formats(earlier.as_ref(), &record, &formats, options));
-        // The files keep the order of the earlier record.
-        let known = earlier.iter().flat_map(|earlier| &earlier.files);
-        let order: HashMap<&str, usize> = known.zip(0..).map(|(file, index)| (file.name.as_str(), index)).collect();
-        record.files.sort_by_key(|file| order.get(file.name.as_str()).copied());
+        previous_run::sort_files(&family.id, &mut record.files);
         for (cell, reason) in &shortfalls {
             report(Event::Shortfall { family: &family.id, cell: *cell, reason });
         }
-        remove_stale_files(earlier, &record, &folder)?;
         report(Event::End { record: &record, drawn: None });
-        return journal.set_family(record);
+        // A change is recorded before a file is removed.
+        journal.set_family(record.clone())?;
+        return remove_stale_files(earlier, &record, &folder);
     }
     let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
-    report(Event::Begin { family: &family.id, pages: pipeline.pagination.page_count });
+    let page_count = pipeline.pagination.page_count;
+    journal.reserve_files(&family.id, page_count * formats.len())?;
+    report(Event::Begin { family: &family.id, pages: page_count });
     files::create_folder(&folder)?;
     let mut known = earlier.as_ref().map(|record| record.files.clone()).unwrap_or_default();
     if options.force {
         known.iter_mut().for_each(|file| *file = FileRecord::from_name(&file.name));
     }
-    let registry = FileRegistry::new(&folder, known);
     let record = initial_record(&pipeline);
-    if let Some(earlier) = &earlier {
-        // From here on, the files of the earlier run may be replaced at any time.
-        journal.set_family(FamilyRecord {
-            inputs_sha256: None,
-            files: registry.certain_records(),
-            ..earlier.clone()
-        })?;
-    }
+    // From here on, the files of an earlier run may be replaced at any time.
+    journal.set_family(FamilyRecord {
+        inputs_sha256: None,
+        files: known.clone(),
+        ..earlier.clone().unwrap_or(record)
+    })?;
+    let progress = journal.progress(&family.id).filter(|_| !options.force).cloned();
+    let journal_file = journal.file()?;
+    let registry = FileRegistry::new(&family.id, &folder, &known, &journal_file);
     let (composer, interrupt) = (pipeline.composer, &*options.interrupt);
     let tables = (PointTable::new(family), CellTable::new(family));
     let script = FamilyScript::new(plan, planned);
     let sink = OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt };
-    let mut writer = FamilyWriter { pipeline: &pipeline, sink, folder, record, drawn_pages: 0, unrecorded_pages: 0 };
-    match writer.write_all(journal, report) {
-        Ok(()) => {
-            let mut record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..writer.record };
-            record.files.extend(pages_in_other_formats(earlier.as_ref(), &record, &formats, options));
-            remove_stale_files(earlier, &record, &writer.folder)?;
-            report(Event::End { record: &record, drawn: Some(writer.drawn_pages) });
-            journal.set_family(record)
-        }
-        Err(error) => {
-            // The next run continues from here. If this cannot be written, the record on disk is still true.
-            let _ = journal.set_family(FamilyRecord { files: registry.final_records(), ..writer.record });
-            Err(error)
-        }
-    }
+    let task = FamilyTask { pipeline: &pipeline, sink, folder: &folder, journal: &journal_file, inputs_sha256 };
+    let writer = match progress.and_then(|progress| FamilyWriter::resume(task, &progress, report)) {
+        Some(writer) => writer,
+        None => FamilyWriter::start(task)?,
+    };
+    let (record, drawn) = writer.write_all(report)?;
+    let mut record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..record };
+    record.files.extend(pages_in_other_formats(earlier.as_ref(), &record, &formats, options));
+    previous_run::sort_files(&family.id, &mut record.files);
+    report(Event::End { record: &record, drawn: Some(drawn) });
+    journal.set_family(record.clone())?;
+    remove_stale_files(earlier, &record, &folder)
 }
 
 /// The unassembled cells of a family that is up to date, from its table; `None` if the table can no longer be read.
@@ -92,7 +90,7 @@ fn recorded_shortfalls(record: &FamilyRecord, folder: &Path) -> Option<Vec<(usiz
     if record.not_assembled == 0 {
         return Some(Vec::new());
     }
-    files::open(&folder.join("cells.csv")).ok().map(read_unassembled_cells)
+    open_regular_file(&folder.join("cells.csv"), u64::MAX).ok().map(read_unassembled_cells)
 }
 
 /// Removes the files of an earlier run that are not among those of a record.
@@ -130,7 +128,7 @@ fn pages_in_other_formats(
 }
 
 /// The record of a family before any of its files is written.
-fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
+pub(super) fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
     let family = &pipeline.composer.planned.family;
     FamilyRecord {
         id: family.id.clone(),
@@ -144,78 +142,5 @@ fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
         curves: 0,
         pages: pipeline.pagination.page_count,
         files: Vec::new(),
-    }
-}
-
-/// Writes the files of a family.
-struct FamilyWriter<'a> {
-    pipeline: &'a FamilyPipeline<'a>,
-    sink: OutputSink<'a>,
-    folder: PathBuf,
-    record: FamilyRecord,
-    /// The number of pages drawn.
-    drawn_pages: usize,
-    /// The number of pages drawn since they were last recorded.
-    unrecorded_pages: usize,
-}
-
-/// The number of pages drawn between records; a run that is killed loses at most as many.
-const PAGES_PER_RECORD: usize = 400;
-
-impl FamilyWriter<'_> {
-    /// Writes the tables, the script and the pages.
-    fn write_all(&mut self, journal: &mut Journal, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
-        let OutputSink { tables: (points_table, cells_table), script, registry, .. } = self.sink;
-        let mut points = AtomicFile::with_header(self.folder.join("points.csv"), &points_table.header())?;
-        let mut cells = AtomicFile::with_header(self.folder.join("cells.csv"), &cells_table.header())?;
-        let mut script_file = AtomicFile::with_header(self.folder.join(gallery::SCRIPT_FILE), &script.begin())?;
-        let (pipeline, sink) = (self.pipeline, self.sink);
-        pipeline.run(&sink, |output| match output {
-            Output::Cells(rows) => {
-                points.append(&rows.points)?;
-                cells.append(&rows.cells)?;
-                script_file.append(rows.gallery_data.as_bytes())?;
-                self.add_counts(&rows, report);
-                Ok(())
-            }
-            Output::Page(page) => {
-                script_file.append(page.gallery_data.as_bytes())?;
-                self.record_page(page, journal, report)
-            }
-        })?;
-        script_file.append(script.end().as_bytes())?;
-        let tables = [registry.commit_file(cells)?, registry.commit_file(points)?, registry.commit_file(script_file)?];
-        self.record.files.splice(0..0, tables);
-        Ok(())
-    }
-
-    /// Adds the counts of some cells to the record, and reports those that could not be assembled.
-    fn add_counts(&mut self, rows: &TableRows, report: &mut dyn FnMut(Event)) {
-        self.record.curves += rows.curve_count;
-        self.record.curves_left_out += rows.curves_left_out;
-        self.record.not_assembled += rows.shortfalls.len();
-        for (cell, reason) in &rows.shortfalls {
-            report(Event::Shortfall { family: &self.record.id, cell: *cell, reason });
-        }
-    }
-
-    /// Adds a page to the record, and saves the record after every [`PAGES_PER_RECORD`] drawn pages.
-    fn record_page(
-        &mut self,
-        page: PageFiles,
-        journal: &mut Journal,
-        report: &mut dyn FnMut(Event),
-    ) -> Result<(), Error> {
-        self.record.files.extend(page.files);
-        if page.is_drawn {
-            self.drawn_pages += 1;
-            self.unrecorded_pages += 1;
-        }
-        if self.unrecorded_pages == PAGES_PER_RECORD {
-            self.unrecorded_pages = 0;
-            journal.set_family(FamilyRecord { files: self.sink.registry.certain_records(), ..self.record.clone() })?;
-        }
-        report(Event::Page);
-        Ok(())
     }
 }

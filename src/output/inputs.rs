@@ -1,7 +1,7 @@
 //! Digests of what files are made from: a file is up to date if its digest is that of the earlier run.
 
 use crate::manifest::PlannedFamily;
-use crate::record::RunningDigest;
+use crate::record::{Digest, RunningDigest};
 use coupler_curves::solve::SolvedCell;
 
 /// What the files of a family are made from.
@@ -19,12 +19,12 @@ impl<'a> Inputs<'a> {
     }
 
     /// The digest of what all files of the family are made from.
-    pub fn family_digest(self) -> String {
+    pub fn family_digest(self) -> Digest {
         self.begin_digest("family", &self.planned.manifest_inputs.family).finish()
     }
 
     /// The digest of what a page of charts is made from; every cell of the family may be on it.
-    pub fn chart_page_digest(self, page: usize) -> String {
+    pub fn chart_page_digest(self, page: usize) -> Digest {
         let mut digest = self.begin_digest("charts", &self.planned.manifest_inputs.family);
         digest.update(format!("page {page}\n").as_bytes());
         digest.finish()
@@ -33,7 +33,7 @@ impl<'a> Inputs<'a> {
     /// The digest of what a page is made from: its number, the number of pages, and its cells. `shown` has the indices
     /// of the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case,
     /// since all pages of the cell share what is derived from them.
-    pub fn page_digest(self, (page, page_count): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> String {
+    pub fn page_digest(self, (page, page_count): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> Digest {
         let mut digest = self.begin_digest("page", &self.planned.manifest_inputs.page);
         let mut text = format!("page {page} of {page_count}\n{:?}\n", self.planned.family.names);
         for solved in cells {
@@ -51,7 +51,7 @@ impl<'a> Inputs<'a> {
 
     /// The digest of what a book is made from: its families, and the most pages of a volume.
     #[cfg(feature = "pdf")]
-    pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize) -> String {
+    pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize) -> Digest {
         let mut digest = RunningDigest::default();
         digest.update(format!("book in volumes of {volume_pages}\n").as_bytes());
         families

@@ -1,37 +1,118 @@
 //! The record of a run while it is in progress.
 
-use std::fs;
+use std::collections::{HashMap, HashSet};
+use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use super::Error;
-use super::files::{self, write};
+use super::files::{self, AtomicFile, write};
+use super::previous_run::PreviousRun;
+use super::{Error, Options};
 use crate::gallery::{self, GalleryFamily};
 use crate::manifest::Plan;
-use crate::record::{BookRecord, FamilyRecord, FileRecord, RunRecord};
+use crate::record::{
+    BookRecord, FamilyProgress, FamilyRecord, FileRecord, FolderRecord, IMAGES_FILE_NAME, JOURNAL_FILE_NAME,
+    JournalEntry, MAX_RECORDED_FILES, RUN_FILE_NAME, RunRecord, images_of_run, read_regular_file,
+};
 
-/// `run.json` during a run: at any time it claims nothing that is not true, whatever happens next.
+/// The record of a run in progress: in memory, and in a journal on disk.
+///
+/// Before the first file of an earlier run is replaced, what its `run.json` claims is moved to the journal, to which each
+/// file is then added before and after it is written. At any time, `run.json` alone and both together claim nothing that
+/// is not true. The journal is only appended to, so its cost is proportional to the number of files.
 #[derive(Debug)]
 pub(super) struct Journal<'a> {
     plan: &'a Plan,
-    path: PathBuf,
+    output: PathBuf,
+    manifest: Option<&'a str>,
     /// The records of families, of this run or an earlier one.
     families: Vec<FamilyRecord>,
+    /// The index of each family, by id.
+    indices: HashMap<String, usize>,
     /// The record of the book.
     book: Option<BookRecord>,
     /// The record of the gallery's page.
     gallery: Option<FileRecord>,
-    /// The bytes of the file.
-    saved_bytes: Vec<u8>,
+    /// How far an earlier run that did not end has written the tables of families.
+    progress: HashMap<String, FamilyProgress>,
+    /// Whether an earlier run has written `images.json`.
+    has_images_file: bool,
+    /// The file, once this run has changed anything.
+    file: Option<Arc<JournalFile>>,
+}
+
+/// The file of a journal, to which all threads append.
+#[derive(Debug)]
+pub(super) struct JournalFile {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+impl JournalFile {
+    /// Appends an entry.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn append(&self, entry: &JournalEntry) -> Result<(), Error> {
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        // A single call, so that a killed run leaves at most one incomplete line.
+        file.write_all(&entry.to_line()).map_err(|source| Error::Write { path: self.path.clone(), source })
+    }
 }
 
 impl<'a> Journal<'a> {
     /// Opens the journal of a folder with the record of an earlier run.
-    pub fn open(plan: &'a Plan, output: &Path, earlier: Option<RunRecord>) -> Journal<'a> {
-        let path = output.join("run.json");
-        // A file that cannot be read is missing, or is going to be replaced.
-        let saved_bytes = fs::read(&path).unwrap_or_default();
-        let (families, book, gallery) = earlier.map(|run| (run.families, run.book, run.gallery)).unwrap_or_default();
-        Journal { plan, path, families, book, gallery, saved_bytes }
+    pub fn open(plan: &'a Plan, output: &Path, options: &'a Options, earlier: PreviousRun) -> Journal<'a> {
+        let PreviousRun { families, book, gallery, progress, has_images_file, .. } = earlier;
+        let indices = families.iter().enumerate().map(|(k, family)| (family.id.clone(), k)).collect();
+        let progress = progress.into_iter().map(|progress| (progress.family.clone(), progress)).collect();
+        let (output, manifest) = (output.to_owned(), options.manifest.as_deref());
+        Journal { plan, output, manifest, families, indices, book, gallery, progress, has_images_file, file: None }
+    }
+
+    /// The file, to which changes have to be appended before they are made. At the first call, what an earlier run
+    /// claims is moved to it.
+    ///
+    /// # Errors
+    /// The journal, or the earlier `run.json`, cannot be written.
+    pub fn file(&mut self) -> Result<Arc<JournalFile>, Error> {
+        if let Some(file) = &self.file {
+            return Ok(Arc::clone(file));
+        }
+        let file = Arc::new(self.begin()?);
+        self.file = Some(Arc::clone(&file));
+        Ok(file)
+    }
+
+    fn begin(&self) -> Result<JournalFile, Error> {
+        let path = self.output.join(JOURNAL_FILE_NAME);
+        let mut journal = AtomicFile::new(path.clone())?;
+        let mut add = |entry: JournalEntry| journal.write_bytes(&entry.to_line());
+        add(JournalEntry::Atlas(RunRecord::new(self.manifest, &self.plan.title)))?;
+        for family in &self.families {
+            add(JournalEntry::Family(family.without_files()))?;
+            for file in family.files.iter().filter(|file| file.makes_claims()) {
+                add(JournalEntry::written(&family.id, file.clone()))?;
+            }
+        }
+        if let Some(book) = &self.book {
+            add(JournalEntry::Book(book.without_files()))?;
+        }
+        let others = self.book.iter().flat_map(|book| &book.files).chain(&self.gallery);
+        for file in others.filter(|file| file.makes_claims()) {
+            add(JournalEntry::written("", file.clone()))?;
+        }
+        for progress in self.progress.values() {
+            add(JournalEntry::Progress(progress.clone()))?;
+        }
+        journal.commit()?;
+        if self.output.join(RUN_FILE_NAME).exists() {
+            write(&self.output.join(RUN_FILE_NAME), &self.to_run().without_claims().to_bytes())?;
+        }
+        let file = File::options().append(true).open(&path);
+        let file = file.map_err(|source| Error::Write { path: path.clone(), source })?;
+        Ok(JournalFile { path, file: Mutex::new(file) })
     }
 
     /// The record of the book.
@@ -40,27 +121,60 @@ impl<'a> Journal<'a> {
         self.book.as_ref()
     }
 
-    /// Replaces the record of the book, on disk too.
+    /// Replaces the record of the book.
+    ///
+    /// # Errors
+    /// The journal cannot be written.
     #[cfg(feature = "pdf")]
     pub fn set_book(&mut self, record: Option<BookRecord>) -> Result<(), Error> {
+        if let Some(record) = &record {
+            let entry = JournalEntry::Book(record.without_files());
+            self.file()?.append(&entry)?;
+        }
         self.book = record;
-        self.save()?;
         Ok(())
     }
 
     /// The record of a family.
     pub fn family(&self, id: &str) -> Option<&FamilyRecord> {
-        self.families.iter().find(|record| record.id == id)
+        self.indices.get(id).map(|&index| &self.families[index])
     }
 
-    /// Replaces the record of a family, on disk too.
+    /// How far an earlier run that did not end has written the tables of a family.
+    pub fn progress(&self, id: &str) -> Option<&FamilyProgress> {
+        self.progress.get(id)
+    }
+
+    /// Replaces the record of a family.
+    ///
+    /// # Errors
+    /// The journal cannot be written.
     pub fn set_family(&mut self, record: FamilyRecord) -> Result<(), Error> {
-        match self.families.iter_mut().find(|known| known.id == record.id) {
-            Some(known) if *known == record => return Ok(()),
-            Some(known) => *known = record,
-            None => self.families.push(record),
+        if self.family(&record.id) == Some(&record) {
+            return Ok(());
         }
-        self.save()?;
+        let entry = JournalEntry::Family(record.without_files());
+        self.file()?.append(&entry)?;
+        match self.indices.get(&record.id) {
+            Some(&index) => self.families[index] = record,
+            None => {
+                self.indices.insert(record.id.clone(), self.families.len());
+                self.families.push(record);
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that the atlas may have this many page files of a family.
+    ///
+    /// # Errors
+    /// The record could not list them.
+    pub fn reserve_files(&self, family: &str, files: usize) -> Result<(), Error> {
+        let others: usize =
+            self.families.iter().filter(|other| other.id != family).map(|other| other.files.len()).sum();
+        if others + files > MAX_RECORDED_FILES {
+            return Err(Error::TooManyFiles { family: family.to_owned(), files, max: MAX_RECORDED_FILES });
+        }
         Ok(())
     }
 
@@ -68,66 +182,108 @@ impl<'a> Journal<'a> {
     ///
     /// # Errors
     /// A file cannot be removed.
-    pub fn remove_unplanned_families(&mut self, output: &Path) -> Result<(), Error> {
-        let is_planned = |record: &FamilyRecord| self.plan.families.iter().any(|p| p.family.id == record.id);
+    pub fn remove_unplanned_families(&mut self) -> Result<(), Error> {
+        let planned: HashSet<&str> = self.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
+        let is_planned = |record: &FamilyRecord| planned.contains(record.id.as_str());
+        if self.families.iter().all(is_planned) {
+            return Ok(());
+        }
+        self.file()?;
         for record in self.families.iter().filter(|record| !is_planned(record)) {
-            let folder = output.join(&record.id);
+            let folder = self.output.join(&record.id);
             files::remove_files(&folder, record.files.iter().map(|file| file.name.as_str()))?;
             // A folder with files that this program did not write is kept.
             let _ = fs::remove_dir(&folder);
         }
-        let plan = self.plan;
-        self.families.retain(|record| plan.families.iter().any(|p| p.family.id == record.id));
+        self.families.retain(is_planned);
+        self.indices = self.families.iter().enumerate().map(|(k, family)| (family.id.clone(), k)).collect();
         Ok(())
     }
 
     /// The record of the run: the families in the order of the plan, and at the end those that are not in it.
     fn to_run(&self) -> RunRecord {
-        let mut run = RunRecord::new(&self.plan.title);
-        let position = |record: &FamilyRecord| self.plan.families.iter().position(|p| p.family.id == record.id);
+        let mut run = RunRecord::new(self.manifest, &self.plan.title);
+        let planned = self.plan.families.iter().enumerate();
+        let positions: HashMap<&str, usize> = planned.map(|(k, planned)| (planned.family.id.as_str(), k)).collect();
         run.families = self.families.clone();
         run.book = self.book.clone();
         run.gallery = self.gallery.clone();
-        run.families.sort_by_key(|record| position(record).unwrap_or(usize::MAX));
+        run.families.sort_by_key(|record| positions.get(record.id.as_str()).copied().unwrap_or(usize::MAX));
         run
-    }
-
-    /// Writes the record if the file has other bytes.
-    fn save(&mut self) -> Result<RunRecord, Error> {
-        let run = self.to_run();
-        let bytes = run.to_bytes();
-        if bytes != self.saved_bytes {
-            write(&self.path, &bytes)?;
-            self.saved_bytes = bytes;
-        }
-        Ok(run)
     }
 
     /// Writes the gallery's page for the current record.
     ///
     /// # Errors
     /// The page cannot be written.
-    pub fn write_gallery(&mut self, output: &Path) -> Result<(), Error> {
+    pub fn write_gallery(&mut self) -> Result<(), Error> {
         let run = self.to_run();
         let bytes = |record: &FamilyRecord| {
-            fs::metadata(output.join(&record.id).join(gallery::SCRIPT_FILE)).map_or(0, |metadata| metadata.len())
+            fs::metadata(self.output.join(&record.id).join(gallery::SCRIPT_FILE)).map_or(0, |metadata| metadata.len())
         };
         let shown: Vec<GalleryFamily> =
             run.families.iter().map(|record| GalleryFamily { record, script_bytes: bytes(record) }).collect();
         let page = gallery::index_html(&run, &shown);
         let record = FileRecord::from_bytes(gallery::PAGE_FILE, page.as_bytes());
-        if self.gallery.as_ref() != Some(&record) || !files::is_intact(output, &record) {
-            // The record makes no claim about the page while it is being written.
-            self.gallery = None;
-            self.save()?;
-            write(&output.join(gallery::PAGE_FILE), page.as_bytes())?;
+        if self.gallery.as_ref() != Some(&record) || !files::is_intact(&self.output, &record) {
+            let path = self.output.join(gallery::PAGE_FILE);
+            let file = self.file()?;
+            file.append(&JournalEntry::Writing(record.name.clone()))?;
+            write(&path, page.as_bytes())?;
+            file.append(&JournalEntry::written("", record.clone()))?;
+            self.gallery = Some(record);
         }
-        self.gallery = Some(record);
         Ok(())
     }
 
-    /// Writes the finished record, and returns it.
-    pub fn close(mut self) -> Result<RunRecord, Error> {
-        self.save()
+    /// Writes the finished record, removes the journal, and returns the record.
+    ///
+    /// # Errors
+    /// The record cannot be written.
+    pub fn close(self) -> Result<RunRecord, Error> {
+        let mut run = self.to_run();
+        let images_path = self.output.join(IMAGES_FILE_NAME);
+        match images_of_run(&mut run) {
+            Some(images) => write_if_different(&images_path, &images)?,
+            None if self.has_images_file => {
+                files::remove_files(&self.output, std::iter::once(IMAGES_FILE_NAME))?;
+            }
+            None => {}
+        }
+        write_if_different(&self.output.join(RUN_FILE_NAME), &run.to_bytes())?;
+        let journal = self.output.join(JOURNAL_FILE_NAME);
+        drop(self.file);
+        if fs::symlink_metadata(&journal).is_ok() {
+            fs::remove_file(&journal).map_err(|source| Error::Write { path: journal, source })?;
+        }
+        Ok(run)
     }
+}
+
+/// Writes a file unless it has these bytes already, so that an unchanged atlas needs no permission to write.
+fn write_if_different(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    if read_regular_file(path, bytes.len() as u64).is_ok_and(|found| found == bytes) {
+        Ok(())
+    } else {
+        write(path, bytes)
+    }
+}
+
+/// Writes what the journal of a run that has failed says into `run.json`; this claims nothing untrue, since nothing more
+/// is written. The journal is kept for the next run if it `continues` the unfinished tables. If a file cannot be written,
+/// the journal says the same.
+pub(super) fn suspend(output: &Path, continues: bool) {
+    let write = || -> Result<(), Error> {
+        let Ok(FolderRecord { mut run, is_unfinished: true, .. }) = FolderRecord::read(output) else { return Ok(()) };
+        if let Some(images) = images_of_run(&mut run) {
+            write_if_different(&output.join(IMAGES_FILE_NAME), &images)?;
+        }
+        write_if_different(&output.join(RUN_FILE_NAME), &run.to_bytes())?;
+        if !continues {
+            let path = output.join(JOURNAL_FILE_NAME);
+            fs::remove_file(&path).map_err(|source| Error::Write { path, source })?;
+        }
+        Ok(())
+    };
+    let _ = write();
 }

@@ -14,7 +14,8 @@ use crate::record::LOCK_FILE_NAME;
 pub(super) struct Lock {
     path: PathBuf,
     /// The lock is on the open file, so it ends with the process, however that ends; a file left behind locks nothing.
-    _file: File,
+    /// `None` if the folder cannot be written: then there is nothing to protect.
+    file: Option<File>,
 }
 
 impl Lock {
@@ -26,19 +27,19 @@ impl Lock {
         let path = folder.join(LOCK_FILE_NAME);
         let failed = |source: io::Error| Error::Write { path: path.clone(), source };
         loop {
-            let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
+            let Some(file) = open(&path).map_err(failed)? else { return Ok(Lock { path, file: None }) };
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => return Err(Error::Busy { folder: folder.to_owned() }),
-                // Some file systems have no locks; runs there are not protected from one another.
-                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
-                Err(TryLockError::Error(error)) => return Err(failed(error)),
+                // Some file systems have no locks, and say so by different errors; runs there are not protected from
+                // one another.
+                Err(TryLockError::Error(_)) => return Ok(Lock { path, file: Some(file) }),
             }
             // Another run may have ended and removed the file between our opening and locking it. The locked file is
             // then not the one that the next run will open.
             let locked = file.try_clone().and_then(Handle::from_file).map_err(failed)?;
             match Handle::from_path(&path) {
-                Ok(current) if current == locked => return Ok(Lock { path, _file: file }),
+                Ok(current) if current == locked => return Ok(Lock { path, file: Some(file) }),
                 Ok(_) => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(failed(error)),
@@ -47,10 +48,31 @@ impl Lock {
     }
 }
 
+/// Opens the lock file; `None` if it does not exist and cannot be created in this folder.
+fn open(path: &Path) -> io::Result<Option<File>> {
+    // Opening a pipe would wait for another program, and a link may lead to the file of another.
+    if fs::symlink_metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(io::Error::new(io::ErrorKind::AlreadyExists, "it is not a regular file"));
+    }
+    let is_read_only =
+        |error: &io::Error| matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem);
+    match File::options().create(true).truncate(false).write(true).open(path) {
+        Ok(file) => Ok(Some(file)),
+        Err(error) if is_read_only(&error) => match File::open(path) {
+            Ok(file) => Ok(Some(file)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(_) => Err(error),
+        },
+        Err(error) => Err(error),
+    }
+}
+
 impl Drop for Lock {
     fn drop(&mut self) {
         // The file is removed while it is still locked, so a run that opened it before notices that it is gone. A file
         // that cannot be removed does no harm.
-        let _ = fs::remove_file(&self.path);
+        if self.file.is_some() {
+            let _ = fs::remove_file(&self.path);
+        }
     }
 }

@@ -4,17 +4,21 @@
 mod book;
 mod error;
 mod family;
+mod family_writer;
 mod files;
 mod inputs;
 mod journal;
 mod lock;
+mod ownership;
 mod pages;
 mod previous_run;
 mod registry;
+mod table_file;
 
 pub use error::Error;
 pub use files::{create_folder, read_manifest, write as write_file, write_new};
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,6 +30,7 @@ use coupler_curves::problem::Problem;
 use coupler_drawing::render::Format;
 use journal::Journal;
 use lock::Lock;
+use previous_run::PreviousRun;
 
 /// How an atlas is written.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +41,11 @@ pub struct Options {
     pub only: Vec<String>,
     /// Whether to draw pages again that are up to date.
     pub force: bool,
+    /// Whether to replace the atlas of another manifest, and files that no earlier run wrote.
+    pub overwrite: bool,
+    /// The file name of the manifest, without its folder, or [`RunRecord::STANDARD_INPUT`]. It is recorded; only the
+    /// same manifest may write to the folder again. `None` writes to the folder of any manifest.
+    pub manifest: Option<String>,
     /// Set to true to end the run as soon as the pages being drawn are finished.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -93,9 +103,9 @@ pub enum Event<'a> {
 /// folder is complete, old or new, and the record claims nothing that is not true.
 ///
 /// # Errors
-/// A file cannot be written; the record of an earlier run is needed and cannot be read, or has another format; another
-/// run writes to the same folder; the run is interrupted. Finished files are recorded, and the next run continues from
-/// there.
+/// A file cannot be written; the record of an earlier run is needed and cannot be read, or has another format; the folder
+/// has the atlas of another manifest, or files that no earlier run wrote; another run writes to the same folder; the run
+/// is interrupted. Finished files are recorded, and the next run continues from there.
 pub fn write_atlas(
     plan: &Plan,
     output: &Path,
@@ -104,22 +114,44 @@ pub fn write_atlas(
 ) -> Result<RunRecord, Error> {
     files::create_folder(output)?;
     let _lock = Lock::acquire(output)?;
+    // A folder that is not ours is left untouched.
+    let previous = previous_run::read(output, options, report)?;
+    ownership::check_owner(plan, output, options, &previous)?;
+    ownership::check_files(plan, output, options, &previous)?;
+    let result = write_families(plan, output, options, previous, report);
+    if let Err(error) = &result {
+        journal::suspend(output, matches!(error, Error::Interrupted));
+    }
+    result
+}
+
+/// Writes the atlas into a folder that may be written to.
+fn write_families(
+    plan: &Plan,
+    output: &Path,
+    options: &Options,
+    previous: PreviousRun,
+    report: &mut dyn FnMut(Event),
+) -> Result<RunRecord, Error> {
     let is_selected = |planned: &&PlannedFamily| options.only.is_empty() || options.only.contains(&planned.family.id);
-    // A folder of another format is left untouched.
-    let earlier = previous_run::read(output, !options.only.is_empty(), report)?;
-    files::remove_temporary_files(output);
-    let mut journal = Journal::open(plan, output, earlier);
+    let resumable: HashSet<String> = previous.progress.iter().map(|progress| progress.family.clone()).collect();
+    files::remove_temporary_files(output, &|family| resumable.contains(family));
+    let mut journal = Journal::open(plan, output, options, previous);
     for planned in plan.families.iter().filter(is_selected) {
         check_interrupt(&options.interrupt)?;
         family::write((plan, planned), output, options, &mut journal, report)?;
     }
     if options.only.is_empty() {
-        journal.remove_unplanned_families(output)?;
+        journal.remove_unplanned_families()?;
     }
     // A build without PDF leaves the book of another as it is.
     #[cfg(feature = "pdf")]
     book::write(plan, output, options, &mut journal, report)?;
-    journal.write_gallery(output)?;
+    journal.write_gallery()?;
+    if !resumable.is_empty() {
+        // Tables of an earlier run that this one did not continue.
+        files::remove_temporary_files(output, &|_| false);
+    }
     journal.close()
 }
 

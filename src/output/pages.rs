@@ -7,7 +7,7 @@ use super::registry::FileRegistry;
 use super::{Error, check_interrupt};
 use crate::gallery::FamilyScript;
 use crate::pipeline::{Composer, PageContent, PageJob, Sink, page_file_name};
-use crate::record::{CellTable, FileRecord};
+use crate::record::{CellTable, Digest, FileRecord};
 use coupler_curves::exchange::PointTable;
 use coupler_curves::solve::{SolvedCell, Status};
 use coupler_drawing::render::{self, PageFormat};
@@ -42,7 +42,7 @@ pub(super) struct OutputSink<'a> {
     pub tables: (PointTable<'a>, CellTable<'a>),
     pub script: FamilyScript<'a>,
     /// The records of the files.
-    pub registry: &'a FileRegistry,
+    pub registry: &'a FileRegistry<'a>,
     /// Set to true when no more pages are to be begun.
     pub interrupt: &'a AtomicBool,
 }
@@ -76,11 +76,12 @@ impl Sink for OutputSink<'_> {
     fn receive_page(&self, job: PageJob) -> Result<PageFiles, Error> {
         check_interrupt(self.interrupt)?;
         let Composer { plan, planned, page_count } = self.composer;
-        let inputs = &match job.content {
+        let inputs: Digest = match job.content {
             PageContent::Cells { cells, curves } => self.inputs.page_digest((job.number, page_count), cells, curves),
             PageContent::Charts => self.inputs.chart_page_digest(job.number),
         };
-        let with_name = |&format: &PageFormat| (format, page_file_name(&planned.family.id, job.number, format));
+        let with_name =
+            |&format: &PageFormat| (format, page_file_name(&planned.family.id, (job.number, page_count), format));
         let names: Vec<(PageFormat, String)> = self.formats.iter().map(with_name).collect();
         let unchanged: Vec<Option<FileRecord>> =
             names.iter().map(|(_, name)| self.registry.reuse_unchanged(name, inputs)).collect();
@@ -101,9 +102,9 @@ impl Sink for OutputSink<'_> {
                 self.registry.write_file(FileRecord::from_bytes(name, &svg).with_inputs(inputs), &svg)
             }
             (None, PageFormat::Png) => {
-                let record = FileRecord::from_page_svg(&name, &svg, plan.dpi).with_inputs(inputs);
-                let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name, error })?;
-                self.registry.write_file(record, &png)
+                let drawn_from = FileRecord::drawing_digest(&svg, plan.dpi);
+                let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name: name.clone(), error })?;
+                self.registry.write_file(FileRecord::from_image(name, drawn_from, &png).with_inputs(inputs), &png)
             }
         };
         let files = names.into_iter().zip(unchanged).map(draw).collect::<Result<_, Error>>()?;

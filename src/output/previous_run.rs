@@ -1,27 +1,43 @@
 //! Reads the record of an earlier run. The file is not trusted: entries that this program cannot have written are
 //! dropped.
 
+use std::collections::HashMap;
 use std::io;
 use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::{Error, Event, files};
+use super::{Error, Event, Options, files};
 use crate::gallery;
 use crate::pipeline::page_file_name;
-use crate::record::{FamilyRecord, FileRecord, ReadError, RunRecord};
+use crate::record::{
+    BookRecord, Digest, FamilyProgress, FamilyRecord, FileError, FileRecord, FolderRecord, ImagesState, RUN_FILE_NAME,
+    ReadError, RunRecord,
+};
 #[cfg(feature = "pdf")]
 use coupler_drawing::page::book::Volume;
 use coupler_drawing::render::PageFormat;
 
 /// The files that every family has: its tables, and its data for the gallery.
-const DATA_FILES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT_FILE];
+pub(super) const DATA_FILES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT_FILE];
 
-/// The page number in the name of a page's file; `None` if it is not such a name.
+/// The page number in the name of a page's file; `None` if it is not such a name. The name may begin with the name of a
+/// subfolder of pages.
 pub(super) fn parse_page_number(family: &str, name: &str, format: PageFormat) -> Option<usize> {
+    let name = match name.split_once('/') {
+        Some((folder, name)) if is_page_folder(folder) => name,
+        Some(_) => return None,
+        None => name,
+    };
     let number = name.strip_prefix(family)?.strip_prefix('-')?.strip_suffix(format.name())?.strip_suffix('.')?;
     let is_number = number.len() >= 3 && number.bytes().all(|b| b.is_ascii_digit());
     if is_number { number.parse().ok() } else { None }
+}
+
+/// Whether a folder has the name of a subfolder of pages, as in `1001-2000`.
+pub(super) fn is_page_folder(name: &str) -> bool {
+    let is_number = |number: &str| number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
+    name.split_once('-').is_some_and(|(first, last)| is_number(first) && is_number(last))
 }
 
 /// The file name of a volume, or of the book if it has only one.
@@ -34,45 +50,84 @@ pub(super) fn volume_name(volume: &Volume) -> String {
     }
 }
 
+/// What an earlier run has left in a folder.
+#[derive(Debug, Default)]
+pub(super) struct PreviousRun {
+    /// The file name of its manifest, and the atlas's title; `None` if there was no run, or an older one, which did not
+    /// record the manifest.
+    pub owner: Option<(String, String)>,
+    /// The records of its families.
+    pub families: Vec<FamilyRecord>,
+    /// The record of its book.
+    pub book: Option<BookRecord>,
+    /// The record of the gallery's page.
+    pub gallery: Option<FileRecord>,
+    /// How far a run that did not end has written the tables of families.
+    pub progress: Vec<FamilyProgress>,
+    /// Whether it has written `images.json`.
+    pub has_images_file: bool,
+}
+
 /// Reads the record of an earlier run, if there is one. It is needed if the run leaves some families as they are.
 ///
 /// # Errors
-/// The record is needed and cannot be used, or has another format and must not be overwritten.
-pub(super) fn read(output: &Path, is_needed: bool, report: &mut dyn FnMut(Event)) -> Result<Option<RunRecord>, Error> {
-    let path = output.join("run.json");
-    match RunRecord::read(&path) {
-        Ok(run) => Ok(Some(sanitize(run))),
-        Err(ReadError::Io(error)) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(source @ ReadError::UnsupportedFormat { .. }) => Err(Error::Format { path, source }),
-        Err(source) if is_needed => Err(Error::Record { path, source }),
-        Err(error) => {
-            report(Event::UnusableRecord { record: &path, error: &error });
-            Ok(None)
+/// The record cannot be used, or has another format, and must not be overwritten.
+pub(super) fn read(output: &Path, options: &Options, report: &mut dyn FnMut(Event)) -> Result<PreviousRun, Error> {
+    let path = output.join(RUN_FILE_NAME);
+    match FolderRecord::read(output) {
+        Ok(record) => Ok(sanitize(record)),
+        Err(ReadError::File(FileError::NotFound)) => Ok(PreviousRun::default()),
+        // A folder cannot be overwritten.
+        Err(ReadError::File(FileError::NotAFile("a folder"))) => {
+            Err(Error::Write { path, source: io::ErrorKind::IsADirectory.into() })
         }
+        Err(source @ ReadError::UnsupportedFormat { .. }) if !options.only.is_empty() => {
+            Err(Error::ForeignRecord { path, source })
+        }
+        Err(source) if !options.only.is_empty() => Err(Error::Record { path, source }),
+        Err(error) if options.overwrite => {
+            report(Event::UnusableRecord { record: &path, error: &error });
+            Ok(PreviousRun::default())
+        }
+        Err(source) => Err(Error::ForeignRecord { path, source }),
     }
 }
 
 /// Drops repeated or invalid families from a record, and files whose names this program does not use.
-fn sanitize(mut run: RunRecord) -> RunRecord {
+fn sanitize(record: FolderRecord) -> PreviousRun {
+    let FolderRecord { run, images, progress, .. } = record;
+    let RunRecord { manifest, title, families, mut book, gallery, .. } = run;
     let is_slug = |id: &str| {
         let is_plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
         !id.is_empty() && id.bytes().all(is_plain)
     };
-    let mut ids = Vec::new();
-    run.families.retain(|family| {
-        let is_first = !ids.contains(&family.id);
-        ids.push(family.id.clone());
-        is_first && is_slug(&family.id)
-    });
-    run.gallery = run.gallery.filter(|file| file.name == gallery::PAGE_FILE);
-    if let Some(book) = &mut run.book {
-        book.files.retain(|file| is_volume_file_name(&file.name));
-    }
-    for family in &mut run.families {
+    let mut unique: Vec<FamilyRecord> = Vec::new();
+    let mut indices: HashMap<String, usize> = HashMap::new();
+    for mut family in families.into_iter().filter(|family| is_slug(&family.id)) {
         let id = family.id.clone();
         family.files.retain(|file| is_family_file_name(&id, &file.name));
+        match indices.get(&id) {
+            // Of a repeated family, only the names of its files are used.
+            Some(&index) => {
+                let names = family.files.iter().map(|file| FileRecord::from_name(&file.name));
+                unique[index].files.extend(names);
+            }
+            None => {
+                indices.insert(id, unique.len());
+                unique.push(family);
+            }
+        }
     }
-    run
+    let families = unique;
+    if let Some(book) = &mut book {
+        book.files.retain(|file| is_volume_file_name(&file.name));
+    }
+    let gallery = gallery.filter(|file| file.name == gallery::PAGE_FILE);
+    let has_images = families.iter().flat_map(|family| &family.files).any(|file| file.name.ends_with(".png"))
+        || book.as_ref().is_some_and(|book| !book.files.is_empty());
+    let has_images_file = images == ImagesState::Intact || manifest.is_some() && has_images;
+    let owner = manifest.map(|manifest| (manifest, title));
+    PreviousRun { owner, families, book, gallery, progress, has_images_file }
 }
 
 /// Whether a file of a family can have this name.
@@ -81,8 +136,21 @@ fn is_family_file_name(family: &str, name: &str) -> bool {
         || PageFormat::ALL.into_iter().any(|format| parse_page_number(family, name, format).is_some())
 }
 
+/// Sorts the records of a family's files: its tables and data, then its pages by number and format. The order does not
+/// depend on the runs that wrote them.
+pub(super) fn sort_files(family: &str, files: &mut [FileRecord]) {
+    files.sort_by_cached_key(|file| {
+        let page = PageFormat::ALL
+            .into_iter()
+            .zip(0..)
+            .find_map(|(format, order)| Some((parse_page_number(family, &file.name, format)?, order)));
+        let table = DATA_FILES.iter().position(|name| *name == file.name).unwrap_or(DATA_FILES.len());
+        (page, table, file.name.clone())
+    });
+}
+
 /// Whether a volume can have this file name.
-fn is_volume_file_name(name: &str) -> bool {
+pub(super) fn is_volume_file_name(name: &str) -> bool {
     let number = name.strip_prefix("atlas-").and_then(|rest| rest.strip_suffix(".pdf"));
     let is_number = |number: &str| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
     name == "atlas.pdf" || number.is_some_and(is_number)
@@ -92,11 +160,11 @@ fn is_volume_file_name(name: &str) -> bool {
 /// inputs.
 pub(super) fn unchanged_record(
     earlier: &FamilyRecord,
-    inputs: &str,
+    inputs: Digest,
     formats: &[PageFormat],
     folder: &Path,
 ) -> Option<FamilyRecord> {
-    if earlier.inputs_sha256.as_deref() != Some(inputs) {
+    if earlier.inputs_sha256 != Some(inputs) {
         return None;
     }
     let known: std::collections::HashMap<&str, &FileRecord> =
@@ -104,7 +172,9 @@ pub(super) fn unchanged_record(
     let tables = DATA_FILES.iter().map(|name| known.get(name).filter(|file| file.sha256.is_some()));
     let page = |page| formats.iter().map(move |&format| (page, format));
     let pages = (1..=earlier.pages).flat_map(page).map(|(page, format)| {
-        known.get(page_file_name(&earlier.id, page, format).as_str()).filter(|file| file.inputs_sha256.is_some())
+        known
+            .get(page_file_name(&earlier.id, (page, earlier.pages), format).as_str())
+            .filter(|file| file.inputs_sha256.is_some())
     });
     // `collect` stops at the first file that is not in the record.
     let expected: Option<Vec<&FileRecord>> = tables.chain(pages).map(|file| file.copied()).collect();

@@ -19,9 +19,30 @@ use coupler_drawing::page::Layout;
 use coupler_drawing::render::PageFormat;
 use coupler_drawing::scene::Scene;
 
-/// The file name of a page.
-pub fn page_file_name(family: &str, page: usize, format: PageFormat) -> String {
-    format!("{family}-{page:03}.{}", format.name())
+/// The most pages of a family whose files are all in its folder, and the number of pages in a subfolder of a family with
+/// more.
+pub const PAGES_PER_FOLDER: usize = 1000;
+
+/// The file name of a page in the folder of its family; `of` is the number of pages of the family. A family of more than
+/// [`PAGES_PER_FOLDER`] pages has them in subfolders, as in `1001-2000/evans-1234.svg`.
+pub fn page_file_name(family: &str, (page, of): (usize, usize), format: PageFormat) -> String {
+    let name = format!("{family}-{page:03}.{}", format.name());
+    if of <= PAGES_PER_FOLDER {
+        return name;
+    }
+    let first = page.saturating_sub(1) / PAGES_PER_FOLDER * PAGES_PER_FOLDER + 1;
+    let last = (first + PAGES_PER_FOLDER - 1).min(of);
+    let width = of.to_string().len();
+    format!("{first:0width$}-{last:0width$}/{name}")
+}
+
+/// How much of the output of a family an earlier run has delivered: it is not produced again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GroupsDone {
+    /// The number of groups of cells, with their pages unless those are sorted.
+    pub groups: usize,
+    /// The number of groups of sorted cells, with their pages.
+    pub sorted_groups: usize,
 }
 
 /// Solves the cells of a family and composes its pages.
@@ -97,6 +118,9 @@ pub enum Output<C, P> {
     Cells(C),
     /// The result for a page, in the order of pages.
     Page(P),
+    /// Everything up to here has been delivered. Families with charts have no such places, since their pages depend on
+    /// all cells.
+    Done(GroupsDone),
 }
 
 /// The results for a group of cells and its pages, and the samples that charts take from it.
@@ -112,23 +136,26 @@ impl<'a> FamilyPipeline<'a> {
         Some(FamilyPipeline { composer, arrangement, pagination })
     }
 
-    /// Solves and measures all cells, passes them and their pages to `sink` on all threads, and passes the results in
-    /// order to `receive` on the calling thread.
+    /// Solves and measures all cells after those that are done, passes them and their pages to `sink` on all threads, and
+    /// passes the results in order to `receive` on the calling thread.
     ///
     /// # Errors
     /// The first error of `sink` or `receive`.
     pub fn run<S: Sink>(
         &self,
         sink: &S,
+        mut done: GroupsDone,
         mut receive: impl FnMut(Output<S::CellsOutput, S::PageOutput>) -> Result<(), S::Error>,
     ) -> Result<(), S::Error> {
         let planned = self.composer.planned;
+        let (GroupsDone { groups: first, sorted_groups: first_sorted }, size) = (done, self.pagination.group_size);
         let chart = planned.chart.as_ref();
         let is_sorted = planned.family.sort.is_some();
         let mut builder = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
         let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<S>, S::Error> {
             let cells = sink.receive_cells(&solved)?;
-            let pages = if chart.is_none() && !is_sorted { self.send_pages(group, &solved, sink)? } else { Vec::new() };
+            let has_pages = chart.is_none() && !is_sorted;
+            let pages = if has_pages { self.send_pages(first + group, &solved, sink)? } else { Vec::new() };
             let samples = chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(solved)));
             Ok((Some(cells), pages, samples.collect()))
         };
@@ -137,21 +164,21 @@ impl<'a> FamilyPipeline<'a> {
             if let Some(builder) = &mut builder {
                 samples.into_iter().for_each(|sample| builder.add(sample));
             }
+            *(if cells.is_some() { &mut done.groups } else { &mut done.sorted_groups }) += 1;
             cells.into_iter().try_for_each(|cells| receive(Output::Cells(cells)))?;
-            pages.into_iter().try_for_each(|page| receive(Output::Page(page)))
+            pages.into_iter().try_for_each(|page| receive(Output::Page(page)))?;
+            if chart.is_none() { receive(Output::Done(done)) } else { Ok(()) }
         };
-        sweep::process_groups(
-            &planned.family,
-            self.cell_groups(&self.arrangement.kept, sink, None),
-            make,
-            &mut deliver,
-        )?;
+        let kept = self.arrangement.kept.get(first * size..).unwrap_or_default();
+        sweep::process_groups(&planned.family, self.cell_groups(kept, sink, None), make, &mut deliver)?;
         if chart.is_none() && is_sorted {
             // Tables are in the order of the cells, but pages are sorted.
             let measures = measures_used_on_pages(&planned.family);
-            let groups = self.cell_groups(&self.arrangement.page_order, sink, Some(&measures));
-            let make =
-                |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, sink)?, Vec::new()));
+            let sorted = self.arrangement.page_order.get(first_sorted * size..).unwrap_or_default();
+            let groups = self.cell_groups(sorted, sink, Some(&measures));
+            let make = |group: usize, solved: Vec<SolvedCell>| {
+                Ok((None, self.send_pages(first_sorted + group, &solved, sink)?, Vec::new()))
+            };
             sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
         }
         match (chart, builder) {

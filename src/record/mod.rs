@@ -1,16 +1,26 @@
-//! The record of a run: `points.csv`, `cells.csv`, `run.json`, and the curves drawn in SVG pages.
+//! The record of a run: `points.csv`, `cells.csv`, `run.json`, `images.json`, and the curves drawn in SVG pages.
 
 /// The name of the file that a run locks, so that no other run writes to its folder.
 pub const LOCK_FILE_NAME: &str = ".coupler-atlas.lock";
 
 mod cells;
+mod digest;
 mod drawn_curve;
+mod folder;
+mod images;
+mod journal;
 mod png;
+mod regular_file;
 mod run;
 mod table;
 
 pub use cells::{CellTable, read_unassembled_cells};
+pub use digest::{Digest, RunningDigest, TextDigests};
 pub use drawn_curve::{DrawnCurve, DrawnCurveError, read_drawn_curves};
+pub use folder::{FolderRecord, ImagesState, MAX_RECORDED_FILES, images_of_run};
+pub use images::IMAGES_FILE_NAME;
+pub use journal::{FamilyProgress, JOURNAL_FILE_NAME, JournalEntry, PartialFile, path_in_atlas};
 pub use png::is_intact_png;
-pub use run::{BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, ReadError, RunRecord, RunningDigest, TextDigests};
-pub use table::{RecordedTable, Row, TableError, open_regular_file, parse_rows};
+pub use regular_file::{FileError, open_regular_file, read_regular_file};
+pub use run::{BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, RUN_FILE_NAME, ReadError, RunRecord};
+pub use table::{RecordedTable, Row, TableError, parse_rows};

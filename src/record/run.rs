@@ -1,17 +1,16 @@
 //! The record of a run, `run.json`.
 
-use std::io::Read;
-use std::path::Path;
-
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use sha2::{Digest, Sha256};
+
+use super::digest::{Digest, RunningDigest};
+use super::regular_file::FileError;
 
 /// The version of the format of `run.json`.
 pub const FORMAT_VERSION: u32 = 1;
 
-/// The most bytes of a record, enough for some millions of files.
-const MAX_BYTES: u64 = 1 << 30;
+/// The name of the file in the folder of an atlas.
+pub const RUN_FILE_NAME: &str = "run.json";
 
 /// `run.json`: what a run has written. It has no time, host, path or number of threads, so equal runs have equal bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -22,6 +21,9 @@ pub struct RunRecord {
     pub program: String,
     /// The program's version.
     pub version: String,
+    /// The file name of the manifest, without its folder, or [`RunRecord::STANDARD_INPUT`]; older records have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manifest: Option<String>,
     /// The atlas's title.
     pub title: String,
     /// The families, in the order of the manifest.
@@ -39,10 +41,11 @@ pub struct RunRecord {
 pub struct BookRecord {
     /// SHA-256 of what it was made from; `None` while it is not finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inputs_sha256: Option<String>,
+    pub inputs_sha256: Option<Digest>,
     /// The number of its pages, including front matter and index.
     pub pages: usize,
     /// Its volumes, in the atlas's folder.
+    #[serde(default)]
     pub files: Vec<FileRecord>,
 }
 
@@ -57,7 +60,7 @@ pub struct FamilyRecord {
     pub linkage: String,
     /// SHA-256 of what all its files were made from; `None` while not all of them are finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inputs_sha256: Option<String>,
+    pub inputs_sha256: Option<Digest>,
     /// The number of its cells.
     pub cells: usize,
     /// The number of cells kept by `where`.
@@ -71,6 +74,7 @@ pub struct FamilyRecord {
     /// The number of its pages.
     pub pages: usize,
     /// Its files, in its folder.
+    #[serde(default)]
     pub files: Vec<FileRecord>,
 }
 
@@ -81,24 +85,34 @@ pub struct FileRecord {
     pub name: String,
     /// SHA-256 of its bytes; `None` for an image or a book, whose bytes may differ from machine to machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sha256: Option<String>,
+    pub sha256: Option<Digest>,
     /// SHA-256 of what an image is drawn from: the page's SVG and the resolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub drawn_from_sha256: Option<String>,
+    pub drawn_from_sha256: Option<Digest>,
     /// SHA-256 of what a page is made from: the program's version, its part of the manifest, and the cells on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inputs_sha256: Option<String>,
+    pub inputs_sha256: Option<Digest>,
+    /// SHA-256 of the bytes of an image or a book on the machine that wrote it. It is kept in `images.json`, since
+    /// `run.json` is the same on every machine.
+    #[serde(skip)]
+    pub image_sha256: Option<Digest>,
 }
 
 /// An error of reading a `run.json`.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be read.
-    #[error(transparent)]
-    Io(#[from] std::io::Error),
-    /// It is not a regular file, or larger than any record.
-    #[error("it is not the record of a run: it is not a regular file, or has more than {MAX_BYTES} bytes")]
-    NotARecord,
+    #[error("it {0}")]
+    File(#[from] FileError),
+    /// The journal of an unfinished run cannot be read.
+    #[error("its journal, {name}, {0}", name = super::journal::JOURNAL_FILE_NAME)]
+    Journal(#[source] FileError),
+    /// It lists more files than this program writes.
+    #[error("it lists {files} files, expected at most {}", super::folder::MAX_RECORDED_FILES)]
+    TooManyFiles {
+        /// The number of files, approximately.
+        files: usize,
+    },
     /// It is not JSON as this program writes it.
     #[error("it is not the record of a run: {0}")]
     Syntax(#[from] serde_json::Error),
@@ -151,13 +165,17 @@ impl FormatHeader {
 }
 
 impl RunRecord {
-    /// An empty record of an atlas.
-    pub fn new(title: &str) -> RunRecord {
+    /// What stands for the name of a manifest that is read from standard input.
+    pub const STANDARD_INPUT: &str = "-";
+
+    /// An empty record of an atlas; `manifest` is the file name of its manifest.
+    pub fn new(manifest: Option<&str>, title: &str) -> RunRecord {
         let (program, version) = (env!("CARGO_PKG_NAME").to_owned(), env!("CARGO_PKG_VERSION").to_owned());
         RunRecord {
             format: FORMAT_VERSION,
             program,
             version,
+            manifest: manifest.map(str::to_owned),
             title: title.to_owned(),
             families: Vec::new(),
             book: None,
@@ -165,24 +183,38 @@ impl RunRecord {
         }
     }
 
-    /// Reads a record.
+    /// Reads the bytes of a record.
     ///
     /// # Errors
-    /// The file cannot be read, or is not a record of this format.
-    pub fn read(path: &Path) -> Result<RunRecord, ReadError> {
-        let metadata = std::fs::metadata(path)?;
-        if !metadata.is_file() || metadata.len() > MAX_BYTES {
-            return Err(ReadError::NotARecord);
-        }
-        let mut bytes = Vec::new();
-        std::fs::File::open(path)?.take(MAX_BYTES).read_to_end(&mut bytes)?;
+    /// They are not a record of this format.
+    pub fn from_bytes(bytes: &[u8]) -> Result<RunRecord, ReadError> {
         // An editor may have added a byte order mark.
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let header: FormatHeader = serde_json::from_slice(bytes)?;
         if header.format != FORMAT_VERSION {
             return Err(header.format_error(bytes));
         }
         Ok(serde_json::from_slice(bytes)?)
+    }
+
+    /// The record that makes no claims: what is known of each family and file is only that an earlier run wrote it.
+    pub fn without_claims(&self) -> RunRecord {
+        let names = |files: &[FileRecord]| files.iter().map(|file| FileRecord::from_name(&file.name)).collect();
+        let family = |family: &FamilyRecord| FamilyRecord {
+            inputs_sha256: None,
+            files: names(&family.files),
+            ..family.without_files()
+        };
+        RunRecord {
+            families: self.families.iter().map(family).collect(),
+            book: self.book.as_ref().map(|book| BookRecord {
+                inputs_sha256: None,
+                files: names(&book.files),
+                ..book.without_files()
+            }),
+            gallery: self.gallery.as_ref().map(|file| FileRecord::from_name(&file.name)),
+            ..RunRecord::new(self.manifest.as_deref(), &self.title)
+        }
     }
 
     /// The bytes of the record.
@@ -194,85 +226,75 @@ impl RunRecord {
     }
 }
 
+impl FamilyRecord {
+    /// The record without its files.
+    pub fn without_files(&self) -> FamilyRecord {
+        let FamilyRecord { id, title, linkage, .. } = self;
+        FamilyRecord {
+            id: id.clone(),
+            title: title.clone(),
+            linkage: linkage.clone(),
+            files: Vec::new(),
+            inputs_sha256: self.inputs_sha256,
+            cells: self.cells,
+            kept: self.kept,
+            not_assembled: self.not_assembled,
+            curves_left_out: self.curves_left_out,
+            curves: self.curves,
+            pages: self.pages,
+        }
+    }
+}
+
+impl BookRecord {
+    /// The record without its files.
+    pub fn without_files(&self) -> BookRecord {
+        BookRecord { inputs_sha256: self.inputs_sha256, pages: self.pages, files: Vec::new() }
+    }
+}
+
 impl FileRecord {
-    /// The record of a file with these bytes.
-    pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> FileRecord {
-        let mut digest = RunningDigest::default();
-        digest.update(bytes);
-        digest.into_file_record(name)
+    /// Whether the record says anything about the file besides its name.
+    pub fn makes_claims(&self) -> bool {
+        self.sha256.is_some() || self.image_sha256.is_some() || self.inputs_sha256.is_some()
     }
 
-    /// The record of an image that is drawn from this SVG.
-    pub fn from_page_svg(name: impl Into<String>, svg: &[u8], dpi: f64) -> FileRecord {
+    /// The record of a text with these bytes.
+    pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> FileRecord {
+        FileRecord::from_digest(name, Digest::of(bytes))
+    }
+
+    /// The record of a text with this digest.
+    pub fn from_digest(name: impl Into<String>, sha256: Digest) -> FileRecord {
+        FileRecord { sha256: Some(sha256), ..FileRecord::from_name(name) }
+    }
+
+    /// The digest of what an image is drawn from: the page's SVG and the resolution.
+    pub fn drawing_digest(svg: &[u8], dpi: f64) -> Digest {
         let mut digest = RunningDigest::default();
         digest.update(svg);
         digest.update(dpi.to_string().as_bytes());
-        let drawn_from_sha256 = Some(digest.finish());
-        FileRecord { drawn_from_sha256, ..FileRecord::from_name(name) }
+        digest.finish()
+    }
+
+    /// The record of an image that is drawn from the SVG with this digest, see [`FileRecord::drawing_digest`].
+    pub fn from_image(name: impl Into<String>, drawn_from_sha256: Digest, image: &[u8]) -> FileRecord {
+        let image_sha256 = Some(Digest::of(image));
+        FileRecord { drawn_from_sha256: Some(drawn_from_sha256), image_sha256, ..FileRecord::from_name(name) }
+    }
+
+    /// The record of a book with these bytes.
+    pub fn from_book(name: impl Into<String>, book: &[u8]) -> FileRecord {
+        FileRecord { image_sha256: Some(Digest::of(book)), ..FileRecord::from_name(name) }
     }
 
     /// A record with only the name of a file.
     pub fn from_name(name: impl Into<String>) -> FileRecord {
-        FileRecord { name: name.into(), sha256: None, drawn_from_sha256: None, inputs_sha256: None }
+        FileRecord { name: name.into(), sha256: None, drawn_from_sha256: None, inputs_sha256: None, image_sha256: None }
     }
 
     /// Sets the digest of what the file was made from.
-    pub fn with_inputs(self, inputs_sha256: &str) -> FileRecord {
-        FileRecord { inputs_sha256: Some(inputs_sha256.to_owned()), ..self }
-    }
-}
-
-/// The digest of a file that is still being written.
-#[derive(Clone, Default)]
-pub struct RunningDigest(Sha256);
-
-impl std::io::Write for RunningDigest {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-impl RunningDigest {
-    /// Adds bytes to the digest.
-    pub fn update(&mut self, bytes: &[u8]) {
-        self.0.update(bytes);
-    }
-
-    /// The record of the file.
-    pub fn into_file_record(self, name: impl Into<String>) -> FileRecord {
-        FileRecord { sha256: Some(self.finish()), ..FileRecord::from_name(name) }
-    }
-
-    /// The digest, in hexadecimal digits.
-    pub fn finish(self) -> String {
-        format!("{:x}", self.0.finalize())
-    }
-}
-
-/// Two digests of a text: of its bytes, and of its bytes without carriage returns, as this program writes it.
-#[derive(Clone, Default)]
-pub struct TextDigests([RunningDigest; 2]);
-
-impl TextDigests {
-    /// Both digests, in hexadecimal digits.
-    pub fn finish(self) -> [String; 2] {
-        self.0.map(RunningDigest::finish)
-    }
-}
-
-impl std::io::Write for TextDigests {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0[0].update(bytes);
-        bytes.split(|&byte| byte == b'\r').for_each(|part| self.0[1].update(part));
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
+    pub fn with_inputs(self, inputs_sha256: Digest) -> FileRecord {
+        FileRecord { inputs_sha256: Some(inputs_sha256), ..self }
     }
 }

@@ -2,12 +2,13 @@
 //! rows or in an error, whatever its contents.
 
 use std::collections::HashMap;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use super::RunningDigest;
+use super::digest::{Digest, RunningDigest};
+use super::regular_file::{FileError, open_regular_file};
 
 /// A table whose rows begin with the number of a cell.
 #[derive(Debug)]
@@ -17,7 +18,7 @@ pub struct RecordedTable {
     pub header: Vec<String>,
     /// SHA-256 of its bytes, and of its text with the line ends and without the byte order mark, as this program writes
     /// it.
-    pub digests: [String; 2],
+    pub digests: [Digest; 2],
     /// The places of the rows of each cell, normally a single range.
     row_ranges: HashMap<usize, Vec<RowRange>>,
     /// Errors that do not prevent its rows from being read.
@@ -37,23 +38,9 @@ struct RowRange {
 /// An error in a recorded table.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TableError {
-    /// It does not exist.
-    #[error("does not exist")]
-    NotFound,
-    /// Something other than a file has its name.
-    #[error("is {0}, not a file")]
-    NotAFile(&'static str),
-    /// It cannot be read.
-    #[error("cannot be read: {0}")]
-    Unreadable(String),
-    /// It is far larger than this program could have written.
-    #[error("has {bytes} bytes, expected at most {max}")]
-    TooLarge {
-        /// Its size in bytes.
-        bytes: u64,
-        /// The greatest size expected.
-        max: u64,
-    },
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// It has no header.
     #[error("is empty")]
     Empty,
@@ -101,8 +88,7 @@ impl RecordedTable {
     /// The table cannot be read at all.
     pub fn open(path: &Path, max_bytes: u64, cell_count: usize) -> Result<RecordedTable, TableError> {
         let file = open_regular_file(path, max_bytes)?;
-        let unreadable = |error: io::Error| TableError::Unreadable(error.to_string());
-        let scan = Scan::from_file(&file, max_bytes, cell_count).map_err(unreadable)?;
+        let scan = Scan::from_file(&file, max_bytes, cell_count).map_err(FileError::from)?;
         let header = scan.header.ok_or(TableError::Empty)?;
         let digests = scan.digests.map(RunningDigest::finish);
         Ok(RecordedTable { file: Mutex::new(file), header, digests, row_ranges: scan.row_ranges, errors: scan.errors })
@@ -134,7 +120,7 @@ impl RecordedTable {
             Ok(text)
         };
         let line = ranges.first().map_or(0, |range| range.first_line);
-        Some(read().map(|text| (text, line)).map_err(|error| TableError::Unreadable(error.to_string())))
+        Some(read().map(|text| (text, line)).map_err(|error| FileError::from(error).into()))
     }
 
     /// The rows of a cell.
@@ -146,30 +132,6 @@ impl RecordedTable {
         let (text, first_line) = text?;
         parse_rows(&text, first_line, self.header.len())
     }
-}
-
-/// Opens a regular file of at most `max_bytes` bytes.
-///
-/// # Errors
-/// The file cannot be read, is larger, or is not a regular file.
-pub fn open_regular_file(path: &Path, max_bytes: u64) -> Result<File, TableError> {
-    let unreadable = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => TableError::NotFound,
-        _ => TableError::Unreadable(error.to_string()),
-    };
-    let metadata = fs::symlink_metadata(path).map_err(unreadable)?;
-    let kind = metadata.file_type();
-    if !kind.is_file() {
-        return Err(TableError::NotAFile(match () {
-            () if kind.is_symlink() => "a link",
-            () if kind.is_dir() => "a folder",
-            () => "a device",
-        }));
-    }
-    if metadata.len() > max_bytes {
-        return Err(TableError::TooLarge { bytes: metadata.len(), max: max_bytes });
-    }
-    File::open(path).map_err(unreadable)
 }
 
 /// A row of a table.

@@ -9,6 +9,7 @@ use tempfile::TempDir;
 /// Three families: turning cranks, rockers with both branches and several circuits, and a length as input.
 const MANIFEST: &str = r#"[atlas]
 title = "Atlas <of> \"curves\""
+output = "output"
 formats = ["svg"]
 
 [[family]]

@@ -329,7 +329,7 @@ fn the_printed_manifest_renders_the_same_numbers() {
     let designs = json["designs"].as_array().unwrap();
     let mut rows = 0;
     for linkage in ["hoeken", "chebyshev"] {
-        let mut cells = csv::Reader::from_path(folder.path().join(format!("output/{linkage}/cells.csv"))).unwrap();
+        let mut cells = csv::Reader::from_path(folder.path().join(format!("atlas/{linkage}/cells.csv"))).unwrap();
         let head = cells.headers().unwrap().clone();
         let of_kind: Vec<&Json> = designs.iter().filter(|design| design["linkage"] == linkage).collect();
         let read: Vec<csv::StringRecord> = cells.records().map(Result::unwrap).collect();

@@ -119,12 +119,12 @@ fn a_record_with_other_line_ends_is_read() {
     let text = fs::read_to_string(&path).unwrap();
     let as_on_windows = format!("\u{feff}{}", text.replace('\n', "\r\n"));
     fs::write(&path, &as_on_windows).unwrap();
-    assert_eq!(RunRecord::read(&path).unwrap(), serde_json::from_str(&text).unwrap());
+    assert_eq!(RunRecord::from_bytes(&fs::read(&path).unwrap()).unwrap(), serde_json::from_str(&text).unwrap());
     let (code, out, err) = atlas.run(&[]);
     assert!(code == 0 && err.is_empty() && out.contains("(unchanged)"), "{out}{err}");
     assert_eq!(fs::read_to_string(&path).unwrap(), text, "it is rewritten with the usual line ends");
     fs::write(&path, "{\"format\": 1}").unwrap();
-    assert!(matches!(RunRecord::read(&path), Err(ReadError::Syntax(_))));
+    assert!(matches!(RunRecord::from_bytes(&fs::read(&path).unwrap()), Err(ReadError::Syntax(_))));
     // The tables of cells are read back as well.
     let cells = "cell,status,reason\n1,ok,\n2,none,\"too long, by far\"\n";
     let as_on_windows = format!("\u{feff}{}", cells.replace('\n', "\r\n"));

@@ -517,7 +517,7 @@ mod properties {
                     solved.motion.circuits.iter().map(curve).collect::<Vec<Vec<_>>>()
                 };
                 let atlas = format!(
-                    "{} {} {} {:?} {:?} {:?}",
+                    "{} {:?} {} {:?} {:?} {:?}",
                     plan.title, plan.output, plan.dpi, plan.page, planned.layout, planned.formats
                 );
                 let settings = format!("{} {} {:?} {:?}", family.id, family.title, family.sampling, family.columns);

@@ -150,7 +150,8 @@ fn a_record_that_cannot_be_read_is_not_overwritten_by_only() {
         assert!(err.contains(message) && err.contains("render all of them"), "{err}");
         assert_eq!(fs::read_to_string(&record).unwrap(), text);
     }
-    assert_eq!(run(folder.path(), &["render", "-q"]).0, 0);
+    assert_eq!(run(folder.path(), &["render", "-q"]).0, 2);
+    assert_eq!(run(folder.path(), &["render", "-q", "--overwrite"]).0, 0);
 }
 
 #[test]
@@ -400,7 +401,7 @@ fn cognates_make_a_manifest_that_draws_one_curve() {
         let (code, out, err) = run(folder.path(), &["render", "three.toml", "--strict", "-q", "--format", "svg"]);
         assert_eq!(code, 0, "{out}{err}");
         let points = |name: &str| -> Vec<[f64; 2]> {
-            let path = format!("output/{}-{name}/points.csv", arguments[0]);
+            let path = format!("three/{}-{name}/points.csv", arguments[0]);
             let table = fs::read_to_string(folder.path().join(path)).unwrap();
             let rows = table.lines().skip(1).map(|row| row.split(',').collect::<Vec<_>>());
             rows.map(|row| [row[6].parse().unwrap(), row[7].parse().unwrap()]).collect()

@@ -120,7 +120,7 @@ fn the_commands_in_docs_check_can_be_run() {
     let after = |start: &str| document.lines().filter_map(|line| line.trim().strip_prefix(start)).collect::<Vec<_>>();
     let commands = [after("- run: coupler-atlas "), after("entry: coupler-atlas ")].concat();
     assert_eq!(commands.len(), 2);
-    let manifest = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+    let manifest = "[atlas]\ntitle = \"T\"\noutput = \"output\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
                     sampling = { samples = 9 }\ncases = [{ p = 2, a = 2 }]\n";
     let folder = tempfile::tempdir().unwrap();
     let run = |arguments: &str| {

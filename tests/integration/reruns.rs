@@ -87,9 +87,9 @@ fn force_draws_everything() {
     atlas.run(&[]);
     let before = tree(&atlas.out());
     let (out, touched) = atlas.touched(&["--force"]);
-    // All files but the gallery's page, which depends on records alone and is not drawn.
-    assert_eq!(touched.len() + 1, before.len(), "{touched:?}");
-    assert!(!touched.contains(&"index.html".to_owned()));
+    // All files but the gallery's page and the digests of images, which depend on the others and are not drawn.
+    assert_eq!(touched.len() + 2, before.len(), "{touched:?}");
+    assert!(!touched.contains(&"index.html".to_owned()) && !touched.contains(&"images.json".to_owned()));
     assert!(!out.contains("unchanged") && !out.contains("drawn"), "{out}");
     assert_eq!(tree(&atlas.out()), before);
 }
@@ -108,6 +108,7 @@ fn a_changed_case_draws_its_page() {
         "evans/evans-002.svg",
         "evans/gallery.js",
         "evans/points.csv",
+        "images.json",
         "index.html",
         "run.json",
     ];
@@ -230,7 +231,7 @@ fn files_that_no_longer_belong_to_the_atlas_are_removed_and_no_others() {
     atlas.edit(&fewer.replace("id = \"far\"", "id = \"near\""));
     // With `--only`, the other families are left alone, also those that the manifest no longer has.
     let (_, touched) = atlas.touched(&["--only", "evans"]);
-    let common = ["index.html", "run.json"];
+    let common = ["images.json", "index.html", "run.json"];
     assert!(touched.iter().all(|name| name.starts_with("evans/") || common.contains(&name.as_str())), "{touched:?}");
     assert!(touched.contains(&"evans/evans-003.svg".to_owned()) && !atlas.out().join("evans/evans-003.svg").exists());
     atlas.touched(&[]);
@@ -261,9 +262,12 @@ fn a_record_that_cannot_be_read_removes_nothing() {
     for text in ["{", "{}", "\u{0}", "{\"format\": 1, \"families\": 7}"] {
         fs::write(atlas.out().join("run.json"), text).unwrap();
         fs::write(atlas.out().join("evans/evans-004.svg"), "old").unwrap();
-        let (code, out, err) = atlas.run(&[]);
+        let (code, _, err) = atlas.run(&[]);
+        assert!(code == 2 && err.contains("cannot overwrite out/run.json: ") && err.contains("--overwrite"), "{err}");
+        assert_eq!(fs::read(atlas.out().join("run.json")).unwrap(), text.as_bytes());
+        let (code, out, err) = atlas.run(&["--overwrite"]);
         assert_eq!(code, 0);
-        assert!(err.contains("warning: cannot use out/run.json: "), "{err}");
+        assert!(err.contains("warning: out/run.json is replaced: "), "{err}");
         assert!(!out.contains("unchanged"), "{out}");
         fs::remove_file(atlas.out().join("evans/evans-004.svg")).unwrap();
         assert!(tree(&atlas.out()) == before);
@@ -378,12 +382,17 @@ fn an_interrupted_run_is_continued() {
         assert_eq!(status.code(), Some(130));
         let message = "error: interrupted: finished files are kept, and the next run continues from there\n";
         assert_eq!(String::from_utf8(stderr).unwrap(), message);
-        // No unfinished file remains, and every finished one is recorded.
+        // Every finished file is recorded; the unfinished tables and the journal are kept for the next run.
         let pages: Vec<String> = files(&atlas.out()).into_iter().filter(|name| name.ends_with(".svg")).collect();
         assert!(pages.len() > count && pages.len() < 601, "{}", pages.len());
         assert_eq!(check_record(&atlas.out()), pages.len());
         let others = files(&atlas.out()).into_iter().filter(|name| !name.ends_with(".svg")).collect::<Vec<_>>();
-        assert_eq!(others, ["few/cells.csv", "few/gallery.js", "few/points.csv", "run.json"]);
+        let tables = ["cells.csv", "gallery.js", "points.csv"];
+        let mut expected_others = vec![".coupler-atlas.journal".to_owned(), "run.json".to_owned()];
+        expected_others.extend(tables.map(|name| format!("few/{name}")));
+        expected_others.extend(tables.map(|name| format!("many/.coupler-atlas-{name}.partial")));
+        expected_others.sort();
+        assert_eq!(others, expected_others);
         let (out, touched) = atlas.touched(&[]);
         assert!(touched.iter().all(|name| !pages.contains(name)), "{touched:?}");
         assert!(out.contains(&format!("({} of 600 pages drawn)", 601 - pages.len())), "{out}");
@@ -406,8 +415,9 @@ fn an_interrupted_change_leaves_old_and_new_files_whole() {
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
     check_record(&old.out());
     let between = tree(&old.out());
-    assert!(between.keys().eq(after.keys()));
-    for (name, bytes) in between.iter().filter(|(name, _)| *name != "run.json") {
+    let is_temporary = |name: &str| name.contains(".coupler-atlas");
+    assert!(between.keys().filter(|name| !is_temporary(name)).eq(after.keys()));
+    for (name, bytes) in between.iter().filter(|(name, _)| *name != "run.json" && !is_temporary(name)) {
         assert!(*bytes == before[name] || *bytes == after[name], "{name}");
     }
     // The record has both the new pages and the untouched ones, so reverting the change does not draw all pages.
@@ -435,13 +445,18 @@ fn a_killed_run_is_continued() {
     // The files that a killed run leaves are removed by the next.
     fs::write(atlas.out().join("many/.coupler-atlas-x1y2z3.tmp"), "half a pa").unwrap();
     assert!(atlas.out().join(".coupler-atlas.lock").exists(), "the lock of a killed run");
-    let record = atlas.out().join("run.json");
-    let has_recorded = || fs::read_to_string(&record).is_ok_and(|text| text.contains("many-001.svg"));
-    let mut child = start_until(&atlas, has_recorded);
+    let journal = atlas.out().join(".coupler-atlas.journal");
+    let recorded = || {
+        let text = fs::read_to_string(&journal).unwrap_or_default();
+        let pages = text.lines().filter(|line| line.starts_with("{\"written\"") && line.contains(".svg"));
+        pages.map(|line| line.split(".svg").next().unwrap().to_owned()).collect::<std::collections::BTreeSet<_>>().len()
+    };
+    let mut child = start_until(&atlas, || recorded() > 300);
     child.kill().unwrap();
     child.wait().unwrap();
-    let recorded = check_record(&atlas.out());
-    assert!(recorded > 100, "only {recorded} pages were recorded during the run");
+    check_record(&atlas.out());
+    let recorded = recorded();
+    assert!(recorded > 300 && recorded < 601, "only {recorded} pages were recorded during the run");
     let (out, _) = atlas.touched(&[]);
     assert!(out.contains(&format!("({} of 600 pages drawn)", 601 - recorded)), "{out}");
     assert!(tree(&atlas.out()) == expected);

@@ -12,6 +12,15 @@ pub enum Change {
         #[serde(rename = "wrong")]
         message: String,
     },
+    /// The atlas was recorded by another version of the program, which may measure and draw differently.
+    Outdated {
+        /// The version that recorded it.
+        #[serde(rename = "was")]
+        recorded: String,
+        /// The version of this program.
+        #[serde(rename = "is")]
+        current: String,
+    },
     /// A file was edited after it was recorded.
     Altered,
     /// A file has other line endings than were recorded, or a byte order mark; this is not a difference.

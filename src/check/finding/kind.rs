@@ -12,6 +12,7 @@ impl Change {
     pub fn kind(&self) -> &'static str {
         match self {
             Change::Damaged { .. } => "damaged",
+            Change::Outdated { .. } => "outdated",
             Change::Altered => "altered",
             Change::Rewritten => "rewritten",
             Change::FamilyAdded => "family-added",
@@ -47,7 +48,7 @@ impl Change {
     /// linkage, its points, its measures, its drawings. Within a rank, the greater change comes first.
     pub fn sort_key(&self) -> (usize, f64) {
         const ORDER: [&[&str]; 9] = [
-            &["damaged"],
+            &["damaged", "outdated"],
             &["family-removed", "family-added", "family-changed"],
             &["cell-removed", "cell-added", "pages"],
             &["parameter", "status", "class"],

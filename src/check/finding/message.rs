@@ -2,12 +2,21 @@
 
 use std::fmt;
 
+use super::super::outdated::is_later;
 use super::change::Change;
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Change::Damaged { message } => write!(f, "{message}"),
+            Change::Outdated { recorded, current } if is_later(recorded, current) => {
+                write!(f, "recorded by version {recorded}, but this is {current}: check the atlas with that version")
+            }
+            Change::Outdated { recorded, current } => write!(
+                f,
+                "recorded by version {recorded}; this is {current}, which may measure and draw differently, so only \
+                 curves are compared: `render` renews the atlas"
+            ),
             Change::Altered => write!(f, "is not the file that was recorded"),
             Change::Rewritten => write!(f, "has other line endings or a byte order mark; nothing else has changed"),
             Change::FamilyAdded => write!(f, "the family is not recorded"),

@@ -190,7 +190,8 @@ fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> any
     }
     let folder: &Path = &arguments.against;
     print_stderr(&format!("recording the new atlas in {}\n", folder.display()));
-    let options = output::Options { force: true, ..output::Options::default() };
+    let manifest = Some(source.file_name());
+    let options = output::Options { force: true, manifest, ..output::Options::default() };
     output::write_atlas(&source.plan, folder, &options, &mut |_| {})?;
     Ok(Outcome::Done)
 }

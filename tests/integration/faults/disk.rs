@@ -126,10 +126,15 @@ fn a_disk_that_cannot_be_written_is_left_unchanged() {
     disk.allow_writing(false);
     let (code, out, err) = atlas.run(&[]);
     assert_eq!((code, out.as_str()), (3, ""));
-    let message = "error: cannot write out/.coupler-atlas.lock: Read-only file system (os error 30); \
+    let message = "error: cannot write out/.coupler-atlas.journal: Read-only file system (os error 30); \
                    change its permissions, or name another path\n";
     assert_eq!(err, message);
     assert!(tree(&disk.0) == before);
+    // An unchanged atlas needs nothing to be written.
+    atlas.edit(&old);
+    let (code, out, err) = atlas.run(&[]);
+    assert!(code == 0 && err.is_empty() && out.contains("unchanged"), "{out}{err}");
+    atlas.edit(&new);
     disk.allow_writing(true);
     complete(&atlas);
     assert!(tree(&disk.0) == undisturbed(&new));

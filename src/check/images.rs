@@ -1,0 +1,102 @@
+//! Checks images and books, whose bytes may differ from machine to machine.
+//!
+//! A file with the digest that was recorded when it was written is intact. An image without it, because it was drawn
+//! anew elsewhere or compressed by another program, is compared with the current drawing, pixel by pixel.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{DynamicImage, ImageFormat, ImageReader};
+
+use super::finding::{Change, Finding, Location};
+use crate::record::{
+    Digest, FileError, FileRecord, FolderRecord, IMAGES_FILE_NAME, ImagesState, RunningDigest, is_intact_png,
+    open_regular_file, read_regular_file,
+};
+
+/// The largest image that is read, in bytes: more than the pixels of a page of the greatest size and resolution.
+const MAX_IMAGE_BYTES: u64 = 1 << 32;
+
+/// The greatest difference of a channel of two equal pixels: what rounding may differ by between machines.
+const PIXEL_TOLERANCE: u8 = 1;
+
+/// What has happened to a recorded image; `draw` returns the current one as a PNG, or `None` if what the image was drawn
+/// from has changed, so that there is nothing to compare its pixels with.
+pub(super) fn image_change(
+    folder: &Path,
+    record: &FileRecord,
+    draw: impl FnOnce() -> Option<Vec<u8>>,
+) -> Option<Change> {
+    let damaged = |message: &str| Some(Change::Damaged { message: message.to_owned() });
+    let bytes = match read_regular_file(&folder.join(&record.name), MAX_IMAGE_BYTES) {
+        Ok(bytes) => bytes,
+        Err(error) => return damaged(&error.to_string()),
+    };
+    if record.image_sha256 == Some(Digest::of(&bytes)) {
+        return None;
+    }
+    if !is_intact_png(&bytes) {
+        return damaged("is not a complete PNG image");
+    }
+    match draw() {
+        Some(current) if is_same_image(&bytes, &current) => None,
+        // Without a digest nothing is known about the image as it was.
+        None if record.image_sha256.is_none() => None,
+        _ => Some(Change::Altered),
+    }
+}
+
+/// Whether two images have equal pixels, up to the tolerance.
+fn is_same_image<'a>(recorded: &'a [u8], current: &'a [u8]) -> bool {
+    let reader = |bytes| ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    // The sizes are compared before the pixels are decoded, so that these take no more memory than those of a page.
+    let size = |bytes| reader(bytes).into_dimensions().ok();
+    let pixels = |bytes| {
+        let mut reader = reader(bytes);
+        reader.no_limits();
+        reader.decode().ok().map(DynamicImage::into_rgba8)
+    };
+    if size(recorded).is_none() || size(recorded) != size(current) {
+        return false;
+    }
+    let (Some(recorded), Some(current)) = (pixels(recorded), pixels(current)) else { return false };
+    recorded.as_raw().iter().zip(current.as_raw()).all(|(a, b)| a.abs_diff(*b) <= PIXEL_TOLERANCE)
+}
+
+/// The finding on a volume of the book, if it is not the file that was written.
+pub(super) fn check_volume(output: &Path, record: &FileRecord) -> Option<Finding> {
+    // A record is not trusted: a name with a folder would lead out of the atlas.
+    let is_file_name = Path::new(&record.name).components().count() == 1;
+    let digest = || -> Result<Digest, FileError> {
+        if !is_file_name {
+            return Err(FileError::NotFound);
+        }
+        let mut digest = RunningDigest::default();
+        std::io::copy(&mut open_regular_file(&output.join(&record.name), u64::MAX)?, &mut digest)?;
+        Ok(digest.finish())
+    };
+    let change = match (digest(), record.image_sha256) {
+        (Err(error), _) => Change::Damaged { message: error.to_string() },
+        (Ok(_), None) => Change::Damaged { message: format!("is not in {IMAGES_FILE_NAME}") },
+        (Ok(found), Some(recorded)) if found == recorded => return None,
+        (Ok(_), Some(_)) => Change::Altered,
+    };
+    Some(Location::default().with_file(&record.name).finding(change))
+}
+
+/// The finding on `images.json`, if the atlas has images or books and it cannot be used.
+pub(super) fn check_images_file(record: &FolderRecord) -> Option<Finding> {
+    let message = match &record.images {
+        ImagesState::Intact => return None,
+        ImagesState::Damaged(message) => message.clone(),
+        ImagesState::Missing => {
+            let mut families = record.run.families.iter().flat_map(|family| &family.files);
+            let has_images = families.any(|file| file.drawn_from_sha256.is_some()) || record.run.book.is_some();
+            if !has_images || record.is_unfinished {
+                return None;
+            }
+            FileError::NotFound.to_string()
+        }
+    };
+    Some(Location::default().with_file(IMAGES_FILE_NAME).finding(Change::Damaged { message }))
+}

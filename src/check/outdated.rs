@@ -1,0 +1,66 @@
+//! Atlases that another version of the program has recorded.
+//!
+//! Measures, columns and drawings may change with the version. Instead of a finding on each of them there is one on the
+//! atlas; its curves are compared as always.
+
+use super::finding::{Change, Finding, Location};
+use crate::record::{FORMAT_VERSION, FileError, RUN_FILE_NAME, ReadError, RunRecord};
+
+/// The finding on the version that recorded an atlas, if it is not this one.
+pub(super) fn check_version(record: &RunRecord) -> Option<Finding> {
+    let current = env!("CARGO_PKG_VERSION");
+    let change = Change::Outdated { recorded: record.version.clone(), current: current.to_owned() };
+    (record.version != current).then(|| Location::default().with_file(RUN_FILE_NAME).finding(change))
+}
+
+/// Whether a finding on an atlas of another version says something about its curves or files, and not about what this
+/// version measures and draws.
+pub(super) fn is_comparable(finding: &Finding) -> bool {
+    match &finding.change {
+        Change::Damaged { message } => *message == FileError::NotFound.to_string(),
+        Change::FamilyChanged { what, .. } => what != "columns",
+        Change::Altered | Change::Rewritten | Change::Moved(_) | Change::Samples { .. } | Change::Branch { .. } => true,
+        Change::CellAdded | Change::CellRemoved | Change::CellRenumbered { .. } | Change::Parameter { .. } => true,
+        change => change.kind().starts_with("circuit-"),
+    }
+}
+
+/// What to do about a record that cannot be read.
+pub(super) fn record_remedy(error: &ReadError) -> &'static str {
+    match error {
+        ReadError::UnsupportedFormat { format, .. } if is_older(format) => {
+            "render the atlas again with this version, or check it with the version that recorded it"
+        }
+        ReadError::UnsupportedFormat { .. } => "check the atlas with the version that recorded it",
+        ReadError::File(FileError::NotFound) => "name the folder of an atlas, or render one there",
+        _ => "render the atlas again, or restore the file",
+    }
+}
+
+fn is_older(format: &str) -> bool {
+    format.parse().is_ok_and(|format: u32| format < FORMAT_VERSION)
+}
+
+/// Whether a version comes after another, number by number; a text that is not a version does not.
+pub(super) fn is_later(version: &str, other: &str) -> bool {
+    let numbers = |text: &str| text.split('.').map(|number| number.parse().ok()).collect::<Option<Vec<u32>>>();
+    numbers(version).zip(numbers(other)).is_some_and(|(version, other)| version > other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_are_compared_by_their_numbers() {
+        for (version, other, expected) in [
+            ("0.10.0", "0.9.1", true),
+            ("0.9.1", "0.10.0", false),
+            ("1.0.0", "1.0.0", false),
+            ("1.0.1", "1.0.0", true),
+            ("nonsense", "1.0.0", false),
+        ] {
+            assert_eq!(is_later(version, other), expected, "{version} {other}");
+        }
+    }
+}

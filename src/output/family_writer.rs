@@ -1,0 +1,176 @@
+//! Writes the tables and pages of a family in order, and continues where an earlier run was killed.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::family::initial_record;
+use super::journal::JournalFile;
+use super::pages::{OutputSink, PageFiles, TableRows};
+use super::table_file::TableFile;
+use super::{Error, Event};
+use crate::gallery;
+use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
+use crate::record::{Digest, FamilyProgress, FamilyRecord, FileRecord, JournalEntry, read_unassembled_cells};
+
+/// What is to be written.
+#[derive(Clone, Copy)]
+pub(super) struct FamilyTask<'a> {
+    pub pipeline: &'a FamilyPipeline<'a>,
+    pub sink: OutputSink<'a>,
+    /// The folder of the family.
+    pub folder: &'a Path,
+    pub journal: &'a JournalFile,
+    /// The digest of what the files are made from.
+    pub inputs_sha256: Digest,
+}
+
+/// Writes the files of a family.
+pub(super) struct FamilyWriter<'a> {
+    task: FamilyTask<'a>,
+    tables: Tables,
+    /// What an earlier run has finished.
+    done: GroupsDone,
+    record: FamilyRecord,
+    /// The number of pages drawn.
+    drawn_pages: usize,
+}
+
+/// The tables of a family while they are written.
+struct Tables {
+    cells: TableFile,
+    points: TableFile,
+    script: TableFile,
+}
+
+impl<'a> FamilyWriter<'a> {
+    /// Starts the tables of a family.
+    pub fn start(task: FamilyTask<'a>) -> Result<FamilyWriter<'a>, Error> {
+        let (points, cells) = task.sink.tables;
+        let create = |name: &str, header: &str| TableFile::with_header(task.folder.join(name), header);
+        let tables = Tables {
+            cells: create("cells.csv", &cells.header())?,
+            points: create("points.csv", &points.header())?,
+            script: create(gallery::SCRIPT_FILE, &task.sink.script.begin())?,
+        };
+        let record = initial_record(task.pipeline);
+        Ok(FamilyWriter { task, tables, done: GroupsDone::default(), record, drawn_pages: 0 })
+    }
+
+    /// Continues the tables of a family, and reports what has been done; `None` if they, or the pages of the cells in
+    /// them, are not as the earlier run has left them.
+    pub fn resume(
+        task: FamilyTask<'a>,
+        progress: &FamilyProgress,
+        report: &mut dyn FnMut(Event),
+    ) -> Option<FamilyWriter<'a>> {
+        if progress.inputs_sha256 != task.inputs_sha256 {
+            return None;
+        }
+        let done = GroupsDone { groups: progress.groups, sorted_groups: progress.sorted_groups };
+        let pages = finished_pages(&task, done)?;
+        let [cells, points, script] = progress.tables.as_slice() else { return None };
+        let resume = |name: &str, table| TableFile::resume(task.folder.join(name), table);
+        let tables = Tables {
+            cells: resume("cells.csv", cells)?,
+            points: resume("points.csv", points)?,
+            script: resume(gallery::SCRIPT_FILE, script)?,
+        };
+        let mut record = initial_record(task.pipeline);
+        record.curves = progress.curves;
+        record.curves_left_out = progress.curves_left_out;
+        record.not_assembled = progress.not_assembled;
+        if record.not_assembled > 0 {
+            for (cell, reason) in read_unassembled_cells(tables.cells.reader()?) {
+                report(Event::Shortfall { family: &record.id, cell, reason: &reason });
+            }
+        }
+        for page in pages {
+            record.files.extend(page);
+            report(Event::Page);
+        }
+        Some(FamilyWriter { task, tables, done, record, drawn_pages: 0 })
+    }
+
+    /// Writes the tables, the script and the pages; returns the record of the family and the number of pages drawn.
+    pub fn write_all(mut self, report: &mut dyn FnMut(Event)) -> Result<(FamilyRecord, usize), Error> {
+        let FamilyTask { pipeline, sink, .. } = self.task;
+        let result = pipeline.run(&sink, self.done, |output| match output {
+            Output::Cells(rows) => self.add_rows(&rows, report),
+            Output::Page(page) => self.add_page(page, report),
+            Output::Done(done) => self.record_progress(done),
+        });
+        let Tables { cells, points, mut script } = self.tables;
+        match result {
+            Ok(()) => {}
+            Err(Error::Interrupted) => {
+                // The next run continues from here.
+                [cells, points, script].into_iter().for_each(TableFile::keep);
+                return Err(Error::Interrupted);
+            }
+            Err(error) => return Err(error),
+        }
+        script.append(sink.script.end().as_bytes())?;
+        let files = [cells, points, script].map(|table| sink.registry.commit_file(table));
+        let files: Vec<FileRecord> = files.into_iter().collect::<Result<_, Error>>()?;
+        self.record.files.extend(files);
+        Ok((self.record, self.drawn_pages))
+    }
+
+    /// Appends the rows of some cells, adds their counts to the record, and reports those that could not be assembled.
+    fn add_rows(&mut self, rows: &TableRows, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
+        self.tables.points.append(&rows.points)?;
+        self.tables.cells.append(&rows.cells)?;
+        self.tables.script.append(rows.gallery_data.as_bytes())?;
+        self.record.curves += rows.curve_count;
+        self.record.curves_left_out += rows.curves_left_out;
+        self.record.not_assembled += rows.shortfalls.len();
+        for (cell, reason) in &rows.shortfalls {
+            report(Event::Shortfall { family: &self.record.id, cell: *cell, reason });
+        }
+        Ok(())
+    }
+
+    /// Adds a page to the record.
+    fn add_page(&mut self, page: PageFiles, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
+        self.tables.script.append(page.gallery_data.as_bytes())?;
+        self.record.files.extend(page.files);
+        self.drawn_pages += usize::from(page.is_drawn);
+        report(Event::Page);
+        Ok(())
+    }
+
+    /// Records how far the tables have been written.
+    fn record_progress(&mut self, done: GroupsDone) -> Result<(), Error> {
+        let Tables { cells, points, script } = &mut self.tables;
+        let tables = vec![cells.flush()?, points.flush()?, script.flush()?];
+        self.task.journal.append(&JournalEntry::Progress(FamilyProgress {
+            family: self.record.id.clone(),
+            inputs_sha256: self.task.inputs_sha256,
+            groups: done.groups,
+            sorted_groups: done.sorted_groups,
+            curves: self.record.curves,
+            curves_left_out: self.record.curves_left_out,
+            not_assembled: self.record.not_assembled,
+            tables,
+        }))
+    }
+}
+
+/// The records of the files of each page that an earlier run has finished; `None` if any of them is not intact.
+fn finished_pages(task: &FamilyTask, done: GroupsDone) -> Option<Vec<Vec<FileRecord>>> {
+    let FamilyPipeline { composer, pagination, arrangement } = task.pipeline;
+    let family = &composer.planned.family;
+    let groups = if family.sort.is_some() { done.sorted_groups } else { done.groups };
+    let cells = (groups * pagination.group_size).min(arrangement.kept.len());
+    let is_complete = done.groups * pagination.group_size >= arrangement.kept.len();
+    if done.sorted_groups > 0 && !is_complete {
+        return None;
+    }
+    let pages = if cells == arrangement.kept.len() { pagination.page_count } else { pagination.first_page(cells) - 1 };
+    let record = |page: usize| -> Option<Vec<FileRecord>> {
+        let name = |format| page_file_name(&family.id, (page, pagination.page_count), format);
+        task.sink.formats.iter().map(|&format| task.sink.registry.reuse_intact(&name(format))).collect()
+    };
+    (1..=pages).into_par_iter().map(record).collect()
+}

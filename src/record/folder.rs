@@ -1,0 +1,114 @@
+//! What is recorded in the folder of an atlas.
+
+use std::io::{self, BufReader};
+use std::path::Path;
+
+use super::images::{IMAGES_FILE_NAME, ImageDigests, images_from_bytes, images_to_bytes};
+use super::journal::{FamilyProgress, JOURNAL_FILE_NAME, JournalReplay, path_in_atlas};
+use super::regular_file::{FileError, open_regular_file, read_regular_file};
+use super::run::{FileRecord, RUN_FILE_NAME, ReadError, RunRecord};
+
+/// The most bytes of a record: enough for all the files that a record may list.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// The most files that the record of an atlas may list. A record takes a few hundred bytes of memory for each.
+pub const MAX_RECORDED_FILES: usize = 500_000;
+
+/// What is recorded in the folder of an atlas.
+#[derive(Debug)]
+pub struct FolderRecord {
+    /// The record of the run, with the digests of images and with what the journal of an unfinished run says.
+    pub run: RunRecord,
+    /// The state of `images.json`.
+    pub images: ImagesState,
+    /// How far an unfinished run has written the tables of families.
+    pub progress: Vec<FamilyProgress>,
+    /// Whether the last run did not end.
+    pub is_unfinished: bool,
+}
+
+/// The state of `images.json`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ImagesState {
+    /// There is none.
+    Missing,
+    /// It is as it was written.
+    Intact,
+    /// It cannot be used, and why.
+    Damaged(String),
+}
+
+impl FolderRecord {
+    /// Reads the record of a folder.
+    ///
+    /// # Errors
+    /// There is no record ([`FileError::NotFound`]), it cannot be read, or it is not a record of this format.
+    pub fn read(folder: &Path) -> Result<FolderRecord, ReadError> {
+        let read = |name: &str| read_regular_file(&folder.join(name), MAX_BYTES);
+        let mut earlier = match read(RUN_FILE_NAME) {
+            Ok(bytes) => Some(RunRecord::from_bytes(check_size(&bytes)?)?),
+            Err(FileError::NotFound) => None,
+            Err(error) => return Err(error.into()),
+        };
+        let (mut digests, mut images) = match read(IMAGES_FILE_NAME) {
+            Ok(bytes) => match images_from_bytes(&bytes) {
+                Some(digests) => (digests, ImagesState::Intact),
+                None => {
+                    let message = "is not what a run has written";
+                    (ImageDigests::new(), ImagesState::Damaged(message.to_owned()))
+                }
+            },
+            Err(FileError::NotFound) => (ImageDigests::new(), ImagesState::Missing),
+            Err(error) => (ImageDigests::new(), ImagesState::Damaged(error.to_string())),
+        };
+        if let Some(run) = &mut earlier {
+            for_each_image(run, |path, file| file.image_sha256 = digests.remove(path));
+        }
+        if !digests.is_empty() && earlier.is_some() {
+            images = ImagesState::Damaged(format!("lists files that {RUN_FILE_NAME} does not"));
+        }
+        let journal = match open_regular_file(&folder.join(JOURNAL_FILE_NAME), u64::MAX) {
+            Ok(file) => Some(file),
+            Err(FileError::NotFound) => None,
+            Err(error) => return Err(ReadError::Journal(error)),
+        };
+        let is_unfinished = journal.is_some();
+        let replay = match journal {
+            Some(file) => JournalReplay::new(earlier, BufReader::new(file)),
+            None => JournalReplay::new(earlier, io::empty()),
+        };
+        let replay = replay.map_err(|error| ReadError::Journal(error.into()))?;
+        let (run, progress) = replay.ok_or(FileError::NotFound)?.finish();
+        Ok(FolderRecord { run, images, progress, is_unfinished })
+    }
+}
+
+/// Checks that a record does not list more files than memory is meant for.
+fn check_size(bytes: &[u8]) -> Result<&[u8], ReadError> {
+    // Every object begins with a brace; families and other objects are few.
+    let objects = bytes.iter().filter(|&&byte| byte == b'{').count();
+    if objects > MAX_RECORDED_FILES + MAX_RECORDED_FILES / 4 {
+        return Err(ReadError::TooManyFiles { files: objects });
+    }
+    Ok(bytes)
+}
+
+/// The bytes of `images.json` for a record; `None` if the atlas has neither images nor books.
+pub fn images_of_run(run: &mut RunRecord) -> Option<Vec<u8>> {
+    let mut digests = ImageDigests::new();
+    for_each_image(run, |path, file| digests.extend(file.image_sha256.map(|digest| (path.to_owned(), digest))));
+    (!digests.is_empty()).then(|| images_to_bytes(&digests))
+}
+
+/// Calls a function with each image and book of a record, and its path in the folder of the atlas.
+fn for_each_image(run: &mut RunRecord, mut receive: impl FnMut(&str, &mut FileRecord)) {
+    for family in &mut run.families {
+        for file in family.files.iter_mut().filter(|file| file.name.ends_with(".png")) {
+            receive(&path_in_atlas(&family.id, &file.name), file);
+        }
+    }
+    for file in run.book.iter_mut().flat_map(|book| &mut book.files) {
+        let path = file.name.clone();
+        receive(&path, file);
+    }
+}

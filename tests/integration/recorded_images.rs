@@ -1,0 +1,181 @@
+//! Damage to any file of an atlas is found, and images are compared by their pixels where their bytes differ.
+
+use std::fs;
+use std::process::Command;
+
+use crate::folder::{Atlas, files, tree};
+
+const MANIFEST: &str = r#"[atlas]
+title = "T"
+output = "out"
+formats = ["svg", "png", "pdf"]
+[page]
+paper = { width = "100 mm", height = "80 mm" }
+dpi = 25
+[[family]]
+id = "evans"
+linkage = "evans"
+panels = [1, 1]
+sampling = { samples = 24 }
+cases = [{ p = 2, a = 2.5 }, { p = 3, a = 4.0 }]
+"#;
+
+fn rendered() -> Atlas {
+    let atlas = Atlas::new(MANIFEST);
+    let (code, _, err) = atlas.run(&[]);
+    assert_eq!(code, 0, "{err}");
+    atlas
+}
+
+/// The exit code and output of a check.
+fn check(atlas: &Atlas) -> (i32, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let output = command.current_dir(atlas.0.path()).args(["check", "-q", "--against", "out"]).output().unwrap();
+    (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
+}
+
+#[test]
+fn damage_to_every_region_of_every_recorded_file_is_found() {
+    /// The number of regions of a file, each of which is overwritten in turn.
+    const REGIONS: usize = 7;
+    let atlas = rendered();
+    assert_eq!(check(&atlas), (0, String::new()));
+    for name in files(&atlas.out()).into_iter().filter(|name| name != "run.json") {
+        let path = atlas.out().join(&name);
+        let original = fs::read(&path).unwrap();
+        for region in 0..REGIONS {
+            let [from, to] = [region, region + 1].map(|k| k * original.len() / REGIONS);
+            // Zeros, as after a crash of the machine, and a single flipped bit.
+            let mut zeroed = original.clone();
+            zeroed[from..to].fill(0);
+            let mut flipped = original.clone();
+            flipped[(from + to) / 2] ^= 1;
+            for damaged in [&zeroed, &flipped] {
+                fs::write(&path, damaged).unwrap();
+                let (code, out) = check(&atlas);
+                assert!(code == 1 && out.contains(&name), "{name}, region {region}: {code} {out}");
+            }
+        }
+        fs::write(&path, &original[..original.len() / 2]).unwrap();
+        assert_eq!(check(&atlas).0, 1, "{name} is cut short");
+        fs::remove_file(&path).unwrap();
+        assert_eq!(check(&atlas).0, 1, "{name} is missing");
+        fs::write(&path, &original).unwrap();
+    }
+    // The record itself: damaged so that it cannot be read, or so that it says something else.
+    let path = atlas.out().join("run.json");
+    let original = fs::read(&path).unwrap();
+    for k in (0..original.len()).step_by(97) {
+        let mut damaged = original.clone();
+        damaged[k] ^= 4;
+        fs::write(&path, &damaged).unwrap();
+        let (code, out) = check(&atlas);
+        let text = String::from_utf8_lossy(&damaged[k.saturating_sub(40)..(k + 40).min(damaged.len())]).into_owned();
+        assert!(code != 0 || is_harmless(&original, k), "byte {k}, in {text}: {out}");
+    }
+    fs::write(&path, &original).unwrap();
+    assert_eq!(check(&atlas), (0, String::new()));
+}
+
+/// Whether nothing depends on a byte of a record: it is between values, or in the digest of what a file was made from,
+/// by which a run knows that it is up to date.
+fn is_harmless(record: &[u8], k: usize) -> bool {
+    let begin = record[..k].iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
+    let end = k + record[k..].iter().position(|&byte| byte == b'\n').unwrap_or(record.len() - k);
+    let line = String::from_utf8_lossy(&record[begin..end]).into_owned();
+    line.contains("inputs_sha256") || line.contains("\"program\"") || !line.contains('"') || record[k] == b' '
+}
+
+#[test]
+fn swapped_images_and_a_damaged_book_are_found_and_renewed() {
+    let atlas = rendered();
+    let expected = tree(&atlas.out());
+    let [first, second] = ["evans/evans-001.png", "evans/evans-002.png"].map(|name| atlas.out().join(name));
+    let book = atlas.out().join("atlas.pdf");
+    let swapped = atlas.out().join("swapped");
+    fs::rename(&first, &swapped).unwrap();
+    fs::rename(&second, &first).unwrap();
+    fs::rename(&swapped, &second).unwrap();
+    let mut bytes = fs::read(&book).unwrap();
+    let quarter = bytes.len() / 4;
+    bytes[quarter..3 * quarter].fill(0);
+    fs::write(&book, bytes).unwrap();
+    let (code, out) = check(&atlas);
+    assert_eq!(code, 1);
+    for name in ["evans/evans-001.png", "evans/evans-002.png", "atlas.pdf"] {
+        assert!(out.contains(&format!("altered  {name}")), "{out}");
+    }
+    let (code, out, _) = atlas.run(&[]);
+    assert!(code == 0 && !out.contains("unchanged"), "{out}");
+    assert!(tree(&atlas.out()) == expected);
+    // A damaged images.json makes images be drawn again, and is renewed.
+    fs::write(atlas.out().join("images.json"), "{}").unwrap();
+    assert!(check(&atlas).1.contains("images.json"));
+    assert_eq!(atlas.run(&[]).0, 0);
+    assert!(tree(&atlas.out()) == expected);
+}
+
+#[test]
+fn an_image_with_other_bytes_and_equal_pixels_is_the_same_image() {
+    let atlas = rendered();
+    let path = atlas.out().join("evans/evans-001.png");
+    let original = image::load_from_memory(&fs::read(&path).unwrap()).unwrap();
+    let save = |image: &image::DynamicImage| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+        fs::write(&path, bytes.into_inner()).unwrap();
+    };
+    save(&original.to_rgba8().into());
+    assert_eq!(check(&atlas), (0, String::new()));
+    for (difference, is_found) in [(1, false), (2, true)] {
+        let mut changed = original.to_rgba8();
+        let pixel = changed.get_pixel_mut(40, 30);
+        pixel[0] = if pixel[0] > 100 { pixel[0] - difference } else { pixel[0] + difference };
+        save(&changed.into());
+        assert_eq!(check(&atlas).0, i32::from(is_found), "{difference}");
+    }
+    // Another size, and something that is no image.
+    save(&original.crop_imm(0, 0, 20, 20));
+    assert!(check(&atlas).1.contains("altered"));
+}
+
+/// Measures, columns and drawings may differ in another version: there is one finding on all of them.
+#[test]
+fn an_atlas_of_another_version_is_reported_in_one_line() {
+    let atlas = rendered();
+    let record = atlas.out().join("run.json");
+    let text = fs::read_to_string(&record).unwrap();
+    let current = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    let set_version = |version: &str| fs::write(&record, text.replace(&current, version)).unwrap();
+    // A column that this version does not have, and a page that it draws differently, as that version recorded them.
+    let cells = atlas.out().join("evans/cells.csv");
+    let table = fs::read_to_string(&cells).unwrap();
+    fs::write(&cells, table.replace("mu_min_deg", "least_mu")).unwrap();
+    set_version(&current);
+    assert!(check(&atlas).1.lines().count() > 1);
+    for (version, words) in [("0.0.9", "`render` renews the atlas"), ("99.1.0", "check the atlas with that version")] {
+        set_version(&format!("\"version\": \"{version}\""));
+        let (code, out) = check(&atlas);
+        // The table was edited here without its digest.
+        let lines: Vec<&str> = out.lines().filter(|line| !line.starts_with("altered")).collect();
+        assert!(code == 1 && lines[0].contains("outdated") && lines[0].contains(words), "{out}");
+        assert!(lines.len() == 2 && lines[1].contains("1 family") | lines[1].contains("famil"), "{out}");
+    }
+    // Curves are compared as always.
+    let points = atlas.out().join("evans/points.csv");
+    let table = fs::read_to_string(&points).unwrap();
+    let line = table.lines().nth(3).unwrap();
+    let (rest, _) = line.rsplit_once(',').unwrap();
+    fs::write(&points, table.replace(line, &format!("{rest},7.5"))).unwrap();
+    set_version("\"version\": \"0.0.9\"");
+    assert!(check(&atlas).1.contains("moved"));
+    // A record of an older format says the same.
+    fs::write(&record, "{\"format\": 0, \"program\": \"coupler-atlas\", \"version\": \"0.0.1\"}").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let output = command.current_dir(atlas.0.path()).args(["check", "--against", "out"]).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.code() == Some(2) && err.lines().count() == 1 && err.contains("render the atlas again"),
+        "{err}"
+    );
+}
