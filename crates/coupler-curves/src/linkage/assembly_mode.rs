@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::DyadId;
 
 /// The most dyads a linkage may have: [`AssemblyMode`] has a bit for each.
-pub const MAX_DYADS: usize = 16;
+pub const MAX_DYADS: usize = 64;
 
 /// A side of a directed line: left of A -> B is the side of the positive normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub enum Side {
 ///
 /// Modes are ordered by the side of the first dyad, then the second and so on, left before right.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct AssemblyMode(u32);
+pub struct AssemblyMode(u64);
 
 impl Ord for AssemblyMode {
     fn cmp(&self, other: &AssemblyMode) -> Ordering {
@@ -52,12 +52,7 @@ impl AssemblyMode {
     /// The sides of the first `dyads` dyads, with all others left.
     #[must_use]
     pub fn truncated(self, dyads: usize) -> AssemblyMode {
-        AssemblyMode(self.0 & !(u32::MAX << dyads))
-    }
-
-    /// All assembly modes of `dyads` dyads; the side of the last changes fastest, left first.
-    pub fn all(dyads: usize) -> impl Iterator<Item = AssemblyMode> {
-        (0..1u32 << dyads).map(move |k| AssemblyMode(if dyads == 0 { 0 } else { k.reverse_bits() >> (32 - dyads) }))
+        if dyads < MAX_DYADS { AssemblyMode(self.0 & !(u64::MAX << dyads)) } else { self }
     }
 
     /// This mode with some dyads on their other sides.
@@ -69,7 +64,7 @@ impl AssemblyMode {
 
 /// A set of dyads, by their indices; for instance those that are flat at one input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DyadSet(u32);
+pub struct DyadSet(u64);
 
 impl DyadSet {
     /// The empty set.

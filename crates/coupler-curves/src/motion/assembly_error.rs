@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::MAX_SAMPLES;
+use super::{MAX_ASSEMBLY_MODES, MAX_SAMPLES};
 
 /// Why a linkage cannot be assembled at all, or not over the whole input range requested.
 ///
@@ -124,6 +124,23 @@ pub enum AssemblyError {
         /// The input range, from and to.
         range: [f64; 2],
     },
+    /// All circuits are requested, and there are more than [`MAX_ASSEMBLY_MODES`] assembly modes.
+    #[error(
+        "its first {dyads} dyads have {modes} assembly modes, and at most {MAX_ASSEMBLY_MODES} are solved: set `circuits` \
+         to \"start\""
+    )]
+    TooManyModes {
+        /// The number of dyads, in the order of their joints, that have too many assembly modes.
+        dyads: usize,
+        /// The number of their assembly modes with an input at which they close.
+        modes: usize,
+    },
+    /// The circuit through the start pose passes through more than [`MAX_ASSEMBLY_MODES`] assembly modes.
+    #[error(
+        "the circuit passes through more than {MAX_ASSEMBLY_MODES} assembly modes: request a range of the input, or \
+         remove dyads"
+    )]
+    TooManyModesOnCircuit,
     /// The input does not reach all of the range: some of the motion is missing.
     #[error(
         "the input goes from {} to {}{unit} only, of the requested {} to {}{unit}",

@@ -1,8 +1,11 @@
 //! Circuits from intervals: which interval follows which, where a circuit starts, and the order of the circuits.
 
+use std::collections::HashSet;
+use std::ops::Range;
+
 use super::AssemblyError;
 use super::interval::{Interval, Span};
-use super::interval_search::find_intervals;
+use super::interval_search::IntervalSearch;
 use super::pass::{InputPosition, Pass, PassEnd};
 use crate::linkage::{CircuitSelection, DyadId, DyadSet, Input, Linkage};
 
@@ -38,26 +41,16 @@ pub(super) struct CircuitSet {
 
 /// Finds the circuits that the linkage's [`crate::linkage::MotionOptions`] select, in order.
 pub(super) fn find_circuits(linkage: &Linkage) -> CircuitSet {
-    let reachable = find_intervals(linkage);
-    let all = &reachable.intervals;
-    let mut candidates: Vec<usize> = (0..all.len()).collect();
-    let mut assembly_error = reachable.assembly_error.clone().filter(|_| all.is_empty());
-    if linkage.motion_options.circuits == CircuitSelection::Start {
-        match start_interval(linkage, all) {
-            Ok(interval) => candidates = vec![interval],
-            Err(error) => {
-                candidates.clear();
-                assembly_error = Some(reachable.assembly_error.clone().unwrap_or(error));
-            }
-        }
-    }
-    let mut seen = vec![false; all.len()];
-    let mut circuits = Vec::new();
-    for interval in candidates {
-        if !seen[interval] {
-            circuits.push(trace_circuit(linkage, all, interval, &mut seen));
-        }
-    }
+    let mut search = IntervalSearch::new(linkage);
+    let traced = match linkage.motion_options.circuits {
+        CircuitSelection::Start => trace_start_circuit(&mut search),
+        CircuitSelection::All => trace_all_circuits(&mut search),
+    };
+    let mut circuits = match traced {
+        Ok(circuits) => circuits,
+        Err(error) => return CircuitSet { circuits: Vec::new(), assembly_error: Some(error) },
+    };
+    let mut assembly_error = search.assembly_error().filter(|_| circuits.is_empty()).cloned();
     if let (Some(range), None) = (linkage.motion_options.range, &assembly_error) {
         assembly_error =
             circuits.iter().find_map(|circuit: &UnsampledCircuit| circuit.missing_range(range, linkage.input()));
@@ -72,30 +65,48 @@ pub(super) fn find_circuits(linkage: &Linkage) -> CircuitSet {
     CircuitSet { circuits, assembly_error }
 }
 
-/// The index of the interval that contains the start pose.
-fn start_interval(linkage: &Linkage, all: &[Interval]) -> Result<usize, AssemblyError> {
-    let mode = linkage.motion_options.mode;
-    let of_mode: Vec<usize> = (0..all.len()).filter(|&k| all[k].mode == mode).collect();
+/// Traces the circuit through the start pose. Only the assembly modes that it passes through are searched.
+pub(super) fn trace_start_circuit(search: &mut IntervalSearch) -> Result<Vec<UnsampledCircuit>, AssemblyError> {
+    let of_mode = search.intervals_of(search.linkage.motion_options.mode)?;
+    let start = start_interval(search.linkage, search.intervals(), of_mode)
+        .map_err(|error| search.assembly_error().cloned().unwrap_or(error))?;
+    Ok(vec![trace_circuit(search, start, &mut HashSet::new())?])
+}
+
+/// Traces every circuit.
+fn trace_all_circuits(search: &mut IntervalSearch) -> Result<Vec<UnsampledCircuit>, AssemblyError> {
+    search.find_all()?;
+    let mut seen = HashSet::new();
+    let mut circuits = Vec::new();
+    for interval in 0..search.intervals().len() {
+        if !seen.contains(&interval) {
+            circuits.push(trace_circuit(search, interval, &mut seen)?);
+        }
+    }
+    Ok(circuits)
+}
+
+/// The index of the interval that contains the start pose; `of_mode` are those of the mode at the start.
+fn start_interval(linkage: &Linkage, all: &[Interval], mut of_mode: Range<usize>) -> Result<usize, AssemblyError> {
     let period = linkage.input().period();
     let at = match linkage.motion_options.start {
         Some(at) => at,
-        None => middle_of_first_range(all, &of_mode, period).ok_or(AssemblyError::NoStart)?,
+        None => middle_of_first_range(&all[of_mode.clone()], period).ok_or(AssemblyError::NoStart)?,
     };
-    let within = |k: &usize| all[*k].span.wrap(at, period).is_some();
     if let (Some(start), Some([from, to])) = (linkage.motion_options.start, linkage.motion_options.range)
         && (start - from).rem_euclid(period) > to - from
     {
         return Err(AssemblyError::StartOutOfRange { start, range: [from, to] });
     }
-    of_mode.into_iter().find(within).ok_or(AssemblyError::OpenAtStart { start: at })
+    of_mode.find(|&k| all[k].span.wrap(at, period).is_some()).ok_or(AssemblyError::OpenAtStart { start: at })
 }
 
 /// The middle of the first range of the input, from 0 upward, in which the linkage can be assembled; change points do
 /// not divide a range.
-fn middle_of_first_range(all: &[Interval], of_mode: &[usize], period: f64) -> Option<f64> {
+fn middle_of_first_range(of_mode: &[Interval], period: f64) -> Option<f64> {
     let mut ranges: Vec<[f64; 2]> = Vec::new();
-    for &k in of_mode {
-        match all[k].span {
+    for interval in of_mode {
+        match interval.span {
             Span::FullTurn => return Some(period / 2.0),
             Span::Range { lower, upper } => ranges.push([lower.input.value, upper.input.value]),
         }
@@ -120,59 +131,66 @@ fn ordered_pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
 
 /// Traces the circuit through an interval: forward from its upper end and, if the motion ends there, backward from its
 /// lower end.
-fn trace_circuit(linkage: &Linkage, all: &[Interval], first: usize, seen: &mut [bool]) -> UnsampledCircuit {
-    seen[first] = true;
-    let period = linkage.input().period();
-    if all[first].span == Span::FullTurn {
-        return UnsampledCircuit { passes: vec![all[first].to_pass(true, period)], is_closed: true };
+fn trace_circuit(
+    search: &mut IntervalSearch,
+    first: usize,
+    seen: &mut HashSet<usize>,
+) -> Result<UnsampledCircuit, AssemblyError> {
+    seen.insert(first);
+    let period = search.linkage.input().period();
+    let first_interval = search.intervals()[first];
+    let mut passes = vec![first_interval.to_pass(true, period)];
+    if first_interval.span == Span::FullTurn {
+        return Ok(UnsampledCircuit { passes, is_closed: true });
     }
-    let mut passes = vec![all[first].to_pass(true, period)];
-    let closed = append_following(linkage, all, (first, true), &mut passes, seen);
+    let closed = append_following(search, (first, true), &mut passes, seen)?;
     if !closed {
-        let mut before = vec![all[first].to_pass(false, period)];
-        append_following(linkage, all, (first, false), &mut before, seen);
+        let mut before = vec![first_interval.to_pass(false, period)];
+        append_following(search, (first, false), &mut before, seen)?;
         before.reverse();
         before.pop();
         passes = before.iter().map(Pass::reversed).chain(passes).collect();
     }
-    let has_range = linkage.motion_options.range.is_some();
-    UnsampledCircuit { passes: normalize_passes(passes, closed, has_range, period), is_closed: closed }
+    let has_range = search.linkage.motion_options.range.is_some();
+    Ok(UnsampledCircuit { passes: normalize_passes(passes, closed, has_range, period), is_closed: closed })
 }
 
 /// Appends the passes that follow `start`, an interval and whether the input rises on it. Returns whether they lead
 /// back to the start.
 fn append_following(
-    linkage: &Linkage,
-    all: &[Interval],
+    search: &mut IntervalSearch,
     start: (usize, bool),
     passes: &mut Vec<Pass>,
-    seen: &mut [bool],
-) -> bool {
+    seen: &mut HashSet<usize>,
+) -> Result<bool, AssemblyError> {
     let mut current = start;
-    while let Some(next) = next_interval(linkage, all, current) {
+    while let Some(next) = next_interval(search, current)? {
         if next == start {
-            return true;
+            return Ok(true);
         }
-        if seen[next.0] {
+        if !seen.insert(next.0) {
             // This interval belongs to a circuit already: only where several dyads are flat at one input can three
             // intervals meet.
-            return false;
+            return Ok(false);
         }
-        seen[next.0] = true;
-        passes.push(all[next.0].to_pass(next.1, linkage.input().period()));
+        passes.push(search.intervals()[next.0].to_pass(next.1, search.linkage.input().period()));
         current = next;
     }
-    false
+    Ok(false)
 }
 
 /// The interval that follows, and whether the input rises on it.
-fn next_interval(linkage: &Linkage, all: &[Interval], (interval, rising): (usize, bool)) -> Option<(usize, bool)> {
-    let from = &all[interval];
-    let end = from.end(rising)?;
-    let (mode, rises) = end.next_mode(from.mode, rising, &linkage.motion_options)?;
+fn next_interval(
+    search: &mut IntervalSearch,
+    (interval, rising): (usize, bool),
+) -> Result<Option<(usize, bool)>, AssemblyError> {
+    let from = search.intervals()[interval];
+    let Some(end) = from.end(rising) else { return Ok(None) };
+    let Some((mode, rises)) = end.next_mode(from.mode, rising, &search.linkage.motion_options) else { return Ok(None) };
+    let mut of_mode = search.intervals_of(mode)?;
     // The next interval begins at this end: falling from the same upper end, or rising from the same lower one.
-    let begins = |k: &usize| all[*k].mode == mode && all[*k].end(!rises).is_some_and(|e| e.id == end.id);
-    (0..all.len()).find(begins).map(|k| (k, rises))
+    let begins = |&k: &usize| search.intervals()[k].end(!rises).is_some_and(|e| e.id == end.id);
+    Ok(of_mode.find(begins).map(|k| (k, rises)))
 }
 
 /// Rotates, and if necessary reverses, a chain of passes so that the circuit starts at its normal start, and makes the

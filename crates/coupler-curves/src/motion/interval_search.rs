@@ -1,70 +1,105 @@
-//! The search for the intervals of the input on which a linkage can be assembled, for each assembly mode.
+//! The search for the intervals of the input on which a linkage can be assembled, one assembly mode at a time.
 //!
 //! The dyads are processed in the order they are placed. Each restricts the intervals of those before it to the inputs
 //! at which it can span its base; both of its sides share the result. So an end of an interval belongs to one dyad, and
 //! the intervals that meet there are recognised by its `id`.
+//!
+//! There are 2^n assembly modes of n dyads. Only those that a circuit passes through are searched, or, if all circuits
+//! are requested, those that can be assembled.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::AssemblyError;
 use super::dyad_limits;
 use super::interval::{Interval, IntervalEnd, Span};
 use super::pass::InputPosition;
-use crate::linkage::{AssemblyMode, CircuitSelection, DyadId, Input, Linkage};
+use crate::linkage::{AssemblyMode, DyadId, Input, Linkage, Side};
 
-/// The result of [`find_intervals`].
-pub(super) struct ReachableIntervals {
-    pub intervals: Vec<Interval>,
-    /// Why there are none of the requested mode, if one of its dyads closes at no input.
-    pub assembly_error: Option<AssemblyError>,
-}
+/// The greatest number of assembly modes, of those that can be assembled, that are searched.
+pub const MAX_ASSEMBLY_MODES: usize = 512;
 
-/// Finds the intervals within the requested range: those of all assembly modes, or, if only the circuit through the
-/// start pose is requested, those of the modes that can be reached from it.
-pub(super) fn find_intervals(linkage: &Linkage) -> ReachableIntervals {
-    let mut cache = SpanCache { linkage, spans_by_mode: HashMap::new(), next_id: 2, assembly_error: None };
-    let options = &linkage.motion_options;
-    let mut modes = match options.circuits {
-        CircuitSelection::Start => vec![options.mode],
-        CircuitSelection::All => AssemblyMode::all(linkage.dyad_count()).collect(),
-    };
-    let mut intervals = Vec::new();
-    let mut done = 0;
-    while let Some(&mode) = modes.get(done) {
-        done += 1;
-        for span in cache.spans(linkage.dyad_count(), mode) {
-            let interval = Interval { span, mode };
-            for rising in [true, false] {
-                let next_mode = interval.end(rising).and_then(|end| end.next_mode(mode, rising, options));
-                modes.extend(next_mode.map(|(mode, _)| mode).filter(|mode| !modes.contains(mode)));
-            }
-            intervals.push(interval);
-        }
-    }
-    ReachableIntervals { intervals, assembly_error: cache.assembly_error }
-}
-
-/// The requested range of the input.
-fn requested_span(linkage: &Linkage) -> Span {
-    let input = linkage.input();
-    let end = |at: f64, id| IntervalEnd::range_end(InputPosition::new(input, at), id);
-    match linkage.motion_options.range {
-        Some([from, to]) if to - from < input.period() => Span::Range { lower: end(from, 0), upper: end(to, 1) },
-        _ if input == Input::Length => Span::Range { lower: end(0.0, 0), upper: end(f64::MAX / 16.0, 1) },
-        _ => Span::FullTurn,
-    }
-}
-
-/// The spans on which the first few dyads close, by the number of these dyads and their sides: assembly modes that have
-/// them in common share the spans and the `id`s of their ends.
-struct SpanCache<'a> {
-    linkage: &'a Linkage,
+/// Finds the intervals of assembly modes within the requested range.
+pub(super) struct IntervalSearch<'a> {
+    pub linkage: &'a Linkage,
+    /// The intervals found so far, mode by mode.
+    intervals: Vec<Interval>,
+    ranges_by_mode: HashMap<AssemblyMode, Range<usize>>,
+    /// The spans on which the first few dyads close, by the number of these dyads and the sides of all but the last:
+    /// assembly modes that have them in common share the spans and the `id`s of their ends.
     spans_by_mode: HashMap<(usize, AssemblyMode), Vec<Span>>,
     next_id: usize,
+    /// Why there are no intervals of the mode at the start, if one of its dyads closes at no input.
     assembly_error: Option<AssemblyError>,
 }
 
-impl SpanCache<'_> {
+impl<'a> IntervalSearch<'a> {
+    pub fn new(linkage: &'a Linkage) -> IntervalSearch<'a> {
+        IntervalSearch {
+            linkage,
+            intervals: Vec::new(),
+            ranges_by_mode: HashMap::new(),
+            spans_by_mode: HashMap::new(),
+            next_id: 2,
+            assembly_error: None,
+        }
+    }
+
+    /// The intervals that have been found so far.
+    pub fn intervals(&self) -> &[Interval] {
+        &self.intervals
+    }
+
+    /// Why there are no intervals of the mode at the start, once that mode has been searched, if one of its dyads closes
+    /// at no input.
+    pub fn assembly_error(&self) -> Option<&AssemblyError> {
+        self.assembly_error.as_ref()
+    }
+
+    /// The indices of the intervals of an assembly mode; none if it cannot be assembled.
+    ///
+    /// # Errors
+    /// [`MAX_ASSEMBLY_MODES`] other modes that can be assembled have been searched.
+    pub fn intervals_of(&mut self, mode: AssemblyMode) -> Result<Range<usize>, AssemblyError> {
+        if let Some(known) = self.ranges_by_mode.get(&mode) {
+            return Ok(known.clone());
+        }
+        let spans = self.spans(self.linkage.dyad_count(), mode);
+        let begin = self.intervals.len();
+        if spans.is_empty() {
+            return Ok(begin..begin);
+        }
+        if self.ranges_by_mode.len() == MAX_ASSEMBLY_MODES {
+            return Err(AssemblyError::TooManyModesOnCircuit);
+        }
+        self.intervals.extend(spans.into_iter().map(|span| Interval { span, mode }));
+        let range = begin..self.intervals.len();
+        self.ranges_by_mode.insert(mode, range.clone());
+        Ok(range)
+    }
+
+    /// Finds the intervals of all assembly modes, in the order of the modes.
+    ///
+    /// # Errors
+    /// More than [`MAX_ASSEMBLY_MODES`] modes can be assembled, of all dyads or of the first few.
+    pub fn find_all(&mut self) -> Result<(), AssemblyError> {
+        let mut modes = vec![AssemblyMode::default()];
+        for last in 0..self.linkage.dyad_count() {
+            // A mode is extended by one dyad after the other, so that a dyad that never closes ends it.
+            modes.retain(|&mode| !self.spans(last + 1, mode).is_empty());
+            if 2 * modes.len() > MAX_ASSEMBLY_MODES {
+                return Err(AssemblyError::TooManyModes { dyads: last + 1, modes: 2 * modes.len() });
+            }
+            let last = DyadId::new(last);
+            let sides = [Side::Left, Side::Right];
+            modes = modes.iter().flat_map(|mode| sides.map(|side| mode.with_side(last, side))).collect();
+        }
+        for mode in modes {
+            self.intervals_of(mode)?;
+        }
+        Ok(())
+    }
+
     /// The spans on which the first `dyads` dyads close, with the sides of all but the last of them given.
     fn spans(&mut self, dyads: usize, mode: AssemblyMode) -> Vec<Span> {
         let Some(last) = dyads.checked_sub(1) else { return vec![requested_span(self.linkage)] };
@@ -84,5 +119,57 @@ impl SpanCache<'_> {
         }
         self.spans_by_mode.insert((dyads, mode_before), spans.clone());
         spans
+    }
+}
+
+/// The requested range of the input.
+fn requested_span(linkage: &Linkage) -> Span {
+    let input = linkage.input();
+    let end = |at: f64, id| IntervalEnd::range_end(InputPosition::new(input, at), id);
+    match linkage.motion_options.range {
+        Some([from, to]) if to - from < input.period() => Span::Range { lower: end(from, 0), upper: end(to, 1) },
+        _ if input == Input::Length => Span::Range { lower: end(0.0, 0), upper: end(f64::MAX / 16.0, 1) },
+        _ => Span::FullTurn,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::linkage::{CircuitSelection, LinkageBuilder, MotionOptions};
+    use crate::motion::circuit::trace_start_circuit;
+
+    /// A crank and dyads on its pin whose links are so long that they are never flat.
+    fn linkage_of_open_dyads(dyads: usize, circuits: CircuitSelection) -> Linkage {
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", Point::new(0.0, 0.0));
+        let crank_pin = builder.crank("A", o, 1.0).unwrap();
+        for k in 1..=dyads {
+            let pivot = builder.fixed(&format!("C{k}"), Point::new(4.0, k as f64 / 100.0));
+            builder.dyad(&format!("B{k}"), [crank_pin, pivot], [8.0, 8.0], Side::Left).unwrap();
+        }
+        builder.build(vec![crank_pin], None, MotionOptions { circuits, ..MotionOptions::default() }).unwrap()
+    }
+
+    #[test]
+    fn the_search_for_one_circuit_doubles_with_the_number_of_dyads() {
+        for dyads in [5, 10, 20, 40] {
+            let linkage = linkage_of_open_dyads(dyads, CircuitSelection::Start);
+            let mut search = IntervalSearch::new(&linkage);
+            trace_start_circuit(&mut search).unwrap();
+            // Each dyad is searched once, for the sides of those before it.
+            assert_eq!((search.spans_by_mode.len(), search.intervals.len()), (dyads, 1));
+        }
+    }
+
+    #[test]
+    fn the_search_for_all_circuits_is_bounded() {
+        for dyads in [20, 40] {
+            let linkage = linkage_of_open_dyads(dyads, CircuitSelection::All);
+            let mut search = IntervalSearch::new(&linkage);
+            assert!(matches!(search.find_all(), Err(AssemblyError::TooManyModes { .. })));
+            assert!(search.spans_by_mode.len() < 2 * MAX_ASSEMBLY_MODES, "{}", search.spans_by_mode.len());
+        }
     }
 }

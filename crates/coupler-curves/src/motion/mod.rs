@@ -41,6 +41,7 @@ mod spacing;
 pub use assembly_error::AssemblyError;
 pub use derivatives::JointDerivatives;
 pub use instantaneous_motion::InstantaneousMotion;
+pub use interval_search::MAX_ASSEMBLY_MODES;
 pub use pass::{InputPosition, Pass, PassEnd};
 pub use path::{Dash, DashPattern, JointPath, joint_paths};
 pub use positions::{DyadSigns, InputSlices, JointPositions, place_leading_joints};

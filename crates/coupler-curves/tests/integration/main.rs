@@ -4,6 +4,7 @@
 mod catalogue;
 mod circuits;
 mod cognates;
+mod dyad_chains;
 mod expressions;
 mod instant;
 mod linkages;

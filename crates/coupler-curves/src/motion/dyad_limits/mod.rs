@@ -5,8 +5,12 @@
 //! derivative show that there is one limit at most, and that is refined to the last bit. So every interval in which the
 //! dyad closes, or does not, is found down to a width of 1e-12 of a turn, or of the stroke of an actuator; one in which
 //! the dyad misses by less than rounding is a change point.
+//!
+//! Enclosures become wider with every dyad of a chain, and more pieces are needed. A dyad that closes in every pose of
+//! the links before it needs none.
 
 mod closed_form;
+mod distance_bounds;
 mod dyad;
 mod limit_search;
 mod monotone_pieces;
@@ -14,6 +18,7 @@ mod monotone_pieces;
 use super::AssemblyError;
 use super::interval::{IntervalEnd, Span};
 use crate::linkage::{AssemblyMode, DyadId, Input, JointId, JointKind, Linkage, length_tolerance};
+use distance_bounds::distance_bounds;
 use dyad::Dyad;
 use limit_search::LimitSearch;
 
@@ -35,12 +40,26 @@ pub(super) fn closing_spans(
     }
     let spans = match dyad.sinusoidal_extent(linkage) {
         Some(extent) => intersect_spans(span, extent.closing_spans(dyad.id, next_id), 3, linkage.input()),
+        None if dyad.always_closes(linkage) => vec![span],
         None => LimitSearch { linkage, dyad: &dyad, span, mode }.closing_spans(next_id),
     };
     if spans.is_empty() { Err(dyad.assembly_error(linkage, span, mode)) } else { Ok(spans) }
 }
 
 impl Dyad {
+    /// Whether the links between the joints of its base keep it certainly, and by far more than rounding, from being
+    /// flat.
+    fn always_closes(&self, linkage: &Linkage) -> bool {
+        /// Relative to the lengths, far above the rounding of positions.
+        const MARGIN: f64 = 1e-6;
+        let (JointKind::Dyad { base, .. } | JointKind::Slot { base, .. }) = self.kind else { return false };
+        let [low, high] = self.extent_bounds();
+        let [least, greatest] = distance_bounds(linkage, self.joint.index(), base);
+        let margin = MARGIN * (low + greatest + if high.is_finite() { high } else { 0.0 });
+        let is_normal = |length: f64| (length * length).is_normal();
+        least > low + margin && greatest < high - margin && is_normal(least) && is_normal(greatest)
+    }
+
     /// Why the dyad closes at no input of `span`.
     fn assembly_error(&self, linkage: &Linkage, span: Span, mode: AssemblyMode) -> AssemblyError {
         let [least, greatest] = match self.sinusoidal_extent(linkage) {
