@@ -7,7 +7,7 @@ use clap::Args;
 use coupler_atlas::output;
 
 use super::source::DEFAULT_MANIFEST;
-use super::{InputError, Outcome, print};
+use super::{InputError, Outcome, print, printable};
 
 /// Write a commented manifest to start from.
 #[derive(Debug, Args)]
@@ -18,7 +18,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let file = arguments.file.display();
+    let file = printable(arguments.file.display());
     match output::write_new(&arguments.file, include_bytes!("starter.toml")) {
         Err(output::Error::Write { source, .. }) if source.kind() == ErrorKind::AlreadyExists => {
             Err(InputError(format!("{file} exists already; give another name, or remove the file first")).into())

@@ -5,7 +5,7 @@ use coupler_curves::template::Template;
 use coupler_curves::{catalogue, measure};
 use coupler_drawing::page::{Layout, Theme};
 
-use super::{Outcome, print, schema};
+use super::{Outcome, print, print_bytes, schema};
 
 /// List the built-in linkages, measures, further columns, layouts and themes, or print the JSON Schema of a manifest.
 #[derive(Debug, Args)]
@@ -33,7 +33,7 @@ enum Topic {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if arguments.what == Some(Topic::Schema) {
-        print(&schema::schema_json())?;
+        print_bytes(schema::schema_json().as_bytes())?;
         return Ok(Outcome::Done);
     }
     let is_listed = |topic| arguments.what.is_none_or(|given| given == topic);

@@ -6,7 +6,7 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::{Outcome, print};
+use super::{Outcome, print_bytes};
 
 /// Print the manual page in roff: coupler-atlas man | man -l -
 #[derive(Debug, Args)]
@@ -35,7 +35,7 @@ pub fn print_manual(_: &Manual) -> anyhow::Result<Outcome> {
     }
     program.render_extra_section(&mut page)?;
     program.render_version_section(&mut page)?;
-    print(&String::from_utf8_lossy(&page))?;
+    print_bytes(&page)?;
     Ok(Outcome::Done)
 }
 
@@ -58,6 +58,6 @@ pub fn print_completions(arguments: &Completions) -> anyhow::Result<Outcome> {
     let name = command.get_name().to_owned();
     let mut out = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, name, &mut out);
-    print(&String::from_utf8_lossy(&out))?;
+    print_bytes(&out)?;
     Ok(Outcome::Done)
 }

@@ -9,6 +9,7 @@ mod inspect;
 mod linkage;
 mod list;
 mod manual;
+mod printable;
 mod render;
 mod schema;
 mod source;
@@ -20,6 +21,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use coupler_atlas::output;
 use format::pluralize;
+use printable::{printable, printable_lines};
 
 const EXIT_CODES: &str = "Exit codes: 0 success; 1 check found a difference, or render --strict a cell that is not \
                           assembled over the whole range; 2 invalid input; 3 system error, or another run is writing \
@@ -61,13 +63,30 @@ enum Outcome {
 #[error("{0}")]
 struct InputError(String);
 
+/// Errors in the user's input, and notes on them, a line for each; the first line is an error.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+struct InputErrors(Vec<String>);
+
+impl InputErrors {
+    /// Several errors.
+    fn from_messages(messages: &[String]) -> InputErrors {
+        let prefix = |k: usize| if k == 0 { "" } else { "error: " };
+        InputErrors(messages.iter().enumerate().map(|(k, message)| format!("{}{message}", prefix(k))).collect())
+    }
+}
+
 const EXIT_INPUT_ERROR: u8 = 2;
 const EXIT_SYSTEM_ERROR: u8 = 3;
 const EXIT_INTERRUPTED: u8 = 130;
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let arguments = match parse_arguments() {
+        Ok(arguments) => arguments,
+        Err(error) => error.exit(),
+    };
+    let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -86,6 +105,17 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Parses the command line; an error quotes arguments as they can be printed.
+fn parse_arguments() -> Result<Arguments, clap::Error> {
+    Arguments::try_parse().map_err(|error| {
+        let shown = std::env::args_os().map(|argument| printable(argument.to_string_lossy()));
+        Arguments::try_parse_from(shown).err().unwrap_or_else(|| {
+            // Only the unprintable characters were wrong.
+            clap::Error::raw(error.kind(), "an argument has control characters\n")
+        })
+    })
+}
+
 /// Prints an error, and returns the exit code for it.
 fn report_failure(error: &anyhow::Error) -> ExitCode {
     // A reader that closes the pipe early, as `head` does, is not an error.
@@ -94,14 +124,19 @@ fn report_failure(error: &anyhow::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     // The messages of all other errors name what failed.
-    let message = match error.downcast_ref::<io::Error>() {
-        Some(error) => format!("cannot write to standard output: {error}; the files that were written are complete"),
-        None => error.to_string(),
+    let lines = match (error.downcast_ref::<io::Error>(), error.downcast_ref::<InputErrors>()) {
+        (Some(error), _) => {
+            vec![format!("cannot write to standard output: {error}; the files that were written are complete")]
+        }
+        (None, Some(InputErrors(lines))) => lines.clone(),
+        (None, None) => vec![error.to_string()],
     };
-    if !message.is_empty() {
-        let _ = writeln!(io::stderr(), "error: {message}");
+    if lines.iter().any(|line| !line.is_empty()) {
+        let lines: Vec<String> = lines.iter().map(printable).collect();
+        print_stderr(&format!("error: {}\n", lines.join("\n")));
     }
     let is_input = error.downcast_ref::<InputError>().is_some()
+        || error.downcast_ref::<InputErrors>().is_some()
         || matches!(
             error.downcast_ref(),
             Some(
@@ -122,12 +157,12 @@ fn report_failure(error: &anyhow::Error) -> ExitCode {
     })
 }
 
-/// Writes a result to standard output.
+/// Writes a text to be read to standard output.
 fn print(text: &str) -> anyhow::Result<()> {
-    print_bytes(text.as_bytes())
+    print_bytes(printable_lines(text).as_bytes())
 }
 
-/// Writes a result that may not be text to standard output.
+/// Writes a result for programs, or one that is not text, to standard output as it is.
 fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(bytes)?;
@@ -135,7 +170,12 @@ fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Writes a message with the escape sequences of colours to standard error.
+fn print_styled(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
 /// Writes a message to standard error; a failure to do so is ignored.
 fn print_stderr(text: &str) {
-    let _ = io::stderr().write_all(text.as_bytes());
+    let _ = io::stderr().write_all(printable_lines(text).as_bytes());
 }

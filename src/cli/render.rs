@@ -13,7 +13,7 @@ use coupler_drawing::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::source::{self, DEFAULT_MANIFEST};
-use super::{EXIT_INTERRUPTED, Outcome, pluralize, print, print_stderr};
+use super::{EXIT_INTERRUPTED, Outcome, pluralize, print, print_stderr, printable};
 
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Debug, Args)]
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         output::write_atlas(&source.plan, &output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
     source.report_problems(&output::empty_family_warnings(&source.plan, Some(&run)));
     if !arguments.quiet {
-        lines.push_str(&format!("written to {}\n", output.display()));
+        lines.push_str(&format!("written to {}\n", printable(output.display())));
         print(&lines)?;
     }
     Ok(if arguments.strict && reporter.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
@@ -130,7 +130,7 @@ impl ProgressReporter {
                 let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
                 self.bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
                 self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-                self.bar.set_message(family.to_owned());
+                self.bar.set_message(printable(family));
             }
             Event::Begin { .. } => {}
             Event::Page => self.bar.inc(1),
@@ -138,7 +138,8 @@ impl ProgressReporter {
                 self.not_assembled += 1;
                 self.warnings += 1;
                 if self.warnings <= MAX_WARNINGS {
-                    self.bar.suspend(|| print_stderr(&format!("warning: {family}, cell {cell}: {reason}\n")));
+                    self.bar
+                        .suspend(|| print_stderr(&format!("warning: {family}, cell {cell}: {}\n", printable(reason))));
                 }
             }
             Event::End { record, drawn } => {
@@ -164,7 +165,7 @@ impl ProgressReporter {
                 lines.push_str(&format!("{files}: {}{unchanged}\n", pluralize(record.pages, "page")));
             }
             Event::UnusableRecord { record, error } => {
-                let record = record.display();
+                let (record, error) = (printable(record.display()), printable(error));
                 print_stderr(&format!(
                     "warning: {record} is replaced: {error}; every page is drawn, and no file is removed\n"
                 ));

@@ -8,7 +8,7 @@ use coupler_atlas::output;
 use coupler_atlas::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
-use super::{InputError, pluralize, print_stderr};
+use super::{InputError, pluralize, print_stderr, print_styled, printable};
 
 /// The manifest that a command reads when none is given.
 pub const DEFAULT_MANIFEST: &str = "atlas.toml";
@@ -104,5 +104,7 @@ impl ManifestSource {
 /// Prints problems in a text to standard error, in color on a terminal unless `NO_COLOR` is set.
 pub fn report_problems(path: &Path, text: &str, problems: &[Problem]) {
     let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    print_stderr(&problem::report(problems, &path.display().to_string(), text, styled));
+    let report = problem::report(problems, &printable(path.display()), text, styled);
+    // A styled report has the escape sequences of its colours, and no other control characters.
+    if styled { print_styled(&report) } else { print_stderr(&report) }
 }

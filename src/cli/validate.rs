@@ -6,7 +6,7 @@ use clap::Args;
 use coupler_atlas::output;
 
 use super::source::{self, DEFAULT_MANIFEST};
-use super::{Outcome, pluralize, print};
+use super::{Outcome, pluralize, print, printable};
 
 /// Report every problem of a manifest, and write nothing.
 #[derive(Debug, Args)]
@@ -24,6 +24,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         1 => "1 family".to_owned(),
         n => format!("{n} families"),
     };
-    print(&format!("{}: {families}, {}\n", arguments.manifest.display(), pluralize(cells, "cell")))?;
+    print(&format!("{}: {families}, {}\n", printable(arguments.manifest.display()), pluralize(cells, "cell")))?;
     Ok(Outcome::Done)
 }

@@ -17,6 +17,7 @@ mod faults;
 mod folder;
 mod formats;
 mod gallery;
+mod hostile_text;
 mod lettering;
 mod manifests;
 mod ownership;

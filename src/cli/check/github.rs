@@ -2,6 +2,7 @@
 
 use coupler_atlas::check::Report;
 
+use super::super::printable;
 use super::super::source::ManifestSource;
 
 /// GitHub shows at most this many annotations of one step.
@@ -9,7 +10,7 @@ const MAX_ANNOTATIONS: usize = 10;
 
 /// The worst findings as annotations, each at the table of its family in the manifest.
 pub fn text(report: &Report, source: &ManifestSource) -> String {
-    let file = source.path.display().to_string().replace('\\', "/");
+    let file = printable(source.path.display()).replace('\\', "/");
     let line_of = |id: &str| {
         let planned = source.plan.families.iter().find(|planned| planned.family.id == id);
         planned.map_or(1, |planned| source.text[..planned.span.start].matches('\n').count() + 1)
@@ -18,11 +19,11 @@ pub fn text(report: &Report, source: &ManifestSource) -> String {
     for finding in report.findings.iter().take(MAX_ANNOTATIONS) {
         let level = if finding.change.is_difference() { "error" } else { "notice" };
         let (line, title) =
-            (line_of(&finding.location.family), format!("{}: {}", finding.change.kind(), finding.location));
+            (line_of(&finding.location.family), format!("{}: {}", finding.change.kind(), printable(&finding.location)));
         let (file, title) = (escape_property(&file), escape_property(&title));
         text.push_str(&format!(
             "::{level} file={file},line={line},title={title}::{}\n",
-            escape_data(&finding.change.to_string())
+            escape_data(&printable(&finding.change))
         ));
     }
     let omitted = report.total().saturating_sub(MAX_ANNOTATIONS);

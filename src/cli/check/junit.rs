@@ -6,6 +6,8 @@ use coupler_atlas::check::{Finding, Report};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
+use super::super::printable;
+
 /// The report as JUnit XML: a suite for each family with findings, with a case for each location, and a passing case
 /// for everything else.
 pub fn text(report: &Report) -> anyhow::Result<String> {
@@ -40,7 +42,7 @@ pub fn text(report: &Report) -> anyhow::Result<String> {
 }
 
 fn with_counts<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures: usize) -> BytesStart<'a> {
-    start.push_attribute(("name", name));
+    start.push_attribute(("name", printable(name).as_str()));
     start.push_attribute(("tests", tests.to_string().as_str()));
     start.push_attribute(("failures", failures.to_string().as_str()));
     start
@@ -48,12 +50,12 @@ fn with_counts<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures
 
 fn write_case(writer: &mut Writer<Vec<u8>>, family: &str, location: &str, findings: &[&Finding]) -> anyhow::Result<()> {
     let mut start = BytesStart::new("testcase");
-    start.push_attribute(("classname", family));
-    start.push_attribute(("name", location));
+    start.push_attribute(("classname", printable(family).as_str()));
+    start.push_attribute(("name", printable(location).as_str()));
     writer.write_event(Event::Start(start))?;
     let texts = |is_difference: bool| -> Vec<String> {
         let matching = findings.iter().filter(|finding| finding.change.is_difference() == is_difference);
-        matching.map(|finding| format!("{}: {}", finding.change.kind(), finding.change)).collect()
+        matching.map(|finding| format!("{}: {}", finding.change.kind(), printable(&finding.change))).collect()
     };
     for (name, texts) in [("failure", texts(true)), ("system-out", texts(false))] {
         let Some(first) = texts.first() else { continue };

@@ -16,7 +16,7 @@ use coupler_curves::problem::suggestion;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
-use super::{InputError, Outcome, print, print_stderr};
+use super::{InputError, Outcome, print, print_bytes, print_stderr, printable};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
@@ -143,7 +143,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
             let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
             bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.set_message(family.to_owned());
+            bar.set_message(printable(family));
         }
         Event::Begin { .. } => {}
         Event::Page => bar.inc(1),
@@ -172,7 +172,7 @@ fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report
             Some(file) => output::write_file(file, text.as_bytes())?,
             None => {
                 has_table = false;
-                print(&text)?;
+                print_bytes(text.as_bytes())?;
             }
         }
     }
@@ -189,7 +189,7 @@ fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> any
         return Ok(Outcome::Done);
     }
     let folder: &Path = &arguments.against;
-    print_stderr(&format!("recording the new atlas in {}\n", folder.display()));
+    print_stderr(&format!("recording the new atlas in {}\n", printable(folder.display())));
     let manifest = Some(source.file_name());
     let options = output::Options { force: true, manifest, ..output::Options::default() };
     output::write_atlas(&source.plan, folder, &options, &mut |_| {})?;

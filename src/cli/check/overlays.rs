@@ -7,7 +7,7 @@ use coupler_atlas::manifest::Plan;
 use coupler_atlas::output;
 use quick_xml::escape::escape;
 
-use super::super::{pluralize, print_stderr};
+use super::super::{pluralize, print_stderr, printable};
 
 /// At most this many curves are drawn, the worst ones: nobody looks at more.
 const MAX_CURVES: usize = 500;
@@ -20,11 +20,11 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Re
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
     check::draw_overlays(plan, recorded, report, MAX_CURVES, |overlay| {
-        let (name, location) = (&overlay.name, escape(overlay.finding.location.to_string()));
+        let (name, location) = (&overlay.name, escape(printable(&overlay.finding.location)));
         figures.push_str(&format!(
             "<figure id=\"{name}\"><figcaption><b>{location}</b>: {}</figcaption>\
              <a href=\"{name}\"><img src=\"{name}\" alt=\"{location}, old and new\" loading=\"lazy\"></a></figure>\n",
-            escape(overlay.finding.change.to_string()),
+            escape(printable(&overlay.finding.change)),
         ));
         match output::write_file(&folder.join(name), &overlay.svg) {
             Ok(()) => written += 1,
@@ -34,7 +34,7 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Re
     if let Some(error) = failed {
         return Err(error.into());
     }
-    let title = escape(&plan.title);
+    let title = escape(printable(&plan.title));
     let summary = match written {
         0 => "No curve has moved.".to_owned(),
         n => format!("{}, the worst first.", pluralize(n, "curve")),
@@ -45,6 +45,6 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Re
          <body><h1>{title}: what has moved</h1>\n<p>{summary}</p>\n{figures}</body></html>\n"
     );
     output::write_file(&folder.join("index.html"), page.as_bytes())?;
-    print_stderr(&format!("{} drawn in {}\n", pluralize(written, "curve"), folder.display()));
+    print_stderr(&format!("{} drawn in {}\n", pluralize(written, "curve"), printable(folder.display())));
     Ok(())
 }

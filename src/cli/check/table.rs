@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use coupler_atlas::check::{Change, Finding, Report};
 
-use super::super::pluralize;
+use super::super::{pluralize, printable};
 
 /// The findings shown one by one: with the other lines of the report they fill a screen.
 const MAX_FINDINGS: usize = 20;
@@ -16,15 +16,15 @@ pub fn text(report: &Report) -> String {
     let shown: Vec<&Finding> = lines.iter().take(MAX_FINDINGS).map(|(finding, _)| *finding).collect();
     let width = |length: fn(&Finding) -> usize| shown.iter().map(|finding| length(finding)).max().unwrap_or(0);
     let (kind_width, location_width) =
-        (width(|f| f.change.kind().len()), width(|f| f.location.to_string().chars().count()));
+        (width(|f| f.change.kind().len()), width(|f| printable(&f.location).chars().count()));
     let mut counts = report.counts.clone();
     for (Finding { location, change }, grouped) in lines.iter().take(MAX_FINDINGS) {
         let more = match grouped {
             0 => String::new(),
             n => format!("; and {} of the same curve", pluralize(*n, "more measure")),
         };
-        let (kind, location) = (change.kind(), location.to_string());
-        text.push_str(&format!("{kind:kind_width$}  {location:location_width$}  {change}{more}\n"));
+        let (kind, location) = (change.kind(), printable(location));
+        text.push_str(&format!("{kind:kind_width$}  {location:location_width$}  {}{more}\n", printable(change)));
         counts.entry(kind).and_modify(|count| *count -= 1 + grouped);
     }
     let omitted: usize = counts.values().sum();

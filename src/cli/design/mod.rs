@@ -15,7 +15,7 @@ use coupler_atlas::output;
 use coupler_curves::expression::Expression;
 use coupler_curves::problem::suggestion;
 
-use super::{InputError, Outcome, print};
+use super::{InputErrors, Outcome, print, print_bytes};
 
 /// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
 ///
@@ -155,25 +155,24 @@ struct Report {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let Task::StraightLine = arguments.what;
-    let requirements = parse_requirements(arguments).map_err(|errors| InputError(errors.join("\nerror: ")))?;
+    let requirements = parse_requirements(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
     let results = design::straight_line(&requirements);
     let report = Report { requirements, is_deviation_given: arguments.deviation.is_some(), results };
     if report.results.designs.is_empty() {
         // The JSON lists the relaxations; the exit code is that of an error all the same.
         if arguments.json {
-            print(&json::json(&report))?;
+            print_bytes(json::json(&report).as_bytes())?;
         }
-        return Err(InputError(text::no_design_message(&report)).into());
+        return Err(InputErrors(text::no_design_message(&report).lines().map(str::to_owned).collect()).into());
     }
     if let Some(path) = &arguments.svg {
         output::write_file(path, &plate::plate(&report))?;
     }
-    let out = match (arguments.json, arguments.toml) {
-        (true, _) => json::json(&report),
-        (_, true) => fragment::manifest(&report),
-        _ => text::text(&report),
-    };
-    print(&out)?;
+    match (arguments.json, arguments.toml) {
+        (true, _) => print_bytes(json::json(&report).as_bytes())?,
+        (_, true) => print_bytes(fragment::manifest(&report).as_bytes())?,
+        _ => print(&text::text(&report))?,
+    }
     Ok(Outcome::Done)
 }
 

@@ -20,7 +20,7 @@ use coupler_drawing::render::TextMode;
 
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::source::{self, DEFAULT_MANIFEST};
-use super::{InputError, Outcome, pluralize, print, print_bytes, print_stderr};
+use super::{InputError, InputErrors, Outcome, pluralize, print, print_bytes, print_stderr, printable};
 use selection::CurveSelection;
 use selector::CurveSelector;
 
@@ -136,14 +136,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         destination.write_file("curves.toml", manifest_fragment(&cases).as_bytes())?;
     }
     if let Destination::Folder(folder) = destination {
-        print(&format!("{} written to {}\n", pluralize(files, "file"), folder.display()))?;
+        print(&format!("{} written to {}\n", pluralize(files, "file"), printable(folder.display())))?;
     }
     Ok(Outcome::Done)
 }
 
 /// One error of several messages.
 fn problems_error(problems: &[String]) -> anyhow::Error {
-    InputError(problems.join("\nerror: ")).into()
+    InputErrors::from_messages(problems).into()
 }
 
 /// Selects the curves of a single linkage.

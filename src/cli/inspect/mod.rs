@@ -17,7 +17,7 @@ use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
 
 use super::linkage::{self, DEFAULT_SAMPLES};
-use super::{InputError, Outcome, print};
+use super::{InputError, Outcome, print, print_bytes};
 use pose::Pose;
 
 /// Describe one linkage: its class, its circuits and their limits, and the positions and velocities of its joints.
@@ -101,11 +101,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(path) = &arguments.svg {
         output::write_file(path, &plate::plate(&report, arguments.animate))?;
     }
-    let out = match &report.cognates {
-        Some(cognate_set) if arguments.toml => cognates::manifest(&report, cognate_set),
-        _ if arguments.json => json::json(&report),
-        _ => text::text(&report),
-    };
-    print(&out)?;
+    match &report.cognates {
+        Some(cognate_set) if arguments.toml => print_bytes(cognates::manifest(&report, cognate_set).as_bytes())?,
+        _ if arguments.json => print_bytes(json::json(&report).as_bytes())?,
+        _ => print(&text::text(&report))?,
+    }
     Ok(Outcome::Done)
 }
