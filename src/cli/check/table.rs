@@ -9,6 +9,9 @@ use super::super::{pluralize, printable};
 /// The findings shown one by one: with the other lines of the report they fill a screen.
 const MAX_FINDINGS: usize = 20;
 
+/// The greatest width of the column of locations, in characters: a recorded name may be longer than any line.
+const MAX_LOCATION_WIDTH: usize = 80;
+
 /// The worst findings one by one, the number of the others by kind, and what was checked.
 pub fn text(report: &Report) -> String {
     let mut text = String::new();
@@ -16,7 +19,7 @@ pub fn text(report: &Report) -> String {
     let shown: Vec<&Finding> = lines.iter().take(MAX_FINDINGS).map(|(finding, _)| *finding).collect();
     let width = |length: fn(&Finding) -> usize| shown.iter().map(|finding| length(finding)).max().unwrap_or(0);
     let (kind_width, location_width) =
-        (width(|f| f.change.kind().len()), width(|f| printable(&f.location).chars().count()));
+        (width(|f| f.change.kind().len()), width(|f| printable(&f.location).chars().count()).min(MAX_LOCATION_WIDTH));
     let mut counts = report.counts.clone();
     for (Finding { location, change }, grouped) in lines.iter().take(MAX_FINDINGS) {
         let more = match grouped {

@@ -9,6 +9,9 @@ use super::format::{describe_circuit, format_point, format_significant, input_un
 use super::pose::{Pose, instant_geometries, link_rotations};
 use super::{Report, cognates, equation};
 
+/// The greatest width of the column of joint names, in characters; longer names exceed it.
+const MAX_NAME_WIDTH: usize = 40;
+
 /// The report as text: class, circuits, equations, then a table for each pose and the cognates.
 pub(super) fn text(report: &Report) -> String {
     let Report { family, solved, input, poses, equations: (equations, with_coefficients), cognates } = report;
@@ -48,7 +51,14 @@ pub(super) fn text(report: &Report) -> String {
 fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
     let (input, branch) = (format_significant(pose.input, 10), pose.pass.mode.sign(DyadId::FIRST));
     let _ = writeln!(out, "\nat {input}{}, circuit {}, branch {branch}", input_unit(&solved.linkage), pose.circuit);
-    let width = solved.linkage.joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0).max(5);
+    let width = solved
+        .linkage
+        .joints
+        .iter()
+        .map(|joint| joint.name.chars().count())
+        .max()
+        .unwrap_or(0)
+        .clamp(5, MAX_NAME_WIDTH);
     let row = |out: &mut String, name: &str, cells: &[String]| {
         let cells: String = cells.iter().map(|cell| format!("{cell:>13}")).collect();
         let _ = writeln!(out, "{name:<width$}{cells}");
