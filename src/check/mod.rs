@@ -30,7 +30,7 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
-use crate::gallery::{PAGE_FILE, SCRIPT_FILE};
+use crate::gallery::{PAGE_FILE, SCRIPT_FILE, is_data_file_name};
 use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
 use crate::record::{FamilyRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, ReadError, open_regular_file};
@@ -226,8 +226,8 @@ fn check_family(
     report.families += 1;
     report.pages += pages.len();
     findings.extend(family_check.page_findings(pages, &changed_cells));
-    if let Some(script) = record.files.iter().find(|file| file.name == SCRIPT_FILE) {
-        findings.extend(gallery::check_file(recorded, &format!("{}/{SCRIPT_FILE}", planned.family.id), script));
+    for file in record.files.iter().filter(|file| is_data_file_name(&file.name)) {
+        findings.extend(gallery::check_file(recorded, &format!("{}/{}", planned.family.id, file.name), file));
     }
     if is_outdated {
         findings.retain(outdated::is_comparable);
@@ -260,7 +260,8 @@ fn check_counts(pipeline: &FamilyPipeline, record: &FamilyRecord) -> Option<Find
 fn lists_all_pages(pipeline: &FamilyPipeline, record: &FamilyRecord) -> bool {
     let page_count = pipeline.pagination.page_count;
     let listed: HashSet<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
-    let data_files = ["cells.csv", "points.csv", SCRIPT_FILE].iter().filter(|name| listed.contains(**name)).count();
+    let has_tables = ["cells.csv", "points.csv", SCRIPT_FILE].iter().all(|name| listed.contains(name));
+    let data_files = 2 + listed.iter().filter(|name| is_data_file_name(name)).count();
     let page_files: usize = PageFormat::ALL
         .into_iter()
         .map(|format| {
@@ -270,5 +271,5 @@ fn lists_all_pages(pipeline: &FamilyPipeline, record: &FamilyRecord) -> bool {
         })
         .filter(|&count| count == page_count)
         .sum();
-    data_files == 3 && data_files + page_files == record.files.len()
+    has_tables && data_files + page_files == record.files.len()
 }

@@ -1,9 +1,10 @@
-//! The script that contains the data of a family, as statements that the page executes.
+//! The scripts that contain the data of a family, as statements that the page executes.
 
 use std::collections::BTreeMap;
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+use super::pieces::{CellData, PieceContent, PieceIndex, PieceSeries};
 use super::template_json::{expression_json, template_json};
 use super::typed_array::{f64s, u8s, u16s, u32s};
 use crate::manifest::{Plan, PlannedFamily};
@@ -14,7 +15,7 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell, Status};
 use coupler_drawing::page::Layout;
 use coupler_drawing::scene::{Group, Item, Scene};
 
-/// The name of the script in the folder of a family.
+/// The name of the head of the data in the folder of a family.
 pub const SCRIPT_FILE: &str = "gallery.js";
 
 /// The greatest number of points of a curve: enough to draw a thumbnail, to select the curve with a pointer, and to
@@ -24,7 +25,7 @@ const MAX_POINTS: usize = 128;
 /// The code of a missing word.
 const MISSING_WORD: u8 = u8::MAX;
 
-/// Writes the statements of the script of a family.
+/// The statements of the scripts of a family.
 #[derive(Clone, Copy, Debug)]
 pub struct FamilyScript<'a> {
     plan: &'a Plan,
@@ -32,13 +33,14 @@ pub struct FamilyScript<'a> {
 }
 
 impl<'a> FamilyScript<'a> {
-    /// The script of a family of a plan.
+    /// The scripts of a family of a plan.
     pub fn new(plan: &'a Plan, planned: &'a PlannedFamily) -> FamilyScript<'a> {
         FamilyScript { plan, planned }
     }
 
-    /// The first statement: the data of the family as a whole.
-    pub fn begin(self) -> String {
+    /// The head of the data: what the family is, and the index of its pieces, which is known at the end of a run.
+    /// `statements` are those of a family that is small enough to have everything in its head, and otherwise empty.
+    pub fn head(self, pieces: &[PieceIndex], statements: &str) -> String {
         let family = &self.planned.family;
         let derived: Vec<Value> =
             family.derived.iter().map(|(slot, expression)| json!([slot, expression_json(expression)])).collect();
@@ -48,7 +50,12 @@ impl<'a> FamilyScript<'a> {
             Layout::Chart { .. } => "chart",
             Layout::CouplerGrid => "coupler-grid",
         };
-        statement(
+        // The pages of a sorted family have their cells in another order.
+        let has_panels = layout == "panels" && family.sort.is_none();
+        let index = |series: PieceSeries| {
+            pieces.iter().filter(|piece| piece.series == series).map(piece_json).collect::<Vec<_>>()
+        };
+        let begin = statement(
             "begin",
             &json!({
                 "id": family.id,
@@ -57,6 +64,7 @@ impl<'a> FamilyScript<'a> {
                 "legend": family.template.legend,
                 "linkage": family.template.id,
                 "layout": layout,
+                "panels": has_panels.then(|| self.planned.layout.cells_per_page()),
                 "sampling": sampling_json(family.sampling),
                 "paper": { "width": paper.width, "height": paper.height, "color": color },
                 "columns": family.columns.iter().map(|column| column.name).collect::<Vec<_>>(),
@@ -66,70 +74,103 @@ impl<'a> FamilyScript<'a> {
                 "names": family.names,
                 "free": family.space.assigned_slots(),
                 "derived": derived,
+                "measures": self.measures(false).map(|(_, measure)| measure.name).collect::<Vec<_>>(),
+                "words": self.measures(true).map(|(_, measure)| measure.name).collect::<Vec<_>>(),
+                "pieces": { "table": index(PieceSeries::Table), "curves": index(PieceSeries::Curves) },
             }),
-        )
+        );
+        format!("{begin}{statements}{}", self.end())
     }
 
-    /// A statement with some cells and their curves, in order of their numbers; empty if `where` leaves them all out.
-    pub fn cells(self, solved: &[SolvedCell]) -> String {
+    /// The first statement of a piece.
+    pub fn begin_piece(self, series: PieceSeries, number: usize) -> String {
+        statement("piece", &json!({ "id": self.planned.family.id, "series": series.name(), "number": number }))
+    }
+
+    /// The statements with some cells and their curves, in order of their numbers.
+    pub fn cells(self, solved: &[SolvedCell]) -> CellData {
         let kept: Vec<&SolvedCell> = solved.iter().filter(|solved| !solved.is_left_out()).collect();
-        if kept.is_empty() {
-            return String::new();
-        }
-        let family = &self.planned.family;
-        let lines: Vec<[String; 2]> =
-            kept.iter().map(|s| family.format_captions(&s.cell, s.first_curve_values())).collect();
-        let reason = |s: &&SolvedCell| s.reason();
+        let curves: Vec<(&SolvedCell, &MeasuredCurve)> =
+            kept.iter().flat_map(|s| s.curves.iter().map(move |curve| (*s, curve))).collect();
+        let (Some(first), Some(last)) = (kept.first(), kept.last()) else { return CellData::default() };
+        let range = |slot: usize| {
+            let values = || kept.iter().filter_map(|s| s.cell.values.get(slot).copied());
+            [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+        };
+        let content = PieceContent {
+            cells: kept.len(),
+            curves: curves.len(),
+            pages: 0,
+            numbers: Some([first.cell.number, last.cell.number]),
+            traces: curves.iter().map(|(_, curve)| curve.trace).max().unwrap_or(0),
+            ranges: (0..self.planned.family.names.len()).map(range).collect(),
+        };
+        CellData { table: self.table_rows(&kept, &curves), curves: self.outlines(&kept, &curves), content }
+    }
+
+    /// The measures of the family that are words, or those that are numbers, with their indices.
+    fn measures(self, is_word: bool) -> impl Iterator<Item = (usize, &'static measure::Measure)> + 'a {
+        self.planned.family.computed_measures().filter(move |(_, measure)| measure.is_word == is_word)
+    }
+
+    /// The statement of the table: the values of cells, and the measures of their curves.
+    fn table_rows(self, kept: &[&SolvedCell], curves: &[(&SolvedCell, &MeasuredCurve)]) -> String {
         let status = |s: &&SolvedCell| match s.status() {
             Status::Ok => 0,
             Status::Partial => 1,
             Status::None => 2,
         };
-        let curves: Vec<(usize, &SolvedCell, &MeasuredCurve)> =
-            kept.iter().enumerate().flat_map(|(k, s)| s.curves.iter().map(move |curve| (k, *s, curve))).collect();
-        statement(
-            "cells",
-            &json!({
-                "number": u32s(kept.iter().map(|s| s.cell.number)),
-                "values": f64s(kept.iter().flat_map(|s| s.cell.values.iter().copied())),
-                "status": u8s(kept.iter().map(status)),
-                "reason": kept.iter().map(reason).collect::<Vec<_>>(),
-                "caption": lines.iter().map(|[caption, _]| caption.as_str()).collect::<Vec<_>>(),
-                "note": lines.iter().map(|[_, note]| note.as_str()).collect::<Vec<_>>(),
-                "curves": self.curves(&curves),
-            }),
-        )
-    }
-
-    /// The curves, each with the index of its cell in the same statement.
-    fn curves(self, curves: &[(usize, &SolvedCell, &MeasuredCurve)]) -> Value {
+        let numbers: Vec<usize> = kept.iter().map(|s| s.cell.number).collect();
+        let is_run = numbers.windows(2).all(|pair| pair[0] + 1 == pair[1]);
         let number = |curve: &MeasuredCurve, k: usize| match curve.values.get(k) {
             Some(measure::Value::Number(value)) => *value,
             _ => f64::NAN,
         };
-        let computed = || self.planned.family.computed_measures();
-        let numbers = computed().filter(|(_, measure)| !measure.is_word);
-        let measures: Map<String, Value> = numbers
-            .map(|(k, m)| (m.name.to_owned(), f64s(curves.iter().map(|(.., curve)| number(curve, k)))))
-            .collect();
-        let words = computed().filter(|(_, measure)| measure.is_word);
-        let words: Map<String, Value> = words.map(|(k, m)| (m.name.to_owned(), words_json(curves, k))).collect();
-        let points: Vec<Vec<Point>> = curves.iter().map(|(_, solved, curve)| thinned_points(solved, curve)).collect();
+        let column = |slot: usize| f64s(kept.iter().map(|s| s.cell.values.get(slot).copied().unwrap_or(f64::NAN)));
+        statement(
+            "cells",
+            &json!({
+                "count": kept.len(),
+                // The first number, if the others follow it.
+                "number": if is_run { json!(numbers.first()) } else { u32s(numbers) },
+                "values": (0..self.planned.family.names.len()).map(column).collect::<Vec<_>>(),
+                "status": u8s(kept.iter().map(status)),
+                "curves": u16s(kept.iter().map(|s| s.curves.len())),
+                "trace": u16s(curves.iter().map(|(_, curve)| curve.trace)),
+                "circuit": u16s(curves.iter().map(|(_, curve)| curve.circuit)),
+                "closed": u8s(curves.iter().map(|(solved, curve)| u8::from(solved.circuit(curve).is_closed))),
+                "measures": self
+                    .measures(false)
+                    .map(|(k, _)| f64s(curves.iter().map(|(_, curve)| number(curve, k))))
+                    .collect::<Vec<_>>(),
+                "words": self.measures(true).map(|(k, _)| words_json(curves, k)).collect::<Vec<_>>(),
+            }),
+        )
+    }
+
+    /// The statement with what is shown of cells and curves: captions and points.
+    fn outlines(self, kept: &[&SolvedCell], curves: &[(&SolvedCell, &MeasuredCurve)]) -> String {
+        let family = &self.planned.family;
+        let lines: Vec<[String; 2]> =
+            kept.iter().map(|s| family.format_captions(&s.cell, s.first_curve_values())).collect();
+        let points: Vec<Vec<Point>> = curves.iter().map(|(solved, curve)| thinned_points(solved, curve)).collect();
         let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::from_points(points.iter().copied())).collect();
-        let corners = |b: &Bounds| [b.min.x, b.min.y, b.max.x, b.max.y];
+        let side = |of: fn(&Bounds) -> f64| f64s(boxes.iter().map(of));
         let quantized =
             points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantize(*p, bounds)));
-        json!({
-            "cell": u32s(curves.iter().map(|(cell, ..)| *cell)),
-            "trace": u16s(curves.iter().map(|(.., curve)| saturating_u16(curve.trace))),
-            "circuit": u16s(curves.iter().map(|(.., curve)| saturating_u16(curve.circuit))),
-            "closed": u8s(curves.iter().map(|(_, solved, curve)| u8::from(solved.circuit(curve).is_closed))),
-            "measures": measures,
-            "words": words,
-            "box": f64s(boxes.iter().flat_map(corners)),
-            "count": u16s(points.iter().map(|points| saturating_u16(points.len()))),
-            "points": u16s(quantized),
-        })
+        statement(
+            "curves",
+            &json!({
+                "reason": texts(kept.iter().map(|s| s.reason())),
+                "caption": texts(lines.iter().map(|[caption, _]| caption.clone())),
+                "note": texts(lines.iter().map(|[_, note]| note.clone())),
+                "cells": kept.len(),
+                "box": [side(|b| b.min.x), side(|b| b.min.y), side(|b| b.max.x), side(|b| b.max.y)],
+                "count": u16s(points.iter().map(Vec::len)),
+                "curves": curves.len(),
+                "points": u16s(quantized.map(usize::from)),
+            }),
+        )
     }
 
     /// A statement with the layout of a page: for each view, the cell, the scale and origin that map the plane to
@@ -150,7 +191,7 @@ impl<'a> FamilyScript<'a> {
         statement("page", &json!({ "page": number, "views": views }))
     }
 
-    /// The last statement.
+    /// The last statement of the head, and of each piece.
     pub fn end(self) -> String {
         statement("end", &json!({ "id": self.planned.family.id }))
     }
@@ -181,13 +222,13 @@ pub fn straight_json(straight: StraightCriterion) -> Value {
 }
 
 /// The words of the `k`-th measure: a list of the distinct words, and for each curve the index of its word.
-fn words_json(curves: &[(usize, &SolvedCell, &MeasuredCurve)], k: usize) -> Value {
+fn words_json(curves: &[(&SolvedCell, &MeasuredCurve)], k: usize) -> Value {
     let mut values: BTreeMap<&str, u8> = BTreeMap::new();
     let word = |curve: &MeasuredCurve| match curve.values.get(k) {
         Some(measure::Value::Word(word)) => Some(*word),
         _ => None,
     };
-    for word in curves.iter().filter_map(|(.., curve)| word(curve)) {
+    for word in curves.iter().filter_map(|(_, curve)| word(curve)) {
         let next = u8::try_from(values.len()).unwrap_or(MISSING_WORD);
         values.entry(word).or_insert(next);
     }
@@ -196,12 +237,31 @@ fn words_json(curves: &[(usize, &SolvedCell, &MeasuredCurve)], k: usize) -> Valu
     let code = |curve: &MeasuredCurve| word(curve).and_then(|word| values.get(word).copied()).unwrap_or(MISSING_WORD);
     json!({
         "values": words.iter().map(|(word, _)| *word).collect::<Vec<_>>(),
-        "codes": u8s(curves.iter().map(|(.., curve)| code(curve))),
+        "codes": u8s(curves.iter().map(|(_, curve)| code(curve))),
     })
 }
 
-fn saturating_u16(number: usize) -> u16 {
-    u16::try_from(number).unwrap_or(u16::MAX)
+/// Some texts; an empty list if all are empty.
+fn texts(texts: impl Iterator<Item = String>) -> Value {
+    let texts: Vec<String> = texts.collect();
+    if texts.iter().all(String::is_empty) { json!([]) } else { json!(texts) }
+}
+
+/// The entry of a piece in the index of the head.
+fn piece_json(piece: &PieceIndex) -> Value {
+    let PieceContent { cells, curves, pages, numbers, traces, ranges } = &piece.content;
+    let entry = json!({ "bytes": piece.bytes, "cells": cells, "curves": curves, "numbers": numbers });
+    let further = match piece.series {
+        PieceSeries::Table => json!({ "traces": traces, "ranges": ranges }),
+        PieceSeries::Curves => json!({ "pages": pages }),
+    };
+    match (entry, further) {
+        (Value::Object(mut entry), Value::Object(further)) => {
+            entry.extend(further);
+            Value::Object(entry)
+        }
+        (entry, _) => entry,
+    }
 }
 
 /// At most [`MAX_POINTS`] points of a curve, including the first and, of an open curve, the last.

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::assets::{SCRIPTS, STYLES, join_modules};
+use super::pieces::{PieceSeries, is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
 
@@ -14,8 +15,31 @@ use coupler_curves::measure;
 pub struct GalleryFamily<'a> {
     /// The record of the family.
     pub record: &'a FamilyRecord,
-    /// The size of its script, in bytes.
-    pub script_bytes: u64,
+    /// The sizes of its data.
+    pub bytes: DataBytes,
+}
+
+/// The sizes of a family's data, in bytes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DataBytes {
+    /// Of all its data.
+    pub all: u64,
+    /// Of what is read to find its curves by their measures.
+    pub table: u64,
+}
+
+impl DataBytes {
+    /// The sizes of the data among the files of a family, given the size of a file by its name.
+    pub fn new(record: &FamilyRecord, size_of: impl Fn(&str) -> u64) -> DataBytes {
+        let mut bytes = DataBytes::default();
+        for file in record.files.iter().filter(|file| is_data_file_name(&file.name)) {
+            let size = size_of(&file.name);
+            bytes.all += size;
+            let has_points = parse_piece_file_name(&file.name).is_some_and(|(series, _)| series == PieceSeries::Curves);
+            bytes.table += if has_points { 0 } else { size };
+        }
+        bytes
+    }
 }
 
 /// The name of the page in the folder of the atlas.
@@ -64,7 +88,7 @@ fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
     let measure =
         |m: &measure::Measure| json!({ "name": m.name, "unit": m.unit, "definition": m.definition, "word": m.is_word });
     json!({
-        "format": 1,
+        "format": 2,
         "title": run.title,
         "program": format!("{} {}", run.program, run.version),
         "measures": measure::ALL.iter().map(measure).collect::<Vec<_>>(),
@@ -88,7 +112,8 @@ fn family_json(family: &GalleryFamily) -> Value {
         "pages": record.pages,
         "page_format": format,
         "script": has(super::SCRIPT_FILE).then(|| format!("{}/{}", record.id, super::SCRIPT_FILE)),
-        "bytes": family.script_bytes,
+        "bytes": family.bytes.all,
+        "table_bytes": family.bytes.table,
     })
 }
 

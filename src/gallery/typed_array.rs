@@ -1,33 +1,50 @@
-//! Typed arrays in JSON.
+//! Columns of numbers in JSON.
+//!
+//! A column of equal numbers is that number: most columns of a grid are constant over the cells of a page. Any other
+//! column is the bytes of a typed array, little-endian, in base64, which a page reads quickly and exactly.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
-/// The bytes of a typed array, little-endian, in base64: a page reads them quickly and exactly.
-fn typed_array<const N: usize>(kind: &str, bytes: impl Iterator<Item = [u8; N]>) -> Value {
+fn base64<const N: usize>(bytes: impl Iterator<Item = [u8; N]>) -> Value {
     let bytes: Vec<u8> = bytes.flatten().collect();
-    json!({ "type": kind, "data": BASE64_STANDARD.encode(bytes) })
+    Value::String(BASE64_STANDARD.encode(bytes))
 }
 
-/// An array of double-precision numbers; NaN stands for missing values.
+/// The number that all of some numbers are equal to.
+fn constant<T: Copy + PartialEq>(numbers: &[T]) -> Option<T> {
+    numbers.first().copied().filter(|first| numbers.iter().all(|number| number == first))
+}
+
+/// A column of double-precision numbers; NaN stands for missing values, and null for a column of them.
 pub(super) fn f64s(numbers: impl IntoIterator<Item = f64>) -> Value {
     // NaN has many bit patterns; only one is written, so that equal data have equal bytes.
     let canonical = |number: f64| if number.is_nan() { f64::NAN } else { number };
-    typed_array("f64", numbers.into_iter().map(|number| canonical(number).to_le_bytes()))
+    let numbers: Vec<f64> = numbers.into_iter().map(canonical).collect();
+    // Numbers are compared by their bits, which tell 0 from -0.
+    let bits: Vec<u64> = numbers.iter().map(|number| number.to_bits()).collect();
+    match constant(&bits).map(f64::from_bits) {
+        Some(number) if number.is_nan() => Value::Null,
+        Some(number) if number.is_finite() => json!(number),
+        _ => base64(numbers.iter().map(|number| number.to_le_bytes())),
+    }
 }
 
-/// An array of 32-bit integers; larger numbers become the greatest one.
+/// A column of 32-bit integers; larger numbers become the greatest one.
 pub(super) fn u32s(numbers: impl IntoIterator<Item = usize>) -> Value {
-    typed_array("u32", numbers.into_iter().map(|number| u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes()))
+    let numbers: Vec<u32> = numbers.into_iter().map(|number| u32::try_from(number).unwrap_or(u32::MAX)).collect();
+    constant(&numbers).map_or_else(|| base64(numbers.iter().map(|number| number.to_le_bytes())), |number| json!(number))
 }
 
-/// An array of 16-bit integers.
-pub(super) fn u16s(numbers: impl IntoIterator<Item = u16>) -> Value {
-    typed_array("u16", numbers.into_iter().map(u16::to_le_bytes))
+/// A column of 16-bit integers; larger numbers become the greatest one.
+pub(super) fn u16s(numbers: impl IntoIterator<Item = usize>) -> Value {
+    let numbers: Vec<u16> = numbers.into_iter().map(|number| u16::try_from(number).unwrap_or(u16::MAX)).collect();
+    constant(&numbers).map_or_else(|| base64(numbers.iter().map(|number| number.to_le_bytes())), |number| json!(number))
 }
 
-/// An array of 8-bit integers.
+/// A column of 8-bit integers.
 pub(super) fn u8s(numbers: impl IntoIterator<Item = u8>) -> Value {
-    typed_array("u8", numbers.into_iter().map(|number| [number]))
+    let numbers: Vec<u8> = numbers.into_iter().collect();
+    constant(&numbers).map_or_else(|| base64(numbers.iter().map(|number| [*number])), |number| json!(number))
 }

@@ -64,7 +64,8 @@ pub(super) fn write(
         files: known.clone(),
         ..earlier.clone().unwrap_or(record)
     })?;
-    let progress = journal.progress(&family.id).filter(|_| !options.force).cloned();
+    let progress = journal.progress(&family.id).filter(|_| !options.force);
+    let progress = progress.map(|(progress, pieces)| (progress.clone(), pieces.to_vec()));
     let journal_file = journal.file()?;
     let registry = FileRegistry::new(&family.id, &folder, &known, &journal_file);
     let (composer, interrupt) = (pipeline.composer, &*options.interrupt);
@@ -72,7 +73,8 @@ pub(super) fn write(
     let script = FamilyScript::new(plan, planned);
     let sink = OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt };
     let task = FamilyTask { pipeline: &pipeline, sink, folder: &folder, journal: &journal_file, inputs_sha256 };
-    let writer = match progress.and_then(|progress| FamilyWriter::resume(task, &progress, report)) {
+    let writer = match progress.and_then(|(progress, pieces)| FamilyWriter::resume(task, (&progress, &pieces), report))
+    {
         Some(writer) => writer,
         None => FamilyWriter::start(task)?,
     };

@@ -1,15 +1,17 @@
 //! Writes the tables and pages of a family in order, and continues where an earlier run was killed.
 
+use std::io::Read;
 use std::path::Path;
 
 use rayon::prelude::*;
+use serde_json::Value;
 
 use super::family::initial_record;
 use super::journal::JournalFile;
 use super::pages::{OutputSink, PageFiles, TableRows};
 use super::table_file::TableFile;
 use super::{Error, Event};
-use crate::gallery;
+use crate::gallery::{CellData, DataFile, PieceContent, PieceWriter};
 use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
 use crate::record::{Digest, FamilyProgress, FamilyRecord, FileRecord, JournalEntry, read_unassembled_cells};
 
@@ -28,7 +30,7 @@ pub(super) struct FamilyTask<'a> {
 /// Writes the files of a family.
 pub(super) struct FamilyWriter<'a> {
     task: FamilyTask<'a>,
-    tables: Tables,
+    tables: Tables<'a>,
     /// What an earlier run has finished.
     done: GroupsDone,
     record: FamilyRecord,
@@ -36,22 +38,29 @@ pub(super) struct FamilyWriter<'a> {
     drawn_pages: usize,
 }
 
-/// The tables of a family while they are written.
-struct Tables {
+/// The tables and the gallery's data of a family while they are written.
+struct Tables<'a> {
     cells: TableFile,
     points: TableFile,
-    script: TableFile,
+    pieces: PieceWriter<'a>,
+    /// The statements of the open pieces, in the order of [`PieceSeries::ALL`], for a run that continues this one.
+    open_pieces: [TableFile; 2],
 }
+
+/// The names of the files with the statements of open pieces, which are never finished under these names.
+const OPEN_PIECE_NAMES: [&str; 2] = ["gallery-table.js", "gallery-curves.js"];
 
 impl<'a> FamilyWriter<'a> {
     /// Starts the tables of a family.
     pub fn start(task: FamilyTask<'a>) -> Result<FamilyWriter<'a>, Error> {
         let (points, cells) = task.sink.tables;
         let create = |name: &str, header: &str| TableFile::with_header(task.folder.join(name), header);
+        let [table, curves] = OPEN_PIECE_NAMES.map(|name| create(name, ""));
         let tables = Tables {
             cells: create("cells.csv", &cells.header())?,
             points: create("points.csv", &points.header())?,
-            script: create(gallery::SCRIPT_FILE, &task.sink.script.begin())?,
+            pieces: PieceWriter::new(task.sink.script),
+            open_pieces: [table?, curves?],
         };
         let record = initial_record(task.pipeline);
         Ok(FamilyWriter { task, tables, done: GroupsDone::default(), record, drawn_pages: 0 })
@@ -61,7 +70,7 @@ impl<'a> FamilyWriter<'a> {
     /// them, are not as the earlier run has left them.
     pub fn resume(
         task: FamilyTask<'a>,
-        progress: &FamilyProgress,
+        (progress, finished): (&FamilyProgress, &[Value]),
         report: &mut dyn FnMut(Event),
     ) -> Option<FamilyWriter<'a>> {
         if progress.inputs_sha256 != task.inputs_sha256 {
@@ -69,14 +78,23 @@ impl<'a> FamilyWriter<'a> {
         }
         let done = GroupsDone { groups: progress.groups, sorted_groups: progress.sorted_groups };
         let pages = finished_pages(&task, done)?;
-        let [cells, points, script] = progress.tables.as_slice() else { return None };
+        let [cells, points, table, curves] = progress.tables.as_slice() else { return None };
         let resume = |name: &str, table| TableFile::resume(task.folder.join(name), table);
-        let tables = Tables {
-            cells: resume("cells.csv", cells)?,
-            points: resume("points.csv", points)?,
-            script: resume(gallery::SCRIPT_FILE, script)?,
-        };
+        let finished = finished.get(..progress.pieces)?.to_vec();
+        let mut pieces = PieceWriter::new(task.sink.script);
+        pieces.finished = serde_json::from_value(Value::Array(finished)).ok()?;
+        let contents: [PieceContent; 2] = serde_json::from_value(progress.open_pieces.clone()).ok()?;
+        let open_pieces = [resume(OPEN_PIECE_NAMES[0], table)?, resume(OPEN_PIECE_NAMES[1], curves)?];
+        for ((piece, content), file) in pieces.open.iter_mut().zip(contents).zip(&open_pieces) {
+            file.reader()?.read_to_string(&mut piece.statements).ok()?;
+            piece.content = content;
+        }
         let mut record = initial_record(task.pipeline);
+        for name in pieces.finished_names() {
+            record.files.push(task.sink.registry.reuse_piece(&name)?);
+        }
+        let tables =
+            Tables { cells: resume("cells.csv", cells)?, points: resume("points.csv", points)?, pieces, open_pieces };
         record.curves = progress.curves;
         record.curves_left_out = progress.curves_left_out;
         record.not_assembled = progress.not_assembled;
@@ -100,20 +118,21 @@ impl<'a> FamilyWriter<'a> {
             Output::Page(page) => self.add_page(page, report),
             Output::Done(done) => self.record_progress(done),
         });
-        let Tables { cells, points, mut script } = self.tables;
+        let Tables { cells, points, pieces, open_pieces } = self.tables;
         match result {
             Ok(()) => {}
             Err(Error::Interrupted) => {
                 // The next run continues from here.
-                [cells, points, script].into_iter().for_each(TableFile::keep);
+                open_pieces.into_iter().chain([cells, points]).for_each(TableFile::keep);
                 return Err(Error::Interrupted);
             }
             Err(error) => return Err(error),
         }
-        script.append(sink.script.end().as_bytes())?;
-        let files = [cells, points, script].map(|table| sink.registry.commit_file(table));
-        let files: Vec<FileRecord> = files.into_iter().collect::<Result<_, Error>>()?;
-        self.record.files.extend(files);
+        for file in pieces.finish() {
+            self.record.files.push(write_data(&sink, &file)?);
+        }
+        let tables = [cells, points].map(|table| sink.registry.commit_file(table));
+        self.record.files.extend(tables.into_iter().collect::<Result<Vec<FileRecord>, Error>>()?);
         Ok((self.record, self.drawn_pages))
     }
 
@@ -121,7 +140,12 @@ impl<'a> FamilyWriter<'a> {
     fn add_rows(&mut self, rows: &TableRows, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
         self.tables.points.append(&rows.points)?;
         self.tables.cells.append(&rows.cells)?;
-        self.tables.script.append(rows.gallery_data.as_bytes())?;
+        let CellData { table, curves, .. } = &rows.gallery_data;
+        let full = self.tables.pieces.add_cells(&rows.gallery_data);
+        self.finish_pieces(full)?;
+        let [open_table, open_curves] = &mut self.tables.open_pieces;
+        open_table.append(table.as_bytes())?;
+        open_curves.append(curves.as_bytes())?;
         self.record.curves += rows.curve_count;
         self.record.curves_left_out += rows.curves_left_out;
         self.record.not_assembled += rows.shortfalls.len();
@@ -133,17 +157,37 @@ impl<'a> FamilyWriter<'a> {
 
     /// Adds a page to the record.
     fn add_page(&mut self, page: PageFiles, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
-        self.tables.script.append(page.gallery_data.as_bytes())?;
+        let full = self.tables.pieces.add_page(&page.gallery_data);
+        self.finish_pieces(full)?;
+        self.tables.open_pieces[1].append(page.gallery_data.as_bytes())?;
         self.record.files.extend(page.files);
         self.drawn_pages += usize::from(page.is_drawn);
         report(Event::Page);
         Ok(())
     }
 
+    /// Writes the pieces of the gallery's data that are full, and empties the files with their statements.
+    fn finish_pieces(&mut self, full: impl IntoIterator<Item = DataFile>) -> Result<(), Error> {
+        let Tables { pieces, open_pieces, .. } = &mut self.tables;
+        let full: Vec<DataFile> = full.into_iter().collect();
+        let first = pieces.finished.len() - full.len();
+        for (file, (number, index)) in full.iter().zip(pieces.finished.iter().enumerate().skip(first)) {
+            self.record.files.push(write_data(&self.task.sink, file)?);
+            // An index entry is made of texts and numbers, which can always be written as JSON.
+            let entry = serde_json::to_value(index).unwrap_or_default();
+            let family = self.record.id.clone();
+            self.task.journal.append(&JournalEntry::Piece { family, number, index: entry })?;
+            let open = index.series as usize;
+            open_pieces[open] = TableFile::with_header(self.task.folder.join(OPEN_PIECE_NAMES[open]), "")?;
+        }
+        Ok(())
+    }
+
     /// Records how far the tables have been written.
     fn record_progress(&mut self, done: GroupsDone) -> Result<(), Error> {
-        let Tables { cells, points, script } = &mut self.tables;
-        let tables = vec![cells.flush()?, points.flush()?, script.flush()?];
+        let Tables { cells, points, pieces, open_pieces: [open_table, open_curves] } = &mut self.tables;
+        let tables = vec![cells.flush()?, points.flush()?, open_table.flush()?, open_curves.flush()?];
+        let contents: Vec<&PieceContent> = pieces.open.iter().map(|piece| &piece.content).collect();
         self.task.journal.append(&JournalEntry::Progress(FamilyProgress {
             family: self.record.id.clone(),
             inputs_sha256: self.task.inputs_sha256,
@@ -153,8 +197,16 @@ impl<'a> FamilyWriter<'a> {
             curves_left_out: self.record.curves_left_out,
             not_assembled: self.record.not_assembled,
             tables,
+            pieces: pieces.finished.len(),
+            open_pieces: serde_json::to_value(contents).unwrap_or_default(),
         }))
     }
+}
+
+/// Writes a file with data for the gallery.
+fn write_data(sink: &OutputSink, file: &DataFile) -> Result<FileRecord, Error> {
+    let bytes = file.text.as_bytes();
+    sink.registry.write_file(FileRecord::from_bytes(file.name.clone(), bytes), bytes)
 }
 
 /// The records of the files of each page that an earlier run has finished; `None` if any of them is not intact.

@@ -6,10 +6,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use serde_json::Value;
+
 use super::files::{self, AtomicFile, write};
 use super::previous_run::PreviousRun;
 use super::{Error, Options};
-use crate::gallery::{self, GalleryFamily};
+use crate::gallery::{self, DataBytes, GalleryFamily};
 use crate::manifest::Plan;
 use crate::record::{
     BookRecord, FamilyProgress, FamilyRecord, FileRecord, FolderRecord, IMAGES_FILE_NAME, JOURNAL_FILE_NAME,
@@ -38,6 +40,8 @@ pub(super) struct Journal<'a> {
     progress: HashMap<String, FamilyProgress>,
     /// Whether an earlier run has written `images.json`.
     has_images_file: bool,
+    /// The index of the finished pieces of the gallery's data of these families.
+    pieces: HashMap<String, Vec<Value>>,
     /// The file, once this run has changed anything.
     file: Option<Arc<JournalFile>>,
 }
@@ -64,11 +68,23 @@ impl JournalFile {
 impl<'a> Journal<'a> {
     /// Opens the journal of a folder with the record of an earlier run.
     pub fn open(plan: &'a Plan, output: &Path, options: &'a Options, earlier: PreviousRun) -> Journal<'a> {
-        let PreviousRun { families, book, gallery, progress, has_images_file, .. } = earlier;
+        let PreviousRun { families, book, gallery, progress, pieces, has_images_file, .. } = earlier;
         let indices = families.iter().enumerate().map(|(k, family)| (family.id.clone(), k)).collect();
         let progress = progress.into_iter().map(|progress| (progress.family.clone(), progress)).collect();
         let (output, manifest) = (output.to_owned(), options.manifest.as_deref());
-        Journal { plan, output, manifest, families, indices, book, gallery, progress, has_images_file, file: None }
+        Journal {
+            plan,
+            output,
+            manifest,
+            families,
+            indices,
+            book,
+            gallery,
+            progress,
+            has_images_file,
+            pieces,
+            file: None,
+        }
     }
 
     /// The file, to which changes have to be appended before they are made. At the first call, what an earlier run
@@ -102,6 +118,11 @@ impl<'a> Journal<'a> {
         let others = self.book.iter().flat_map(|book| &book.files).chain(&self.gallery);
         for file in others.filter(|file| file.makes_claims()) {
             add(JournalEntry::written("", file.clone()))?;
+        }
+        for (family, pieces) in &self.pieces {
+            for (number, index) in pieces.iter().enumerate() {
+                add(JournalEntry::Piece { family: family.clone(), number, index: index.clone() })?;
+            }
         }
         for progress in self.progress.values() {
             add(JournalEntry::Progress(progress.clone()))?;
@@ -140,9 +161,10 @@ impl<'a> Journal<'a> {
         self.indices.get(id).map(|&index| &self.families[index])
     }
 
-    /// How far an earlier run that did not end has written the tables of a family.
-    pub fn progress(&self, id: &str) -> Option<&FamilyProgress> {
-        self.progress.get(id)
+    /// How far an earlier run that did not end has written the tables of a family, and the index of the pieces of the
+    /// gallery's data that it has finished.
+    pub fn progress(&self, id: &str) -> Option<(&FamilyProgress, &[Value])> {
+        Some((self.progress.get(id)?, self.pieces.get(id).map(Vec::as_slice).unwrap_or_default()))
     }
 
     /// Replaces the record of a family.
@@ -219,10 +241,11 @@ impl<'a> Journal<'a> {
     pub fn write_gallery(&mut self) -> Result<(), Error> {
         let run = self.to_run();
         let bytes = |record: &FamilyRecord| {
-            fs::metadata(self.output.join(&record.id).join(gallery::SCRIPT_FILE)).map_or(0, |metadata| metadata.len())
+            let folder = self.output.join(&record.id);
+            DataBytes::new(record, |name| fs::metadata(folder.join(name)).map_or(0, |metadata| metadata.len()))
         };
         let shown: Vec<GalleryFamily> =
-            run.families.iter().map(|record| GalleryFamily { record, script_bytes: bytes(record) }).collect();
+            run.families.iter().map(|record| GalleryFamily { record, bytes: bytes(record) }).collect();
         let page = gallery::index_html(&run, &shown);
         let record = FileRecord::from_bytes(gallery::PAGE_FILE, page.as_bytes());
         if self.gallery.as_ref() != Some(&record) || !files::is_intact(&self.output, &record) {

@@ -89,6 +89,7 @@ fn find_foreign_pages(
     let is_written = |name: &str| {
         let page = |format| parse_page_number(family, name, format).filter(|&page| page <= most_pages);
         DATA_FILES.contains(&name)
+            || gallery::is_data_file_name(name)
             || formats.iter().filter_map(|format| format.page_format()).any(|f| page(f).is_some())
     };
     let find = |folder: &Path, prefix: &str, foreign: &mut Vec<PathBuf>| {

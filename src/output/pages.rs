@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::inputs::Inputs;
 use super::registry::FileRegistry;
 use super::{Error, check_interrupt};
-use crate::gallery::FamilyScript;
+use crate::gallery::{CellData, FamilyScript};
 use crate::pipeline::{Composer, PageContent, PageJob, Sink, page_file_name};
 use crate::record::{CellTable, Digest, FileRecord};
 use coupler_curves::exchange::PointTable;
@@ -26,8 +26,8 @@ pub(super) struct PageFiles {
 pub(super) struct TableRows {
     pub points: Vec<u8>,
     pub cells: Vec<u8>,
-    /// The rows in the gallery's script.
-    pub gallery_data: String,
+    /// The data for the gallery.
+    pub gallery_data: CellData,
     pub curve_count: usize,
     pub curves_left_out: usize,
     pub shortfalls: Vec<(usize, String)>,

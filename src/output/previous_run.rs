@@ -6,6 +6,7 @@ use std::io;
 use std::path::Path;
 
 use rayon::prelude::*;
+use serde_json::Value;
 
 use super::{Error, Event, Options, files};
 use crate::gallery;
@@ -18,7 +19,7 @@ use crate::record::{
 use coupler_drawing::page::book::Volume;
 use coupler_drawing::render::PageFormat;
 
-/// The files that every family has: its tables, and its data for the gallery.
+/// The files that every family has: its tables, and the head of its data for the gallery.
 pub(super) const DATA_FILES: [&str; 3] = ["cells.csv", "points.csv", gallery::SCRIPT_FILE];
 
 /// The page number in the name of a page's file; `None` if it is not such a name. The name may begin with the name of a
@@ -64,6 +65,8 @@ pub(super) struct PreviousRun {
     pub gallery: Option<FileRecord>,
     /// How far a run that did not end has written the tables of families.
     pub progress: Vec<FamilyProgress>,
+    /// The index of the finished pieces of the gallery's data of these families.
+    pub pieces: HashMap<String, Vec<Value>>,
     /// Whether it has written `images.json`.
     pub has_images_file: bool,
 }
@@ -95,7 +98,7 @@ pub(super) fn read(output: &Path, options: &Options, report: &mut dyn FnMut(Even
 
 /// Drops repeated or invalid families from a record, and files whose names this program does not use.
 fn sanitize(record: FolderRecord) -> PreviousRun {
-    let FolderRecord { run, images, progress, .. } = record;
+    let FolderRecord { run, images, progress, pieces, .. } = record;
     let RunRecord { manifest, title, families, mut book, gallery, .. } = run;
     let is_slug = |id: &str| {
         let is_plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
@@ -127,12 +130,13 @@ fn sanitize(record: FolderRecord) -> PreviousRun {
         || book.as_ref().is_some_and(|book| !book.files.is_empty());
     let has_images_file = images == ImagesState::Intact || manifest.is_some() && has_images;
     let owner = manifest.map(|manifest| (manifest, title));
-    PreviousRun { owner, families, book, gallery, progress, has_images_file }
+    PreviousRun { owner, families, book, gallery, progress, pieces, has_images_file }
 }
 
 /// Whether a file of a family can have this name.
 fn is_family_file_name(family: &str, name: &str) -> bool {
     DATA_FILES.contains(&name)
+        || gallery::is_data_file_name(name)
         || PageFormat::ALL.into_iter().any(|format| parse_page_number(family, name, format).is_some())
 }
 
@@ -170,6 +174,8 @@ pub(super) fn unchanged_record(
     let known: std::collections::HashMap<&str, &FileRecord> =
         earlier.files.iter().map(|file| (file.name.as_str(), file)).collect();
     let tables = DATA_FILES.iter().map(|name| known.get(name).filter(|file| file.sha256.is_some()));
+    let pieces = earlier.files.iter().filter(|file| gallery::parse_piece_file_name(&file.name).is_some());
+    let pieces = pieces.map(|file| known.get(file.name.as_str()).filter(|file| file.sha256.is_some()));
     let page = |page| formats.iter().map(move |&format| (page, format));
     let pages = (1..=earlier.pages).flat_map(page).map(|(page, format)| {
         known
@@ -177,7 +183,7 @@ pub(super) fn unchanged_record(
             .filter(|file| file.inputs_sha256.is_some())
     });
     // `collect` stops at the first file that is not in the record.
-    let expected: Option<Vec<&FileRecord>> = tables.chain(pages).map(|file| file.copied()).collect();
+    let expected: Option<Vec<&FileRecord>> = tables.chain(pieces).chain(pages).map(|file| file.copied()).collect();
     let expected = expected?;
     let all_intact = expected.par_iter().all(|file| files::is_intact(folder, file));
     all_intact.then(|| FamilyRecord { files: expected.into_iter().cloned().collect(), ..earlier.clone() })

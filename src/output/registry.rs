@@ -43,6 +43,12 @@ impl<'a> FileRegistry<'a> {
         files::is_intact(&self.folder, record).then(|| (*record).clone())
     }
 
+    /// The record of a piece of the gallery's data of the earlier run, if it is intact.
+    pub fn reuse_piece(&self, name: &str) -> Option<FileRecord> {
+        let record = self.previous.get(name).filter(|record| record.sha256.is_some())?;
+        files::is_intact(&self.folder, record).then(|| (*record).clone())
+    }
+
     /// Writes a file, and returns its record.
     pub fn write_file(&self, record: FileRecord, bytes: &[u8]) -> Result<FileRecord, Error> {
         self.track_write(&record.name.clone(), || {

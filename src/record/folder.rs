@@ -1,7 +1,10 @@
 //! What is recorded in the folder of an atlas.
 
+use std::collections::HashMap;
 use std::io::{self, BufReader};
 use std::path::Path;
+
+use serde_json::Value;
 
 use super::images::{IMAGES_FILE_NAME, ImageDigests, images_from_bytes, images_to_bytes};
 use super::journal::{FamilyProgress, JOURNAL_FILE_NAME, JournalReplay, path_in_atlas};
@@ -23,6 +26,8 @@ pub struct FolderRecord {
     pub images: ImagesState,
     /// How far an unfinished run has written the tables of families.
     pub progress: Vec<FamilyProgress>,
+    /// The index of the finished pieces of the gallery's data of these families.
+    pub pieces: HashMap<String, Vec<Value>>,
     /// Whether the last run did not end.
     pub is_unfinished: bool,
 }
@@ -78,8 +83,8 @@ impl FolderRecord {
             None => JournalReplay::new(earlier, io::empty()),
         };
         let replay = replay.map_err(|error| ReadError::Journal(error.into()))?;
-        let (run, progress) = replay.ok_or(FileError::NotFound)?.finish();
-        Ok(FolderRecord { run, images, progress, is_unfinished })
+        let (run, progress, pieces) = replay.ok_or(FileError::NotFound)?.finish();
+        Ok(FolderRecord { run, images, progress, pieces, is_unfinished })
     }
 }
 

@@ -4,9 +4,11 @@
 //! next run continues from there. Lines are only appended; a line that was not written to its end is ignored.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::io::{self, BufRead, Read};
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::digest::Digest;
 use super::run::{BookRecord, FamilyRecord, FileRecord, RunRecord};
@@ -43,6 +45,15 @@ pub enum JournalEntry {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image_sha256: Option<Digest>,
     },
+    /// A piece of the gallery's data of a family is complete.
+    Piece {
+        /// The id of the family.
+        family: String,
+        /// Its number among the pieces of the family, from 0.
+        number: usize,
+        /// Its entry in the index of pieces.
+        index: Value,
+    },
     /// How far the tables of a family have been written.
     Progress(FamilyProgress),
 }
@@ -64,8 +75,12 @@ pub struct FamilyProgress {
     pub curves_left_out: usize,
     /// The number of cells that could not be assembled, or not over the whole requested range.
     pub not_assembled: usize,
-    /// The unfinished tables, in the order in which they are listed in the record.
+    /// The unfinished tables.
     pub tables: Vec<PartialFile>,
+    /// The number of finished pieces of the gallery's data.
+    pub pieces: usize,
+    /// What the unfinished pieces contain.
+    pub open_pieces: Value,
 }
 
 /// The beginning of a file that is being written.
@@ -125,6 +140,8 @@ pub struct JournalReplay {
     families: HashMap<String, FamilyPlace>,
     /// The last progress of each family.
     progress: HashMap<String, FamilyProgress>,
+    /// The index of the finished pieces of each family.
+    pieces: HashMap<String, Vec<Value>>,
     /// How many more families and files may be added; a journal is not trusted.
     additions_left: usize,
 }
@@ -164,7 +181,13 @@ impl JournalReplay {
         };
         let places = run.families.iter().enumerate();
         let families = places.map(|(k, family)| (family.id.clone(), FamilyPlace::new(k, &family.files))).collect();
-        let mut replay = JournalReplay { run, families, progress: HashMap::new(), additions_left: MAX_ADDITIONS };
+        let mut replay = JournalReplay {
+            run,
+            families,
+            progress: HashMap::new(),
+            pieces: HashMap::new(),
+            additions_left: MAX_ADDITIONS,
+        };
         while let Some(line) = lines.next_line()?.filter(|_| is_journal) {
             if let Ok(entry) = serde_json::from_slice(line) {
                 replay.apply(entry);
@@ -173,9 +196,9 @@ impl JournalReplay {
         Ok(Some(replay))
     }
 
-    /// The record of the atlas, and the last progress of each family.
-    pub fn finish(self) -> (RunRecord, Vec<FamilyProgress>) {
-        (self.run, self.progress.into_values().collect())
+    /// The record of the atlas, the last progress of each family, and the index of its finished pieces.
+    pub fn finish(self) -> (RunRecord, Vec<FamilyProgress>, HashMap<String, Vec<Value>>) {
+        (self.run, self.progress.into_values().collect(), self.pieces)
     }
 
     fn apply(&mut self, entry: JournalEntry) {
@@ -201,6 +224,18 @@ impl JournalReplay {
             JournalEntry::Writing(path) => self.set_file(&path, FileRecord::from_name("")),
             JournalEntry::Written { path, file, image_sha256 } => {
                 self.set_file(&path, FileRecord { image_sha256, ..file });
+            }
+            JournalEntry::Piece { family, number, index } => {
+                let pieces = match self.pieces.entry(family) {
+                    Entry::Occupied(pieces) => pieces.into_mut(),
+                    Entry::Vacant(vacant) if self.families.contains_key(vacant.key()) => vacant.insert(Vec::new()),
+                    Entry::Vacant(_) => return,
+                };
+                // A run that starts a family anew counts its pieces from 0 again.
+                pieces.truncate(number);
+                if pieces.len() < MAX_ADDITIONS {
+                    pieces.push(index);
+                }
             }
             JournalEntry::Progress(progress) if !self.families.contains_key(&progress.family) => {}
             JournalEntry::Progress(progress) => {
@@ -285,7 +320,7 @@ mod tests {
         for cut in 0..3 {
             let text = [&lines[..], b"nonsense\n", b"{\"writing\":\"e/e-001.svg\"}\n"].concat();
             let replay = JournalReplay::new(Some(earlier.clone()), &text[..text.len() - 1 - cut]).unwrap().unwrap();
-            let (run, progress) = replay.finish();
+            let (run, progress, _) = replay.finish();
             assert!(progress.is_empty());
             assert_eq!(run.title, "New");
             assert_eq!(run.families[0], family("e", None, vec![page(1, "new"), FileRecord::from_name("e-002.svg")]));

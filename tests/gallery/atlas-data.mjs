@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import { FamilyReader } from "../../src/gallery/script/data/family.js";
+import { FamilyReader, PieceReader } from "../../src/gallery/script/data/reader.js";
 
 /** The data in the page of an atlas, and all its families: { data, families }. */
 export function atlasOf(folder) {
@@ -11,26 +11,32 @@ export function atlasOf(folder) {
   const data = JSON.parse(page.match(/<script type="application\/json" id="atlas">([\s\S]*?)<\/script>/)[1]);
   return {
     data,
-    families: data.families
-      .filter(({ script }) => script)
-      .map(({ script }) => familyOf(join(folder, script))),
+    families: data.families.filter(({ script }) => script).map(({ script }) => familyOf(folder, script)),
   };
 }
 
-function familyOf(file) {
+/** The family with a script in the folder of an atlas, with all its pieces. */
+export function familyOf(folder, script) {
   let reader = null;
   let family = null;
   const couplerAtlas = {
     begin: (head) => {
       reader = new FamilyReader(head);
     },
-    cells: (chunk) => reader.cells(chunk),
+    piece: ({ series, number }) => {
+      const { pieces } = series === "table" ? family.table : family.outlines;
+      reader = new PieceReader(family, pieces[number - 1]);
+    },
+    cells: (rows) => reader.cells(rows),
+    curves: (outlines) => reader.curves(outlines),
     page: (page) => reader.page(page),
     end: () => {
-      family = reader.finish();
+      family = reader.finish() ?? family;
     },
   };
-  new Function("couplerAtlas", readFileSync(file, "utf8"))(couplerAtlas);
+  const run = (file) => new Function("couplerAtlas", readFileSync(join(folder, file), "utf8"))(couplerAtlas);
+  run(script);
+  for (const piece of [...family.table.pieces, ...family.outlines.pieces]) if (!piece.data) run(piece.file);
   return family;
 }
 

@@ -3,20 +3,11 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import { FamilyReader } from "../../src/gallery/script/data/family.js";
+import { familyOf as familyOfScript } from "./atlas-data.mjs";
 
 /** A family of the atlas in a folder. */
 export function familyOf(folder, id) {
-  let reader = null;
-  let family = null;
-  const script = readFileSync(join(folder, id, "gallery.js"), "utf8");
-  new Function("couplerAtlas", script)({
-    begin: (head) => { reader = new FamilyReader(head); },
-    cells: (chunk) => reader.cells(chunk),
-    page: (page) => reader.page(page),
-    end: () => { family = reader.finish(); },
-  });
-  return family;
+  return familyOfScript(folder, `${id}/gallery.js`);
 }
 
 /** The table points.csv of a family: { header, rows: Map of "cell.trace.circuit" to lines }. */

@@ -67,9 +67,14 @@ function oddStatement(line) {
   if (name === "begin") value.title = MARKED_TITLE;
   if (name === "page") value.views = value.views.filter(({ cell }) => cell !== 3);
   if (name === "cells") {
-    const status = Buffer.from(value.status.data, "base64");
+    // The column is a number if all cells have the same status.
+    const status = Buffer.alloc(value.count, typeof value.status === "number" ? value.status : 0);
+    if (typeof value.status === "string") status.set(Buffer.from(value.status, "base64"));
     status[2] = 2;
-    value.status.data = status.toString("base64");
+    value.status = status.toString("base64");
+  }
+  if (name === "curves") {
+    value.reason = Array.from({ length: value.cells }, (_, k) => value.reason[k] ?? "");
     value.reason[2] = ODD_REASON;
   }
   return `couplerAtlas.${name}(${JSON.stringify(value)});`;

@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
+import { Series } from "../../src/gallery/script/data/series.js";
 import { circuitPortion } from "../../src/gallery/script/draw/circuit-portion.js";
 import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clipping.js";
 import { dashData, dashPattern } from "../../src/gallery/script/draw/dashes.js";
@@ -167,7 +168,11 @@ const tests = [
           const part = partOfInput(study.timeline, place.pass, place.input);
           assert.ok(Math.abs(part - k / 64) < 1e-7, `${id}: part ${k / 64} became ${part}`);
           const on = study.timeline.passes[place.pass];
-          assert.deepEqual([...poser.solve(on, place.input)], [...poseAt(study.linkage, on, place.input)], id);
+          assert.deepEqual(
+            [...poser.solve(on, place.input)],
+            [...poseAt(study.linkage, on, place.input)],
+            id,
+          );
         }
       }
     },
@@ -210,13 +215,14 @@ const tests = [
     "an export is of the circuit that is shown, by its number if the atlas does not have it",
     () => {
       const one = familyOf(folder, "evans");
-      const all = { ...one, template: { ...one.template, circuits: "all" } };
-      all.places = new Map([
-        ["1.1.1", 0],
-        ["1.1.2", 1],
-      ]);
+      // The first cell, with two circuits.
+      const table = new Series("evans", "table", [{ bytes: 0, cells: 1, curves: 2, numbers: [1, 1] }]);
+      table.pieces[0].data = {};
+      const curves = { ...one.curves, cell: [0, 0], trace: [1, 1], circuit: [1, 2] };
+      const all = { ...one, template: { ...one.template, circuits: "all" }, table, curves };
       const changes = new Map([["p", 2.5]]);
-      const named = (family, shown) => plateCurveName({ family, curve: 0, changes, study: { home: 0, shown } });
+      const named = (family, shown) =>
+        plateCurveName({ family, curve: 0, changes, study: { home: 0, shown } });
       assert.equal(named(all, 0), "evans:1.1.1?p=2.5");
       assert.equal(named(all, 1), "evans:1.1.2?p=2.5");
       assert.equal(named(all, 2), "evans:1.1.1?p=2.5&circuit=3", "a curve that is not there");

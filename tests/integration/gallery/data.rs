@@ -52,21 +52,64 @@ fn statements(script: &str) -> Vec<(String, Value)> {
     script.lines().map(statement).collect()
 }
 
-fn bytes(packed: &Value, kind: &str) -> Vec<u8> {
-    assert_eq!(packed["type"], kind);
-    BASE64_STANDARD.decode(packed["data"].as_str().unwrap()).unwrap()
+/// The bytes of the numbers of a column, or the number that all are equal to.
+fn column<const N: usize, T: Clone>(column: &Value, count: usize, read: fn([u8; N]) -> T, all: T) -> Vec<T> {
+    let Some(text) = column.as_str() else { return vec![all; count] };
+    let numbers: Vec<T> =
+        BASE64_STANDARD.decode(text).unwrap().chunks(N).map(|bytes| read(bytes.try_into().unwrap())).collect();
+    assert_eq!(numbers.len(), count);
+    numbers
 }
 
-fn f64s(packed: &Value) -> Vec<f64> {
-    bytes(packed, "f64").chunks(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
+fn f64s(packed: &Value, count: usize) -> Vec<f64> {
+    let all = if packed.is_number() { packed.to_string().parse().unwrap() } else { f64::NAN };
+    column(packed, count, f64::from_le_bytes, all)
 }
 
-fn u32s(packed: &Value) -> Vec<usize> {
-    bytes(packed, "u32").chunks(4).map(|b| u32::from_le_bytes(b.try_into().unwrap()) as usize).collect()
+fn all_equal(packed: &Value) -> usize {
+    packed.as_u64().map_or(0, |number| number.try_into().unwrap())
 }
 
-fn u16s(packed: &Value) -> Vec<usize> {
-    bytes(packed, "u16").chunks(2).map(|b| usize::from(u16::from_le_bytes(b.try_into().unwrap()))).collect()
+fn u32s(packed: &Value, count: usize) -> Vec<usize> {
+    column(packed, count, |bytes| u32::from_le_bytes(bytes) as usize, all_equal(packed))
+}
+
+fn u16s(packed: &Value, count: usize) -> Vec<usize> {
+    column(packed, count, |bytes| usize::from(u16::from_le_bytes(bytes)), all_equal(packed))
+}
+
+fn u8s(packed: &Value, count: usize) -> Vec<usize> {
+    column(packed, count, |[byte]: [u8; 1]| usize::from(byte), all_equal(packed))
+}
+
+fn usizes(list: &Value) -> usize {
+    usize::try_from(list.as_u64().unwrap()).unwrap()
+}
+
+/// The cells and curves of a statement `cells`: their numbers, and for each curve the index of its cell.
+struct Rows {
+    numbers: Vec<usize>,
+    owners: Vec<usize>,
+    traces: Vec<usize>,
+    circuits: Vec<usize>,
+}
+
+fn rows_of(chunk: &Value) -> Rows {
+    let count = usizes(&chunk["count"]);
+    // A number is the first of a run.
+    let numbers = match chunk["number"].as_u64() {
+        Some(first) => (0..count).map(|k| k + usize::try_from(first).unwrap()).collect(),
+        None => u32s(&chunk["number"], count),
+    };
+    let each = u16s(&chunk["curves"], count);
+    let owners: Vec<usize> = each.iter().enumerate().flat_map(|(k, curves)| vec![k; *curves]).collect();
+    let [traces, circuits] = ["trace", "circuit"].map(|name| u16s(&chunk[name], owners.len()));
+    Rows { numbers, owners, traces, circuits }
+}
+
+/// A text of the k-th cell of a statement `curves`, which has none if all are empty.
+fn text<'v>(chunk: &'v Value, name: &str, k: usize) -> &'v str {
+    chunk[name].get(k).map_or("", |text| text.as_str().unwrap())
 }
 
 /// The rows of a table, keyed by the names of its columns.
@@ -107,36 +150,38 @@ impl Rendered {
 fn cells_and_measures_are_those_of_the_table_to_the_last_bit() {
     for id in ["evans", "watt", "grid", "over"] {
         let family = rendered(id);
-        let names: Vec<&str> =
-            family.calls("begin")[0]["names"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+        let head = family.calls("begin")[0];
+        let listed = |name: &str| head[name].as_array().unwrap().iter().map(|name| name.as_str().unwrap());
+        let names: Vec<&str> = listed("names").collect();
         let mut rows = family.cells.iter();
-        for chunk in family.calls("cells") {
-            let (numbers, values) = (u32s(&chunk["number"]), f64s(&chunk["values"]));
-            let curves = &chunk["curves"];
-            let (owners, traces, circuits) = (u32s(&curves["cell"]), u16s(&curves["trace"]), u16s(&curves["circuit"]));
+        for (chunk, outlines) in family.calls("cells").into_iter().zip(family.calls("curves")) {
+            let Rows { numbers, owners, traces, circuits } = rows_of(chunk);
+            let columns = chunk["values"].as_array().unwrap();
+            let values: Vec<Vec<f64>> = columns.iter().map(|column| f64s(column, numbers.len())).collect();
+            let statuses = u8s(&chunk["status"], numbers.len());
+            assert_eq!([usizes(&outlines["cells"]), usizes(&outlines["curves"])], [numbers.len(), owners.len()]);
             for (k, number) in numbers.iter().enumerate() {
                 let of_cell: Vec<usize> = (0..owners.len()).filter(|&curve| owners[curve] == k).collect();
-                let status = bytes(&chunk["status"], "u8")[k];
                 for curve in if of_cell.is_empty() { vec![None] } else { of_cell.into_iter().map(Some).collect() } {
                     let row = rows.next().unwrap();
                     assert_eq!(row["cell"], number.to_string());
-                    assert_eq!(row["status"], ["ok", "partial", "none"][usize::from(status)]);
-                    assert_eq!(row["reason"], chunk["reason"][k].as_str().unwrap());
-                    for (slot, name) in names.iter().enumerate() {
-                        assert_eq!(row[*name].parse::<f64>().unwrap(), values[k * names.len() + slot], "{name}");
+                    assert_eq!(row["status"], ["ok", "partial", "none"][statuses[k]]);
+                    assert_eq!(row["reason"], text(outlines, "reason", k));
+                    for (name, column) in names.iter().zip(&values) {
+                        assert_eq!(row[*name].parse::<f64>().unwrap(), column[k], "{name}");
                     }
                     let Some(curve) = curve else { continue };
                     let [trace, circuit] = [&traces, &circuits].map(|numbers| numbers[curve].to_string());
                     assert_eq!([&row["trace"], &row["circuit"]], [&trace, &circuit]);
-                    for (name, column) in curves["measures"].as_object().unwrap() {
-                        let (field, value) = (&row[name], f64s(column)[curve]);
+                    for (name, column) in listed("measures").zip(chunk["measures"].as_array().unwrap()) {
+                        let (field, value) = (&row[name], f64s(column, owners.len())[curve]);
                         assert!(
                             field.parse() == Ok(value) || (field.is_empty() && value.is_nan()),
                             "{name}: {field}, {value}"
                         );
                     }
-                    for (name, words) in curves["words"].as_object().unwrap() {
-                        let code = usize::from(bytes(&words["codes"], "u8")[curve]);
+                    for (name, words) in listed("words").zip(chunk["words"].as_array().unwrap()) {
+                        let code = u8s(&words["codes"], owners.len())[curve];
                         assert_eq!(row[name], words["values"].get(code).and_then(Value::as_str).unwrap_or_default());
                     }
                 }
@@ -152,15 +197,16 @@ fn points_are_samples_to_a_65535th_of_the_extent() {
     for id in ["evans", "watt", "grid"] {
         let family = rendered(id);
         let mut compared = 0;
-        for chunk in family.calls("cells") {
-            let curves = &chunk["curves"];
-            let (numbers, owners) = (u32s(&chunk["number"]), u32s(&curves["cell"]));
-            let (traces, circuits, counts) = (u16s(&curves["trace"]), u16s(&curves["circuit"]), u16s(&curves["count"]));
-            let (boxes, points) = (f64s(&curves["box"]), u16s(&curves["points"]));
+        for (chunk, outlines) in family.calls("cells").into_iter().zip(family.calls("curves")) {
+            let Rows { numbers, owners, traces, circuits } = rows_of(chunk);
+            let counts = u16s(&outlines["count"], owners.len());
+            let boxes: Vec<Vec<f64>> =
+                outlines["box"].as_array().unwrap().iter().map(|side| f64s(side, owners.len())).collect();
+            let points = u16s(&outlines["points"], 2 * counts.iter().sum::<usize>());
             let mut first = 0;
             for curve in 0..owners.len() {
                 let samples = &family.points[&[numbers[owners[curve]], traces[curve], circuits[curve]]];
-                let [x0, y0, x1, y1] = [0, 1, 2, 3].map(|k| boxes[4 * curve + k]);
+                let [x0, y0, x1, y1] = [0, 1, 2, 3].map(|k| boxes[k][curve]);
                 // Half a step either way, and the rounding of the sum.
                 let near = |a: f64, b: f64, size: f64| (a - b).abs() <= size * (0.5 / 65535.0 + 1e-12);
                 let mut next = 0;

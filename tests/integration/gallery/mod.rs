@@ -4,4 +4,5 @@
 mod data;
 mod page;
 mod parts;
+mod pieces;
 mod solver;

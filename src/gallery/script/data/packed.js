@@ -1,10 +1,17 @@
-// Typed arrays as the program encodes them: their bytes, little-endian, in base64.
+// Columns of numbers as the program encodes them: a single number if all are equal, null if all are missing,
+// otherwise the bytes of a typed array, little-endian, in base64.
 
-const ARRAYS = { f64: Float64Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array };
+/** Decodes a column of `count` numbers into a typed array of its kind, from index `at` on. */
+export function unpackInto(array, at, count, column) {
+  if (typeof column === "string") array.set(new array.constructor(decodeBase64(column).buffer), at);
+  else array.fill(column ?? NaN, at, at + count);
+}
 
-/** Decodes `{ type, data }` into a typed array. */
-export function unpackArray({ type, data }) {
-  return new ARRAYS[type](decodeBase64(data).buffer);
+/** Decodes a column of `count` numbers into a new array of a kind. */
+export function unpackColumn(kind, count, column) {
+  const array = new kind(count);
+  unpackInto(array, 0, count, column);
+  return array;
 }
 
 /**
@@ -19,8 +26,8 @@ function decodeBase64(data) {
 }
 
 /** Concatenates typed arrays of one kind. */
-export function concatenateArrays(arrays) {
-  const whole = new arrays[0].constructor(arrays.reduce((sum, array) => sum + array.length, 0));
+export function concatenateArrays(arrays, kind) {
+  const whole = new kind(arrays.reduce((sum, array) => sum + array.length, 0));
   let at = 0;
   for (const array of arrays) {
     whole.set(array, at);

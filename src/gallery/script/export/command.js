@@ -1,5 +1,7 @@
 // Command lines that export the same curves with the program.
 
+import { curveCountOf, findCurve } from "../data/family.js";
+
 /**
  * The command that exports `count` curves, selected by `words` (shortenCurveNames), from a manifest in the
  * atlas's folder.
@@ -43,18 +45,18 @@ export function shortenCurveNames(names, families) {
     }
   }
   const shortened = [...plain].flatMap(([id, keys]) => {
-    const { cells, curves } = families.get(id);
-    if (keys.length === curves.count) return [id];
-    const ofCell = new Map();
-    for (const cell of curves.cell) ofCell.set(cells.number[cell], (ofCell.get(cells.number[cell]) ?? 0) + 1);
+    const family = families.get(id);
+    if (keys.length === family.curves.count) return [id];
     const named = new Map();
     for (const key of keys) {
       const cell = Number(key.split(".")[0]);
       named.set(cell, [...(named.get(cell) ?? []), key]);
     }
-    const isWhole = (cell, own) => own.length > 1 && own.length === ofCell.get(cell);
+    const isWhole = ([key, ...others]) =>
+      others.length > 0 &&
+      others.length + 1 === curveCountOf(family, family.curves.cell[findCurve(family, key)]);
     return [...named].flatMap(([cell, own]) =>
-      isWhole(cell, own) ? [`${id}:${cell}`] : own.map((key) => `${id}:${key}`),
+      isWhole(own) ? [`${id}:${cell}`] : own.map((key) => `${id}:${key}`),
     );
   });
   return [...shortened, ...words];

@@ -5,7 +5,7 @@ import { changedValues, templateWithChanges } from "../kinematics/parameter-chan
 import { motionOf } from "../kinematics/motion.js";
 import { linkageOf } from "../kinematics/template.js";
 import { measuresOf } from "../measure/measures.js";
-import { measureValue } from "../data/family.js";
+import { findCurve, measureValue } from "../data/family.js";
 import { shortestDigits } from "./digits.js";
 
 /**
@@ -54,7 +54,7 @@ export function solveNamedCurve(family, name) {
   const { key, cell, trace } = parsed;
   const { changes, extraCircuit } = splitChanges(family, parsed.changes);
   const circuit = extraCircuit ?? parsed.circuit;
-  const curve = family.places.get(key);
+  const curve = findCurve(family, key);
   if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
   const place = family.curves.cell[curve];
   const values = changedValues(family, place, changes);
@@ -94,7 +94,7 @@ export function solveNamedCurve(family, name) {
 export function manifestCase(family, name) {
   const { key, trace, changes: all } = parseCurveName(name) ?? {};
   const { changes, extraCircuit } = splitChanges(family, all);
-  const curve = family.places.get(key);
+  const curve = findCurve(family, key);
   if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
   const values = changedValues(family, family.curves.cell[curve], changes);
   const fullName = formatCurveName(family.id, key, changes, extraCircuit);

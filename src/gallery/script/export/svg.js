@@ -1,5 +1,6 @@
 // Draws a plate of an exported curve and its linkage as SVG: 200 by 150 mm, in quarter millimetres.
 
+import { cellCaption } from "../data/family.js";
 import { finePath } from "../kinematics/path.js";
 import { dashData, dashPattern } from "../draw/dashes.js";
 import { mechanismOf, sweptBox } from "../draw/mechanism.js";
@@ -109,7 +110,7 @@ function lettering(exported, view) {
   const own = family.names
     .map((word, k) => `${word} = ${shortestDigits(Number(values[k].toPrecision(6)))}`)
     .join(", ");
-  const caption = changes.size > 0 || !family.cells.caption[place] ? own : family.cells.caption[place];
+  const caption = (changes.size === 0 && cellCaption(family, place)) || own;
   const length = roundBelow(100 / view.scale);
   const bar = `M32 ${foot - 3}v6M32 ${foot}h${Number((view.scale * length).toPrecision(6))}m0 -3v6`;
   const text = (x, y, size, fill, words, anchor = "start") =>

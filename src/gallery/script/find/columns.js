@@ -37,9 +37,10 @@ export function filterColumns(table, measures, kept = new Set()) {
     ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
     ...parameters.map(column("parameters", "numbers")),
   ];
+  const isThere = (name) => !byName.has(name) || table.has(name);
   const hasDistinctValues = ({ name, kind }) =>
-    kind === "words" ? hasDistinctWords(table, name) : hasDistinctNumbers(table, name);
-  return listed.filter((column) => kept.has(column.name) || hasDistinctValues(column));
+    isThere(name) && (kind === "words" ? hasDistinctWords(table, name) : hasDistinctNumbers(table, name));
+  return listed.filter((one) => kept.has(one.name) || hasDistinctValues(one));
 }
 
 function hasDistinctWords(table, name) {
@@ -56,5 +57,7 @@ function hasDistinctNumbers(table, name) {
     if (Number.isNaN(first)) first = values[row];
     else if (values[row] !== first) return true;
   }
+  // A column that is not offered needs no memory.
+  table.release(name);
   return false;
 }

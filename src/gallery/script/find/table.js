@@ -9,16 +9,19 @@ export const DERIVED_COLUMNS = {
     definition:
       "least distance of the transmission angle from 0 and 180 over the circuit: the lesser of its " +
       "minimum and 180 minus its maximum",
+    inputs: ["mu_min_deg", "mu_max_deg"],
     compute: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
   },
   straight_tolerance: {
     unit: "",
     definition: "deviation of the straightest portion from its line, divided by its length",
+    inputs: ["straight_deviation", "straight_length"],
     compute: (at) => at("straight_deviation") / at("straight_length"),
   },
   straight_share: {
     unit: "",
     definition: "length of the straightest portion, divided by the longer side of the curve's bounding box",
+    inputs: ["straight_length", "bbox_x_max", "bbox_x_min", "bbox_y_max", "bbox_y_min"],
     compute: (at) =>
       at("straight_length") /
       Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
@@ -28,18 +31,24 @@ export const DERIVED_COLUMNS = {
 const SYMMETRY_WORDS = ["not symmetric", "symmetric"];
 const INPUT_WORDS = ["between limits", "full turn"];
 
-/** The rows of families: `family[row]` and `curve[row]` are indices. Columns are computed on first use. */
+/**
+ * The rows of families, of each its first `counts[k]` curves, by default all: `family[row]` and `curve[row]`
+ * are indices. Columns are computed on first use.
+ */
 export class CurveTable {
-  constructor(families) {
+  constructor(families, counts = families.map(({ curves }) => curves.count)) {
     this.families = families;
-    this.count = families.reduce((sum, { curves }) => sum + curves.count, 0);
+    this.counts = counts;
+    this.count = counts.reduce((sum, count) => sum + count, 0);
     this.family = new Uint16Array(this.count);
     this.curve = new Uint32Array(this.count);
     this.cache = new Map();
     let row = 0;
-    families.forEach(({ curves }, k) => {
-      for (let curve = 0; curve < curves.count; curve += 1, row += 1)
-        [this.family[row], this.curve[row]] = [k, curve];
+    counts.forEach((count, k) => {
+      for (let curve = 0; curve < count; curve += 1, row += 1) {
+        this.family[row] = k;
+        this.curve[row] = curve;
+      }
     });
   }
 
@@ -49,6 +58,16 @@ export class CurveTable {
     return `${family.id}:${curveKey(family, this.curve[row])}`;
   }
 
+  /** Whether any of the families has a measure. */
+  has(name) {
+    return this.families.some(({ curves }) => name in curves.measures || name in curves.words);
+  }
+
+  /** Releases the memory of a column of numbers, which is computed again when it is used. */
+  release(name) {
+    this.cache.delete(name);
+  }
+
   /** A column of numbers, f64[count], NaN where missing; a parameter's name is prefixed with "p.". */
   numbers(name) {
     if (!this.cache.has(name)) this.cache.set(name, this.computeNumbers(name));
@@ -56,19 +75,25 @@ export class CurveTable {
   }
 
   computeNumbers(name) {
+    // A single family already has its measures in such columns.
+    const [family, ...others] = this.families;
+    if (others.length === 0 && family?.curves.measures[name])
+      return family.curves.measures[name].subarray(0, this.count);
     const out = new Float64Array(this.count).fill(NaN);
     if (DERIVED_COLUMNS[name]) {
-      const at = (row) => (other) => this.numbers(other)[row];
-      for (let row = 0; row < this.count; row += 1) out[row] = DERIVED_COLUMNS[name].compute(at(row));
+      const { inputs, compute } = DERIVED_COLUMNS[name];
+      if (!inputs.every((input) => this.has(input))) return out;
+      let row = 0;
+      const at = (other) => this.numbers(other)[row];
+      for (; row < this.count; row += 1) out[row] = compute(at);
       return out;
     }
     const own = name.startsWith("p.") ? parameterColumn(name.slice(2)) : measureColumn(name);
     let row = 0;
-    for (const family of this.families) {
-      const value = own(family);
-      for (let curve = 0; curve < family.curves.count; curve += 1, row += 1)
-        if (value) out[row] = value(curve);
-    }
+    this.families.forEach((each, k) => {
+      const value = own(each);
+      for (let curve = 0; curve < this.counts[k]; curve += 1, row += 1) if (value) out[row] = value(curve);
+    });
     return out;
   }
 
@@ -95,15 +120,15 @@ export class CurveTable {
     }
     const values = [];
     let row = 0;
-    for (const { curves } of this.families) {
+    this.families.forEach(({ curves }, k) => {
       const own = curves.words[name];
       const renamed = own?.values.map((word) =>
         values.includes(word) ? values.indexOf(word) : values.push(word) - 1,
       );
-      for (let curve = 0; curve < curves.count; curve += 1, row += 1) {
+      for (let curve = 0; curve < this.counts[k]; curve += 1, row += 1) {
         if (own && own.codes[curve] !== NO_WORD) codes[row] = renamed[own.codes[curve]];
       }
-    }
+    });
     return { values, codes };
   }
 }

@@ -1,8 +1,7 @@
 // Fits a curve of an index to a shape: the whole curve, or a portion of it.
 
-import { curvePoints } from "../data/family.js";
 import { closestFit } from "./fit.js";
-import { INDEX_POINTS } from "./shape-index.js";
+import { INDEX_POINTS, pointsOf } from "./shape-index.js";
 import { withoutDuplicates, mirroredOutline, portion, resampled, reversedOutline } from "./outline.js";
 import { composed } from "./similarity.js";
 
@@ -73,7 +72,7 @@ export function partFit(index, curve, query, seed, care) {
  */
 function outlineOf(index, curve, care) {
   if (care === "rough") return index.kept.subarray(2 * INDEX_POINTS * curve, 2 * INDEX_POINTS * (curve + 1));
-  return withoutDuplicates(curvePoints(index.family, curve), index.closed[curve] === 1);
+  return withoutDuplicates(pointsOf(index, curve), index.closed[curve] === 1);
 }
 
 /**

@@ -4,6 +4,7 @@ import { curveKey } from "../data/family.js";
 import { resampledShape, thereAndBack } from "./query-shape.js";
 import { partFit, wholeFit } from "./curve-fit.js";
 import { candidateParts } from "./part-search.js";
+import { singleCurveIndex } from "./shape-index.js";
 import { composed, inverted } from "./similarity.js";
 import { candidateCurves } from "./whole-search.js";
 
@@ -23,26 +24,37 @@ const EXACT_POINTS = 96;
  * fractions of the curve's length between which it was compared (`to` beyond 1 continues over the first
  * point; 0 and 1 for a whole curve).
  */
-export function* searchByShape(
-  indexes,
-  shape,
-  { part = false, mirror = true, least = 0.15, by = "rms" } = {},
-) {
-  const candidates = [];
-  for (const index of indexes) {
-    const found = yield* part
-      ? candidateParts(index, shape, { mirror, least, most: ROUGH })
-      : candidateCurves(index, shape, { mirror, most: ROUGH });
-    candidates.push(...found);
-  }
-  candidates.sort((a, b) => b.value - a.value);
+export function* searchByShape(indexes, shape, options = {}) {
+  let candidates = [];
+  for (const index of indexes) candidates = yield* addCandidates(candidates, index, shape, options);
+  return yield* rankCandidates(candidates, shape, options);
+}
+
+/**
+ * Searches one index, step by step: the generator returns the best candidates among those of other indexes
+ * and its own. With `isTransient`, the index can be dropped afterwards.
+ */
+export function* addCandidates(candidates, index, shape, options, isTransient = false) {
+  const { part = false, mirror = true, least = 0.15 } = options;
+  const found = yield* part
+    ? candidateParts(index, shape, { mirror, least, most: ROUGH })
+    : candidateCurves(index, shape, { mirror, most: ROUGH });
+  const best = [...candidates, ...found].sort((a, b) => b.value - a.value).slice(0, ROUGH);
+  if (!isTransient) return best;
+  return best.map((one) =>
+    one.index === index ? { ...one, index: singleCurveIndex(index, one.curve), curve: 0 } : one,
+  );
+}
+
+/** Compares candidates with a shape, step by step; the generator returns what `searchByShape` does. */
+export function* rankCandidates(candidates, shape, { part = false, by = "rms" } = {}) {
   const rough = outlinesOf(shape, part, ROUGH_POINTS);
-  const chosen = yield* (part ? chooseParts : chooseByRoughFit)(candidates.slice(0, ROUGH), rough, shape);
+  const chosen = yield* (part ? chooseParts : chooseByRoughFit)(candidates, rough, shape);
   const outlines = outlinesOf(shape, part, EXACT_POINTS);
   const results = [];
   for (const { index, curve, seed } of chosen) {
     const fit = (part ? partFit : wholeFit)(index, curve, outlines, seed, "exact");
-    results.push(resultOf(index.family, curve, shape, fit));
+    results.push(resultOf(index.family, index.first + curve, shape, fit));
     yield;
   }
   return results.sort((a, b) => a[by] - b[by]);
@@ -94,7 +106,7 @@ function nearestPerCurve(fits, most) {
   const found = [];
   const seen = new Set();
   for (const fit of fits.sort((a, b) => a.rms - b.rms)) {
-    const name = `${fit.index.family.id}:${fit.curve}`;
+    const name = `${fit.index.family.id}:${fit.index.first + fit.curve}`;
     if (!seen.has(name)) found.push(fit);
     seen.add(name);
     if (found.length === most) break;

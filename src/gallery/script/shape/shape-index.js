@@ -1,4 +1,4 @@
-// Builds the index of a family's curves by shape, in steps, when the family is loaded.
+// Builds the index of curves of a family by shape, in steps.
 
 import { curvePoints } from "../data/family.js";
 import { withoutDuplicates, resampled } from "./outline.js";
@@ -24,24 +24,27 @@ export function windowCount(span) {
 }
 
 /**
- * Builds the index of a family step by step; the generator returns
+ * Builds the index of `count` curves of a family, from the curve `first` on, step by step; their pieces must
+ * be loaded. The generator returns
  *
- * { family, count, closed u8[], kept f32[2·INDEX_POINTS·count]: each curve even, centred and 1 in its root of
- * mean squares, re, im f32[SPECTRUM·count]: of closed curves the spectrum, of open ones the points
- * themselves, of unit energy, size f32[SPECTRUM·count]: of the spectrum's numbers, windows null }.
+ * { family, first, count, closed u8[], kept f32[2·INDEX_POINTS·count]: each curve even, centred and 1 in its
+ * root of mean squares, re, im f32[SPECTRUM·count]: of closed curves the spectrum, of open ones the points
+ * themselves, of unit energy, size f32[SPECTRUM·count]: of the spectrum's numbers, windows null, points null
+ * }.
  */
-export function* buildIndex(family) {
-  const { count } = family.curves;
+export function* buildIndex(family, first = 0, count = family.curves.count) {
   const transform = fourier(SPECTRUM);
   const index = {
     family,
+    first,
     count,
-    closed: Uint8Array.from(family.curves.closed),
+    closed: family.curves.closed.slice(first, first + count),
     kept: new Float32Array(2 * INDEX_POINTS * count),
     re: new Float32Array(SPECTRUM * count),
     im: new Float32Array(SPECTRUM * count),
     size: new Float32Array(SPECTRUM * count),
     windows: null,
+    points: null,
   };
   const [re, im] = [new Float64Array(SPECTRUM), new Float64Array(SPECTRUM)];
   for (let curve = 0; curve < count; curve += 1) {
@@ -53,7 +56,7 @@ export function* buildIndex(family) {
 
 function indexCurve(index, curve, transform, re, im) {
   const closed = index.closed[curve] === 1;
-  const outline = withoutDuplicates(curvePoints(index.family, curve), closed);
+  const outline = withoutDuplicates(pointsOf(index, curve), closed);
   if (outline.length < 4) return;
   const even = resampled(outline, closed, INDEX_POINTS);
   storePoints(index, curve, even);
@@ -71,6 +74,31 @@ function indexCurve(index, curve, transform, re, im) {
     index.im[at] = im[k];
     index.size[at] = Math.sqrt(re[k] * re[k] + im[k] * im[k]);
   }
+}
+
+/** The points of a curve of an index. */
+export function pointsOf({ family, first, points }, curve) {
+  return points ?? curvePoints(family, first + curve);
+}
+
+/**
+ * An index of one curve of another one, with its points, which needs neither that index nor the curve's
+ * piece.
+ */
+export function singleCurveIndex(index, curve) {
+  const part = (array, each) => array.slice(each * curve, each * (curve + 1));
+  return {
+    family: index.family,
+    first: index.first + curve,
+    count: 1,
+    closed: part(index.closed, 1),
+    kept: part(index.kept, 2 * INDEX_POINTS),
+    re: part(index.re, SPECTRUM),
+    im: part(index.im, SPECTRUM),
+    size: part(index.size, SPECTRUM),
+    windows: null,
+    points: pointsOf(index, curve),
+  };
 }
 
 function storePoints(index, curve, even) {

@@ -1,8 +1,9 @@
 // A family: its description, and its pages or curves as a grid of thumbnails.
 
 import { address } from "../data/address.js";
-import { findCurve, curveKey } from "../data/family.js";
-import { h } from "./dom.js";
+import { curveCaption, curveKey } from "../data/family.js";
+import { isFullyLoaded, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
+import { fill, h } from "./dom.js";
 import { familyCounts, familySource } from "./overview.js";
 import { pageLabel } from "./page-cells.js";
 import { pageField } from "./page-field.js";
@@ -24,9 +25,13 @@ export const familyRoute = {
   open: async (app, { path: [id], query }) => {
     const family = await app.atlas.family(id);
     const listed = app.atlas.families.find((candidate) => candidate.id === id);
-    const hasCurves = query.get("show") === "curves" || listed.pages === 0;
-    const tiles = hasCurves ? curveTiles(family) : pageTiles(app, family, listed);
-    const goal = hasCurves ? findCurve(family, query.get("curve")) : Number(query.get("page")) - 1;
+    // Pages are shown if they are written as files, or their layouts are in the data.
+    const hasPages = listed.pages > 0 && (listed.page_format !== null || family.pageCount > 0);
+    const hasCurves = query.get("show") === "curves" || !hasPages;
+    const tiles = hasCurves ? curveTiles(app, family) : pageTiles(app, family, listed);
+    const goal = hasCurves
+      ? await needCurveWithKey(family, query.get("curve"))
+      : Number(query.get("page")) - 1;
     if (goal >= 0) tiles.element.dataset.goal = goal;
     return {
       title: family.title,
@@ -34,7 +39,7 @@ export const familyRoute = {
         "div",
         { class: "view wide family-view" },
         familyHeader(family, listed),
-        familyToolbar(family, listed, hasCurves),
+        familyToolbar(family, listed, { hasCurves, hasPages }),
         tiles.element,
       ),
       shown: () => {
@@ -66,7 +71,7 @@ function familyHeader(family, listed) {
           formatBytes(listed.bytes),
         ].join(" · "),
       ),
-      notAssembledSummary(family),
+      notAssembledSummary(family, listed),
     ),
   );
 }
@@ -76,7 +81,7 @@ function samplingLabel({ step, samples, spacing }) {
   return `${samples} samples per circuit${spacing ? `, ${spacing} spacing` : ""}`;
 }
 
-function familyToolbar(family, listed, hasCurves) {
+function familyToolbar(family, listed, { hasCurves, hasPages }) {
   const way = (label, query, isHere) =>
     h(
       "a",
@@ -89,7 +94,7 @@ function familyToolbar(family, listed, hasCurves) {
     h(
       "div",
       { class: "segments", role: "group", "aria-label": "Show" },
-      listed.pages ? way("Pages", {}, !hasCurves) : null,
+      hasPages ? way("Pages", {}, !hasCurves) : null,
       way("Curves", { show: "curves" }, hasCurves),
     ),
     h("a", { class: "button", href: address(["find"], { family: family.id }) }, "Find curves"),
@@ -127,17 +132,23 @@ function pageTiles(app, family, listed) {
             h("span", { class: "visually-hidden" }, "Page "),
             h("b", {}, `${k + 1}`),
             " ",
-            formatCaption(pageLabel(family, k + 1)),
+            h("span", { class: "page-caption" }),
           ),
         ),
       ),
-    draw: (element, k) =>
-      element.querySelector(".tile-picture").append(pageThumbnail(app.atlas, family, k + 1) ?? ""),
+    need: (k) => needPage(family, k + 1),
+    isLoaded: () => isFullyLoaded(family),
+    fillTile: (element, k) =>
+      fill(element.querySelector(".page-caption"), formatCaption(pageLabel(family, k + 1))),
+    draw: (element, k) => {
+      element.querySelector(".tile-picture").append(pageThumbnail(app.atlas, family, k + 1) ?? "");
+    },
+    failed: (message) => app.announce(message),
   });
 }
 
-function curveTiles(family) {
-  const { count, cell } = family.curves;
+function curveTiles(app, family) {
+  const { count } = family.curves;
   const tiles = new TileWindow({
     count,
     least: 132,
@@ -145,23 +156,28 @@ function curveTiles(family) {
     aspect: 0.75,
     below: 40,
     label: "Curves",
-    tile: (k) =>
+    tile: () =>
       h(
         "li",
         {},
+        // A link without an address cannot have the focus.
         h(
           "a",
-          { href: address([family.id, "curve", curveKey(family, k)]) },
+          { tabindex: "0" },
           h("span", { class: "tile-picture" }),
-          h(
-            "span",
-            { class: "label" },
-            h("b", {}, curveKey(family, k)),
-            " ",
-            formatCaption(family.cells.caption[cell[k]]),
-          ),
+          h("span", { class: "label" }, h("span", { class: "visually-hidden" }, "Loading")),
         ),
       ),
+    need: (k) => needCurves(family, [k]),
+    isLoaded: () => isFullyLoaded(family),
+    fillTile: (element, k) => {
+      const link = element.querySelector("a");
+      link.setAttribute("href", address([family.id, "curve", curveKey(family, k)]));
+      link.removeAttribute("tabindex");
+      const caption = formatCaption(curveCaption(family, k));
+      fill(element.querySelector(".label"), h("b", {}, curveKey(family, k)), " ", caption);
+    },
+    failed: (message) => app.announce(message),
     draw: (element, k) => {
       const picture = element.querySelector(".tile-picture");
       picture.append(thumbnail(family, [k], tiles.sizeOfPicture(picture)));

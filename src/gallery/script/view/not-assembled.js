@@ -1,5 +1,7 @@
 // The linkages of a family that could not be assembled, and why.
 
+import { cellCaption, cellText } from "../data/family.js";
+import { isFullyLoaded } from "../data/needs.js";
 import { h } from "./dom.js";
 import { formatCount } from "./footer.js";
 
@@ -8,15 +10,18 @@ const MAX_NAMES_PER_REASON = 12;
 
 /**
  * A collapsed list of the linkages of a family that could not be assembled, or only partially, by reason;
- * null if there are none.
+ * null if there are none. Only their number if not all of the family's data are loaded.
  */
-export function notAssembledSummary(family) {
-  const { status, reason, caption, number, count } = family.cells;
+export function notAssembledSummary(family, listed) {
+  const { status, number, count } = family.cells;
+  if (!isFullyLoaded(family))
+    return listed.not_assembled ? h("p", { class: "note" }, notAssembledNote(listed)) : null;
   const reasons = new Map();
   for (let cell = 0; cell < count; cell += 1) {
     if (status[cell] === 0) continue;
-    const sentence = `${status[cell] === 1 ? "partial: " : ""}${reason[cell]}`;
-    reasons.set(sentence, [...(reasons.get(sentence) ?? []), cell]);
+    const sentence = `${status[cell] === 1 ? "partial: " : ""}${cellText(family, cell, "reason")}`;
+    if (!reasons.has(sentence)) reasons.set(sentence, []);
+    reasons.get(sentence).push(cell);
   }
   if (reasons.size === 0) return null;
   const none = status.filter((code) => code === 2).length;
@@ -28,7 +33,7 @@ export function notAssembledSummary(family) {
   const named = (cells) =>
     cells
       .slice(0, MAX_NAMES_PER_REASON)
-      .map((cell) => caption[cell] || `linkage ${number[cell]}`)
+      .map((cell) => cellCaption(family, cell) || `linkage ${number[cell]}`)
       .join("; ");
   return h(
     "details",
@@ -47,4 +52,9 @@ export function notAssembledSummary(family) {
       ),
     ),
   );
+}
+
+/** The number of linkages of a family that could not be assembled. */
+export function notAssembledNote({ not_assembled: none, kept }) {
+  return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage", "linkages")} could not be assembled`;
 }

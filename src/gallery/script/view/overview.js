@@ -3,6 +3,7 @@
 import { address } from "../data/address.js";
 import { fill, h } from "./dom.js";
 import { formatCount } from "./footer.js";
+import { notAssembledNote } from "./not-assembled.js";
 import { onceVisible } from "./once-visible.js";
 import { pageThumbnail } from "./page-thumbnail.js";
 
@@ -85,11 +86,6 @@ export function familyCounts(family) {
   ]
     .filter(Boolean)
     .join(" · ");
-}
-
-/** The number of linkages of a family that could not be assembled. */
-function notAssembledNote({ not_assembled: none, kept }) {
-  return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage", "linkages")} could not be assembled`;
 }
 
 /** The source of a family, without the legend that its pages append to it. */

@@ -1,7 +1,7 @@
 // The panel next to a page: its list of curves, or the highlighted curve.
 
 import { address } from "../data/address.js";
-import { curveKey, measureValue } from "../data/family.js";
+import { cellCaption, cellText, curveCaption, curveKey, measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 import { cellsOnPage } from "./page-cells.js";
 import { formatCaption, formatNumber, measureLabel, measureText } from "./labels.js";
@@ -46,21 +46,23 @@ function noCurvesNote(family) {
 function chartCurvesNote(family) {
   return [
     "Computed from ",
-    h("a", { href: address([family.id], { show: "curves" }) }, `${family.curves.count} curves`),
+    h(
+      "a",
+      { href: address([family.id], { show: "curves" }) },
+      `${family.curves.count.toLocaleString("en")} curves`,
+    ),
     ", which are not drawn on it.",
   ];
 }
 
 function captionOfCurve(family, curve) {
   const cell = family.curves.cell[curve];
-  return formatCaption(family.cells.caption[cell] || `Linkage ${family.cells.number[cell]}`);
+  return formatCaption(cellCaption(family, cell) || `Linkage ${family.cells.number[cell]}`);
 }
 
 function curveRow(family, curve, { one, onenter, onleave }) {
   const { cell, circuit } = family.curves;
-  const caption = one
-    ? null
-    : family.cells.caption[cell[curve]] || `linkage ${family.cells.number[cell[curve]]}`;
+  const caption = one ? null : curveCaption(family, curve) || `linkage ${family.cells.number[cell[curve]]}`;
   const words = [
     caption,
     pointLabel(family, curve),
@@ -83,13 +85,11 @@ function curveRow(family, curve, { one, onenter, onleave }) {
 
 /** The label of the traced point of a curve, if the linkage has several. */
 export function pointLabel(family, curve) {
-  const { trace } = family.curves;
-  return trace.some((number) => number > 1) ? `point ${trace[curve]}` : "";
+  return family.traces > 1 ? `point ${family.curves.trace[curve]}` : "";
 }
 
 /** The linkages that could not be assembled, each with the reason. */
 function notAssembledList(family, cells) {
-  const { number, caption, reason } = family.cells;
   return h(
     "section",
     { class: "not-assembled" },
@@ -101,8 +101,8 @@ function notAssembledList(family, cells) {
         h(
           "li",
           {},
-          h("b", {}, formatCaption(caption[cell] || `linkage ${number[cell]}`)),
-          h("span", { class: "note" }, ` ${reason[cell]}`),
+          h("b", {}, formatCaption(cellCaption(family, cell) || `linkage ${family.cells.number[cell]}`)),
+          h("span", { class: "note" }, ` ${cellText(family, cell, "reason")}`),
         ),
       ),
     ),
@@ -114,11 +114,12 @@ export function curvePanel(app, family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
   const key = curveKey(family, curve);
+  const note = cellText(family, at, "note");
   const words = ["class", "type"].map((name) => measureValue(family, curve, name)).filter(Boolean);
   return h(
     "div",
     { class: "panel" },
-    h("h2", {}, formatCaption(family.cells.caption[at] || `Linkage ${family.cells.number[at]}`)),
+    h("h2", {}, formatCaption(cellCaption(family, at) || `Linkage ${family.cells.number[at]}`)),
     h(
       "p",
       { class: "tags" },
@@ -126,8 +127,10 @@ export function curvePanel(app, family, curve, { onall }) {
         .filter(Boolean)
         .map((word) => [h("span", { class: "tag" }, word), " "]),
     ),
-    family.cells.note[at] ? h("p", { class: "note" }, family.cells.note[at]) : null,
-    family.cells.status[at] === 1 ? h("p", { class: "note" }, `Partial: ${family.cells.reason[at]}`) : null,
+    note ? h("p", { class: "note" }, note) : null,
+    family.cells.status[at] === 1
+      ? h("p", { class: "note" }, `Partial: ${cellText(family, at, "reason")}`)
+      : null,
     h(
       "div",
       { class: "toolbar no-print" },

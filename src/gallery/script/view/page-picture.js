@@ -1,7 +1,7 @@
 // The picture of a page and the overlay of its curves.
 
 import { pageFile } from "../data/atlas.js";
-import { curveKey } from "../data/family.js";
+import { curveCaption, curveKey, pageViews } from "../data/family.js";
 import { address } from "../data/address.js";
 import { fill, h, s } from "./dom.js";
 import { paperTone } from "./paper-tone.js";
@@ -15,7 +15,7 @@ const MIN_LINK_WIDTH = 1;
  * there is no readable file. Resolves when it can be painted.
  */
 export async function pagePicture(app, family, page, label) {
-  const { views } = family.pages[page - 1] ?? { views: [] };
+  const views = pageViews(family, page);
   const file = pageFile(app.atlas, family.id, page);
   if (file) {
     const tone = { "data-paper": paperTone(family) };
@@ -80,7 +80,7 @@ function linkArea([x0, y0, x1, y1]) {
 
 function curveLink(family, curve, { onfocus, onblur }) {
   const key = curveKey(family, curve);
-  const caption = family.cells.caption[family.curves.cell[curve]];
+  const caption = curveCaption(family, curve);
   return s("a", {
     href: address([family.id, "curve", key]),
     tabindex: "-1",

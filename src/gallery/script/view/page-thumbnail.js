@@ -1,6 +1,7 @@
 // Thumbnails of pages.
 
 import { pageFile } from "../data/atlas.js";
+import { pageViews } from "../data/family.js";
 import { h, s } from "./dom.js";
 import { paperTone } from "./paper-tone.js";
 import { curvePath } from "./thumbnail.js";
@@ -9,11 +10,11 @@ import { curvePath } from "./thumbnail.js";
 const PAPER_GRAIN = 1;
 
 /**
- * The thumbnail of a page: its curves drawn from the data, or the file of a chart, whose curves are not in
- * the data. Null if there is neither.
+ * The thumbnail of a page: its curves drawn from the data if they are loaded (needs.js), or its file. Null if
+ * there is neither.
  */
 export function pageThumbnail(atlas, family, page) {
-  const { views } = family.pages[page - 1] ?? { views: [] };
+  const views = pageViews(family, page);
   if (views.length) return drawPage(family, views, "page-thumbnail thumbnail", PAPER_GRAIN);
   const file = pageFile(atlas, family.id, page);
   if (!file) return null;

@@ -2,7 +2,8 @@
 
 import { address } from "../data/address.js";
 import { pageFile } from "../data/atlas.js";
-import { findCurve, curveKey } from "../data/family.js";
+import { findCurve, curveKey, pageViews } from "../data/family.js";
+import { holdPieces, needPage, piecesOfPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
 import { curvesOnPaper, nearestCurve } from "./page-curves.js";
 import { CurveHighlight } from "./curve-highlight.js";
@@ -90,8 +91,12 @@ class PageView {
     this.title = `${this.family.title}, page ${page} of ${this.listed.pages}`;
     if (isOther) {
       this.viewport.setAttribute("aria-label", `Page ${page} of ${this.listed.pages}`);
+      const need = needPage(this.family, page);
+      if (need) await need;
       const picture = await pagePicture(this.app, this.family, page, this.title);
       if (page !== this.page) return;
+      this.release?.();
+      this.release = holdPieces(piecesOfPage(this.family, page));
       this.setPicture(picture);
       this.app.announce(this.title);
     }
@@ -110,7 +115,7 @@ class PageView {
 
   /** Puts a page's picture and the overlay of its curves into the view. */
   setPicture(picture) {
-    const { views } = this.family.pages[this.page - 1] ?? { views: [] };
+    const views = pageViews(this.family, this.page);
     const hadFocus = this.sheet.contains(document.activeElement);
     this.drawn = curvesOnPaper(this.family, views);
     this.overlay = pageOverlay(this.family, this.drawn, {
@@ -256,6 +261,7 @@ class PageView {
   leave() {
     this.hasLeft = true;
     this.unwatch();
+    this.release?.();
     window.clearTimeout(this.remembering);
     this.zoom.end();
   }

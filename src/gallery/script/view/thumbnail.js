@@ -1,6 +1,6 @@
 // Thumbnails of curves, from the stored points: SVG in the colours of the theme, for screen and print.
 
-import { curvePoints } from "../data/family.js";
+import { curveBox, curvePoints } from "../data/family.js";
 import { s } from "./dom.js";
 
 // The margin of a thumbnail, in pixels.
@@ -42,7 +42,7 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
 function boxOfCurves(family, curves) {
   const whole = [Infinity, Infinity, -Infinity, -Infinity];
   for (const curve of curves) {
-    const box = family.curves.box.subarray(4 * curve, 4 * curve + 4);
+    const box = curveBox(family, curve);
     for (const k of [0, 1]) whole[k] = Math.min(whole[k], box[k]);
     for (const k of [2, 3]) whole[k] = Math.max(whole[k], box[k]);
   }

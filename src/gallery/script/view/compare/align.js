@@ -33,22 +33,8 @@ export function alignCurve(first, one, align) {
 
 /** Compares one curve with a shape, as the search by shape does. */
 function compareWithShape(shape, { family, curve }, mirror) {
-  const alone = { ...family, curves: { ...family.curves, count: 1, ...onlyCurve(family.curves, curve) } };
-  const index = runToEnd(buildIndex(alone));
+  const index = runToEnd(buildIndex(family, curve, 1));
   return runToEnd(searchByShape([index], shape, { mirror }))[0];
-}
-
-function onlyCurve(curves, curve) {
-  const { cell, trace, circuit, closed, box, start, points } = curves;
-  return {
-    cell: cell.subarray(curve, curve + 1),
-    trace: trace.subarray(curve, curve + 1),
-    circuit: circuit.subarray(curve, curve + 1),
-    closed: closed.subarray(curve, curve + 1),
-    box: box.subarray(4 * curve, 4 * curve + 4),
-    start: Uint32Array.of(0, start[curve + 1] - start[curve]),
-    points: points.subarray(2 * start[curve], 2 * start[curve + 1]),
-  };
 }
 
 function runToEnd(generator) {

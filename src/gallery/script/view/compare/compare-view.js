@@ -1,6 +1,7 @@
 // The view that compares pinned curves.
 
 import { address } from "../../data/address.js";
+import { curveCaption } from "../../data/family.js";
 import { fill, h } from "../dom.js";
 import { formatCaption, formatChanges } from "../labels.js";
 import { matchesRoute, routeAddress } from "../route-address.js";
@@ -199,7 +200,7 @@ class CompareView {
         h("b", {}, letterOf(k)),
         " ",
         h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
-        h("p", { class: "caption" }, formatCaption(family.cells.caption[family.curves.cell[curve]])),
+        h("p", { class: "caption" }, formatCaption(curveCaption(family, curve))),
         changes.size ? h("p", { class: "tag" }, formatCaption(formatChanges(changes))) : null,
         k > 0
           ? h(
@@ -238,5 +239,6 @@ class CompareView {
   leave() {
     this.unwatch();
     this.stop?.();
+    for (const { release } of this.loaded.values()) release?.();
   }
 }

@@ -1,21 +1,33 @@
 // Loads the curves to compare, from the atlas or with parameters changed on a plate.
 
-import { findCurve } from "../../data/family.js";
+import { cellText } from "../../data/family.js";
+import { holdPieces, needCurveWithKey, needCurves, piecesOfCurves } from "../../data/needs.js";
+import { singleCurveFamily } from "../../data/reader.js";
 import { emptyBox, widenedBox } from "../../draw/plane-view.js";
 import { parseCurveName, solveNamedCurve, measuresOfCurve } from "../../export/curve.js";
 
 /**
- * The curve with a name, "evans:12.1.1" or "evans:12.1.1?p=2.5": { name, family, curve, key, changes: Map },
- * or { name, reason } with a sentence that says why there is none.
+ * The curve with a name, "evans:12.1.1" or "evans:12.1.1?p=2.5": { name, family, curve, key, changes: Map,
+ * release }, or { name, reason } with a sentence that says why there is none. Its data are kept until
+ * `release()`.
  */
 export async function loadComparedCurve(atlas, name) {
   try {
     const { family: id, key, changes } = parseCurveName(name) ?? {};
     const family = await atlas.family(id ?? name);
-    const curve = findCurve(family, key);
+    const curve = await needCurveWithKey(family, key);
     if (curve === undefined) return { name, reason: "not in this atlas" };
-    if (changes.size === 0) return { name, family, curve, key, changes };
-    return { name, family: changedFamily(family, name, atlas.measures), curve: 0, key, changes };
+    await needCurves(family, [curve]);
+    if (changes.size > 0)
+      return {
+        name,
+        family: changedFamily(family, name, atlas.measures),
+        curve: 0,
+        key,
+        changes,
+        release: () => {},
+      };
+    return { name, family, curve, key, changes, release: holdPieces(piecesOfCurves(family, [curve])) };
   } catch (error) {
     // Messages of the solver start with the name.
     return { name, reason: error.message.replace(`${name}: `, "") };
@@ -31,35 +43,25 @@ export async function loadComparedCurve(atlas, name) {
 function changedFamily(family, name, measures) {
   const exported = solveNamedCurve(family, name);
   const { place, values, template, linkage, joint, circuit } = exported;
-  const { cells } = family;
-  const of = (list) => [list[place]];
   const { numbers, words } = splitMeasures(exported, measures);
-  return {
-    ...family,
-    template,
-    cells: {
-      count: 1,
-      number: Uint32Array.of(exported.cell),
-      values,
-      status: Uint8Array.of(exported.status === "ok" ? 0 : 1),
-      reason: [exported.reason ?? ""],
-      caption: of(cells.caption),
-      note: of(cells.note),
-    },
-    curves: {
-      count: 1,
-      cell: Uint32Array.of(0),
-      trace: Uint16Array.of(linkage.traced.indexOf(joint) + 1),
-      circuit: Uint16Array.of(circuit),
-      page: Uint32Array.of(0),
-      closed: Uint8Array.of(exported.circuitSamples.closed ? 1 : 0),
-      measures: numbers,
-      words,
-      ...packPoints(exported.circuitSamples, joint),
-    },
-    places: new Map([[parseCurveName(name).key, 0]]),
-    pages: [],
+  const cell = {
+    number: exported.cell,
+    values,
+    status: exported.status === "ok" ? 0 : 1,
+    trace: linkage.traced.indexOf(joint) + 1,
+    circuit,
+    closed: exported.circuitSamples.closed ? 1 : 0,
+    measures: numbers,
+    words,
   };
+  const [caption, note] = ["caption", "note"].map((text) => cellText(family, place, text));
+  const outline = {
+    ...packPoints(exported.circuitSamples, joint),
+    caption,
+    note,
+    reason: exported.reason ?? "",
+  };
+  return singleCurveFamily({ ...family, template }, cell, outline);
 }
 
 /** Splits the measures of an exported curve into numbers and words, as a family stores them. */
@@ -74,7 +76,7 @@ function splitMeasures(exported, measures) {
   return { numbers, words };
 }
 
-/** The positions of a joint over a sampled circuit, as a family stores them: { box, start, points }. */
+/** The positions of a joint over a sampled circuit, as a family stores them: { box, counts, points }. */
 function packPoints({ x, y, count }, joint) {
   const box = Float64Array.from(widenedBox(emptyBox(), x[joint], y[joint], count));
   const points = new Uint16Array(2 * count);
@@ -83,5 +85,5 @@ function packPoints({ x, y, count }, joint) {
     points[2 * k] = part(x[joint][k], box[0], box[2]);
     points[2 * k + 1] = part(y[joint][k], box[1], box[3]);
   }
-  return { box, start: Uint32Array.of(0, count), points };
+  return { box, counts: Uint16Array.of(count), points };
 }

@@ -1,5 +1,7 @@
 // Exports curves by name to files.
 
+import { findCurve } from "../../data/family.js";
+import { needCurveWithKey } from "../../data/needs.js";
 import { extraCircuitsCommand, exportCommand, shortenCurveNames } from "../../export/command.js";
 import { csvOfCurve } from "../../export/csv.js";
 import { dxfOfCurve } from "../../export/dxf.js";
@@ -98,11 +100,12 @@ export async function exportFile(app, names, format, onProgress = () => {}) {
     : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
 }
 
-function loadFamilyOfName(app, name) {
+async function loadFamilyOfName(app, name) {
   const parsed = parseCurveName(name);
-  return parsed
-    ? app.atlas.family(parsed.family)
-    : Promise.reject(new Error(`“${name}” is not the name of a curve`));
+  if (!parsed) throw new Error(`“${name}” is not the name of a curve`);
+  const family = await app.atlas.family(parsed.family);
+  if (findCurve(family, parsed.key) === undefined) await needCurveWithKey(family, parsed.key);
+  return family;
 }
 
 /** The manifest fragment of curves by name. */

@@ -10,7 +10,8 @@ import { matchesRoute, routeAddress } from "../route-address.js";
 import { exportMenu } from "../export/menu.js";
 import { columnLabel, columnValueText } from "./column-label.js";
 import { familyChooser } from "./families.js";
-import { requestedFamilies, loadFamilies } from "./loading.js";
+import { loadAllLine } from "./load-all.js";
+import { MAX_AUTOLOAD_BYTES, loadedCurves, loadTables, requestedFamilies } from "./loading.js";
 import { noResults } from "./no-results.js";
 import { FilterPanel } from "./panel.js";
 import { ResultRows } from "./rows.js";
@@ -45,6 +46,12 @@ class FindView {
       this.sortBy(name, this.query.sort.name === name ? !this.query.sort.down : false),
     );
     this.countLabel = h("p", { class: "counted" }, "Loading");
+    this.loadAll = loadAllLine(() => {
+      this.limit = Infinity;
+      this.load();
+      this.results.focus({ preventScroll: true });
+    });
+    this.limit = MAX_AUTOLOAD_BYTES;
     this.message = h("p", { class: "note", hidden: true });
     this.results = h("div", { class: "found", tabindex: "-1" });
     this.sorter = h("select", {
@@ -73,7 +80,7 @@ class FindView {
       h(
         "div",
         { class: "head" },
-        h("div", {}, h("h1", {}, "Find"), this.countLabel, this.message),
+        h("div", {}, h("h1", {}, "Find"), this.countLabel, this.loadAll.element, this.message),
         exportMenu(this.app, () => this.names()),
       ),
       h(
@@ -103,7 +110,7 @@ class FindView {
     );
   }
 
-  /** Loads the requested families and applies the query as they arrive. */
+  /** Loads the tables of the requested families, up to the limit, and applies the query as they arrive. */
   load() {
     const { app, query } = this;
     this.stop?.();
@@ -112,23 +119,28 @@ class FindView {
       this.families,
       familyChooser(app.atlas, listed, (families) => this.setQuery({ ...this.query, families })),
     );
-    this.stop = loadFamilies(
+    this.loadAll.show(null);
+    this.stop = loadTables(
       app.atlas,
       listed,
-      (families, done, all) => this.setFamilies(families, done, all),
+      this.limit,
+      (families, state) => this.setFamilies(families, state),
       (sentence) => this.showMessage(sentence),
     );
   }
 
-  setFamilies(families, done, all) {
-    this.table = new CurveTable(families);
+  setFamilies(families, state) {
+    this.table = new CurveTable(families, families.map(loadedCurves));
     this.orders = new Orders(this.table);
     this.columns = filterColumns(
       this.table,
       this.app.atlas.measures,
       new Set([...this.query.filters.keys(), this.query.sort.name]),
     );
-    this.loading = done < all ? ` · ${done} of ${all} families loaded` : "";
+    const [loaded, total] = [state.curves, state.total].map((number) => number.toLocaleString("en"));
+    this.loading = state.done ? "" : ` · ${loaded} of ${total} loaded`;
+    this.isPartial = state.curves < state.total;
+    this.loadAll.show(state);
     this.applyQuery();
   }
 
@@ -208,7 +220,7 @@ class FindView {
     if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
       const without = (name) =>
         this.setFilters(new Map([...this.query.filters].filter(([other]) => other !== name)));
-      fill(this.results, noResults(this.filters, without));
+      fill(this.results, noResults(this.filters, without, this.isPartial));
       return;
     }
     const list = show === "table" ? this.list : this.tiles;

@@ -4,6 +4,7 @@ import { address } from "../../data/address.js";
 import { curveKey, NO_WORD } from "../../data/family.js";
 import { fill, h } from "../dom.js";
 import { printedCountNote, onPrint } from "../printing.js";
+import { MAX_HEIGHT, scrollScale } from "../long-scroll.js";
 import { watchPins } from "../pin-button.js";
 import { columnLabel, columnValueText } from "./column-label.js";
 import { pinOnKey, curvePinButton } from "./curve-pin.js";
@@ -79,19 +80,21 @@ export class ResultRows {
 
   fill() {
     if (!this.table || !this.element.isConnected || this.paper.isPrinting) return;
-    const first = Math.max(Math.floor(this.element.scrollTop / ROW_HEIGHT) - ROWS_AHEAD, 0);
-    const last = Math.min(
-      first + Math.ceil(this.element.clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD,
-      this.rows.length,
-    );
-    const space = (rows) => {
+    const { scrollTop, clientHeight } = this.element;
+    const height = this.rows.length * ROW_HEIGHT;
+    const top = scrollTop * scrollScale(height, clientHeight);
+    const first = Math.max(Math.floor(top / ROW_HEIGHT) - ROWS_AHEAD, 0);
+    const last = Math.min(first + Math.ceil(clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD, this.rows.length);
+    const space = (pixels) => {
       const cell = h("td", { colspan: this.columns.length + 1, class: "space" });
-      cell.style.height = `${rows * ROW_HEIGHT}px`;
-      return rows > 0 ? h("tr", { "aria-hidden": "true" }, cell) : null;
+      cell.style.height = `${pixels}px`;
+      return pixels > 0 ? h("tr", { "aria-hidden": "true" }, cell) : null;
     };
     const shown = [];
     for (let k = first; k < last; k += 1) shown.push(this.line(k));
-    fill(this.body, space(first), shown, space(this.rows.length - last));
+    const before = first * ROW_HEIGHT - (top - scrollTop);
+    const after = Math.min(height, MAX_HEIGHT) - before - (last - first) * ROW_HEIGHT;
+    fill(this.body, space(before), shown, space(after));
   }
 
   /** Puts the first rows into the document, and no others, for printing. */

@@ -1,8 +1,9 @@
 // The results as a grid of thumbnails.
 
 import { address } from "../../data/address.js";
-import { curveKey } from "../../data/family.js";
-import { h } from "../dom.js";
+import { curveCaption, curveKey } from "../../data/family.js";
+import { isFullyLoaded, needCurves } from "../../data/needs.js";
+import { fill, h } from "../dom.js";
 import { formatCaption } from "../labels.js";
 import { pointLabel } from "../page-panel.js";
 import { watchPins } from "../pin-button.js";
@@ -43,10 +44,6 @@ export class ResultTiles extends TileWindow {
     const family = table.families[table.family[row]];
     const curve = table.curve[row];
     const name = table.nameOf(row);
-    const value = this.valueOf(row);
-    const caption = family.cells.caption[family.curves.cell[curve]] || name;
-    const circuit = family.curves.circuit[curve];
-    const which = [pointLabel(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
     return h(
       "li",
       {},
@@ -54,22 +51,48 @@ export class ResultTiles extends TileWindow {
         "a",
         { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
         h("span", { class: "tile-picture" }),
-        h(
-          "span",
-          { class: "label" },
-          value ? [h("b", {}, value), " "] : null,
-          formatCaption([...which, caption].filter(Boolean).join(" · ")),
-        ),
+        h("span", { class: "label" }),
       ),
       curvePinButton(app, name),
     );
   }
 
-  draw(element, k) {
+  need(k) {
+    const [family, curve] = this.curveOf(k);
+    return needCurves(family, [curve]);
+  }
+
+  isLoaded() {
+    return !this.table || this.table.families.every(isFullyLoaded);
+  }
+
+  fillTile(element, k) {
+    const [family, curve] = this.curveOf(k);
+    const value = this.valueOf(this.rows[k]);
+    const caption = curveCaption(family, curve) || this.table.nameOf(this.rows[k]);
+    const circuit = family.curves.circuit[curve];
+    const which = [pointLabel(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
+    fill(
+      element.querySelector(".label"),
+      value ? [h("b", {}, value), " "] : null,
+      formatCaption([...which, caption].filter(Boolean).join(" · ")),
+    );
+  }
+
+  failed(message) {
+    this.app.announce(message);
+  }
+
+  /** The family and the index of the curve of a tile. */
+  curveOf(k) {
     const { table } = this;
     const row = this.rows[k];
+    return [table.families[table.family[row]], table.curve[row]];
+  }
+
+  draw(element, k) {
+    const [family, curve] = this.curveOf(k);
     const picture = element.querySelector(".tile-picture");
-    const family = table.families[table.family[row]];
-    picture.replaceChildren(thumbnail(family, [table.curve[row]], this.sizeOfPicture(picture)));
+    picture.replaceChildren(thumbnail(family, [curve], this.sizeOfPicture(picture)));
   }
 }

@@ -1,7 +1,7 @@
 // The data of a curve: its origin, and its measures next to those of changed parameters.
 
 import { address } from "../../data/address.js";
-import { curveKey, measureValue } from "../../data/family.js";
+import { cellText, curveKey, measureValue, pageOfCurve } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
 import { fill, h } from "../dom.js";
 import { familySource } from "../overview.js";
@@ -10,20 +10,20 @@ import { formatLength } from "./speed-view.js";
 
 /** The caption and the note of a cell. */
 export function cellHeading(family, cell) {
-  return { caption: family.cells.caption[cell], note: family.cells.note[cell] };
+  return { caption: cellText(family, cell, "caption"), note: cellText(family, cell, "note") };
 }
 
 /** The list of a curve's origin. */
 export function curveOrigin(app, family, curve) {
   const cell = family.curves.cell[curve];
-  const page = family.curves.page[curve];
+  const page = pageOfCurve(family, curve);
   const rows = [
     ["Family", h("a", { href: address([family.id]) }, family.title)],
     ["Linkage", family.linkage],
     ["Cell, trace, circuit", curveKey(family, curve).replaceAll(".", ", ")],
-    ["Caption", family.cells.caption[cell]],
-    ["Note", family.cells.note[cell]],
-    ["Status", family.cells.status[cell] === 1 ? `partial: ${family.cells.reason[cell]}` : ""],
+    ["Caption", cellText(family, cell, "caption")],
+    ["Note", cellText(family, cell, "note")],
+    ["Status", family.cells.status[cell] === 1 ? `partial: ${cellText(family, cell, "reason")}` : ""],
     [
       "Page",
       page > 0

@@ -26,8 +26,7 @@ export function changeableParameters(family, cell, trace, changes) {
         : changes.has(name)
           ? "unlinked"
           : "derived";
-    const spread = spreadOfSlot(family, slot);
-    const range = sliderRange(recorded[slot], spread, bounds, size, whole.has(slot));
+    const range = sliderRange(recorded[slot], family.ranges[slot], bounds, size, whole.has(slot));
     return {
       name,
       kind,
@@ -61,15 +60,6 @@ function changeableCoordinates({ template }, recorded, values, trace, changes, s
         ...sliderRange(recordedValue, [recordedValue, recordedValue], {}, size, false),
       };
     });
-}
-
-function spreadOfSlot({ cells, names }, slot) {
-  let [least, most] = [Infinity, -Infinity];
-  for (let k = slot; k < cells.values.length; k += names.length) {
-    if (cells.values[k] < least) least = cells.values[k];
-    if (cells.values[k] > most) most = cells.values[k];
-  }
-  return [least, most];
 }
 
 // The slots that must be integers: the numbers of teeth of gears.

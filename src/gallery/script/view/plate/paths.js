@@ -52,7 +52,8 @@ export function straightSummary({ linkage }, family, curve, measures) {
   const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
     (name) => (measures ? measures[name] : measureValue(family, curve, name)),
   );
-  if (!Number.isFinite(length)) return "";
+  // A family may be measured only in part.
+  if (![length, deviation, span].every(Number.isFinite)) return "";
   const over = linkage.input.isLength ? formatLength(span) : `${formatDecimals(span, 1)}°`;
   const within = `within ${formatLength(deviation)} of its line`;
   return `Straight portion: ${formatLength(length)} long, ${within}, over ${over} of input`;

@@ -15,13 +15,14 @@ export function summaryOfStudy(family, curve, study, isRecorded) {
   const box = study.curveBox;
   words.push(`The curve is ${formatLength(box[2] - box[0])} wide and ${formatLength(box[3] - box[1])} high.`);
   const of = (name) => (isRecorded ? measureValue(family, curve, name) : undefined);
-  if (of("straight_length")) {
+  // A family may be measured only in part.
+  if (of("straight_length") && of("straight_deviation") !== undefined) {
     words.push(
       `Its straightest portion is ${formatLength(of("straight_length"))} long, ` +
         `within ${formatLength(of("straight_deviation"))}.`,
     );
   }
-  if (of("mu_min_deg") !== undefined) {
+  if (of("mu_min_deg") !== undefined && of("mu_max_deg") !== undefined) {
     words.push(
       `Transmission angle from ${formatDecimals(of("mu_min_deg"), 1)} ` +
         `to ${formatDecimals(of("mu_max_deg"), 1)} degrees.`,

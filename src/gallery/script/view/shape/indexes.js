@@ -1,21 +1,81 @@
-// The shape indexes of families, cached while the page is open.
+// The shape indexes of families: in parts, so that a family of any size can be searched in bounded memory.
 
 import { buildIndex, addWindows } from "../../shape/shape-index.js";
+import { needPieces } from "../../data/needs.js";
 import { runInSlices } from "./slices.js";
 
+// The number of curves of a part: its index takes up to 4 kB a curve.
+const PART_CURVES = 20_000;
+// The number of curves whose indexes are kept while the page is open.
+const MAX_KEPT_CURVES = 100_000;
+
+// The kept indexes of each family, by the first curve of their parts.
 const SHAPE_INDEXES = new WeakMap();
 
 /**
- * The shape index of a family, with windows no shorter than `least` of a curve unless that is null. Null if
- * stopped.
+ * The parts of families that are searched, up to `limit` bytes of data and at least one: [{ family, first,
+ * count, pieces, isKept }], with the pieces of the table and of the points. The index of a part that is not
+ * kept is built for each search.
  */
-export async function shapeIndex(family, least, stopped) {
-  if (!SHAPE_INDEXES.has(family)) {
-    const index = await runInSlices(buildIndex(family), stopped);
-    if (!index) return null;
-    SHAPE_INDEXES.set(family, index);
+export function searchedParts(families, limit) {
+  const parts = [];
+  let [bytes, curves] = [0, 0];
+  for (const family of families) {
+    let part = null;
+    for (const piece of family.outlines.pieces) {
+      if (piece.curves === 0) continue;
+      const tables = tablesOf(family, piece);
+      const added =
+        piece.bytes + tables.reduce((sum, { bytes: size }) => sum + size, 0) * tableShare(tables, piece);
+      if (parts.length > 0 && bytes + added > limit) return parts;
+      bytes += added;
+      curves += piece.curves;
+      if (!part || part.count + piece.curves > PART_CURVES) {
+        part = { family, first: piece.firstCurve, count: 0, pieces: new Set(), isKept: true };
+        parts.push(part);
+      }
+      part.count += piece.curves;
+      [piece, ...tables].forEach((one) => part.pieces.add(one));
+      part.isKept &&= curves <= MAX_KEPT_CURVES;
+    }
   }
-  const index = SHAPE_INDEXES.get(family);
+  return parts;
+}
+
+/** The pieces of the table with the curves of a piece of points. */
+function tablesOf({ table }, { firstCurve, curves }) {
+  const [first, last] = [table.ofCurve(firstCurve), table.ofCurve(firstCurve + curves - 1)];
+  return table.pieces.slice(first.number - 1, last.number);
+}
+
+/** The share of some pieces of a table that a piece of points takes. */
+function tableShare(tables, { curves }) {
+  return curves / tables.reduce((sum, table) => sum + table.curves, 0);
+}
+
+/** Releases the indexes of families that are not searched as a whole: they would take too much memory. */
+export function releaseIndexes(parts) {
+  for (const { family } of parts) SHAPE_INDEXES.delete(family);
+}
+
+/** Loads the data of a part; null if they are loaded. */
+export function needPart({ family, pieces }) {
+  return needPieces(family, pieces);
+}
+
+/**
+ * The shape index of a part, whose data must be loaded, with windows no shorter than `least` of a curve
+ * unless that is null. Null if stopped.
+ */
+export async function shapeIndex({ family, first, count, isKept }, least, stopped) {
+  if (!SHAPE_INDEXES.has(family)) SHAPE_INDEXES.set(family, new Map());
+  const known = SHAPE_INDEXES.get(family);
+  let index = known.get(first);
+  if (index?.count !== count) {
+    index = await runInSlices(buildIndex(family, first, count), stopped);
+    if (!index) return null;
+    if (isKept) known.set(first, index);
+  }
   if (least !== null) await runInSlices(addWindows(index, least), stopped);
   return stopped() ? null : index;
 }

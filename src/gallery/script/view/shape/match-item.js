@@ -1,7 +1,7 @@
 // A result of the search by shape.
 
 import { address } from "../../data/address.js";
-import { curveKey } from "../../data/family.js";
+import { curveCaption, curveKey } from "../../data/family.js";
 import { h } from "../dom.js";
 import { formatCaption } from "../labels.js";
 import { pinButton } from "../pin-button.js";
@@ -10,7 +10,7 @@ import { matchPicture } from "./match-picture.js";
 /** The list item of a result of `searchByShape` for a shape with the options of a query (query.js). */
 export function matchItem(app, one, shape, { by, part }) {
   const { family, curve, name } = one;
-  const caption = family.cells.caption[family.curves.cell[curve]];
+  const caption = curveCaption(family, curve);
   const other = by === "rms" ? "greatest" : "rms";
   const percent = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
   const share = part ? `, ${Math.round(100 * (one.to - one.from))} % of the curve` : "";

@@ -1,15 +1,17 @@
 // The view that finds curves by shape.
 
-import { findCurve, curvePoints } from "../../data/family.js";
+import { curvePoints } from "../../data/family.js";
+import { needCurveWithKey, needCurves } from "../../data/needs.js";
 import { queryShape } from "../../shape/query-shape.js";
 import { decodeShape, encodeShape } from "../../shape/encode.js";
-import { searchByShape } from "../../shape/search.js";
+import { addCandidates, rankCandidates } from "../../shape/search.js";
 import { fill, h } from "../dom.js";
 import { familyChooser } from "../find/families.js";
-import { requestedFamilies, loadFamilies } from "../find/loading.js";
+import { loadAllLine } from "../find/load-all.js";
+import { MAX_AUTOLOAD_BYTES, requestedFamilies } from "../find/loading.js";
 import { watchPins } from "../pin-button.js";
 import { matchesRoute, routeAddress } from "../route-address.js";
-import { shapeIndex } from "./indexes.js";
+import { needPart, releaseIndexes, searchedParts, shapeIndex } from "./indexes.js";
 import { matchItem } from "./match-item.js";
 import { shapeOptions } from "./options.js";
 import { DrawingPad } from "./pad.js";
@@ -44,7 +46,12 @@ class ShapeView {
   constructor(app, query) {
     this.app = app;
     this.turn = 0;
-    this.indexes = [];
+    this.limit = MAX_AUTOLOAD_BYTES;
+    this.parts = null;
+    this.loadAll = loadAllLine(() => {
+      this.limit = Infinity;
+      this.open();
+    });
     this.pad = new DrawingPad(
       (points, closed) => this.setDrawnShape(points, closed),
       (text) => app.announce(text),
@@ -70,7 +77,7 @@ class ShapeView {
     return h(
       "div",
       { class: "view wide shape-view" },
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, "By shape"), this.status)),
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, "By shape"), this.status, this.loadAll.element)),
       h(
         "div",
         { class: "shape-split" },
@@ -91,28 +98,61 @@ class ShapeView {
 
   async start() {
     await this.loadShape();
+    this.unwatch ??= watchPins(this.app, this.element);
+    this.open();
+  }
+
+  /** Opens the requested families and searches them; a later call, or leaving, stops it. */
+  async open() {
     const { app, query } = this;
-    this.unwatch ??= watchPins(app, this.element);
-    this.stop?.();
+    this.turn += 1;
+    const turn = this.turn;
     const listed = requestedFamilies(app.atlas, query.families);
     fill(
       this.families,
       familyChooser(app.atlas, listed, (families) => {
         query.families = families;
         this.writeAddress();
-        this.start();
+        this.open();
       }),
     );
-    this.stop = loadFamilies(
-      app.atlas,
-      listed,
-      (families, done, all) => {
-        this.loaded = families;
-        this.isWhole = done === all;
-        this.search();
-      },
-      (sentence) => app.announce(sentence),
-    );
+    const families = [];
+    for (const { id } of listed) {
+      try {
+        families.push(await app.atlas.family(id));
+      } catch (error) {
+        app.announce(error.message);
+      }
+      if (turn !== this.turn) return;
+    }
+    this.parts = searchedParts(families, this.limit);
+    this.state = {
+      done: true,
+      curves: this.parts.reduce((sum, { count }) => sum + count, 0),
+      total: listed.reduce((sum, { curves }) => sum + curves, 0),
+      bytes: listed.reduce((sum, { bytes }) => sum + bytes, 0),
+    };
+    if (this.shape) await this.search();
+    else await this.prepare();
+  }
+
+  /** Loads what will be searched, before there is a shape. */
+  async prepare() {
+    this.showState();
+    const turn = this.turn;
+    for (const part of this.parts.filter(({ isKept }) => isKept)) {
+      await needPart(part)?.catch((error) => this.app.announce(error.message));
+      if (turn !== this.turn) return;
+    }
+  }
+
+  /** Says what is not searched, or that there is nothing to search. */
+  showState() {
+    this.loadAll.show(this.state);
+    if (this.state.curves > 0) return;
+    fill(this.status, "No curves are loaded; select families");
+    fill(this.results);
+    this.results.removeAttribute("aria-busy");
   }
 
   /** Loads the shape of the address: a drawn one, or a curve of the atlas. */
@@ -123,8 +163,9 @@ class ShapeView {
     if (drawn || !query.like) return;
     const [id, key] = query.like.split(":");
     const family = await app.atlas.family(id);
-    const curve = findCurve(family, key ?? "");
+    const curve = await needCurveWithKey(family, key ?? "");
     if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
+    await needCurves(family, [curve]);
     this.setShape(curvePoints(family, curve), family.curves.closed[curve] === 1);
   }
 
@@ -143,49 +184,77 @@ class ShapeView {
     this.submit();
   }
 
-  /** Searches the loaded families; a later search stops an earlier one. */
+  /** Searches all parts, one after another; a later search stops an earlier one. */
   async search() {
-    if (!this.shape || !this.loaded) return;
+    if (!this.shape || !this.parts) return;
     this.turn += 1;
     const turn = this.turn;
     const stopped = () => turn !== this.turn;
+    this.showState();
+    if (this.state.curves === 0) return;
     const { part, least, mirror, by } = this.query;
+    const options = { part: part === true, least, mirror, by };
     this.results.setAttribute("aria-busy", "true");
-    const indexes = [];
-    for (const family of this.loaded) {
-      fill(this.status, "Searching ", family.title);
-      const index = await shapeIndex(family, part ? least : null, stopped);
-      if (!index) return;
-      indexes.push(index);
-    }
     const began = performance.now();
-    const found = await runInSlices(
-      searchByShape(indexes, this.shape, { part: part === true, least, mirror, by }),
-      stopped,
-    );
+    const candidates = await this.candidates(options, stopped);
+    const found = candidates && (await runInSlices(rankCandidates(candidates, this.shape, options), stopped));
     if (!found) return;
     this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
-    this.show(found.slice(0, MAX_RESULTS));
+    const items = [];
+    // Each is drawn as soon as its points are loaded: those of all may be more than are kept.
+    for (const one of found.slice(0, MAX_RESULTS)) {
+      await needCurves(one.family, [one.curve]);
+      if (stopped()) return;
+      items.push(matchItem(this.app, one, this.shape, this.query));
+    }
+    this.show(items);
     // Prepares the index for partial curves while idle.
-    if (!part && this.isWhole)
-      for (const family of this.loaded) if (!(await shapeIndex(family, least, stopped))) return;
+    if (part) return;
+    for (const one of this.parts.filter(({ isKept }) => isKept)) {
+      await needPart(one);
+      if (!(await shapeIndex(one, least, stopped))) return;
+    }
   }
 
-  show(found) {
+  /** The candidates of all parts; null if stopped. */
+  async candidates(options, stopped) {
+    let candidates = [];
+    let searched = 0;
+    // The points of one part may be dropped while another one is searched.
+    const isTransient = this.parts.some(({ isKept }) => !isKept);
+    for (const one of this.parts) {
+      const share = `${searched.toLocaleString("en")} of ${this.state.curves.toLocaleString("en")} curves`;
+      fill(this.status, "Searching ", one.family.title, this.parts.length > 1 ? `: ${share}` : "");
+      try {
+        await needPart(one);
+      } catch (error) {
+        this.app.announce(error.message);
+        continue;
+      }
+      if (stopped()) return null;
+      const index = await shapeIndex(one, options.part ? options.least : null, stopped);
+      if (!index) return null;
+      const search = addCandidates(candidates, index, this.shape, options, isTransient);
+      candidates = await runInSlices(search, stopped);
+      if (!candidates) return null;
+      searched += one.count;
+    }
+    return candidates;
+  }
+
+  /** Shows list items of results. */
+  show(items) {
     const { by } = this.query;
-    const count = this.loaded.reduce((sum, { curves }) => sum + curves.count, 0);
     const ranked = `ranked by ${by} deviation in % of the shape’s extent`;
-    const nearest = found.length === 1 ? "nearest" : `${found.length} nearest`;
-    const sentence = found.length
-      ? `The ${nearest} of ${count.toLocaleString("en")} curves, ${ranked}`
+    const nearest = items.length === 1 ? "nearest" : `${items.length} nearest`;
+    const sentence = items.length
+      ? `The ${nearest} of ${this.state.curves.toLocaleString("en")} curves, ${ranked}`
       : "No similar curve found";
+    const rest = this.state.curves < this.state.total ? `; ${this.loadAll.text(this.state)}` : "";
     fill(this.status, sentence);
-    this.app.announce(sentence);
+    this.app.announce(`${sentence}${rest}`);
     this.results.removeAttribute("aria-busy");
-    fill(
-      this.results,
-      found.map((one) => matchItem(this.app, one, this.shape, this.query)),
-    );
+    fill(this.results, items);
   }
 
   /** Updates the address and the results after a change of the query. */
@@ -206,6 +275,8 @@ class ShapeView {
   leave() {
     this.turn += 1;
     this.unwatch?.();
-    this.stop?.();
+    // The index of a large family is built again when it is searched again.
+    const isLarge = this.parts?.some(({ isKept }) => !isKept) || this.state?.curves < this.state?.total;
+    if (isLarge) releaseIndexes(this.parts);
   }
 }
