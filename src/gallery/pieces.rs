@@ -44,10 +44,7 @@ pub fn piece_file_name(series: PieceSeries, number: usize) -> String {
 
 /// The series and the number of the piece with this file name; `None` if it is not such a name.
 pub fn parse_piece_file_name(name: &str) -> Option<(PieceSeries, usize)> {
-    let [series, number] = name.strip_prefix("gallery-")?.strip_suffix(".js")?.split('-').collect::<Vec<_>>()[..]
-    else {
-        return None;
-    };
+    let (series, number) = name.strip_prefix("gallery-")?.strip_suffix(".js")?.split_once('-')?;
     let series = PieceSeries::ALL.into_iter().find(|known| known.name() == series)?;
     let number = number.parse().ok()?;
     (number > 0 && piece_file_name(series, number) == name).then_some((series, number))
@@ -58,7 +55,7 @@ pub fn is_data_file_name(name: &str) -> bool {
     name == SCRIPT_FILE || parse_piece_file_name(name).is_some()
 }
 
-/// What a piece contains, or a part of one; counted from the start of the run in the order of the data.
+/// What a piece contains, or some statements of one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PieceContent {
     /// The number of cells.
@@ -88,7 +85,8 @@ mod decimals {
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<[f64; 2]>, D::Error> {
         let texts = Vec::<[String; 2]>::deserialize(deserializer)?;
         let bound = |text: &String| text.parse::<f64>().map_err(D::Error::custom);
-        texts.iter().map(|[low, high]| Ok([bound(low)?, bound(high)?])).collect()
+        let range = |[low, high]: &[String; 2]| -> Result<[f64; 2], D::Error> { Ok([bound(low)?, bound(high)?]) };
+        texts.iter().map(range).collect()
     }
 }
 

@@ -21,6 +21,8 @@ import {
   placeAtPart,
   turningParts,
 } from "../../src/gallery/script/view/plate/timeline.js";
+import { straightSummary } from "../../src/gallery/script/view/plate/paths.js";
+import { summaryOfStudy } from "../../src/gallery/script/view/plate/summary.js";
 import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
 import { plateCurveName } from "../../src/gallery/script/view/plate/plate-query.js";
 import { PoseSolver } from "../../src/gallery/script/view/plate/pose-solver.js";
@@ -228,6 +230,23 @@ const tests = [
       assert.equal(named(all, 2), "evans:1.1.1?p=2.5&circuit=3", "a curve that is not there");
       assert.equal(named(one, 1), "evans:1.1.1?p=2.5&circuit=2", "the atlas takes one circuit alone");
       assert.equal(plateCurveName({ family: all, curve: 0, changes: new Map(), study: null }), "evans:1.1.1");
+    },
+  ],
+  [
+    "a family that is measured only in part is described without the other measures",
+    () => {
+      const whole = familyOf(folder, "evans");
+      const measured = (...names) => {
+        const measures = Object.fromEntries(names.map((name) => [name, whole.curves.measures[name]]));
+        return { ...whole, curves: { ...whole.curves, measures } };
+      };
+      const study = studyOf(whole, 0, new Map());
+      const summary = (family) => summaryOfStudy(family, 0, study, true);
+      assert.match(summary(whole), /straightest portion .* Transmission angle from /);
+      assert.doesNotMatch(summary(measured("mu_min_deg", "straight_length")), /straightest|Transmission/);
+      assert.match(summary(measured("mu_min_deg", "mu_max_deg")), /Transmission angle from /);
+      assert.notEqual(straightSummary(study, whole, 0, null), "");
+      assert.equal(straightSummary(study, measured("straight_length"), 0, null), "");
     },
   ],
   [

@@ -82,8 +82,8 @@ fn u8s(packed: &Value, count: usize) -> Vec<usize> {
     column(packed, count, |[byte]: [u8; 1]| usize::from(byte), all_equal(packed))
 }
 
-fn usizes(list: &Value) -> usize {
-    usize::try_from(list.as_u64().unwrap()).unwrap()
+fn count_of(number: &Value) -> usize {
+    usize::try_from(number.as_u64().unwrap()).unwrap()
 }
 
 /// The cells and curves of a statement `cells`: their numbers, and for each curve the index of its cell.
@@ -95,7 +95,7 @@ struct Rows {
 }
 
 fn rows_of(chunk: &Value) -> Rows {
-    let count = usizes(&chunk["count"]);
+    let count = count_of(&chunk["count"]);
     // A number is the first of a run.
     let numbers = match chunk["number"].as_u64() {
         Some(first) => (0..count).map(|k| k + usize::try_from(first).unwrap()).collect(),
@@ -159,7 +159,7 @@ fn cells_and_measures_are_those_of_the_table_to_the_last_bit() {
             let columns = chunk["values"].as_array().unwrap();
             let values: Vec<Vec<f64>> = columns.iter().map(|column| f64s(column, numbers.len())).collect();
             let statuses = u8s(&chunk["status"], numbers.len());
-            assert_eq!([usizes(&outlines["cells"]), usizes(&outlines["curves"])], [numbers.len(), owners.len()]);
+            assert_eq!([count_of(&outlines["cells"]), count_of(&outlines["curves"])], [numbers.len(), owners.len()]);
             for (k, number) in numbers.iter().enumerate() {
                 let of_cell: Vec<usize> = (0..owners.len()).filter(|&curve| owners[curve] == k).collect();
                 for curve in if of_cell.is_empty() { vec![None] } else { of_cell.into_iter().map(Some).collect() } {

@@ -26,14 +26,14 @@ let = { a = "(1 + p)^1.5 / 2" }
 
 /// Some cells whose statements have these sizes.
 fn cells(first: usize, count: usize, [table, curves]: [usize; 2]) -> CellData {
-    let value = first as f64 / 10.0;
+    let value = first as f64 / 2.0;
     let content = PieceContent {
         cells: count,
         curves: 2 * count,
         pages: 0,
         numbers: Some([first, first + count - 1]),
         traces: 2,
-        ranges: vec![[value, value + 0.1]],
+        ranges: vec![[value, value + 0.25]],
     };
     CellData { table: "t".repeat(table), curves: "c".repeat(curves), content }
 }
@@ -103,7 +103,7 @@ fn pieces_are_bounded_and_the_head_has_their_index() {
     }
     let table = &pieces["table"][0];
     assert_eq!([&table["cells"], &table["curves"], &table["traces"]], [1000, 2000, 2]);
-    assert_eq!(table["ranges"], serde_json::json!([[0.1, 90.2]]));
+    assert_eq!(table["ranges"], serde_json::json!([[0.5, 450.75]]));
 }
 
 #[test]

@@ -162,6 +162,11 @@ fn the_pages_solver_and_measures_agree_with_closed_forms() {
     node("measures.mjs", &[]);
 }
 
+#[test]
+fn the_page_finds_the_files_with_its_data() {
+    node("data.mjs", &[]);
+}
+
 /// Tests plates, filters and exports with the families of the committed atlas.
 #[test]
 fn the_page_computes_with_the_committed_atlas() {

@@ -5,6 +5,9 @@
 
 import { cellNumbersOnPage, findCurve, parseCurveKey } from "./family.js";
 
+// From more pieces than this, a thumbnail is not drawn from the data.
+const SCATTERED_PIECES = 3;
+
 /** Whether all data of a family are loaded. */
 export function isFullyLoaded({ table, outlines }) {
   return [...table.pieces, ...outlines.pieces].every(({ data }) => data !== null);
@@ -55,10 +58,34 @@ export function panelCells({ layout, panels, pageCount, cells: { count } }, page
   return [Math.min((page - 1) * each, count), Math.min(page * each, count)];
 }
 
+/**
+ * Whether the curves of a page may be in any of many pieces, since its pages are in another order than its
+ * cells: only the page itself needs them then, not its thumbnail.
+ */
+export function isScattered({ layout, panels, outlines, pageCount }) {
+  return layout === "panels" && panels === null && pageCount > 1 && outlines.pieces.length > SCATTERED_PIECES;
+}
+
 /** Loads a page: its layout, and its cells and curves. */
 export function needPage(family, page) {
   const layout = needPieces(family, [family.outlines.ofPage(page)]);
   return layout ? layout.then(() => needPage(family, page)) : needPieces(family, piecesOfPage(family, page));
+}
+
+/**
+ * Loads a page and keeps its data, which may be in many pieces, until the function that it resolves to is
+ * called.
+ */
+export async function loadPage(family, page) {
+  await needPieces(family, [family.outlines.ofPage(page)]);
+  const release = holdPieces(piecesOfPage(family, page));
+  try {
+    await needPage(family, page);
+  } catch (error) {
+    release();
+    throw error;
+  }
+  return release;
 }
 
 /** The pieces that a page takes its cells and curves from; its layout must be loaded. */

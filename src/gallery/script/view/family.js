@@ -2,7 +2,7 @@
 
 import { address } from "../data/address.js";
 import { curveCaption, curveKey } from "../data/family.js";
-import { isFullyLoaded, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
+import { isFullyLoaded, isScattered, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
 import { familyCounts, familySource } from "./overview.js";
 import { pageLabel } from "./page-cells.js";
@@ -136,10 +136,12 @@ function pageTiles(app, family, listed) {
           ),
         ),
       ),
-    need: (k) => needPage(family, k + 1),
+    need: (k) => (isScattered(family) ? null : needPage(family, k + 1)),
     isLoaded: () => isFullyLoaded(family),
-    fillTile: (element, k) =>
-      fill(element.querySelector(".page-caption"), formatCaption(pageLabel(family, k + 1))),
+    fillTile: (element, k) => {
+      if (!isScattered(family))
+        fill(element.querySelector(".page-caption"), formatCaption(pageLabel(family, k + 1)));
+    },
     draw: (element, k) => {
       element.querySelector(".tile-picture").append(pageThumbnail(app.atlas, family, k + 1) ?? "");
     },

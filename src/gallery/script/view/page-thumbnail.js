@@ -2,6 +2,7 @@
 
 import { pageFile } from "../data/atlas.js";
 import { pageViews } from "../data/family.js";
+import { isScattered } from "../data/needs.js";
 import { h, s } from "./dom.js";
 import { paperTone } from "./paper-tone.js";
 import { curvePath } from "./thumbnail.js";
@@ -11,10 +12,10 @@ const PAPER_GRAIN = 1;
 
 /**
  * The thumbnail of a page: its curves drawn from the data if they are loaded (needs.js), or its file. Null if
- * there is neither.
+ * there is neither. The curves of a scattered page are not drawn.
  */
 export function pageThumbnail(atlas, family, page) {
-  const views = pageViews(family, page);
+  const views = isScattered(family) ? [] : pageViews(family, page);
   if (views.length) return drawPage(family, views, "page-thumbnail thumbnail", PAPER_GRAIN);
   const file = pageFile(atlas, family.id, page);
   if (!file) return null;

@@ -3,7 +3,7 @@
 import { address } from "../data/address.js";
 import { pageFile } from "../data/atlas.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
-import { holdPieces, needPage, piecesOfPage } from "../data/needs.js";
+import { loadPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
 import { curvesOnPaper, nearestCurve } from "./page-curves.js";
 import { CurveHighlight } from "./curve-highlight.js";
@@ -91,12 +91,14 @@ class PageView {
     this.title = `${this.family.title}, page ${page} of ${this.listed.pages}`;
     if (isOther) {
       this.viewport.setAttribute("aria-label", `Page ${page} of ${this.listed.pages}`);
-      const need = needPage(this.family, page);
-      if (need) await need;
+      const release = await loadPage(this.family, page);
       const picture = await pagePicture(this.app, this.family, page, this.title);
-      if (page !== this.page) return;
+      if (page !== this.page || this.hasLeft) {
+        release();
+        return;
+      }
       this.release?.();
-      this.release = holdPieces(piecesOfPage(this.family, page));
+      this.release = release;
       this.setPicture(picture);
       this.app.announce(this.title);
     }
