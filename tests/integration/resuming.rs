@@ -61,6 +61,26 @@ fn a_run_continues_its_unfinished_tables() {
     }
 }
 
+/// A family with several pieces of data for the gallery, which is interrupted when the first of them are finished.
+#[test]
+fn a_run_continues_the_pieces_of_the_gallery() {
+    let text = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\n\
+                panels = [16, 16]\nmeasures = []\nsampling = { samples = 128 }\n\
+                grid = { k = { from = 1, to = 9, count = 10000 } }\nlet = { p = 2, a = 2.6 }\n";
+    let plan = manifest::parse(text).plan.unwrap();
+    let fresh = TempDir::new().unwrap();
+    write(&plan, &fresh, usize::MAX);
+    let expected = tree(fresh.path());
+    assert!(expected.contains_key("evans/gallery-curves-0002.js"));
+    let output = TempDir::new().unwrap();
+    let pages = expected.keys().filter(|name| name.ends_with(".svg")).count();
+    assert_eq!(write(&plan, &output, pages - 8), None);
+    assert!(output.path().join("evans/gallery-curves-0001.js").exists());
+    let drawn = write(&plan, &output, usize::MAX).unwrap();
+    assert!(drawn <= 8, "{drawn} pages were drawn");
+    assert!(tree(output.path()) == expected);
+}
+
 #[test]
 fn damaged_remains_of_a_run_are_not_continued() {
     let plan = plan(40, false, "\"svg\"");

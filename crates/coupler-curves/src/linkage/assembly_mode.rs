@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use super::DyadId;
 
-/// The most dyads a linkage may have: [`AssemblyMode`] has a bit for each.
-pub const MAX_DYADS: usize = 64;
+/// The most dyads a linkage may have: the gallery has a bit of a 32-bit integer for each.
+pub const MAX_DYADS: usize = 31;
 
 /// A side of a directed line: left of A -> B is the side of the positive normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -28,16 +28,16 @@ fn solve(linkage: &Linkage) -> Motion {
 }
 
 #[test]
-fn forty_dyads_turn_on_the_sides_requested_at_the_start() {
-    let linkage = chain(40, None, CircuitSelection::Start);
+fn thirty_dyads_turn_on_the_sides_requested_at_the_start() {
+    let linkage = chain(30, None, CircuitSelection::Start);
     let motion = solve(&linkage);
     assert_eq!(motion.assembly_error, None);
     let [circuit] = &motion.circuits[..] else { panic!("{} circuits", motion.circuits.len()) };
     assert_eq!(circuit.passes.len(), 1, "a full turn in one assembly mode");
-    for dyad in (0..40).map(DyadId::new) {
+    for dyad in (0..30).map(DyadId::new) {
         assert_eq!(circuit.passes[0].mode.sign(dyad), if dyad.index() % 2 == 0 { 1 } else { -1 }, "{dyad:?}");
     }
-    for k in 0..40 {
+    for k in 0..30 {
         let joint = |name: String| linkage.find_joint(&name).unwrap();
         let (b, c) = (joint(format!("B{k}")), joint(format!("C{k}")));
         let before = if k == 0 { joint("A".to_owned()) } else { joint(format!("B{}", k - 1)) };
@@ -56,7 +56,7 @@ fn all_circuits_of_a_few_dyads_are_solved_and_of_many_refused() {
     let dyads = MAX_ASSEMBLY_MODES.ilog2() as usize;
     let motion = solve(&chain(dyads, None, CircuitSelection::All));
     assert_eq!((motion.circuits.len(), motion.assembly_error), (1 << dyads, None));
-    for more in [dyads + 1, 40] {
+    for more in [dyads + 1, 30] {
         let motion = solve(&chain(more, None, CircuitSelection::All));
         assert!(motion.circuits.is_empty());
         let error = motion.assembly_error.unwrap();
