@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
+use super::cells::{self, RemainingCells};
 use super::names::{check_expression_syntax, read_names, read_space};
 use super::schema::{
     DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
 };
 use super::{ManifestInputs, PlannedFamily, Templates, chart, settings, tolerance};
 use coupler_curves::expression::Dimension;
-use coupler_curves::family::{COLUMNS, CellError, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
+use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, Span, suggestion};
 use coupler_curves::template::{Orientation, Template};
@@ -21,11 +22,21 @@ pub(super) fn id_and_span(value: &TomlValue) -> Option<(String, Span)> {
     Some((id.get_ref().as_str()?.to_owned(), id.span()))
 }
 
-/// Reads a family; `formats` are those of the atlas, and `page` is `None` if `[page]` could not be parsed.
+/// What families share.
+pub(super) struct Context<'a> {
+    /// The linkages that they may name.
+    pub templates: &'a Templates,
+    /// The formats of the atlas.
+    pub formats: &'a [Format],
+    /// The options of pages; `None` if `[page]` could not be parsed.
+    pub page: Option<&'a Options>,
+}
+
+/// Reads a family, and subtracts its cells from `remaining_cells`.
 pub(super) fn read<'t>(
     value: &TomlValue<'t>,
-    templates: &Templates,
-    (formats, page): (&[Format], Option<&Options>),
+    Context { templates, formats, page }: Context,
+    remaining_cells: &mut RemainingCells,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
     let fields = Fields::from_value(value, &FAMILY, parser)?;
@@ -90,7 +101,9 @@ pub(super) fn read<'t>(
         let is_charted = quantities.into_iter().any(|quantity| family.expression_uses(&quantity.expression, k));
         family.is_computed[k] |= family.filter_or_sort_uses(k) || family.captions_use(k) || is_charted;
     }
-    check_cells(&family, &fields, &names.spans, parser);
+    if remaining_cells.subtract(family.cell_count(), &fields, parser) {
+        cells::check(&family, &fields, &names.spans, parser);
+    }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);
     let (layout, chart, formats) = (layout?, chart?, formats?);
@@ -314,56 +327,4 @@ fn layout<'t>(
     let (columns, rows) = (parser.integer(columns, 1, most_columns), parser.integer(rows, 1, most_rows));
     let (columns, rows) = (columns?, rows?);
     Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })
-}
-
-/// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are
-/// counted.
-fn check_cells(family: &Family, fields: &Fields, spans: &[Option<Span>], parser: &mut TomlParser) {
-    struct CellProblem {
-        key: String,
-        span: Span,
-        message: String,
-        help: String,
-        cell_count: usize,
-    }
-    let mut findings: Vec<CellProblem> = Vec::new();
-    for k in 0..family.cell_count() {
-        let cell = family.cell(k);
-        for error in family.cell_errors(&cell) {
-            let (key, slot, help) = match &error {
-                CellError::Missing(name) => (name.clone(), None, "give it in the grid, the cases or `let`"),
-                CellError::Value { slot, .. } => (slot.to_string(), Some(*slot), "change the values it comes from"),
-                CellError::Template(_) => {
-                    ("linkage".to_owned(), None, "change the values it comes from, or leave the cell out")
-                }
-            };
-            if let Some(found) = findings.iter_mut().find(|finding| finding.key == key) {
-                found.cell_count += 1;
-                continue;
-            }
-            let span = case_span(fields, k).or_else(|| spans.get(slot?).cloned().flatten());
-            let span = span.or_else(|| fields.get("grid").map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());
-            let given: Vec<String> = family
-                .names
-                .iter()
-                .zip(&cell.values)
-                .filter(|(_, v)| v.is_finite())
-                .map(|(n, v)| format!("{n} = {v}"))
-                .collect();
-            let message = format!("in cell {} ({}), {error}", cell.number, given.join(", "));
-            findings.push(CellProblem { key, span, message, help: help.to_owned(), cell_count: 1 });
-        }
-    }
-    for finding in findings {
-        let help = match finding.cell_count {
-            1 => finding.help,
-            n => format!("{}; {} more cells have the same error", finding.help, n - 1),
-        };
-        parser.report(Problem::error(finding.span, finding.message).with_help(help));
-    }
-}
-
-/// The place of the k-th case, if the family has cases.
-fn case_span(fields: &Fields, k: usize) -> Option<Span> {
-    Some(fields.get("cases")?.get_ref().as_array()?.get(k)?.span())
 }

@@ -1,5 +1,6 @@
 //! The values of a grid: lists, ranges by step and ranges by count.
 
+use coupler_curves::family::AxisValues;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 
@@ -24,16 +25,17 @@ static RANGE: TableSchema = TableSchema::new(
 /// The most values of one range.
 const MAX_COUNT: usize = usize::MAX >> 12;
 
-/// The values of one name, not expanded yet, so that their number can be checked first.
-pub(super) enum GridValues {
-    List(Vec<f64>),
-    Range { from: f64, to: f64, count: f64, step: Option<RangeStep> },
+/// The values of one name, and their number.
+pub(super) struct GridValues {
+    pub values: AxisValues,
+    /// The number of values; a float, since it may exceed any integer.
+    pub count: f64,
 }
 
-/// A step, with its exact decimals if it is written as a plain decimal.
-pub(super) struct RangeStep {
-    value: f64,
-    decimals: Option<DecimalRange>,
+impl From<Vec<f64>> for GridValues {
+    fn from(list: Vec<f64>) -> GridValues {
+        GridValues { count: list.len() as f64, values: list.into() }
+    }
 }
 
 /// `from` and `step` as whole multiples of `1 / scale`.
@@ -41,32 +43,6 @@ struct DecimalRange {
     from: f64,
     step: f64,
     scale: f64,
-}
-
-impl GridValues {
-    /// The number of values; a float, since it may exceed any integer.
-    pub fn count(&self) -> f64 {
-        match self {
-            GridValues::List(list) => list.len() as f64,
-            GridValues::Range { count, .. } => *count,
-        }
-    }
-
-    /// Expands the values.
-    pub fn into_vec(self) -> Vec<f64> {
-        let (from, to, count, step) = match self {
-            GridValues::List(list) => return list,
-            GridValues::Range { from, to, count, step } => (from, to, count as usize, step),
-        };
-        let value = |k: usize| match &step {
-            // One division of whole numbers gives the decimal value, correctly rounded.
-            Some(RangeStep { decimals: Some(d), .. }) => (d.from + d.step * k as f64) / d.scale,
-            Some(step) => from + step.value * k as f64,
-            None if k + 1 == count => to,
-            None => from + (to - from) * (k as f64 / (count - 1) as f64),
-        };
-        (0..count).map(value).collect()
-    }
 }
 
 /// Reads the values that a grid gives for a name.
@@ -78,12 +54,12 @@ pub(super) fn read_values<'t>(name: &str, value: &TomlValue<'t>, parser: &mut To
             return None;
         }
         let read: Vec<Option<f64>> = list.iter().map(|item| parser.constant(item)).collect();
-        return read.into_iter().collect::<Option<_>>().map(GridValues::List);
+        return read.into_iter().collect::<Option<Vec<f64>>>().map(GridValues::from);
     }
     if value.get_ref().is_table() {
         return read_range(value, parser);
     }
-    parser.constant(value).map(|value| GridValues::List(vec![value]))
+    parser.constant(value).map(|value| GridValues::from(vec![value]))
 }
 
 /// Reads a range by step or by count.
@@ -111,13 +87,19 @@ fn read_range<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<
                 return None;
             }
             let decimals = decimal_range(parser.decimal_digits(from_value), parser.decimal_digits(step_value));
-            let count = (steps + 1e-9).floor() + 1.0;
-            Some(GridValues::Range { from, to, count, step: Some(RangeStep { value: step, decimals }) })
+            let number = (steps + 1e-9).floor() + 1.0;
+            // The conversion saturates; so many values are a problem in any case.
+            let count = number as usize;
+            let values = match decimals {
+                Some(DecimalRange { from, step, scale }) => AxisValues::DecimalSteps { from, step, scale, count },
+                None => AxisValues::Steps { from, step, count },
+            };
+            Some(GridValues { values, count: number })
         }
         (None, Some(count)) => {
             let count = parser.integer(count, 1, MAX_COUNT)?;
             let ((from, _), (to, _)) = (from?, to?);
-            Some(GridValues::Range { from, to, count: count as f64, step: None })
+            Some(GridValues { values: AxisValues::Even { from, to, count }, count: count as f64 })
         }
         (step, _) => {
             let message = if step.is_some() {
@@ -162,7 +144,7 @@ mod tests {
         let document = parser.parse_document();
         let root = Fields::with_any_keys(&document, "the file", &mut parser).unwrap();
         match root.get("p").and_then(|value| read_values("p", value, &mut parser)) {
-            Some(values) => Ok(values.into_vec()),
+            Some(read) => Ok(read.values.iter().collect()),
             None => Err(parser.into_problems().remove(0).message),
         }
     }

@@ -1,6 +1,7 @@
 //! Parses a manifest in TOML into a validated [`Plan`], or reports every problem in it.
 
 mod bounded_number;
+mod cells;
 mod chart;
 mod default_value;
 mod family;
@@ -20,8 +21,10 @@ pub use tolerance::{PartialTolerances, Tolerances};
 
 pub use coupler_curves::linkage_format::{KeySchema, TableSchema, ValueSchema};
 
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use cells::RemainingCells;
 use coupler_curves::catalogue;
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
@@ -148,16 +151,18 @@ fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
         parser.report(problem.with_help("add a table [[family]] with id, linkage, sampling, and grid or cases"));
     }
     let mut families: Vec<PlannedFamily> = Vec::new();
-    let mut ids: Vec<String> = Vec::new();
+    let mut ids: HashSet<String> = HashSet::new();
+    let mut remaining_cells = RemainingCells::default();
     for value in tables {
-        let options = page.as_ref().map(|page| &page.options);
-        let read = family::read(value, &templates, (&formats, options), parser);
+        let page = page.as_ref().map(|page| &page.options);
+        let context = family::Context { templates: &templates, formats: &formats, page };
+        let read = family::read(value, context, &mut remaining_cells, parser);
         if let Some((id, span)) = family::id_and_span(value) {
-            if ids.contains(&id) {
-                let problem = Problem::error(span, format!("there are two families `{id}`"));
+            let message = format!("there are two families `{id}`");
+            if !ids.insert(id) {
+                let problem = Problem::error(span, message);
                 parser.report(problem.with_help("an id names the family's folder: give each family its own"));
             }
-            ids.push(id);
         }
         let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
@@ -185,30 +190,34 @@ fn first_line_len(text: &str) -> usize {
 /// The linkages a family may name: those of the manifest and those of the catalogue.
 struct Templates {
     manifest_templates: Vec<Arc<Template>>,
-    /// The ids of the manifest's linkages, including those that could not be parsed.
+    /// The ids of the manifest's linkages in order, including those that could not be parsed.
     ids: Vec<String>,
+    /// The linkages of the manifest by their ids; `None` for those that could not be parsed.
+    by_id: HashMap<String, Option<Arc<Template>>>,
 }
 
 impl Templates {
     fn read<'t>(root: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Templates {
-        let mut templates = Templates { manifest_templates: Vec::new(), ids: Vec::new() };
+        let mut templates = Templates { manifest_templates: Vec::new(), ids: Vec::new(), by_id: HashMap::new() };
         for value in root.tables("linkage", parser) {
-            let read = linkage_format::parse_template(value, parser);
+            let read = linkage_format::parse_template(value, parser).map(Arc::new);
             if let Some((id, span)) = family::id_and_span(value) {
                 let conflict = if catalogue::find(&id).is_some() {
                     Some(format!("the catalogue has a linkage `{id}` already"))
-                } else if templates.ids.contains(&id) {
+                } else if templates.by_id.contains_key(&id) {
                     Some(format!("there are two linkages `{id}`"))
                 } else {
                     None
                 };
-                templates.ids.push(id);
+                templates.ids.push(id.clone());
                 if let Some(message) = conflict {
+                    templates.by_id.entry(id).or_insert(None);
                     parser.report(Problem::error(span, message).with_help("choose another id"));
                     continue;
                 }
+                templates.by_id.insert(id, read.clone());
             }
-            templates.manifest_templates.extend(read.map(Arc::new));
+            templates.manifest_templates.extend(read);
         }
         templates
     }
@@ -216,10 +225,12 @@ impl Templates {
     /// The linkage that a value names. One that could not be parsed has been reported already.
     fn find<'t>(&self, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Arc<Template>> {
         let id = parser.text(value)?;
-        let in_manifest = self.manifest_templates.iter().find(|template| template.id == id).cloned();
         // A linkage of the manifest that could not be parsed is not replaced by the catalogue's of the same name.
-        let found = in_manifest.or_else(|| catalogue::find(&id).filter(|_| !self.ids.contains(&id)));
-        if found.is_none() && !self.ids.contains(&id) {
+        if let Some(found) = self.by_id.get(&id) {
+            return found.clone();
+        }
+        let found = catalogue::find(&id);
+        if found.is_none() {
             let built_in = catalogue::all().iter().map(|template| template.id.as_str());
             let known: Vec<&str> = self.ids.iter().map(String::as_str).chain(built_in).collect();
             let problem = Problem::error(value.span(), format!("there is no linkage `{}`", id.escape_debug()));

@@ -1,8 +1,8 @@
 //! The names of a family, and the values that `grid`, `cases`, `let` and the linkage's defaults give them.
 
-use super::grid;
+use super::grid::{self, GridValues};
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind};
-use coupler_curves::family::{Axis, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
+use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, Span, nearest_word};
 use coupler_curves::template::Template;
@@ -59,11 +59,12 @@ pub(super) fn read_names<'t>(
         }
     }
     let scope: Vec<(&str, Kind)> = all.iter().map(|name| (name.as_str(), Kind::Number)).collect();
+    let assignments = space.assignment_counts(all.len());
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
     let mut read_all = true;
     for ((name, span, value), &slot) in lets.iter().zip(&let_slots) {
         linkage_format::check_identifier(name, span.clone(), parser);
-        if (0..space.count().min(MAX_CELLS)).any(|k| space.assigns(k, slot)) {
+        if assignments[slot] > 0 {
             let problem = Problem::error(
                 span.clone(),
                 format!("`{name}` has a value in the grid or a case, and another in `let`"),
@@ -78,7 +79,7 @@ pub(super) fn read_names<'t>(
         read_all &= expression.is_some();
         sources.extend(expression.map(|expression| (slot, expression, span.clone())));
     }
-    let always_given = |slot: usize| (0..space.count().min(MAX_CELLS)).all(|k| space.assigns(k, slot));
+    let always_given = |slot: usize| assignments[slot] == space.count();
     for (slot, parameter) in template.parameters.iter().enumerate() {
         if let (Some(default), false) = (&parameter.default, always_given(slot) || let_slots.contains(&slot)) {
             let span = fields.get("linkage").map_or(fields.span.clone(), TomlValue::span);
@@ -179,12 +180,13 @@ fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], parser: &mut TomlPar
     parser.ok_or_report(value, compiled)
 }
 
-/// The most cells that `limit` may allow.
-pub(super) const MAX_LIMIT: usize = 1_000_000_000;
+/// The most cells that `limit` may allow, and the most of all families of an atlas: all of them are checked before any
+/// is solved, which takes about a microsecond each, and the order of their pages takes 16 bytes each.
+pub(super) const MAX_LIMIT: usize = 10_000_000;
 
 /// The values of `grid` or `cases`, by name.
 pub(super) enum NamedSpace {
-    Grid(Vec<(String, Span, Vec<f64>)>),
+    Grid(Vec<(String, Span, AxisValues)>),
     Cases(Vec<Vec<(String, Span, f64)>>),
 }
 
@@ -245,17 +247,14 @@ fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t
             None => all_read = false,
         }
     }
-    // The cells are counted before the values are expanded.
-    let cells: f64 = axes.iter().map(|(.., values)| values.count()).product();
+    let cells: f64 = axes.iter().map(|(.., read): &(_, _, GridValues)| read.count).product();
     if cells > limit as f64 {
         let problem =
             Problem::error(value.span(), format!("the grid has {cells:.0} cells, more than the limit of {limit}"));
         parser.report(problem.with_help("use fewer values, or allow more with `limit = N` in the family"));
         return None;
     }
-    all_read.then(|| {
-        NamedSpace::Grid(axes.into_iter().map(|(name, span, values)| (name, span, values.into_vec())).collect())
-    })
+    all_read.then(|| NamedSpace::Grid(axes.into_iter().map(|(name, span, read)| (name, span, read.values)).collect()))
 }
 
 /// Reads `cases`, at most `limit` of them.

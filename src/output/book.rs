@@ -86,16 +86,16 @@ struct FamilyPart<'a> {
 /// The chapter of a family.
 fn chapter<'a>(planned: &'a PlannedFamily, selection: &CellSelection, pagination: &Pagination) -> Chapter<'a> {
     let family = &planned.family;
-    let cell = |(k, &cell): (usize, &usize)| {
+    let cell = |(k, cell): (usize, usize)| {
         // The values of measures are not known yet.
         let [caption, _] = family.format_captions(&family.cell(cell), &[]);
         CellEntry { caption, page: pagination.first_page(k) }
     };
     let cells =
-        if planned.chart.is_none() { selection.page_order.iter().enumerate().map(cell).collect() } else { vec![] };
+        if planned.chart.is_none() { selection.page_order().iter().enumerate().map(cell).collect() } else { vec![] };
     // Points are counted for coupler grids; if only the starting circuit is traced, each point has one curve.
     let is_counted = planned.layout == Layout::CouplerGrid && family.template.circuits == CircuitSelection::Start;
-    let curves = is_counted.then(|| selection.point_counts.iter().sum());
+    let curves = is_counted.then(|| selection.point_counts.iter().map(|&count| count as usize).sum());
     Chapter {
         title: &family.title,
         symbols: &family.names,
@@ -160,8 +160,8 @@ fn write_volumes(
 fn first_cell<'a>(part: &'a FamilyPart) -> Option<(&'a Composer<'a>, SolvedCell)> {
     let family = &part.pipeline.composer.planned.family;
     let sampler = coupler_curves::motion::Sampler::new(family.sampling);
-    let solved =
-        part.pipeline.arrangement.page_order.iter().filter_map(|&cell| solve::solve_cell(family, &sampler, cell));
+    let order = part.pipeline.arrangement.page_order();
+    let solved = order.iter().filter_map(|cell| solve::solve_cell(family, &sampler, cell));
     let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
     if part.pipeline.composer.planned.layout == Layout::CouplerGrid {
         let pages = curves_by_page(&solved);
@@ -194,7 +194,8 @@ impl FamilyPart<'_> {
         let measures = measures_used_on_pages(family);
         let measures = Some(measures.as_slice());
         let groups = CellGroups {
-            cells: &arrangement.page_order,
+            cells: arrangement.page_order(),
+            first_group: 0,
             size: pagination.group_size,
             work_bytes: BYTES_PER_PAGE,
             requested_measures: measures,

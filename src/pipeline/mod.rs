@@ -12,7 +12,7 @@ pub use pagination::{Pagination, measures_used_on_pages};
 use std::sync::atomic::AtomicBool;
 
 use crate::manifest::{Plan, PlannedFamily};
-use crate::sweep::{self, CellGroups, CellSelection};
+use crate::sweep::{self, CellGroups, CellIndices, CellSelection};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::chart::{Chart, ChartBuilder, ChartSample};
 use coupler_drawing::page::Layout;
@@ -148,14 +148,14 @@ impl<'a> FamilyPipeline<'a> {
         mut receive: impl FnMut(Output<S::CellsOutput, S::PageOutput>) -> Result<(), S::Error>,
     ) -> Result<(), S::Error> {
         let planned = self.composer.planned;
-        let (GroupsDone { groups: first, sorted_groups: first_sorted }, size) = (done, self.pagination.group_size);
+        let GroupsDone { groups: first, sorted_groups: first_sorted } = done;
         let chart = planned.chart.as_ref();
         let is_sorted = planned.family.sort.is_some();
         let mut builder = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
         let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<S>, S::Error> {
             let cells = sink.receive_cells(&solved)?;
             let has_pages = chart.is_none() && !is_sorted;
-            let pages = if has_pages { self.send_pages(first + group, &solved, sink)? } else { Vec::new() };
+            let pages = if has_pages { self.send_pages(group, &solved, sink)? } else { Vec::new() };
             let samples = chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(solved)));
             Ok((Some(cells), pages, samples.collect()))
         };
@@ -169,16 +169,15 @@ impl<'a> FamilyPipeline<'a> {
             pages.into_iter().try_for_each(|page| receive(Output::Page(page)))?;
             if chart.is_none() { receive(Output::Done(done)) } else { Ok(()) }
         };
-        let kept = self.arrangement.kept.get(first * size..).unwrap_or_default();
-        sweep::process_groups(&planned.family, self.cell_groups(kept, sink, None), make, &mut deliver)?;
+        let groups = self.cell_groups((&self.arrangement.kept, first), sink, None);
+        sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
         if chart.is_none() && is_sorted {
             // Tables are in the order of the cells, but pages are sorted.
             let measures = measures_used_on_pages(&planned.family);
-            let sorted = self.arrangement.page_order.get(first_sorted * size..).unwrap_or_default();
+            let sorted = (self.arrangement.page_order(), first_sorted);
             let groups = self.cell_groups(sorted, sink, Some(&measures));
-            let make = |group: usize, solved: Vec<SolvedCell>| {
-                Ok((None, self.send_pages(first_sorted + group, &solved, sink)?, Vec::new()))
-            };
+            let make =
+                |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, sink)?, Vec::new()));
             sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
         }
         match (chart, builder) {
@@ -187,10 +186,16 @@ impl<'a> FamilyPipeline<'a> {
         }
     }
 
-    /// The groups in which cells are processed.
-    fn cell_groups<'c>(&self, cells: &'c [usize], sink: &impl Sink, measures: Option<&'c [bool]>) -> CellGroups<'c> {
+    /// The groups in which cells are processed, from the given one.
+    fn cell_groups<'c>(
+        &self,
+        (cells, first_group): (&'c CellIndices, usize),
+        sink: &impl Sink,
+        measures: Option<&'c [bool]>,
+    ) -> CellGroups<'c> {
         CellGroups {
             cells,
+            first_group,
             size: self.pagination.group_size,
             work_bytes: sink.bytes_per_page(),
             requested_measures: measures,

@@ -55,11 +55,11 @@ impl Pagination {
 }
 
 /// The first page of each cell of a coupler grid, given the traced points of each, and the page after the last.
-fn first_pages(points: &[usize]) -> Vec<usize> {
+fn first_pages(points: &[u32]) -> Vec<usize> {
     let mut next = 1;
     let mut starts = vec![next];
-    for points in points {
-        next += points.div_ceil(Layout::POINTS_PER_PAGE).max(1);
+    for &points in points {
+        next += (points as usize).div_ceil(Layout::POINTS_PER_PAGE).max(1);
         starts.push(next);
     }
     starts

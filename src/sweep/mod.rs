@@ -1,5 +1,9 @@
 //! Solves the cells of a family in parallel, delivers the results in order, and uses bounded memory.
 
+mod cell_indices;
+
+pub use cell_indices::CellIndices;
+
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
@@ -11,7 +15,7 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell, solve_measuring};
 use rayon::prelude::*;
 
 /// The cells that `where` keeps, by index, see [`CellSelection::kept`].
-pub fn kept_cells(family: &Family) -> Vec<usize> {
+pub fn kept_cells(family: &Family) -> CellIndices {
     // This flag is never set.
     let found = select_cells(family, false, &AtomicBool::new(false));
     found.map(|found| found.kept).unwrap_or_default()
@@ -22,26 +26,39 @@ pub fn kept_cells(family: &Family) -> Vec<usize> {
 pub struct CellSelection {
     /// The cells that `where` keeps, by index: those with a kept curve, and those that have no curves at all. All cells
     /// if there is no `where`.
-    pub kept: Vec<usize>,
-    /// The same cells in the order of pages: sorted by the least sort key of their curves, cells without a key last.
-    pub page_order: Vec<usize>,
+    pub kept: CellIndices,
+    /// The same cells sorted by the least sort key of their curves, cells without a key last; `None` if they are not
+    /// sorted.
+    pub sorted: Option<CellIndices>,
     /// The number of traced points of each cell that have a kept curve on any circuit, in the order of pages; 0 for a
     /// cell without curves. Empty if the counts were not requested.
-    pub point_counts: Vec<usize>,
+    pub point_counts: Vec<u32>,
 }
+
+impl CellSelection {
+    /// The cells in the order of pages.
+    pub fn page_order(&self) -> &CellIndices {
+        self.sorted.as_ref().unwrap_or(&self.kept)
+    }
+}
+
+/// The number of cells that are ranked before their ranks are stored, to bound the memory of a selection.
+const CELLS_PER_BLOCK: usize = 1 << 14;
 
 /// Selects the cells that are shown; `None` if `stop` becomes true. The cells are solved only if `where`, `sort` or
 /// `counts_points` require it.
+///
+/// The selection takes no memory if no cell is solved, otherwise 4 bytes for each cell that is kept, and 12 more for
+/// each that is sorted.
 pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> Option<CellSelection> {
-    let all = 0..family.cell_count();
+    let count = family.cell_count();
     if family.filter.is_none() && family.sort.is_none() && !counts_points {
-        let kept: Vec<usize> = all.collect();
-        return Some(CellSelection { page_order: kept.clone(), kept, point_counts: Vec::new() });
+        return Some(CellSelection { kept: CellIndices::First(count), ..CellSelection::default() });
     }
     struct RankedCell {
-        cell: usize,
-        rank: f64,
-        points: usize,
+        cell: u32,
+        rank: u64,
+        points: u32,
     }
     let sampler = Sampler::new(family.sampling);
     // Only the measures that `where` and `sort` use are computed.
@@ -50,27 +67,53 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
         let solved =
             if stop.load(Ordering::Relaxed) { None } else { solve_measuring(family, &sampler, cell, &measures) };
         let solved = solved.filter(|solved| !solved.is_left_out())?;
-        let rank = |curve: &MeasuredCurve| family.sort_key(&solved.cell, &curve.values);
-        let rank = solved.curves.iter().map(rank).fold(f64::NAN, f64::min);
-        Some(RankedCell { cell, rank, points: solved.curves_by_traces(1).len() })
+        let key = |curve: &MeasuredCurve| family.sort_key(&solved.cell, &curve.values);
+        let rank = rank_bits(solved.curves.iter().map(key).fold(f64::NAN, f64::min));
+        let points = u32::try_from(solved.traced_point_count()).unwrap_or(u32::MAX);
+        Some(RankedCell { cell: u32::try_from(cell).ok()?, rank, points })
     };
-    let mut ranked: Vec<RankedCell> = all.into_par_iter().filter_map(rank_cell).collect();
-    if stop.load(Ordering::Relaxed) {
-        return None;
+    let (mut kept, mut ranks, mut points) = (Vec::new(), Vec::new(), Vec::new());
+    for start in (0..count).step_by(CELLS_PER_BLOCK) {
+        let block = start..count.min(start + CELLS_PER_BLOCK);
+        let ranked: Vec<RankedCell> = block.into_par_iter().filter_map(rank_cell).collect();
+        if stop.load(Ordering::Relaxed) {
+            return None;
+        }
+        for RankedCell { cell, rank, points: point_count } in ranked {
+            kept.push(cell);
+            ranks.extend(family.sort.is_some().then_some(rank));
+            points.extend(counts_points.then_some(point_count));
+        }
     }
-    let kept = ranked.iter().map(|ranked| ranked.cell).collect();
-    if family.sort.is_some() {
-        ranked.sort_by(|a, b| a.rank.is_nan().cmp(&b.rank.is_nan()).then(a.rank.total_cmp(&b.rank)));
+    if family.sort.is_none() {
+        return Some(CellSelection { kept: CellIndices::Listed(kept), sorted: None, point_counts: points });
     }
-    let points = ranked.iter().filter(|_| counts_points).map(|ranked| ranked.points).collect();
-    Some(CellSelection { kept, page_order: ranked.iter().map(|ranked| ranked.cell).collect(), point_counts: points })
+    // The indices of kept cells in the order of pages; cells of equal rank remain in their order.
+    let mut order: Vec<u32> = (0..).take(kept.len()).collect();
+    order.sort_unstable_by_key(|&k| (ranks[k as usize], k));
+    let point_counts = if counts_points { order.iter().map(|&k| points[k as usize]).collect() } else { points };
+    order.iter_mut().for_each(|k| *k = kept[*k as usize]);
+    let sorted = Some(CellIndices::Listed(order));
+    Some(CellSelection { kept: CellIndices::Listed(kept), sorted, point_counts })
+}
+
+/// A number whose order is that of sort keys: as [`f64::total_cmp`], and a key that is NaN last.
+fn rank_bits(key: f64) -> u64 {
+    let bits = key.to_bits();
+    match key {
+        key if key.is_nan() => u64::MAX,
+        key if key.is_sign_negative() => !bits,
+        _ => bits | 1 << 63,
+    }
 }
 
 /// Cells to be processed in groups.
 #[derive(Clone, Copy, Debug)]
 pub struct CellGroups<'a> {
     /// The cells, by index.
-    pub cells: &'a [usize],
+    pub cells: &'a CellIndices,
+    /// The first group to be processed, from 0; those before it are left out.
+    pub first_group: usize,
     /// The number of cells in a group; the last group may have fewer.
     pub size: usize,
     /// The memory that processing a group takes in addition to the group itself, in bytes.
@@ -115,21 +158,25 @@ pub fn process_groups<T: Send, E>(
     let work = &work;
     let measures = groups.requested_measures.unwrap_or(&family.is_computed);
     let solve = move |cell: usize| solve_measuring(family, sampler, cell, measures);
-    let solve_group = move |group: usize, cells: &[usize]| {
-        let is_running = |_: &&usize| !stopped.load(Ordering::Relaxed);
-        let solved = cells.iter().take_while(is_running).filter_map(|&cell| solve(cell)).collect();
+    let cells = groups.cells;
+    let size = groups.size.max(1);
+    let solve_group = move |group: usize| {
+        let is_running = |_: &usize| !stopped.load(Ordering::Relaxed);
+        let indices = group * size..cells.len().min((group + 1) * size);
+        let indices = indices.filter_map(|k| cells.get(k)).take_while(is_running);
+        let solved = indices.filter_map(solve).collect();
         (!stopped.load(Ordering::Relaxed)).then(|| work(group, solved))
     };
-    let mut remaining = groups.cells.chunks(groups.size.max(1)).enumerate();
+    let mut remaining = groups.first_group..cells.len().div_ceil(size);
     rayon::in_place_scope_fifo(|scope| {
         let mut in_flight: VecDeque<Receiver<T>> = VecDeque::with_capacity(max_in_flight);
         loop {
-            for (group, cells) in remaining.by_ref().take(max_in_flight - in_flight.len()) {
+            for group in remaining.by_ref().take(max_in_flight - in_flight.len()) {
                 let (done, result) = mpsc::sync_channel(1);
                 in_flight.push_back(result);
                 scope.spawn_fifo(move |_| {
                     // After an error no one receives the result.
-                    let _ = solve_group(group, cells).map(|output| done.send(output));
+                    let _ = solve_group(group).map(|output| done.send(output));
                 });
             }
             let Some(next) = in_flight.pop_front() else { return Ok(()) };

@@ -107,7 +107,7 @@ fn solve_cells(plan: &Plan, step: usize) -> Vec<SolvedCell> {
     let family = &plan.families[0].family;
     let sampler = Sampler::new(family.sampling);
     let kept = sweep::kept_cells(family);
-    kept.iter().step_by(step).map(|&k| solve::solve_cell(family, &sampler, k).unwrap()).collect()
+    kept.iter().step_by(step).map(|k| solve::solve_cell(family, &sampler, k).unwrap()).collect()
 }
 
 /// All pages of one in every `step` cells.

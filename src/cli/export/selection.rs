@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use coupler_atlas::sweep::{self, CellGroups};
+use coupler_atlas::sweep::{self, CellGroups, CellIndices};
 use coupler_curves::family::{Family, ParameterSpace};
 use coupler_curves::measure;
 use coupler_curves::problem::suggestion;
@@ -130,11 +130,13 @@ impl CurveSelection {
         work: impl Fn(SolvedCell) -> T + Sync,
         receive: impl FnMut(T) -> Result<(), E>,
     ) -> Result<(), E> {
-        let cells: Vec<usize> = self.cells.keys().copied().collect();
+        // The numbers of cells have at most 32 bits.
+        let cells = CellIndices::Listed(self.cells.keys().map(|&cell| cell as u32).collect());
         let needed: Vec<bool> =
             (0..measure::ALL.len()).map(|measure| self.family.filter_or_sort_uses(measure)).collect();
         let groups = CellGroups {
             cells: &cells,
+            first_group: 0,
             size: 1,
             work_bytes: 0,
             requested_measures: (!with_measures).then_some(&needed),

@@ -1,8 +1,10 @@
 //! A family: a linkage template and its parameter sets, the cells.
 
+mod axis_values;
 mod parameter_space;
 mod single_cell;
 
+pub use axis_values::AxisValues;
 pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
 pub use single_cell::{ParameterError, ParameterErrors};
 
@@ -124,14 +126,6 @@ impl Family {
 
     /// The errors of a cell: names without a value, or else values out of their bounds, or else the linkage's error.
     pub fn cell_errors(&self, cell: &Cell) -> Vec<CellError> {
-        let has_source = |slot: usize| {
-            self.space.assigns(cell.number - 1, slot) || self.derived.iter().any(|(derived, _)| *derived == slot)
-        };
-        let missing = |(slot, name): (usize, &String)| (!has_source(slot)).then(|| CellError::Missing(name.clone()));
-        let errors: Vec<CellError> = self.names.iter().enumerate().filter_map(missing).collect();
-        if !errors.is_empty() {
-            return errors;
-        }
         let value_error = |(slot, (name, &value)): (usize, (&String, &f64))| {
             let message = match self.template.parameters.get(slot) {
                 Some(parameter) => parameter.value_error(value),
@@ -141,10 +135,20 @@ impl Family {
             message.map(|message| CellError::Value { slot, message })
         };
         let errors: Vec<CellError> = self.names.iter().zip(&cell.values).enumerate().filter_map(value_error).collect();
-        if !errors.is_empty() {
-            return errors;
+        if errors.is_empty() {
+            return self.linkage(cell).err().map(CellError::Template).into_iter().collect();
         }
-        self.linkage(cell).err().map(CellError::Template).into_iter().collect()
+        // A name without a value is not a number.
+        let missing = self.names_without_value(cell);
+        if missing.is_empty() { errors } else { missing.into_iter().map(CellError::Missing).collect() }
+    }
+
+    /// The names that neither the parameter set of a cell nor an expression gives a value to.
+    fn names_without_value(&self, cell: &Cell) -> Vec<String> {
+        let mut has_value = vec![false; self.names.len()];
+        self.derived.iter().for_each(|(slot, _)| has_value[*slot] = true);
+        self.space.slots_of(cell.number - 1).for_each(|slot| has_value[slot] = true);
+        self.names.iter().zip(has_value).filter(|(_, has_value)| !has_value).map(|(name, _)| name.clone()).collect()
     }
 
     /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the

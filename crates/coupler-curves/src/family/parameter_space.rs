@@ -1,3 +1,5 @@
+use super::AxisValues;
+
 /// The most cells of a family that sets no `limit`.
 pub const MAX_CELLS: usize = 100_000;
 
@@ -7,7 +9,7 @@ pub struct Axis {
     /// The name's index in [`super::Family::names`].
     pub slot: usize,
     /// Its values, at least one.
-    pub values: Vec<f64>,
+    pub values: AxisValues,
 }
 
 /// The values of one case: the indices of names, each with its value.
@@ -33,10 +35,16 @@ impl ParameterSpace {
 
     /// Whether the `k`-th set, from 0, gives a value to the name at an index.
     pub fn assigns(&self, k: usize, slot: usize) -> bool {
-        match self {
-            ParameterSpace::Grid(axes) => axes.iter().any(|axis| axis.slot == slot),
-            ParameterSpace::Cases(cases) => cases[k].iter().any(|(given, _)| *given == slot),
-        }
+        self.slots_of(k).any(|given| given == slot)
+    }
+
+    /// The indices of the names that the `k`-th set, from 0, gives values to.
+    pub fn slots_of(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        let (axes, case) = match self {
+            ParameterSpace::Grid(axes) => (&axes[..], &[][..]),
+            ParameterSpace::Cases(cases) => (&[][..], &cases[k][..]),
+        };
+        axes.iter().map(|axis| axis.slot).chain(case.iter().map(|(slot, _)| *slot))
     }
 
     /// The indices of the names that any set gives a value to, in order.
@@ -50,13 +58,23 @@ impl ParameterSpace {
         slots
     }
 
+    /// The number of sets that give a value to each of the first `names` names.
+    pub fn assignment_counts(&self, names: usize) -> Vec<usize> {
+        let mut counts = vec![0; names];
+        match self {
+            ParameterSpace::Grid(axes) => axes.iter().for_each(|axis| counts[axis.slot] = self.count()),
+            ParameterSpace::Cases(cases) => cases.iter().flatten().for_each(|(slot, _)| counts[*slot] += 1),
+        }
+        counts
+    }
+
     /// Writes the values of the `k`-th set, from 0, to their indices.
     pub(super) fn fill(&self, k: usize, values: &mut [f64]) {
         match self {
             ParameterSpace::Grid(axes) => {
                 let mut rest = k;
                 for axis in axes.iter().rev() {
-                    values[axis.slot] = axis.values[rest % axis.values.len()];
+                    values[axis.slot] = axis.values.get(rest % axis.values.len()).unwrap_or(f64::NAN);
                     rest /= axis.values.len();
                 }
             }
@@ -75,7 +93,7 @@ mod tests {
 
     #[test]
     fn the_last_axis_changes_fastest() {
-        let axis = |slot, values: &[f64]| Axis { slot, values: values.to_vec() };
+        let axis = |slot, values: &[f64]| Axis { slot, values: values.to_vec().into() };
         let grid = ParameterSpace::Grid(vec![axis(1, &[1.0, 2.0]), axis(0, &[3.0, 4.0, 5.0])]);
         assert_eq!(grid.count(), 6);
         let mut values = [0.0; 2];

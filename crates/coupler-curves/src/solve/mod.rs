@@ -92,13 +92,25 @@ impl SolvedCell {
         &self.motion.circuits[curve.circuit - 1]
     }
 
+    /// The number of traced points that have a curve.
+    pub fn traced_point_count(&self) -> usize {
+        self.curves.chunk_by(|a, b| a.trace == b.trace).count()
+    }
+
     /// The indices of the curves in groups of `trace_count` traced points, in order: one group for each page.
     pub fn curves_by_traces(&self, trace_count: usize) -> Vec<Vec<usize>> {
-        let mut traces: Vec<usize> = self.curves.iter().map(|curve| curve.trace).collect();
-        traces.dedup();
-        let curves_of =
-            |traces: &[usize]| (0..self.curves.len()).filter(|&k| traces.contains(&self.curves[k].trace)).collect();
-        traces.chunks(trace_count).map(curves_of).collect()
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut first = 0;
+        for (k, curves) in self.curves.chunk_by(|a, b| a.trace == b.trace).enumerate() {
+            if k % trace_count == 0 {
+                groups.push(Vec::new());
+            }
+            if let Some(group) = groups.last_mut() {
+                group.extend(first..first + curves.len());
+            }
+            first += curves.len();
+        }
+        groups
     }
 
     /// The values of the first curve; empty where there is no curve.
