@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use coupler_curves::expression::{CompiledExpression, PostfixToken, Unit};
+use coupler_curves::expression::{CompiledExpression, PostfixToken, Scope, Unit};
 use coupler_curves::template::{
     CircuitSelection, CoincidentDyads, Continuation, Coordinate, InputValue, JointKindTemplate, Parameter, Side,
     Template,
@@ -83,7 +83,7 @@ fn joint_kind_json(kind: &JointKindTemplate) -> Value {
 }
 
 /// A parameter of a template whose names are those of `scope`.
-fn parameter_json(parameter: &Parameter, scope: &[(&str, coupler_curves::expression::Kind)]) -> Value {
+fn parameter_json(parameter: &Parameter, scope: &Scope) -> Value {
     let default = parameter
         .default
         .as_ref()
@@ -98,9 +98,7 @@ fn parameter_json(parameter: &Parameter, scope: &[(&str, coupler_curves::express
 
 /// A template as JSON, with the keys and words of a manifest.
 pub fn template_json(template: &Template) -> Value {
-    let number = coupler_curves::expression::Kind::Number;
-    let scope: Vec<(&str, coupler_curves::expression::Kind)> =
-        template.parameters.iter().map(|parameter| (parameter.name.as_str(), number)).collect();
+    let scope = Scope::from_numbers(template.parameters.iter().map(|parameter| parameter.name.as_str()));
     let joint = |joint: &coupler_curves::template::JointTemplate| {
         let mut entry = Map::new();
         entry.insert("name".to_owned(), json!(joint.name));

@@ -2,36 +2,108 @@
 
 use std::collections::HashMap;
 
+use super::PlannedFamily;
 use super::names::MAX_LIMIT;
+use crate::sweep;
 use coupler_curves::family::{Cell, CellError, Family};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, Span};
+use coupler_drawing::page::Layout;
+use coupler_drawing::render::Format;
 
-/// The number of cells that the families of an atlas may still have.
-pub(super) struct RemainingCells(usize);
+/// The most names of all families of an atlas, which are in memory together: a hundred bytes each.
+const MAX_NAMES: usize = 500_000;
 
-impl Default for RemainingCells {
-    fn default() -> RemainingCells {
-        RemainingCells(MAX_LIMIT)
+/// The most values of all cells of an atlas, each computed and checked before any cell is solved, in some ten seconds.
+const MAX_CHECKED_VALUES: usize = 1_000_000_000;
+
+/// The most files that the pages of an atlas may have; the record of each takes about two kilobytes during a run.
+pub const MAX_PAGE_FILES: usize = 100_000;
+
+/// The most cells of a book, whose captions are in memory for its contents and index.
+const MAX_BOOK_CELLS: usize = 1_000_000;
+
+/// How many cells, names, values and files the families of an atlas have so far.
+#[derive(Default)]
+pub(super) struct AtlasTotals {
+    page_files: usize,
+    book_cells: usize,
+    cells: usize,
+    names: usize,
+    values: usize,
+}
+
+impl AtlasTotals {
+    /// Adds the names of a family, which are at least the parameters of its linkage; reports too many, and is false
+    /// then.
+    pub fn add_names(&mut self, names: usize, fields: &Fields, parser: &mut TomlParser) -> bool {
+        self.names = self.names.saturating_add(names);
+        let span = fields.get("linkage").map_or_else(|| fields.span.clone(), TomlValue::span);
+        let help = "use linkages with fewer parameters, or divide the atlas";
+        is_within((self.names, MAX_NAMES), "names", (span, help), parser)
+    }
+
+    /// Adds the cells of a family; reports too many, and is false then.
+    pub fn add_cells(&mut self, family: &Family, fields: &Fields, parser: &mut TomlParser) -> bool {
+        let cells = family.cell_count();
+        // A joint takes about as long as a value.
+        let values_per_cell = family.names.len() + family.template.joints.len() + family.template.curve_count();
+        self.cells = self.cells.saturating_add(cells);
+        self.values = self.values.saturating_add(cells.saturating_mul(values_per_cell));
+        let help = "use fewer values, or divide the atlas";
+        is_within((self.cells, MAX_LIMIT), "cells", (space_span(fields), help), parser)
+            && is_within((self.values, MAX_CHECKED_VALUES), "values of cells", (space_span(fields), help), parser)
+    }
+
+    /// Adds the files of a family's pages, and reports too many. How many pages a family with `where` has is known only
+    /// when its cells are solved, and checked then.
+    pub fn add_page_files(&mut self, planned: &PlannedFamily, fields: &Fields, parser: &mut TomlParser) {
+        let PlannedFamily { family, layout, chart, formats, .. } = planned;
+        let cells = family.cell_count();
+        let pages = match (layout, chart) {
+            _ if family.filter.is_some() => 0,
+            (_, Some(chart)) => chart.y.len().div_ceil(layout.cells_per_page()),
+            (Layout::CouplerGrid, _) => {
+                cells.saturating_mul(family.template.curve_count().div_ceil(Layout::POINTS_PER_PAGE))
+            }
+            _ => cells.div_ceil(layout.cells_per_page()),
+        };
+        if formats.contains(&Format::Pdf) {
+            self.book_cells = self.book_cells.saturating_add(cells);
+            let help = "leave the format pdf out, or divide the atlas";
+            is_within((self.book_cells, MAX_BOOK_CELLS), "cells in the book", (space_span(fields), help), parser);
+        }
+        let page_formats = formats.iter().filter(|format| format.page_format().is_some()).count();
+        self.page_files = self.page_files.saturating_add(pages.saturating_mul(page_formats));
+        let help = "put more panels on a page, write fewer formats, or divide the atlas";
+        is_within((self.page_files, MAX_PAGE_FILES), "files of pages", (space_span(fields), help), parser);
     }
 }
 
-impl RemainingCells {
-    /// Subtracts the cells of a family; reports a family with too many, and then is false.
-    pub fn subtract(&mut self, cells: usize, fields: &Fields, parser: &mut TomlParser) -> bool {
-        match self.0.checked_sub(cells) {
-            Some(rest) => {
-                self.0 = rest;
-                true
-            }
-            None => {
-                let total = cells.saturating_add(MAX_LIMIT - self.0);
-                let message = format!("the families up to here have {total} cells, more than the limit of {MAX_LIMIT}");
-                let span = space_span(fields);
-                parser.report(Problem::error(span, message).with_help("use fewer values, or divide the atlas"));
-                false
-            }
-        }
+/// Whether the number of something in the families so far is within its limit; reports it otherwise.
+fn is_within((number, limit): (usize, usize), what: &str, (span, help): (Span, &str), parser: &mut TomlParser) -> bool {
+    if number > limit {
+        let message = format!("the families up to here have {number} {what}, more than the limit of {limit}");
+        parser.report(Problem::error(span, message).with_help(help));
+    }
+    number <= limit
+}
+
+/// Checks that the cells of a page, which are in memory together, are not too large.
+pub(super) fn check_memory(family: &Family, layout: Layout, fields: &Fields, parser: &mut TomlParser) {
+    let cells = match layout {
+        // Charts are drawn from the measures of all cells, which are solved a few at a time.
+        Layout::Chart { .. } => 1,
+        _ => layout.cells_per_page().min(family.cell_count()),
+    };
+    let bytes = sweep::estimate_cell_bytes(family).saturating_mul(cells);
+    if bytes > sweep::MAX_BYTES {
+        let [needed, limit] = [bytes, sweep::MAX_BYTES].map(|bytes| bytes.div_ceil(1_000_000));
+        let of_page = if cells == 1 { "a cell".to_owned() } else { format!("the {cells} cells of a page") };
+        let message = format!("{of_page} would take about {needed} MB, more than the limit of {limit} MB");
+        let span = fields.get("sampling").map_or_else(|| fields.span.clone(), TomlValue::span);
+        let help = "use fewer samples, traced points or panels on a page";
+        parser.report(Problem::error(span, message).with_help(help));
     }
 }
 
@@ -113,4 +185,47 @@ fn space_span(fields: &Fields) -> Span {
 /// The place of the k-th case, if the family has cases.
 fn case_span(fields: &Fields, k: usize) -> Option<Span> {
     Some(fields.get("cases")?.get_ref().as_array()?.get(k)?.span())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manifest;
+
+    const TEXT: &str = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\nsampling = { samples = 9 }\n\
+                        panels = [1, 1]\ngrid = { p = [2, 3], a = [2] }";
+
+    /// The messages of the problems that a family adds to totals.
+    fn problems(mut totals: AtlasTotals) -> Vec<String> {
+        let planned = &manifest::parse(TEXT).plan.unwrap().families[0];
+        let mut parser = TomlParser::new(TEXT);
+        let document = parser.parse_document();
+        let root = Fields::with_any_keys(&document, "a manifest", &mut parser).unwrap();
+        let fields = Fields::with_any_keys(&root.tables("family", &mut parser)[0], "a family", &mut parser).unwrap();
+        totals.add_names(planned.family.names.len(), &fields, &mut parser);
+        totals.add_cells(&planned.family, &fields, &mut parser);
+        totals.add_page_files(planned, &fields, &mut parser);
+        let problems = parser.into_problems();
+        assert!(problems.iter().all(|problem| problem.span.start > TEXT.find("[[family]]").unwrap()));
+        problems.into_iter().map(|problem| problem.message).collect()
+    }
+
+    #[test]
+    fn what_exceeds_a_limit_of_the_atlas_is_refused() {
+        let none = AtlasTotals::default;
+        let message = |number: usize, what: &str, limit: usize| {
+            vec![format!("the families up to here have {number} {what}, more than the limit of {limit}")]
+        };
+        assert!(problems(none()).is_empty());
+        // The family has two cells on two pages in two formats.
+        assert!(problems(AtlasTotals { cells: MAX_LIMIT - 2, page_files: MAX_PAGE_FILES - 4, ..none() }).is_empty());
+        let cells = AtlasTotals { cells: MAX_LIMIT - 1, ..none() };
+        assert_eq!(problems(cells), message(MAX_LIMIT + 1, "cells", MAX_LIMIT));
+        let files = AtlasTotals { page_files: MAX_PAGE_FILES - 3, ..none() };
+        assert_eq!(problems(files), message(MAX_PAGE_FILES + 1, "files of pages", MAX_PAGE_FILES));
+        let names = AtlasTotals { names: MAX_NAMES, ..none() };
+        assert_eq!(problems(names).len(), 1);
+        let values = AtlasTotals { values: MAX_CHECKED_VALUES, ..none() };
+        assert_eq!(problems(values).len(), 1);
+    }
 }

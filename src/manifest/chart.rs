@@ -1,10 +1,12 @@
 //! Reads the `chart` of a family.
 
+use std::collections::HashSet;
+
 use super::names::FamilyNames;
-use coupler_curves::expression::{CompiledExpression, Expression};
+use coupler_curves::expression::{CompiledExpression, Expression, Scope};
 use coupler_curves::family::{Family, MAX_CELLS, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
-use coupler_curves::problem::{Problem, suggestion};
+use coupler_curves::problem::{Problem, suggestion_among};
 use coupler_curves::template::Template;
 use coupler_drawing::chart::{self, Chart, PointSource, Quantity};
 
@@ -69,8 +71,10 @@ pub(super) fn read<'t>(
     let fields = Fields::from_value(value, &CHART, parser)?;
     let x = fields.required("x", EXAMPLE, parser);
     let y = fields.required("y", EXAMPLE, parser);
-    let x = x.and_then(|value| quantity(value, template, names, parser));
-    let y = y.and_then(|value| quantities(value, template, names, parser));
+    let is_driven_by_length = template.is_driven_by_length();
+    let scope = (chart::scope(&names.all, is_driven_by_length), is_driven_by_length);
+    let x = x.and_then(|value| quantity(value, &scope, names, parser));
+    let y = y.and_then(|value| quantities(value, &scope, names, parser));
     let by = match fields.get("by") {
         None => None,
         Some(value) => Some(series_slots(value, names, parser)?),
@@ -98,7 +102,7 @@ fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
 /// Reads `y`: one or more different quantities.
 fn quantities<'t>(
     value: &TomlValue<'t>,
-    template: &Template,
+    scope: &(Scope, bool),
     names: &FamilyNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<Vec<Quantity>> {
@@ -109,13 +113,14 @@ fn quantities<'t>(
         return None;
     }
     let mut found: Vec<Quantity> = Vec::new();
+    let mut texts = HashSet::new();
     let mut all_read = true;
     for item in items {
-        let Some(quantity) = quantity(item, template, names, parser) else {
+        let Some(quantity) = quantity(item, scope, names, parser) else {
             all_read = false;
             continue;
         };
-        if found.iter().any(|other| other.text == quantity.text) {
+        if !texts.insert(quantity.text.clone()) {
             let problem = Problem::error(item.span(), format!("`{}` is named twice", quantity.text.escape_debug()));
             parser.report(problem.with_help("name it once"));
             all_read = false;
@@ -125,17 +130,16 @@ fn quantities<'t>(
     all_read.then_some(found)
 }
 
-/// Reads an expression over names and measures.
+/// Reads an expression over names and measures; the scope comes with whether the input is a length.
 fn quantity<'t>(
     value: &TomlValue<'t>,
-    template: &Template,
+    (scope, is_driven_by_length): &(Scope, bool),
     names: &FamilyNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<Quantity> {
     let text = parser.text(value)?.trim().to_owned();
-    let is_driven_by_length = template.is_driven_by_length();
-    let value = parser.numeric_expression(value, &chart::scope(&names.all, is_driven_by_length))?;
-    let unit = chart::unit(&text, is_driven_by_length);
+    let value = parser.numeric_expression(value, scope)?;
+    let unit = chart::unit(&text, *is_driven_by_length);
     let definition = chart::definition(&text, &names.all);
     Some(Quantity { text, unit, definition, expression: value, is_log: false, range: None })
 }
@@ -167,16 +171,16 @@ fn sample_or_curve_points<'t>(
 
 /// Reads `by`: the names whose values separate the lines.
 fn series_slots<'t>(value: &TomlValue<'t>, names: &FamilyNames, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
-    let known: Vec<&str> = names.all.iter().map(String::as_str).collect();
+    let scope = Scope::from_numbers(names.all.iter().map(String::as_str));
     let mut found = Vec::new();
     let mut all_read = true;
     for item in one_or_more(value) {
-        let slot = parser.text(item).map(|name| (names.all.iter().position(|known| *known == name), name));
+        let slot = parser.text(item).map(|name| (scope.index_of(&name), name));
         match slot {
             Some((Some(slot), _)) => found.push(slot),
             Some((None, name)) => {
                 let problem = Problem::error(item.span(), format!("there is no `{}`", name.escape_debug()));
-                parser.report(problem.with_help(suggestion(&name, &known)));
+                parser.report(problem.with_help(suggestion_among(&name, scope.names(), scope.len())));
                 all_read = false;
             }
             None => all_read = false,
@@ -209,18 +213,13 @@ fn default_series_slots(x: &CompiledExpression, point_source: PointSource, names
 }
 
 /// The slots that an expression uses, and those they are derived from.
-fn dependencies(value: &CompiledExpression, names: &FamilyNames) -> Vec<usize> {
-    let mut found: Vec<usize> = value.slots().to_vec();
-    let mut next = 0;
-    while let Some(&slot) = found.get(next) {
-        let sources =
-            names.derived.iter().filter(|(derived, _)| *derived == slot).flat_map(|(_, expression)| expression.slots());
-        for source in sources {
-            if !found.contains(source) {
-                found.push(*source);
-            }
+fn dependencies(value: &CompiledExpression, names: &FamilyNames) -> HashSet<usize> {
+    let mut found: HashSet<usize> = value.slots().iter().copied().collect();
+    // Each derived value comes after those it uses.
+    for (slot, expression) in names.derived.iter().rev() {
+        if found.contains(slot) {
+            found.extend(expression.slots());
         }
-        next += 1;
     }
     found
 }
@@ -232,14 +231,16 @@ fn find_quantity<'q, 't>(
     (x, y): (&'q mut Quantity, &'q mut [Quantity]),
     parser: &mut TomlParser<'t>,
 ) -> Option<&'q mut Quantity> {
-    let known: Vec<String> = std::iter::once(&*x).chain(&*y).map(|quantity| quantity.text.clone()).collect();
-    let found = std::iter::once(x).chain(y).find(|quantity| quantity.text == text.trim());
+    let texts = || std::iter::once(&*x).chain(&*y).map(|quantity| quantity.text.as_str());
+    let found = texts().position(|known| known == text.trim());
     if found.is_none() {
-        let known: Vec<&str> = known.iter().map(String::as_str).collect();
         let problem = Problem::error(place, format!("the chart has no quantity `{}`", text.escape_debug()));
-        parser.report(problem.with_help(suggestion(text, &known)));
+        parser.report(problem.with_help(suggestion_among(text, texts(), 1 + y.len())));
     }
-    found
+    match found?.checked_sub(1) {
+        None => Some(x),
+        Some(k) => y.get_mut(k),
+    }
 }
 
 /// Reads `log`: which quantities have logarithmic axes.

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use super::cells::{self, RemainingCells};
+use super::cells::{self, AtlasTotals};
 use super::names::{check_expression_syntax, read_names, read_space};
 use super::schema::{
     DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
 };
 use super::{ManifestInputs, PlannedFamily, Templates, chart, settings, tolerance};
-use coupler_curves::expression::Dimension;
+use coupler_curves::expression::{Dimension, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, Span, suggestion};
@@ -32,11 +32,11 @@ pub(super) struct Context<'a> {
     pub page: Option<&'a Options>,
 }
 
-/// Reads a family, and subtracts its cells from `remaining_cells`.
+/// Reads a family, and adds it to `totals`.
 pub(super) fn read<'t>(
     value: &TomlValue<'t>,
     Context { templates, formats, page }: Context,
-    remaining_cells: &mut RemainingCells,
+    totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
     let fields = Fields::from_value(value, &FAMILY, parser)?;
@@ -61,6 +61,10 @@ pub(super) fn read<'t>(
     };
     let measures = fields.get("measures").map_or(Some(vec![true; MEASURES.len()]), |value| measures(value, parser));
     let tolerances = tolerance::read(fields.get("check"), &tolerance::FAMILY_CHECK, parser);
+    let parameters = template.as_ref().map_or(0, |template| template.parameters.len());
+    if !totals.add_names(parameters, &fields, parser) {
+        return None;
+    }
     let names = match &template {
         Some(template) => read_names(template, &fields, parser),
         None => {
@@ -101,14 +105,16 @@ pub(super) fn read<'t>(
         let is_charted = quantities.into_iter().any(|quantity| family.expression_uses(&quantity.expression, k));
         family.is_computed[k] |= family.filter_or_sort_uses(k) || family.captions_use(k) || is_charted;
     }
-    if remaining_cells.subtract(family.cell_count(), &fields, parser) {
-        cells::check(&family, &fields, &names.spans, parser);
+    if !totals.add_cells(&family, &fields, parser) {
+        return None;
     }
+    cells::check(&family, &fields, &names.spans, parser);
     let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);
     let (layout, chart, formats) = (layout?, chart?, formats?);
+    cells::check_memory(&family, layout, &fields, parser);
     let inputs = ManifestInputs::default();
-    Some(PlannedFamily {
+    let planned = PlannedFamily {
         family,
         layout,
         chart,
@@ -118,7 +124,9 @@ pub(super) fn read<'t>(
         tolerances,
         span: value.span(),
         filter_span,
-    })
+    };
+    totals.add_page_files(&planned, &fields, parser);
+    Some(planned)
 }
 
 /// The template with the family's settings in place of its own.
@@ -162,7 +170,7 @@ fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut
         // If the linkage could not be parsed, its input may be an angle or a length.
         (Some(value), None) if template.is_none() && value.get_ref().as_str().is_none() => None,
         (Some(value), None) if template.is_some_and(Template::is_driven_by_length) => {
-            let step = parser.input_length(value, &[])?.evaluate(|_| f64::NAN);
+            let step = parser.input_length(value, &Scope::default())?.evaluate(|_| f64::NAN);
             let step = parser.require_finite(value, step)?;
             if step > 0.0 {
                 return Some(Sampling::Step(step));
@@ -222,7 +230,7 @@ fn straight<'t>(
         // If the linkage could not be parsed, its input may be an angle or a length.
         "input" if template.is_none() => return None,
         "input" if is_driven_by_length => {
-            let length = parser.input_length(value, &[])?.evaluate(|_| f64::NAN);
+            let length = parser.input_length(value, &Scope::default())?.evaluate(|_| f64::NAN);
             parser.require_finite(value, length)?
         }
         "input" => parser.constant_quantity(value, Dimension::Angle)?,

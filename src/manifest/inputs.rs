@@ -1,5 +1,8 @@
 //! What a manifest contributes to the files of a family, in a normal form.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use coupler_curves::linkage_format::{Fields, TomlValue, canonical_text};
 
 /// The part of a manifest that determines a family's files, in a form that does not depend on how it is written.
@@ -7,10 +10,26 @@ use coupler_curves::linkage_format::{Fields, TomlValue, canonical_text};
 /// Two manifests in which it is equal give the same files with the same version of the program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ManifestInputs {
-    /// What determines all its files, except the formats.
-    pub family: String,
+    /// The tables that apply to every family.
+    tables: Arc<str>,
+    /// The linkage; empty for one of the catalogue.
+    linkage: Arc<str>,
+    /// The table of the family, except the formats.
+    family: String,
+    /// The keys of that table that determine a page of cells, in addition to the cells' values and curves.
+    page: String,
+}
+
+impl ManifestInputs {
+    /// What determines all files of the family, except the formats.
+    pub fn family_text(&self) -> String {
+        [&*self.tables, &*self.linkage, &self.family].concat()
+    }
+
     /// What determines a page of cells, in addition to the cells' values and curves.
-    pub page: String,
+    pub fn page_text(&self) -> String {
+        [&*self.tables, &*self.linkage, &self.page].concat()
+    }
 }
 
 /// Keys of `[atlas]` that do not change the contents of files.
@@ -20,27 +39,40 @@ const IGNORED_FAMILY_KEYS: [&str; 3] = ["formats", "limit", "check"];
 /// [`IGNORED_FAMILY_KEYS`], and the keys that determine the values of cells, their curves and their order.
 const IGNORED_PAGE_KEYS: [&str; 8] = ["formats", "limit", "check", "grid", "cases", "let", "where", "sort"];
 
-impl ManifestInputs {
-    /// The inputs of the family with this table of the manifest.
-    pub(super) fn from_manifest(root: &Fields, family: &TomlValue) -> ManifestInputs {
-        let text_of = |key: &str, table: &TomlValue| {
-            let name = table.get_ref().as_table().and_then(|table| table.get(key))?;
-            name.get_ref().as_str().map(str::to_owned)
-        };
-        let linkage = text_of("linkage", family);
-        // All tables other than families and linkages apply to every family.
-        let mut common = String::new();
+/// The texts that the inputs of several families have in common.
+pub(super) struct SharedInputs {
+    /// That of all tables other than families and linkages.
+    tables: Arc<str>,
+    /// Those of the linkages, by their ids.
+    linkages: HashMap<String, Arc<str>>,
+}
+
+impl SharedInputs {
+    /// The shared texts of a manifest.
+    pub fn from_manifest(root: &Fields) -> SharedInputs {
+        let mut tables = String::new();
         for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage", "check"].contains(key)) {
             let ignored_keys: &[&str] = if key == "atlas" { &IGNORED_ATLAS_KEYS } else { &[] };
-            common.push_str(&format!("{key:?}={},", canonical_text(value, ignored_keys)));
+            tables.push_str(&format!("{key:?}={},", canonical_text(value, ignored_keys)));
         }
         let linkages = root.get("linkage").and_then(|value| value.get_ref().as_array());
-        for table in linkages.into_iter().flatten().filter(|table| text_of("id", table) == linkage) {
-            common.push_str(&canonical_text(table, &[]));
-        }
+        let by_id = |table| Some((string_at("id", table)?.to_owned(), Arc::from(canonical_text(table, &[]))));
+        SharedInputs { tables: Arc::from(tables), linkages: linkages.into_iter().flatten().filter_map(by_id).collect() }
+    }
+
+    /// The inputs of the family with this table of the manifest.
+    pub fn of_family(&self, family: &TomlValue) -> ManifestInputs {
+        let linkage = string_at("linkage", family).and_then(|id| self.linkages.get(id));
         ManifestInputs {
-            family: format!("{common}{}", canonical_text(family, &IGNORED_FAMILY_KEYS)),
-            page: format!("{common}{}", canonical_text(family, &IGNORED_PAGE_KEYS)),
+            tables: Arc::clone(&self.tables),
+            linkage: linkage.cloned().unwrap_or_default(),
+            family: canonical_text(family, &IGNORED_FAMILY_KEYS),
+            page: canonical_text(family, &IGNORED_PAGE_KEYS),
         }
     }
+}
+
+/// The string at a key of a table.
+fn string_at<'v>(key: &str, table: &'v TomlValue) -> Option<&'v str> {
+    table.get_ref().as_table()?.get(key)?.get_ref().as_str()
 }

@@ -14,6 +14,7 @@ mod settings;
 mod theme;
 mod tolerance;
 
+pub use cells::MAX_PAGE_FILES;
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
 pub use schema::MANIFEST;
@@ -24,15 +25,16 @@ pub use coupler_curves::linkage_format::{KeySchema, TableSchema, ValueSchema};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use cells::RemainingCells;
+use cells::AtlasTotals;
 use coupler_curves::catalogue;
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
-use coupler_curves::problem::{Problem, Span};
+use coupler_curves::problem::{Problem, Span, suggestion_among};
 use coupler_curves::template::Template;
 use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
 use coupler_drawing::render::{Format, TextMode};
+use inputs::SharedInputs;
 
 /// A validated manifest: what to solve, and how to draw it.
 #[derive(Clone, Debug)]
@@ -100,8 +102,32 @@ pub struct ParseOutcome {
     pub problems: Vec<Problem>,
 }
 
+/// The most bytes of a manifest.
+pub const MAX_MANIFEST_BYTES: usize = 1 << 23;
+
+/// The most values, tables and lists of a manifest, enough for some hundred thousand cases. While it is parsed, each takes
+/// up to about 260 bytes.
+const MAX_MANIFEST_VALUES: usize = 1_000_000;
+
+/// A problem of a manifest that is too long; `None` for others.
+fn length_problem(text: &str) -> Option<Problem> {
+    // Each value follows one of these characters; those inside strings and comments are few.
+    let values = || text.bytes().filter(|byte| matches!(byte, b'=' | b',' | b'{' | b'[')).count();
+    let (count, limit, unit) = if text.len() > MAX_MANIFEST_BYTES {
+        (text.len(), MAX_MANIFEST_BYTES, "bytes")
+    } else {
+        (values(), MAX_MANIFEST_VALUES, "values")
+    };
+    let message = format!("the manifest has {count} {unit}, more than the limit of {limit}");
+    let problem = Problem::error(0..first_line_len(text), message);
+    (count > limit).then(|| problem.with_help("divide it, or give ranges in place of lists"))
+}
+
 /// Parses a manifest.
 pub fn parse(text: &str) -> ParseOutcome {
+    if let Some(problem) = length_problem(text) {
+        return ParseOutcome { plan: None, problems: vec![problem] };
+    }
     let mut parser = TomlParser::new(text);
     let plan = read_plan(text, &mut parser);
     let problems = parser.into_problems();
@@ -111,6 +137,9 @@ pub fn parse(text: &str) -> ParseOutcome {
 
 /// Parses the `[[linkage]]` tables of a manifest, and ignores its other tables.
 pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
+    if let Some(problem) = length_problem(text) {
+        return (Vec::new(), vec![problem]);
+    }
     let mut parser = TomlParser::new(text);
     let document = parser.parse_document();
     let root = Fields::with_any_keys(&document, "a manifest", &mut parser)
@@ -152,11 +181,12 @@ fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
     }
     let mut families: Vec<PlannedFamily> = Vec::new();
     let mut ids: HashSet<String> = HashSet::new();
-    let mut remaining_cells = RemainingCells::default();
+    let mut totals = AtlasTotals::default();
+    let shared_inputs = SharedInputs::from_manifest(&root);
     for value in tables {
         let page = page.as_ref().map(|page| &page.options);
         let context = family::Context { templates: &templates, formats: &formats, page };
-        let read = family::read(value, context, &mut remaining_cells, parser);
+        let read = family::read(value, context, &mut totals, parser);
         if let Some((id, span)) = family::id_and_span(value) {
             let message = format!("there are two families `{id}`");
             if !ids.insert(id) {
@@ -166,7 +196,7 @@ fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
         }
         let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
-            manifest_inputs: ManifestInputs::from_manifest(&root, value),
+            manifest_inputs: shared_inputs.of_family(value),
             tolerances: tolerances(read.tolerances),
             ..read
         }));
@@ -232,9 +262,10 @@ impl Templates {
         let found = catalogue::find(&id);
         if found.is_none() {
             let built_in = catalogue::all().iter().map(|template| template.id.as_str());
-            let known: Vec<&str> = self.ids.iter().map(String::as_str).chain(built_in).collect();
+            let known = self.ids.iter().map(String::as_str).chain(built_in);
+            let count = self.ids.len() + catalogue::all().len();
             let problem = Problem::error(value.span(), format!("there is no linkage `{}`", id.escape_debug()));
-            parser.report(problem.with_help(coupler_curves::problem::suggestion(&id, &known)));
+            parser.report(problem.with_help(suggestion_among(&id, known, count)));
         }
         found
     }

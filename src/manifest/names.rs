@@ -1,10 +1,12 @@
 //! The names of a family, and the values that `grid`, `cases`, `let` and the linkage's defaults give them.
 
+use std::collections::HashMap;
+
 use super::grid::{self, GridValues};
-use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind};
+use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
-use coupler_curves::problem::{Problem, Span, nearest_word};
+use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
 use coupler_curves::template::Template;
 
 /// The names of a family and where their values come from.
@@ -30,25 +32,17 @@ pub(super) fn read_names<'t>(
         Some(value) => Fields::with_any_keys(value, "`let`", parser)?.entries().collect(),
     };
     let named_space = read_space(fields, parser);
-    let mut all: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
-    let mut spans: Vec<Option<Span>> = vec![None; all.len()];
-    let mut slot_of = |name: &str, span: &Span| match all.iter().position(|n| n == name) {
-        Some(slot) => {
-            spans[slot].get_or_insert(span.clone());
-            slot
-        }
-        None => {
-            all.push(name.to_owned());
-            spans.push(Some(span.clone()));
-            all.len() - 1
-        }
-    };
+    let mut table = NameTable::default();
+    for parameter in &template.parameters {
+        table.add(&parameter.name, None);
+    }
     let Some(named_space) = named_space else {
         check_expression_syntax(fields, parser);
         return None;
     };
-    let space = named_space.into_space(&mut slot_of);
-    let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| slot_of(name, span)).collect();
+    let space = named_space.into_space(&mut |name, span| table.add(name, Some(span)));
+    let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| table.add(name, Some(span))).collect();
+    let NameTable { all, spans, .. } = table;
     for (slot, name) in all.iter().enumerate() {
         if Family::is_column_name(name) {
             let problem = Problem::error(
@@ -58,7 +52,7 @@ pub(super) fn read_names<'t>(
             parser.report(problem.with_help("`coupler-atlas list measures` lists the reserved names: use another one"));
         }
     }
-    let scope: Vec<(&str, Kind)> = all.iter().map(|name| (name.as_str(), Kind::Number)).collect();
+    let scope = Scope::from_numbers(all.iter().map(String::as_str));
     let assignments = space.assignment_counts(all.len());
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
     let mut read_all = true;
@@ -80,8 +74,10 @@ pub(super) fn read_names<'t>(
         sources.extend(expression.map(|expression| (slot, expression, span.clone())));
     }
     let always_given = |slot: usize| assignments[slot] == space.count();
+    let mut is_derived = vec![false; all.len()];
+    let_slots.iter().for_each(|&slot| is_derived[slot] = true);
     for (slot, parameter) in template.parameters.iter().enumerate() {
-        if let (Some(default), false) = (&parameter.default, always_given(slot) || let_slots.contains(&slot)) {
+        if let (Some(default), false) = (&parameter.default, always_given(slot) || is_derived[slot]) {
             let span = fields.get("linkage").map_or(fields.span.clone(), TomlValue::span);
             sources.push((slot, default.clone(), span));
         }
@@ -98,21 +94,53 @@ pub(super) fn read_names<'t>(
     let captions = [caption("caption", &template.caption, parser), caption("note", &template.note, parser)];
     let in_chart = names_in_chart(fields);
     let derived = in_dependency_order(sources, &all, &scope, parser)?;
-    for (slot, name) in all.iter().enumerate().skip(template.parameters.len()) {
-        let in_filter = filter.iter().chain(&sort).any(|expression| expression.slots().contains(&slot));
-        let in_filter = in_filter || captions.iter().flatten().any(|caption| caption.uses(name));
-        // An expression that could not be parsed may have been the one that uses the name.
-        let in_chart = in_chart.as_ref().is_none_or(|used| used.contains(name));
-        if read_all
-            && !in_filter
-            && !in_chart
-            && !derived.iter().any(|(_, expression)| expression.slots().contains(&slot))
-        {
-            report_unused_name(name, spans[slot].clone().unwrap_or_default(), template, parser);
+    // An expression that could not be parsed may have been the one that uses a name.
+    if let (true, Some(in_chart)) = (read_all, in_chart) {
+        let expressions = filter.iter().chain(&sort).chain(derived.iter().map(|(_, expression)| expression));
+        let mut is_used = vec![false; all.len()];
+        expressions
+            .flat_map(CompiledExpression::slots)
+            .filter(|slot| **slot < all.len())
+            .for_each(|&k| is_used[k] = true);
+        let in_captions = captions.iter().flatten().flat_map(Caption::expressions);
+        let names = in_captions.flat_map(|(expression, _)| expression.names()).chain(&in_chart);
+        names.filter_map(|name| scope.index_of(name)).for_each(|slot| is_used[slot] = true);
+        let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        for slot in (parameters.len()..all.len()).filter(|slot| !is_used[*slot]) {
+            report_unused_name(
+                &all[slot],
+                spans[slot].clone().unwrap_or_default(),
+                (&template.id, &parameters),
+                parser,
+            );
         }
     }
     read_all.then_some(())?;
     Some(FamilyNames { all, space, derived, filter, sort, captions, spans })
+}
+
+/// The names of a family while they are collected.
+#[derive(Default)]
+struct NameTable {
+    all: Vec<String>,
+    /// The place where each name is given a value first.
+    spans: Vec<Option<Span>>,
+    indices: HashMap<String, usize>,
+}
+
+impl NameTable {
+    /// The index of a name, which is added if it is new.
+    fn add(&mut self, name: &str, span: Option<&Span>) -> usize {
+        if let Some(&index) = self.indices.get(name) {
+            self.spans[index] = self.spans[index].take().or_else(|| span.cloned());
+            return index;
+        }
+        let index = self.all.len();
+        self.indices.insert(name.to_owned(), index);
+        self.all.push(name.to_owned());
+        self.spans.push(span.cloned());
+        index
+    }
 }
 
 /// Checks the syntax of `let`, `where` and `sort`, when the names they may use are not known.
@@ -142,12 +170,11 @@ fn names_in_chart(fields: &Fields) -> Option<Vec<String>> {
 }
 
 /// Reports a name that is not a parameter of the linkage and that no expression uses.
-fn report_unused_name(name: &str, span: Span, template: &Template, parser: &mut TomlParser) {
-    let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-    let message = format!("`{name}` is not a parameter of `{}`, and no expression uses it", template.id);
+fn report_unused_name(name: &str, span: Span, (linkage, parameters): (&str, &[&str]), parser: &mut TomlParser) {
+    let message = format!("`{name}` is not a parameter of `{linkage}`, and no expression uses it");
     let help = match nearest_word(name, parameters.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("its parameters are {}", parameters.join(", ")),
+        None => format!("its parameters are {}", list_words(parameters)),
     };
     parser.report(Problem::error(span, message).with_help(help));
 }
@@ -295,7 +322,7 @@ fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'
 fn in_dependency_order(
     sources: Vec<(usize, Expression, Span)>,
     names: &[String],
-    scope: &[(&str, Kind)],
+    scope: &Scope,
     parser: &mut TomlParser,
 ) -> Option<Vec<(usize, CompiledExpression)>> {
     // Each was compiled against the same names when it was read.

@@ -105,6 +105,25 @@ fn chapter<'a>(planned: &'a PlannedFamily, selection: &CellSelection, pagination
     }
 }
 
+/// The approximate memory of the pages of a volume, which is written when it is complete, in bytes.
+const MAX_VOLUME_BYTES: usize = 150_000_000;
+/// The memory of a page of a book, and of each curve on it, in bytes.
+const BYTES_PER_BOOK_PAGE: usize = 4_000;
+const BYTES_PER_BOOK_CURVE: usize = 6_000;
+
+/// The most pages of a volume for which it fits memory.
+fn max_volume_pages(selected: &[&PlannedFamily]) -> usize {
+    let bytes = |planned: &&PlannedFamily| {
+        let curves = match planned.layout {
+            Layout::Panels { .. } => planned.layout.cells_per_page() * planned.family.template.curve_count(),
+            Layout::CouplerGrid => Layout::POINTS_PER_PAGE,
+            Layout::Chart { .. } => 0,
+        };
+        BYTES_PER_BOOK_PAGE + curves * BYTES_PER_BOOK_CURVE
+    };
+    (MAX_VOLUME_BYTES / selected.iter().map(bytes).max().unwrap_or(BYTES_PER_BOOK_PAGE)).max(1)
+}
+
 /// Composes all pages and writes the volumes in order; returns their records and page counts.
 fn write_volumes(
     plan: &Plan,
@@ -126,7 +145,7 @@ fn write_volumes(
     let atlas = Atlas { title: &plan.title, program: PROGRAM, chapters };
     let first = parts.iter().find(|part| part.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
-    let volumes = atlas.volumes(plan.volume_pages);
+    let volumes = atlas.volumes(plan.volume_pages.min(max_volume_pages(selected)));
     report(Event::Begin { family: "book", pages: page_count });
     let mut writer = BookWriter {
         plan,

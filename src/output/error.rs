@@ -1,6 +1,7 @@
 use std::io::{self, ErrorKind};
 use std::path::PathBuf;
 
+use crate::manifest::MAX_PAGE_FILES;
 use crate::record::ReadError;
 use coupler_drawing::render;
 
@@ -67,19 +68,6 @@ pub enum Error {
         /// The number of the others.
         others: usize,
     },
-    /// The atlas would have more files than a record may list.
-    #[error(
-        "family `{family}` has {files} page files, and with them the atlas more than {max}: put more panels on a page, \
-         write fewer formats, or divide the manifest"
-    )]
-    TooManyFiles {
-        /// The id of the family.
-        family: String,
-        /// The number of its page files.
-        files: usize,
-        /// The most files of an atlas.
-        max: usize,
-    },
     /// A page cannot be drawn as an image.
     #[error("cannot draw {name}: {error}")]
     Image {
@@ -92,6 +80,18 @@ pub enum Error {
     #[error("cannot write the book: {0}")]
     #[cfg(feature = "pdf")]
     Book(render::pdf::Error),
+    /// The pages have too many files.
+    #[error(
+        "the pages of the families up to `{family}` have {files} files, more than the limit of {}; put more panels on \
+         a page, write fewer formats, or divide the atlas",
+        MAX_PAGE_FILES
+    )]
+    TooManyFiles {
+        /// The family's id.
+        family: String,
+        /// The number of files.
+        files: usize,
+    },
     /// Another run is in progress.
     #[error("another run is writing to {}: wait until it ends, or name another folder with -o", folder.display())]
     Busy {

@@ -50,7 +50,7 @@ pub(super) fn write(
     }
     let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
     let page_count = pipeline.pagination.page_count;
-    journal.reserve_files(&family.id, page_count * formats.len())?;
+    journal.check_page_files(&family.id, page_count.saturating_mul(formats.len()))?;
     report(Event::Begin { family: &family.id, pages: page_count });
     files::create_folder(&folder)?;
     let mut known = earlier.as_ref().map(|record| record.files.clone()).unwrap_or_default();

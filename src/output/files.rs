@@ -8,12 +8,10 @@ use std::path::{Path, PathBuf};
 use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
+use crate::manifest::MAX_MANIFEST_BYTES;
 use crate::record::{
     FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME, RunRecord, RunningDigest, open_regular_file,
 };
-
-/// The most bytes of a manifest.
-const MAX_MANIFEST_BYTES: u64 = 1 << 24;
 
 /// Reads the text of a manifest: of a file, or of standard input if the path is `-`.
 ///
@@ -42,8 +40,8 @@ fn open_manifest(path: &Path) -> io::Result<fs::File> {
 /// Reads a text of at most [`MAX_MANIFEST_BYTES`].
 fn read_text(source: impl Read) -> io::Result<String> {
     let mut text = String::new();
-    source.take(MAX_MANIFEST_BYTES + 1).read_to_string(&mut text)?;
-    if text.len() as u64 > MAX_MANIFEST_BYTES {
+    source.take(MAX_MANIFEST_BYTES as u64 + 1).read_to_string(&mut text)?;
+    if text.len() > MAX_MANIFEST_BYTES {
         let message = format!("it has more than {MAX_MANIFEST_BYTES} bytes, the most of a manifest; divide it");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }

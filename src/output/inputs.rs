@@ -20,12 +20,12 @@ impl<'a> Inputs<'a> {
 
     /// The digest of what all files of the family are made from.
     pub fn family_digest(self) -> Digest {
-        self.begin_digest("family", &self.planned.manifest_inputs.family).finish()
+        self.begin_digest("family", &self.planned.manifest_inputs.family_text()).finish()
     }
 
     /// The digest of what a page of charts is made from; every cell of the family may be on it.
     pub fn chart_page_digest(self, page: usize) -> Digest {
-        let mut digest = self.begin_digest("charts", &self.planned.manifest_inputs.family);
+        let mut digest = self.begin_digest("charts", &self.planned.manifest_inputs.family_text());
         digest.update(format!("page {page}\n").as_bytes());
         digest.finish()
     }
@@ -34,7 +34,7 @@ impl<'a> Inputs<'a> {
     /// of the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case,
     /// since all pages of the cell share what is derived from them.
     pub fn page_digest(self, (page, page_count): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> Digest {
-        let mut digest = self.begin_digest("page", &self.planned.manifest_inputs.page);
+        let mut digest = self.begin_digest("page", &self.planned.manifest_inputs.page_text());
         let mut text = format!("page {page} of {page_count}\n{:?}\n", self.planned.family.names);
         for solved in cells {
             text.push_str(&format!("cell {}:", solved.cell.number));

@@ -12,10 +12,10 @@ use super::files::{self, AtomicFile, write};
 use super::previous_run::PreviousRun;
 use super::{Error, Options};
 use crate::gallery::{self, DataBytes, GalleryFamily};
-use crate::manifest::Plan;
+use crate::manifest::{MAX_PAGE_FILES, Plan};
 use crate::record::{
     BookRecord, FamilyProgress, FamilyRecord, FileRecord, FolderRecord, IMAGES_FILE_NAME, JOURNAL_FILE_NAME,
-    JournalEntry, MAX_RECORDED_FILES, RUN_FILE_NAME, RunRecord, images_of_run, read_regular_file,
+    JournalEntry, RUN_FILE_NAME, RunRecord, images_of_run, read_regular_file,
 };
 
 /// The record of a run in progress: in memory, and in a journal on disk.
@@ -187,17 +187,19 @@ impl<'a> Journal<'a> {
         Ok(())
     }
 
-    /// Checks that the atlas may have this many page files of a family.
+    /// Checks that the files of a family's pages, together with those of the families written before, are not too many.
     ///
     /// # Errors
-    /// The record could not list them.
-    pub fn reserve_files(&self, family: &str, files: usize) -> Result<(), Error> {
-        let others: usize =
-            self.families.iter().filter(|other| other.id != family).map(|other| other.files.len()).sum();
-        if others + files > MAX_RECORDED_FILES {
-            return Err(Error::TooManyFiles { family: family.to_owned(), files, max: MAX_RECORDED_FILES });
+    /// They are too many for the record of an atlas.
+    pub fn check_page_files(&self, id: &str, files: usize) -> Result<(), Error> {
+        let others = || self.families.iter().filter(|record| record.id != id);
+        let total = |files: usize, record: &FamilyRecord| files.saturating_add(record.files.len());
+        if others().fold(files, total) <= MAX_PAGE_FILES {
+            return Ok(());
         }
-        Ok(())
+        let planned: HashSet<&str> = self.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
+        let files = others().filter(|record| planned.contains(record.id.as_str())).fold(files, total);
+        if files <= MAX_PAGE_FILES { Ok(()) } else { Err(Error::TooManyFiles { family: id.to_owned(), files }) }
     }
 
     /// Removes the files and records of families that are no longer in the plan.

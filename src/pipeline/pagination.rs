@@ -1,7 +1,7 @@
 //! Distributes the cells of a family over pages.
 
 use crate::manifest::PlannedFamily;
-use crate::sweep::CellSelection;
+use crate::sweep::{self, CellSelection};
 use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure};
 use coupler_drawing::page::{self, Layout};
@@ -27,8 +27,11 @@ pub struct Pagination {
     first_pages: Vec<usize>,
 }
 
-/// The number of cells processed together for charts.
+/// The most cells processed together for charts.
 const CHART_GROUP_SIZE: usize = 16;
+
+/// The approximate memory of the cells processed together for charts, if there is more than one, in bytes.
+const CHART_GROUP_BYTES: usize = 20_000_000;
 
 impl Pagination {
     /// The pagination of a family with these selected cells.
@@ -39,11 +42,13 @@ impl Pagination {
             Layout::CouplerGrid => first_pages(&selection.point_counts),
             _ => Vec::new(),
         };
+        let chart_group_size =
+            (CHART_GROUP_BYTES / sweep::estimate_cell_bytes(&planned.family).max(1)).clamp(1, CHART_GROUP_SIZE);
         let (size, pages) = match &planned.chart {
             None if planned.layout == Layout::CouplerGrid => (1, starts.last().map_or(0, |end| end - 1)),
             None => (cells_per_page, kept.div_ceil(cells_per_page)),
-            Some(_) if kept == 0 => (CHART_GROUP_SIZE, 0),
-            Some(chart) => (CHART_GROUP_SIZE, chart.y.len().div_ceil(cells_per_page)),
+            Some(_) if kept == 0 => (chart_group_size, 0),
+            Some(chart) => (chart_group_size, chart.y.len().div_ceil(cells_per_page)),
         };
         Pagination { group_size: size, page_count: pages, first_pages: starts }
     }

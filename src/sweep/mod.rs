@@ -8,10 +8,12 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 
-use coupler_curves::family::Family;
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::linkage::Input;
 use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
+use coupler_curves::motion::{self, Sampler};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, solve_measuring};
+use coupler_curves::template::CircuitSelection;
 use rayon::prelude::*;
 
 /// The cells that `where` keeps, by index, see [`CellSelection::kept`].
@@ -124,16 +126,44 @@ pub struct CellGroups<'a> {
 }
 
 /// The approximate limit of memory for groups in flight, in bytes.
-const MAX_BYTES: usize = 240_000_000;
+pub const MAX_BYTES: usize = motion::MAX_CIRCUIT_BYTES;
 
-/// The approximate memory of a point of a curve and its row, in bytes.
-const BYTES_PER_POINT: usize = 100;
+/// The memory of a value in an additional column of a row, in bytes.
+const BYTES_PER_COLUMN: usize = 20;
+
+/// The most circuits that a linkage is assumed to have. If it has more, and they take too much memory, it counts as
+/// not assembled.
+const MAX_CIRCUITS: usize = 8;
+
+/// The memory that a solved cell of a family and its rows in tables take, in bytes, estimated from its first cell.
+pub fn estimate_cell_bytes(family: &Family) -> usize {
+    // The cells of a family differ in their dimensions only.
+    let Ok(linkage) = family.linkage(&family.cell(0)) else { return 0 };
+    let turns = match linkage.input() {
+        Input::Angle { turns } => turns as usize,
+        Input::Length => 1,
+    };
+    let samples = match family.sampling {
+        Sampling::Step(step) if linkage.input() != Input::Length => ((360.0 / step) as usize).saturating_mul(turns),
+        // The length of a stroke is known only when the linkage is solved.
+        Sampling::Step(_) => 0,
+        Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => n,
+    };
+    // Each assembly mode may have a circuit of its own.
+    let circuits = match family.template.circuits {
+        CircuitSelection::Start => 1,
+        CircuitSelection::All => 1usize.checked_shl(linkage.dyad_count() as u32).unwrap_or(MAX_CIRCUITS),
+    };
+    let circuits = circuits.min(MAX_CIRCUITS);
+    let column_bytes = linkage.traced.len() * family.columns.len() * BYTES_PER_COLUMN;
+    let bytes = motion::estimate_bytes(&linkage, std::iter::repeat_n(samples, circuits));
+    bytes.saturating_add(samples.saturating_mul(circuits * column_bytes))
+}
 
 impl CellGroups<'_> {
     /// The number of groups in flight: enough to keep the threads busy, within the limit of memory.
-    fn max_in_flight(&self, family: &Family, sampler: &Sampler) -> usize {
-        let points = sampler.full_turn().len() * family.template.curve_count() * self.size;
-        let bytes = points * BYTES_PER_POINT + self.work_bytes;
+    fn max_in_flight(&self, family: &Family) -> usize {
+        let bytes = estimate_cell_bytes(family).saturating_mul(self.size).saturating_add(self.work_bytes);
         (MAX_BYTES / bytes.max(1)).clamp(1, rayon::current_num_threads() * 4)
     }
 }
@@ -153,7 +183,7 @@ pub fn process_groups<T: Send, E>(
     mut receive: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let sampler = &Sampler::new(family.sampling);
-    let max_in_flight = groups.max_in_flight(family, sampler);
+    let max_in_flight = groups.max_in_flight(family);
     let stopped = &AtomicBool::new(false);
     let work = &work;
     let measures = groups.requested_measures.unwrap_or(&family.is_computed);
@@ -202,5 +232,17 @@ fn wait_for_result<T>(result: &Receiver<T>) -> Option<T> {
                 Some(rayon::Yield::Idle) => std::thread::yield_now(),
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_are_in_the_order_of_sort_keys() {
+        let keys = [f64::NEG_INFINITY, -2.0, -1.0, -0.0, 0.0, f64::MIN_POSITIVE, 1.0, 2.0, f64::INFINITY, f64::NAN];
+        assert!(keys.map(rank_bits).is_sorted_by(|a, b| a < b));
+        assert_eq!(rank_bits(-f64::NAN), rank_bits(f64::NAN));
     }
 }

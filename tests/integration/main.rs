@@ -19,6 +19,7 @@ mod formats;
 mod gallery;
 mod hostile_text;
 mod lettering;
+mod limits;
 mod manifests;
 mod ownership;
 mod program;

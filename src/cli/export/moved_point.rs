@@ -1,6 +1,6 @@
 //! Moves a traced point on its link by the overrides `M.along` and `M.across`.
 
-use coupler_curves::expression::{CompiledExpression, Expression, Kind};
+use coupler_curves::expression::{CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::template::{Coordinate, JointKindTemplate, JointTemplate, Template};
 
 /// Moves the point of a trace, counted from 1, on its link, and returns the new template and the number of its trace.
@@ -66,5 +66,5 @@ fn find_traced_point(template: &Template, trace: usize) -> Option<(usize, usize)
 
 fn constant_expression(value: f64) -> Option<CompiledExpression> {
     let expression = Expression::parse(&value.to_string()).ok().filter(|_| value.is_finite())?;
-    expression.compile(&[], Kind::Number).ok()
+    expression.compile(&Scope::default(), Kind::Number).ok()
 }

@@ -47,7 +47,8 @@ fn solve_families(plan: &Plan) -> Vec<Vec<SolvedCell>> {
             found.append(&mut solved);
             Ok(())
         };
-        let groups = sweep::CellGroups { cells: &kept, first_group: 0, size: 1, work_bytes: 0, requested_measures: None };
+        let groups =
+            sweep::CellGroups { cells: &kept, first_group: 0, size: 1, work_bytes: 0, requested_measures: None };
         sweep::process_groups(&planned.family, groups, |_, solved| solved, collect).unwrap();
         found
     };

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use coupler_atlas::check::{self, Report};
 use coupler_atlas::manifest;
 use coupler_atlas::output;
-use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity};
+use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity, Scope};
 use coupler_curves::family::Family;
 use coupler_curves::motion::{Sampler, Sampling};
 use coupler_curves::problem::report;
@@ -49,7 +49,7 @@ fn solve_last_cell(family: &Family) {
 pub fn expression(text: &str) {
     let parsed = Expression::parse(text);
     if let Ok(parsed) = &parsed {
-        assert_error_is_placed(parsed.check(&["p", "r"], |_| None), text);
+        assert_error_is_placed(parsed.check(&Scope::from_numbers(["p", "r"])), text);
         parsed.evaluate(|k| 0.5 + k as f64);
     }
     assert_error_is_placed(parsed, text);

@@ -23,11 +23,13 @@ mod lexer;
 mod parser;
 mod program;
 mod quantity;
+mod scope;
 
 pub use caption::Caption;
 pub use function::Function;
 pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
 pub use quantity::{Dimension, Quantity, Unit};
+pub use scope::Scope;
 
 use crate::problem::{Problem, Span};
 

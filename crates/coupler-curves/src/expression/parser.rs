@@ -1,5 +1,7 @@
 //! Parses expressions into programs, by precedence climbing.
 
+use std::collections::HashMap;
+
 use super::lexer::{Token, tokenize};
 use super::program::{Expression, Instruction, Operator};
 use super::{CONSTANTS, Error, Function, MAX_DEPTH};
@@ -43,12 +45,15 @@ struct Parser<'a> {
     position: usize,
     depth: usize,
     expression: Expression,
+    /// The indices of the names in `expression`.
+    name_indices: HashMap<&'a str, usize>,
 }
 
 impl<'a> Parser<'a> {
     fn new(text: &'a str) -> Result<Parser<'a>, Error> {
         let expression = Expression { program: Vec::new(), names: Vec::new() };
-        let parser = Parser { text, tokens: tokenize(text)?, position: 0, depth: 0, expression };
+        let parser =
+            Parser { text, tokens: tokenize(text)?, position: 0, depth: 0, expression, name_indices: HashMap::new() };
         match parser.peek() {
             (Token::End, span) => Err(Error::new(span, "the expression is empty", "give a number or an expression")),
             _ => Ok(parser),
@@ -190,15 +195,16 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn parse_name(&mut self, name: &str, span: Span) -> Result<(), Error> {
+    fn parse_name(&mut self, name: &'a str, span: Span) -> Result<(), Error> {
         if let Some((_, value)) = CONSTANTS.iter().find(|(n, _)| *n == name) {
             self.emit(Instruction::Push(*value), span);
             return Ok(());
         }
-        let index = self.expression.names.iter().position(|n| n == name).unwrap_or_else(|| {
+        let next = self.expression.names.len();
+        let index = *self.name_indices.entry(name).or_insert(next);
+        if index == next {
             self.expression.names.push(name.to_owned());
-            self.expression.names.len() - 1
-        });
+        }
         self.emit(Instruction::Load(index), span);
         Ok(())
     }
@@ -323,12 +329,8 @@ mod tests {
     #[test]
     fn numbers_and_booleans_do_not_mix() {
         let kind = |text: &str| {
-            let known = |name: &str| match name {
-                "a" => Some(super::super::Kind::Number),
-                "is_open" => Some(super::super::Kind::Boolean),
-                _ => None,
-            };
-            Expression::parse(text).unwrap().check(&["a", "is_open"], known)
+            let names = [("a", super::super::Kind::Number), ("is_open", super::super::Kind::Boolean)];
+            Expression::parse(text).unwrap().check(&names.into_iter().collect())
         };
         assert_eq!(kind("a + 1").unwrap(), super::super::Kind::Number);
         assert_eq!(kind("is_open and a > 1").unwrap(), super::super::Kind::Boolean);

@@ -1,8 +1,8 @@
 //! Expressions as programs of a stack machine, their kinds and their evaluation.
 
-use super::{Error, Function};
+use super::{Error, Function, Scope};
 use crate::geometry::trig;
-use crate::problem::{Span, suggestion};
+use crate::problem::{Span, suggestion_among};
 
 /// The kind of an expression's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,11 +66,11 @@ impl Expression {
         }
     }
 
-    /// The kind of its value, where `kind_of` is the kind of each name, or `None` for an unknown name.
+    /// The kind of its value, with the names of a scope.
     ///
     /// # Errors
-    /// An unknown name, with the nearest of `known`; a number where a boolean is expected, or the reverse.
-    pub fn check(&self, known: &[&str], kind_of: impl Fn(&str) -> Option<Kind>) -> Result<Kind, Error> {
+    /// An unknown name, with the nearest known one; a number where a boolean is expected, or the reverse.
+    pub fn check(&self, scope: &Scope) -> Result<Kind, Error> {
         let mut stack: Vec<(Kind, Span)> = Vec::new();
         for (instruction, span) in &self.program {
             let popped = match instruction {
@@ -84,11 +84,13 @@ impl Expression {
                 Instruction::Load(name) => {
                     let name = &self.names[*name];
                     let unknown = || {
-                        let number = || "write a number; names cannot be used here".to_owned();
-                        let help = if known.is_empty() { number() } else { suggestion(name, known) };
+                        let help = match scope.is_empty() {
+                            true => "write a number; names cannot be used here".to_owned(),
+                            false => suggestion_among(name, scope.names(), scope.len()),
+                        };
                         Error::new(span.clone(), format!("unknown name `{name}`"), help)
                     };
-                    (Kind::Number, kind_of(name).ok_or_else(unknown)?)
+                    (Kind::Number, scope.kind_of(name).ok_or_else(unknown)?)
                 }
                 Instruction::Push(_) | Instruction::Negate | Instruction::Call(..) => (Kind::Number, Kind::Number),
                 Instruction::Not => (Kind::Boolean, Kind::Boolean),
@@ -112,10 +114,8 @@ impl Expression {
     ///
     /// # Errors
     /// As [`Expression::check`], and a value that is not of the `expected` kind.
-    pub fn compile(&self, scope: &[(&str, Kind)], expected: Kind) -> Result<CompiledExpression, Error> {
-        let known: Vec<&str> = scope.iter().map(|(name, _)| *name).collect();
-        let slot = |name: &str| known.iter().position(|n| *n == name);
-        let kind = self.check(&known, |name| slot(name).map(|k| scope[k].1))?;
+    pub fn compile(&self, scope: &Scope, expected: Kind) -> Result<CompiledExpression, Error> {
+        let kind = self.check(scope)?;
         if kind != expected {
             let span = self.program.first().map_or(0, |p| p.1.start)..self.program.last().map_or(0, |p| p.1.end);
             let help = match expected {
@@ -124,7 +124,7 @@ impl Expression {
             };
             return Err(Error::new(span, expected.mismatch_message(), help));
         }
-        let slots = self.names.iter().filter_map(|name| slot(name)).collect();
+        let slots = self.names.iter().filter_map(|name| scope.index_of(name)).collect();
         Ok(CompiledExpression { expression: self.clone(), slots })
     }
 

@@ -8,9 +8,11 @@ pub use axis_values::AxisValues;
 pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
 pub use single_cell::{ParameterError, ParameterErrors};
 
-use std::sync::Arc;
+use std::cell::LazyCell;
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock};
 
-use crate::expression::{Caption, CompiledExpression, Kind};
+use crate::expression::{Caption, CompiledExpression, Kind, Scope};
 use crate::measure;
 use crate::template::{self, Linkage, Template, dependency_order};
 
@@ -83,8 +85,15 @@ pub enum CellError {
 pub fn sort_by_dependency(
     sources: Vec<(usize, CompiledExpression)>,
 ) -> Result<Vec<(usize, CompiledExpression)>, Vec<usize>> {
+    let mut definitions: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (k, (slot, _)) in sources.iter().enumerate() {
+        definitions.entry(*slot).or_default().push(k);
+    }
     let needs = |k: usize| -> Vec<usize> {
-        (0..sources.len()).filter(|&other| sources[k].1.slots().contains(&sources[other].0)).collect()
+        let used = sources[k].1.slots().iter().filter_map(|slot| definitions.get(slot));
+        let mut needs: Vec<usize> = used.flatten().copied().collect();
+        needs.sort_unstable();
+        needs
     };
     match dependency_order(sources.len(), needs) {
         Ok(order) => Ok(order.into_iter().map(|k| sources[k].clone()).collect()),
@@ -154,11 +163,14 @@ impl Family {
     /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the
     /// family has none.
     pub fn format_captions(&self, cell: &Cell, measures: &[measure::Value]) -> [String; 2] {
-        let scope = Family::scope(&self.names);
-        let load = |name: &str| match scope.iter().position(|(known, _)| *known == name) {
-            Some(slot) => Family::scope_value(cell, measures, slot),
-            None => f64::NAN,
+        static MEASURES_AND_BOOLEANS: LazyLock<Scope> = LazyLock::new(|| Family::scope(&[]));
+        let own_names = LazyCell::new(|| Scope::from_numbers(self.names.iter().map(String::as_str)));
+        // The family's own names come before the measures.
+        let slot = |name: &str| {
+            let measure = || Some(self.names.len() + MEASURES_AND_BOOLEANS.index_of(name)?);
+            own_names.index_of(name).or_else(measure)
         };
+        let load = |name: &str| slot(name).map_or(f64::NAN, |slot| Family::scope_value(cell, measures, slot));
         let word = |name: &str| {
             let is_named =
                 |(measure, _): &(&measure::Measure, &measure::Value)| measure.name == name && measure.is_word;
@@ -176,7 +188,7 @@ impl Family {
     }
 
     /// The names that `where` may use, with their kinds: those of cells, the numeric measures and the booleans.
-    pub fn scope(names: &[String]) -> Vec<(&str, Kind)> {
+    pub fn scope(names: &[String]) -> Scope<'_> {
         let own = names.iter().map(|name| (name.as_str(), Kind::Number));
         let is_number = |measure: &&measure::Measure| !measure.is_word;
         let measures = measure::ALL.iter().filter(is_number).map(|measure| (measure.name, Kind::Number));

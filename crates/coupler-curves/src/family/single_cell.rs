@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{CellError, Family, ParameterSpace, Sampling, StraightCriterion, sort_by_dependency};
-use crate::expression::Kind;
+use crate::expression::{Kind, Scope};
 use crate::measure;
 use crate::problem::suggestion;
 use crate::template::{self, Template};
@@ -82,12 +82,16 @@ impl Family {
     ) -> Result<Family, ParameterErrors> {
         let names: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let known: Vec<&str> = names.iter().map(String::as_str).collect();
-        let scope: Vec<(&str, Kind)> = known.iter().map(|name| (*name, Kind::Number)).collect();
+        let scope = Scope::from_numbers(known.iter().copied());
+        let mut has_value = vec![false; names.len()];
         let mut case = Vec::new();
         let mut errors = Vec::new();
         for (name, value) in values {
-            match known.iter().position(|known| known == name) {
-                Some(slot) if case.iter().all(|(other, _)| *other != slot) => case.push((slot, *value)),
+            match scope.index_of(name) {
+                Some(slot) if !has_value[slot] => {
+                    has_value[slot] = true;
+                    case.push((slot, *value));
+                }
                 Some(_) => errors.push(ParameterError::Repeated { name: name.clone() }),
                 None => {
                     let suggestion = suggestion(name, &known);
@@ -95,9 +99,8 @@ impl Family {
                 }
             }
         }
-        let has_value = |slot: usize| case.iter().any(|(other, _)| *other == slot);
         let default = |(slot, parameter): (usize, &template::Parameter)| {
-            let expression = parameter.default.as_ref().filter(|_| !has_value(slot))?;
+            let expression = parameter.default.as_ref().filter(|_| !has_value[slot])?;
             Some((slot, expression.compile(&scope, Kind::Number).ok()?))
         };
         let defaults = template.parameters.iter().enumerate().filter_map(default).collect();

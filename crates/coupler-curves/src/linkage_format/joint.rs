@@ -2,9 +2,10 @@
 
 use super::fields::Fields;
 use super::joint_kinds::{DEFAULT_SLOT_ANGLE_DEG, JOINT_KINDS, MAX_GRID_POINTS, RANGE, SIDES, SLIDE_SIDES};
+use super::names::JointNames;
 use super::schema::TableSchema;
 use super::toml_parser::{TomlParser, TomlValue};
-use crate::expression::{CompiledExpression, Kind};
+use crate::expression::{CompiledExpression, Kind, Scope};
 use crate::problem::{Problem, suggestion};
 use crate::template::{Coordinate, InputValue, JointKindTemplate, Side};
 
@@ -12,8 +13,8 @@ use crate::template::{Coordinate, InputValue, JointKindTemplate, Side};
 pub(super) fn parse_joint<'t>(
     name: &str,
     value: &TomlValue<'t>,
-    names: &[&str],
-    scope: &[(&str, Kind)],
+    names: &JointNames,
+    scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<JointKindTemplate> {
     let any_fields = Fields::with_any_keys(value, "a joint", parser)?;
@@ -119,7 +120,7 @@ pub(super) fn parse_joint<'t>(
             let base = fields.get("point").and_then(|value| parse_joint_pair(value, names, parser));
             let mut coordinate = |key: &str| match fields.get(key) {
                 None => Some(Coordinate::Single(
-                    crate::expression::Expression::constant(0.0).compile(&[], Kind::Number).ok()?,
+                    crate::expression::Expression::constant(0.0).compile(&Scope::default(), Kind::Number).ok()?,
                 )),
                 Some(value) => parse_coordinate(value, scope, parser),
             };
@@ -135,11 +136,7 @@ pub(super) fn parse_joint<'t>(
     }
 }
 
-fn parse_coordinate<'t>(
-    value: &TomlValue<'t>,
-    scope: &[(&str, Kind)],
-    parser: &mut TomlParser<'t>,
-) -> Option<Coordinate> {
+fn parse_coordinate<'t>(value: &TomlValue<'t>, scope: &Scope, parser: &mut TomlParser<'t>) -> Option<Coordinate> {
     if value.get_ref().as_table().is_none() {
         return parser.numeric_expression(value, scope).map(Coordinate::Single);
     }
@@ -155,7 +152,7 @@ fn parse_coordinate<'t>(
 /// Parses two whole numbers from 1 to 100 or their negatives; those that depend on parameters are checked in each cell.
 fn parse_ratio<'t>(
     value: &TomlValue<'t>,
-    scope: &[(&str, Kind)],
+    scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<[CompiledExpression; 2]> {
     let [a, b] = parser.pair(value)?;
@@ -179,11 +176,7 @@ fn parse_side<'t>(fields: &Fields<'_, 't>, words: &[(&str, Side)], parser: &mut 
 }
 
 /// Parses the length of a link.
-fn parse_length<'t>(
-    fields: &Fields<'_, 't>,
-    scope: &[(&str, Kind)],
-    parser: &mut TomlParser<'t>,
-) -> Option<CompiledExpression> {
+fn parse_length<'t>(fields: &Fields<'_, 't>, scope: &Scope, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
     let value = fields.required("length", "length = 1", parser)?;
     let length = parser.numeric_expression(value, scope)?;
     check_positive(&length, value, parser);
@@ -200,11 +193,7 @@ fn check_positive<'t>(length: &CompiledExpression, value: &TomlValue<'t>, parser
 }
 
 /// Parses the offset of a line; 0 by default.
-fn parse_offset<'t>(
-    fields: &Fields<'_, 't>,
-    scope: &[(&str, Kind)],
-    parser: &mut TomlParser<'t>,
-) -> Option<CompiledExpression> {
+fn parse_offset<'t>(fields: &Fields<'_, 't>, scope: &Scope, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
     match fields.get("offset") {
         None => Some(CompiledExpression::constant(0.0)),
         Some(value) => parser.numeric_expression(value, scope),
@@ -212,18 +201,22 @@ fn parse_offset<'t>(
 }
 
 /// The index of a joint by its name.
-pub(super) fn parse_joint_ref<'t>(value: &TomlValue<'t>, names: &[&str], parser: &mut TomlParser<'t>) -> Option<usize> {
+pub(super) fn parse_joint_ref<'t>(
+    value: &TomlValue<'t>,
+    names: &JointNames,
+    parser: &mut TomlParser<'t>,
+) -> Option<usize> {
     let name = parser.text(value)?;
-    let index = names.iter().position(|n| *n == name);
+    let index = names.index_of(&name);
     if index.is_none() {
         let problem = Problem::error(value.span(), format!("unknown joint `{name}`"));
-        parser.report(problem.with_help(suggestion(&name, names)));
+        parser.report(problem.with_help(suggestion(&name, names.all())));
     }
     index
 }
 
 /// The indices of three different joints by their names.
-fn parse_corners<'t>(value: &TomlValue<'t>, names: &[&str], parser: &mut TomlParser<'t>) -> Option<[usize; 3]> {
+fn parse_corners<'t>(value: &TomlValue<'t>, names: &JointNames, parser: &mut TomlParser<'t>) -> Option<[usize; 3]> {
     let list = parser.list(value)?;
     let [a, b, c] = list else {
         let problem =
@@ -236,7 +229,7 @@ fn parse_corners<'t>(value: &TomlValue<'t>, names: &[&str], parser: &mut TomlPar
     let corners = [a?, b?, c?];
     let repeated = (0..3).find(|&k| corners[..k].contains(&corners[k]));
     if let Some(k) = repeated {
-        let problem = Problem::error(list[k].span(), format!("`{}` is named twice", names[corners[k]]));
+        let problem = Problem::error(list[k].span(), format!("`{}` is named twice", names.all()[corners[k]]));
         parser.report(problem.with_help("name three different joints"));
         return None;
     }
@@ -246,14 +239,14 @@ fn parse_corners<'t>(value: &TomlValue<'t>, names: &[&str], parser: &mut TomlPar
 /// The indices of two different joints by their names.
 pub(super) fn parse_joint_pair<'t>(
     value: &TomlValue<'t>,
-    names: &[&str],
+    names: &JointNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<[usize; 2]> {
     let [a, b] = parser.pair(value)?;
     let (a, b) = (parse_joint_ref(a, names, parser), parse_joint_ref(b, names, parser));
     let (a, b) = (a?, b?);
     if a == b {
-        let problem = Problem::error(value.span(), format!("`{}` is named twice", names[a]));
+        let problem = Problem::error(value.span(), format!("`{}` is named twice", names.all()[a]));
         parser.report(problem.with_help("name two different joints"));
         return None;
     }

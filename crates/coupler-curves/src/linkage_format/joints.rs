@@ -1,9 +1,12 @@
 //! Parses the `[linkage.joints]` table: joint by joint, then sorted so that each can be placed.
 
+use std::collections::{HashMap, HashSet};
+
 use super::fields::Fields;
 use super::joint::{parse_joint, parse_joint_pair, parse_joint_ref};
+use super::names::JointNames;
 use super::toml_parser::{TomlParser, TomlValue};
-use crate::expression::Kind;
+use crate::expression::Scope;
 use crate::problem::{Problem, Span};
 use crate::template::{Coordinate, DependencyCycle, JointKindTemplate, JointTemplate, dependency_order};
 
@@ -19,11 +22,11 @@ pub(super) struct ParsedJoints {
 pub(super) fn parse_joints<'t>(
     value: &TomlValue<'t>,
     linkage: &Fields<'_, 't>,
-    scope: &[(&str, Kind)],
+    scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<ParsedJoints> {
     let table = Fields::with_any_keys(value, "`joints`", parser)?;
-    let names = table.keys();
+    let names = JointNames::new(table.keys());
     let entries: Vec<(&str, Span, &TomlValue<'t>)> = table.entries().collect();
     let parsed: Vec<Option<JointKindTemplate>> =
         entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
@@ -32,20 +35,23 @@ pub(super) fn parse_joints<'t>(
     check_inputs(&entries, &parsed, &table, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
-    let order = order_joints(&entries, &placings, parser)?;
+    let needs = dependencies(&placings);
+    let order = order_joints(&entries, &needs, parser)?;
     let traced = traced?;
     let seen_from = match seen_from {
         None => None,
         Some(joints) => Some(joints?),
     };
-    check_unused(&entries, &placings, &traced, seen_from, parser);
+    check_unused(&entries, (&placings, &needs), &traced, seen_from, parser);
     if seen_from.is_none() {
-        check_traced_joints_move(&entries, &placings, &order, &traced, parser);
+        check_traced_joints_move(&entries, (&placings, &needs), &order, &traced, parser);
     }
-    let new_index = |joint: usize| order.iter().position(|&k| k == joint).unwrap_or(joint);
+    let mut new_indices = vec![0; order.len()];
+    order.iter().zip(0..).for_each(|(&joint, index)| new_indices[joint] = index);
+    let new_index = |joint: usize| new_indices[joint];
     let joints = order
         .iter()
-        .map(|&k| JointTemplate { name: names[k].to_owned(), kind: placings[k].clone().map_joints(new_index) })
+        .map(|&k| JointTemplate { name: names.all()[k].to_owned(), kind: placings[k].clone().map_joints(new_index) })
         .collect();
     let spans = entries.iter().map(|(name, span, _)| ((*name).to_owned(), span.clone())).collect();
     Some(ParsedJoints {
@@ -63,7 +69,7 @@ pub(super) fn has_piston(linkage: &Fields) -> bool {
     joints.is_some_and(|joints| joints.values().any(is_piston))
 }
 
-fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &[&str], parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
+fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &JointNames, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
     let value = linkage.required("trace", "trace = [\"M\"]", parser)?;
     let list = parser.list(value)?;
     if list.is_empty() {
@@ -72,9 +78,10 @@ fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &[&str], parser: &mut TomlP
     }
     let traced: Vec<Option<usize>> = list.iter().map(|value| parse_joint_ref(value, names, parser)).collect();
     let traced: Vec<usize> = traced.into_iter().collect::<Option<_>>()?;
+    let mut seen = HashSet::new();
     for (k, joint) in traced.iter().enumerate() {
-        if traced[..k].contains(joint) {
-            let problem = Problem::error(list[k].span(), format!("`{}` is traced twice", names[*joint]));
+        if !seen.insert(joint) {
+            let problem = Problem::error(list[k].span(), format!("`{}` is traced twice", names.all()[*joint]));
             parser.report(problem.with_help("name each joint once"));
         }
     }
@@ -131,25 +138,32 @@ fn check_grids(entries: &[(&str, Span, &TomlValue)], placings: &[JointKindTempla
     }
 }
 
-/// The joints a joint is placed from: those it names, and, for a point of the link that carries a slot's line, the
+/// The joints each joint is placed from: those it names, and, for a point of the link that carries a slot's line, the
 /// slot's foot, which the point does not name but which creates that link. Actuators and sliders are named.
-fn dependencies(placings: &[JointKindTemplate], k: usize) -> Vec<usize> {
-    let mut bases = placings[k].referenced_joints();
-    if let JointKindTemplate::Point { base, .. } | JointKindTemplate::Distances { base, .. } = &placings[k] {
-        let carries =
-            |other: &JointKindTemplate| matches!(other, JointKindTemplate::Slot { base: slot, .. } if slot == base);
-        bases.extend(placings.iter().position(carries));
+fn dependencies(placings: &[JointKindTemplate]) -> Vec<Vec<usize>> {
+    let mut slots: HashMap<[usize; 2], usize> = HashMap::new();
+    for (k, placing) in placings.iter().enumerate() {
+        if let JointKindTemplate::Slot { base, .. } = placing {
+            slots.entry(*base).or_insert(k);
+        }
     }
-    bases
+    let needs = |placing: &JointKindTemplate| {
+        let mut needs = placing.referenced_joints();
+        if let JointKindTemplate::Point { base, .. } | JointKindTemplate::Distances { base, .. } = placing {
+            needs.extend(slots.get(base));
+        }
+        needs
+    };
+    placings.iter().map(needs).collect()
 }
 
 /// An order in which every joint comes after those it is placed from; the order as written, if it is one.
 fn order_joints(
     entries: &[(&str, Span, &TomlValue)],
-    placings: &[JointKindTemplate],
+    needs: &[Vec<usize>],
     parser: &mut TomlParser,
 ) -> Option<Vec<usize>> {
-    match dependency_order(placings.len(), |k| dependencies(placings, k)) {
+    match dependency_order(needs.len(), |k| needs[k].clone()) {
         Ok(order) => Some(order),
         Err(DependencyCycle { cycle, unresolved }) => {
             let names = |joints: &[usize]| joints.iter().map(|&k| format!("`{}`", entries[k].0)).collect::<Vec<_>>();
@@ -177,21 +191,22 @@ fn order_joints(
 /// there for its links alone.
 fn check_unused(
     entries: &[(&str, Span, &TomlValue)],
-    placings: &[JointKindTemplate],
+    (placings, needs): (&[JointKindTemplate], &[Vec<usize>]),
     traced: &[usize],
     seen_from: Option<[usize; 2]>,
     parser: &mut TomlParser,
 ) {
+    let mut is_used = vec![false; placings.len()];
+    let used = needs.iter().flatten().chain(traced).chain(seen_from.iter().flatten());
+    used.for_each(|&k| is_used[k] = true);
     for (k, (name, span, _)) in entries.iter().enumerate() {
-        let carries = (0..placings.len()).any(|other| dependencies(placings, other).contains(&k));
-        let is_seen = seen_from.is_some_and(|joints| joints.contains(&k));
         let has_links = matches!(
             placings[k],
             JointKindTemplate::Crank { .. }
                 | JointKindTemplate::Piston { .. }
                 | JointKindTemplate::Parallelogram { .. }
         );
-        if !carries && !is_seen && !has_links && !traced.contains(&k) {
+        if !is_used[k] && !has_links {
             let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
             parser.report(problem.with_help(format!("trace it, place another joint from it, or remove `{name}`")));
         }
@@ -202,7 +217,7 @@ fn check_unused(
 /// not apply: relative to a moving link, fixed joints move.
 fn check_traced_joints_move(
     entries: &[(&str, Span, &TomlValue)],
-    placings: &[JointKindTemplate],
+    (placings, needs): (&[JointKindTemplate], &[Vec<usize>]),
     order: &[usize],
     traced: &[usize],
     parser: &mut TomlParser,
@@ -213,7 +228,7 @@ fn check_traced_joints_move(
             placings[k],
             JointKindTemplate::Crank { .. } | JointKindTemplate::Gear { .. } | JointKindTemplate::Piston { .. }
         );
-        moves[k] = is_driven || dependencies(placings, k).iter().any(|&need| moves[need]);
+        moves[k] = is_driven || needs[k].iter().any(|&need| moves[need]);
     }
     for &k in traced.iter().filter(|&&k| !moves[k]) {
         let (name, span) = (entries[k].0, entries[k].1.clone());

@@ -5,7 +5,7 @@ use super::joint_kinds::JOINT_KINDS;
 use super::joints;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::toml_parser::{TomlParser, TomlValue};
-use crate::expression::Kind;
+use crate::expression::{Kind, Scope};
 use crate::problem::{Problem, Span};
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, InputValue, Orientation, Parameter, Template};
 
@@ -124,7 +124,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
     let fields = Fields::from_value(value, &LINKAGE, parser)?;
     let id = fields.required("id", "id = \"my-linkage\"", parser).and_then(|value| parse_slug(value, parser));
     let parameters = fields.get("parameters").map(|value| parse_parameters(value, parser)).unwrap_or_default();
-    let scope: Vec<(&str, Kind)> = parameters.iter().map(|p| (p.name.as_str(), Kind::Number)).collect();
+    let scope = Scope::from_numbers(parameters.iter().map(|parameter| parameter.name.as_str()));
     let text = |key: &str, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.text(value));
     let source = text("source", parser).unwrap_or_default();
     let legend = text("legend", parser).unwrap_or_default();
@@ -205,8 +205,7 @@ fn is_windows_device(name: &str) -> bool {
 
 fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Vec<Parameter> {
     let Some(table) = Fields::with_any_keys(value, "`parameters`", parser) else { return Vec::new() };
-    let names = table.keys();
-    let scope: Vec<(&str, Kind)> = names.iter().map(|name| (*name, Kind::Number)).collect();
+    let scope = Scope::from_numbers(table.keys());
     let mut out = Vec::new();
     for (name, span, value) in table.entries() {
         check_identifier(name, span, parser);
@@ -245,7 +244,7 @@ pub fn check_identifier(name: &str, span: Span, parser: &mut TomlParser) {
 fn parse_input_range<'t>(
     value: &TomlValue<'t>,
     schema: &'static TableSchema,
-    (is_length, scope): (bool, &[(&str, Kind)]),
+    (is_length, scope): (bool, &Scope),
     parser: &mut TomlParser<'t>,
 ) -> Option<[InputValue; 2]> {
     let fields = Fields::from_value(value, schema, parser)?;
@@ -260,7 +259,7 @@ fn parse_input_range<'t>(
 /// Parses an `arc` table: the input range and the branch.
 fn parse_arc<'t>(
     value: &TomlValue<'t>,
-    scope: (bool, &[(&str, Kind)]),
+    scope: (bool, &Scope),
     parser: &mut TomlParser<'t>,
 ) -> Option<([InputValue; 2], i8)> {
     let range = parse_input_range(value, &ARC, scope, parser)?;

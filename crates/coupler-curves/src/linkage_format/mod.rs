@@ -6,6 +6,7 @@ mod joint;
 mod joint_kinds;
 mod joints;
 mod linkage;
+mod names;
 mod schema;
 mod toml_parser;
 
@@ -16,7 +17,7 @@ pub use linkage::{
     check_identifier, parse_slug, parse_template,
 };
 pub use schema::{KeySchema, TableSchema, ValueSchema, words};
-pub use toml_parser::{TomlParser, TomlValue};
+pub use toml_parser::{MAX_PROBLEMS, TomlParser, TomlValue};
 
 use linkage::LINKAGE;
 

@@ -3,23 +3,28 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity};
+use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity, Scope};
 use crate::problem::{Problem, Span};
 use crate::template::InputValue;
 
 /// A TOML value and its span in the text.
 pub type TomlValue<'t> = Spanned<DeValue<'t>>;
 
-/// Parses a TOML text and collects its problems.
+/// The most problems of a text that are reported; a text with more is not what it was meant to be.
+pub const MAX_PROBLEMS: usize = 500;
+
+/// Parses a TOML text and collects its problems, at most [`MAX_PROBLEMS`].
 pub struct TomlParser<'t> {
     text: &'t str,
     problems: Vec<Problem>,
+    /// The number of problems, including those that are not collected.
+    problem_count: usize,
 }
 
 impl<'t> TomlParser<'t> {
     /// A parser of a text.
     pub fn new(text: &'t str) -> TomlParser<'t> {
-        TomlParser { text, problems: Vec::new() }
+        TomlParser { text, problems: Vec::new(), problem_count: 0 }
     }
 
     /// The document; after a syntax error, as much of it as can be recovered.
@@ -37,17 +42,26 @@ impl<'t> TomlParser<'t> {
 
     /// Adds a problem; parsing continues.
     pub fn report(&mut self, problem: Problem) {
-        self.problems.push(problem);
+        self.problem_count += 1;
+        if self.problems.len() < MAX_PROBLEMS {
+            self.problems.push(problem);
+        }
     }
 
     /// The number of problems reported so far.
     pub fn problem_count(&self) -> usize {
-        self.problems.len()
+        self.problem_count
     }
 
-    /// The problems reported.
+    /// The problems reported; if there are more than [`MAX_PROBLEMS`], the last states how many more.
     pub fn into_problems(self) -> Vec<Problem> {
-        self.problems
+        let mut problems = self.problems;
+        if self.problem_count > problems.len() {
+            let message = format!("there are {} more problems", self.problem_count - problems.len());
+            let end = self.text.len();
+            problems.push(Problem::error(end..end, message).with_help("correct those above first"));
+        }
+        problems
     }
 
     /// Reports a value of another type than expected.
@@ -160,7 +174,7 @@ impl<'t> TomlParser<'t> {
     }
 
     /// A number, or a numeric expression over the names of `scope`.
-    pub fn numeric_expression(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<CompiledExpression> {
+    pub fn numeric_expression(&mut self, value: &TomlValue<'t>, scope: &Scope) -> Option<CompiledExpression> {
         let expression = self.expression(value)?;
         let compiled = expression.compile(scope, Kind::Number);
         self.ok_or_report(value, compiled)
@@ -168,12 +182,12 @@ impl<'t> TomlParser<'t> {
 
     /// A number, or an expression without names.
     pub fn constant(&mut self, value: &TomlValue<'t>) -> Option<f64> {
-        let compiled = self.numeric_expression(value, &[])?;
+        let compiled = self.numeric_expression(value, &Scope::default())?;
         self.require_finite(value, compiled.evaluate(|_| f64::NAN))
     }
 
     /// A value of the input over the names of `scope`: an angle with its unit, or a length without a unit.
-    pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &[(&str, Kind)]) -> Option<InputValue> {
+    pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &Scope) -> Option<InputValue> {
         if is_length {
             return Some(InputValue { value: self.input_length(value, scope)?, unit: None });
         }
@@ -181,7 +195,7 @@ impl<'t> TomlParser<'t> {
     }
 
     /// An input that is a length, in the manifest's unit: a number, or an expression without a unit.
-    pub fn input_length(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<CompiledExpression> {
+    pub fn input_length(&mut self, value: &TomlValue<'t>, scope: &Scope) -> Option<CompiledExpression> {
         let is_angle = |text: &str| Quantity::parse(text, Dimension::Angle).is_ok();
         if value.get_ref().as_str().is_some_and(is_angle) {
             let problem = Problem::error(value.span(), "expected a length, found an angle");
@@ -192,7 +206,7 @@ impl<'t> TomlParser<'t> {
     }
 
     /// An angle over the names of `scope`.
-    pub fn angle(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)]) -> Option<InputValue> {
+    pub fn angle(&mut self, value: &TomlValue<'t>, scope: &Scope) -> Option<InputValue> {
         let quantity = self.quantity(value, Dimension::Angle)?;
         let compiled = quantity.expression.compile(scope, Kind::Number);
         Some(InputValue { value: self.ok_or_report(value, compiled)?, unit: Some(quantity.unit) })
@@ -210,7 +224,7 @@ impl<'t> TomlParser<'t> {
     /// An angle in degrees, or a length on paper in millimetres, without names.
     pub fn constant_quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<f64> {
         let quantity = self.quantity(value, dimension)?;
-        let compiled = quantity.expression.compile(&[], Kind::Number);
+        let compiled = quantity.expression.compile(&Scope::default(), Kind::Number);
         self.ok_or_report(value, compiled)?;
         self.require_finite(value, quantity.evaluate(|_| f64::NAN))
     }
@@ -236,13 +250,16 @@ impl<'t> TomlParser<'t> {
     }
 
     /// A caption with expressions over `scope`; each of `words` may be used as an expression by itself.
-    pub fn caption(&mut self, value: &TomlValue<'t>, scope: &[(&str, Kind)], words: &[&str]) -> Option<Caption> {
+    pub fn caption(&mut self, value: &TomlValue<'t>, scope: &Scope, words: &[&str]) -> Option<Caption> {
         let text = self.text(value)?;
         let unfold = |error: expression::Error| expression::Error { span: unfold_span(value, error.span), ..error };
         let parsed = Caption::parse(&text).map_err(unfold);
         let caption = self.ok_or_report(value, parsed)?;
         for (expression, start) in caption.expressions() {
             let is_word = expression.as_name().is_some_and(|name| words.contains(&name));
+            if self.problem_count >= MAX_PROBLEMS {
+                break;
+            }
             if let (Err(error), false) = (expression.compile(scope, Kind::Number), is_word) {
                 let span = start + error.span.start..start + error.span.end;
                 self.ok_or_report::<()>(value, Err(unfold(expression::Error { span, ..error })));

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{MAX_ASSEMBLY_MODES, MAX_SAMPLES};
+use super::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
 
 /// Why a linkage cannot be assembled at all, or not over the whole input range requested.
 ///
@@ -19,6 +19,17 @@ pub enum AssemblyError {
     TooManySamples {
         /// The step.
         step: f64,
+    },
+    /// The positions on its circuits are too many to be computed.
+    #[error(
+        "its circuits, of which there are {circuits}, would take about {} MB, more than the limit of {} MB",
+        bytes.div_ceil(1_000_000), MAX_CIRCUIT_BYTES / 1_000_000
+    )]
+    TooMuchMemory {
+        /// The memory they would take, in bytes.
+        bytes: usize,
+        /// The number of circuits.
+        circuits: usize,
     },
     /// The base of a dyad is longer than its links reach, at every input.
     #[error(

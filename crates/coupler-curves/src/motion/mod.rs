@@ -28,6 +28,7 @@ mod instantaneous_motion;
 mod interval;
 mod interval_search;
 mod joint_series;
+mod memory;
 mod pass;
 mod pass_ends;
 mod pass_positions;
@@ -42,6 +43,7 @@ pub use assembly_error::AssemblyError;
 pub use derivatives::JointDerivatives;
 pub use instantaneous_motion::InstantaneousMotion;
 pub use interval_search::MAX_ASSEMBLY_MODES;
+pub use memory::{MAX_CIRCUIT_BYTES, estimate_bytes};
 pub use pass::{InputPosition, Pass, PassEnd};
 pub use path::{Dash, DashPattern, JointPath, joint_paths};
 pub use positions::{DyadSigns, InputSlices, JointPositions, place_leading_joints};
@@ -65,6 +67,9 @@ impl Motion {
     pub fn solve(linkage: &Linkage, sampler: &Sampler) -> Motion {
         let found = circuit::find_circuits(linkage);
         if let Some(error) = found.circuits.iter().find_map(|circuit| sampler.excess_error(circuit)) {
+            return Motion { circuits: Vec::new(), assembly_error: Some(error) };
+        }
+        if let Some(error) = memory::memory_error(linkage, &found.circuits, sampler) {
             return Motion { circuits: Vec::new(), assembly_error: Some(error) };
         }
         let circuits: Vec<Circuit> =

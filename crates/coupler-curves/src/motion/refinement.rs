@@ -13,15 +13,20 @@ const FINE_SAMPLES: usize = 360;
 /// The sampler with [`FINE_SAMPLES`] samples, and its table of sines and cosines.
 static FINE_SAMPLER: LazyLock<Sampler> = LazyLock::new(|| Sampler::new(Sampling::DenseAtLimits(FINE_SAMPLES)));
 
+/// The number of samples of a refined circuit of a linkage.
+pub(super) fn refined_sample_count(linkage: &Linkage) -> usize {
+    let turns = match linkage.input() {
+        Input::Angle { turns } => turns as usize,
+        Input::Length => 1,
+    };
+    FINE_SAMPLES.saturating_mul(turns).min(MAX_SAMPLES)
+}
+
 impl Circuit {
     /// The same circuit with enough samples for its curves to be interpolated, denser towards limits; this circuit, if
     /// it has as many.
     pub fn refined(&self, linkage: &Linkage) -> &Circuit {
-        let turns = match linkage.input() {
-            Input::Angle { turns } => turns as usize,
-            Input::Length => 1,
-        };
-        let samples = FINE_SAMPLES.saturating_mul(turns).min(MAX_SAMPLES);
+        let samples = refined_sample_count(linkage);
         if self.len() >= samples {
             return self;
         }

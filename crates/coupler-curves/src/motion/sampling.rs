@@ -137,6 +137,16 @@ impl Sampler {
         circuit.passes.iter().any(is_long).then_some(AssemblyError::TooManySamples { step })
     }
 
+    /// The number of samples of a circuit, or a few more.
+    pub(super) fn sample_count(&self, circuit: &UnsampledCircuit) -> usize {
+        match self.sampling {
+            Sampling::Step(step) => circuit.passes.iter().map(|pass| (pass.input_length() / step) as usize + 2).sum(),
+            Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => {
+                n.max(circuit.passes.len() + 1)
+            }
+        }
+    }
+
     /// Samples a circuit.
     pub(super) fn sample_circuit(&self, linkage: &Linkage, circuit: UnsampledCircuit) -> Circuit {
         let mut plan = self.plan_samples(&circuit, linkage);

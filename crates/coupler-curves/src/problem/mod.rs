@@ -7,7 +7,7 @@ mod report;
 mod suggestion;
 
 pub use report::report;
-pub use suggestion::{nearest_word, suggestion};
+pub use suggestion::{list_words, nearest_word, suggestion, suggestion_among};
 
 use std::ops::Range;
 

@@ -11,12 +11,13 @@ pub fn report(problems: &[Problem], path: &str, text: &str, styled: bool) -> Str
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
     let mut ordered: Vec<&Problem> = problems.iter().collect();
     ordered.sort_by_key(|p| (p.severity != Severity::Error, p.span.start));
+    let line_starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
     let mut out = String::new();
     for problem in ordered {
         let Problem { message, label, help, .. } = problem;
         let [message, label, help] = [message, label, help].map(|text| replace_control_chars(text));
         let sanitized = Problem { message, label, help, ..problem.clone() };
-        out.push_str(&renderer.render(&[group(&sanitized, path, text)]));
+        out.push_str(&renderer.render(&[group(&sanitized, path, Excerpt::around(problem, text, &line_starts))]));
         out.push_str("\n\n");
     }
     // In the text itself the renderer replaces ASCII control characters, but not the C1 ones, which terminals obey too.
@@ -28,21 +29,44 @@ fn replace_control_chars(message: &str) -> String {
     message.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
 }
 
-fn group<'a>(problem: &'a Problem, path: &'a str, text: &'a str) -> annotate_snippets::Group<'a> {
+fn group<'a>(problem: &'a Problem, path: &'a str, excerpt: Excerpt<'a>) -> annotate_snippets::Group<'a> {
     let level = match problem.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let annotation = AnnotationKind::Primary.span(underlined_span(problem, text));
+    let annotation = AnnotationKind::Primary.span(excerpt.underlined);
     let annotation = match problem.label.as_str() {
         "" => annotation,
         label => annotation.label(label),
     };
-    let group =
-        level.primary_title(problem.message.as_str()).element(Snippet::source(text).path(path).annotation(annotation));
+    let snippet = Snippet::source(excerpt.lines).line_start(excerpt.first_line).path(path).annotation(annotation);
+    let group = level.primary_title(problem.message.as_str()).element(snippet);
     match problem.help.as_str() {
         "" => group,
         help => group.element(Level::HELP.message(help)),
+    }
+}
+
+/// The lines of a text around a problem. The renderer reads all lines that it is given, and so gets only these.
+struct Excerpt<'a> {
+    lines: &'a str,
+    /// The number of the first line, from 1.
+    first_line: usize,
+    /// The underlined part of `lines`.
+    underlined: std::ops::Range<usize>,
+}
+
+impl<'a> Excerpt<'a> {
+    /// The lines of `text` around a problem; `line_starts` are the indices at which lines start.
+    fn around(problem: &Problem, text: &'a str, line_starts: &[usize]) -> Excerpt<'a> {
+        let span = underlined_span(problem, text);
+        let line = line_starts.partition_point(|&start| start <= span.start);
+        // Two more lines on either side, for a problem at the end of the text or of a line.
+        let first = line.saturating_sub(3);
+        let end = line_starts.get(line + 2).copied().unwrap_or(text.len());
+        let start = line_starts[first];
+        let underlined = span.start - start..span.end - start;
+        Excerpt { lines: &text[start..end], first_line: first + 1, underlined }
     }
 }
 

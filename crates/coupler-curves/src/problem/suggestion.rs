@@ -1,9 +1,34 @@
+/// The most characters of a word for which near words are searched; a longer one is a mistake of another kind.
+const MAX_LENGTH: usize = 64;
+
+/// The most candidates that are considered, and the most of similar length that are compared with a word, so that the
+/// time for a problem does not grow with their number.
+const MAX_CANDIDATES: usize = 1000;
+const MAX_COMPARED: usize = 200;
+
+/// The most words that a message lists.
+const MAX_LISTED: usize = 40;
+
 /// The candidate with the least edit distance from `word`, if that is at most a third of the word's length, or 1.
+///
+/// Of more than a thousand candidates, only the first are compared.
 pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = (word.chars().count() / 3).max(1);
+    let length = word.chars().take(MAX_LENGTH + 1).count();
+    if length > MAX_LENGTH {
+        return None;
+    }
+    let allowed = (length / 3).max(1);
+    let letters = lowercase_letters(word);
+    // A letter has at most four bytes.
+    let may_be_near = |candidate: &&str| candidate.len() <= 4 * (length + allowed);
+    let is_near_in_length = |candidate: &&str| candidate.chars().count().abs_diff(length) <= allowed;
     candidates
         .into_iter()
-        .map(|candidate| (edit_distance(word, candidate), candidate))
+        .take(MAX_CANDIDATES)
+        .filter(may_be_near)
+        .filter(is_near_in_length)
+        .take(MAX_COMPARED)
+        .map(|candidate| (edit_distance(&letters, &lowercase_letters(candidate)), candidate))
         .filter(|&(distance, _)| distance <= allowed)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
@@ -11,39 +36,64 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
 
 /// The help for an unknown word: the nearest candidate, or all of them if none is near.
 pub fn suggestion(word: &str, candidates: &[&str]) -> String {
-    match nearest_word(word, candidates.iter().copied()) {
+    suggestion_among(word, candidates.iter().copied(), candidates.len())
+}
+
+/// As [`suggestion`], without a list of the candidates; `count` is their number.
+pub fn suggestion_among<'a>(word: &str, candidates: impl Iterator<Item = &'a str> + Clone, count: usize) -> String {
+    match nearest_word(word, candidates.clone()) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
-        None if candidates.is_empty() => "none are defined".to_owned(),
-        None => format!("it can be {}", alternatives(candidates)),
+        None if count == 0 => "none are defined".to_owned(),
+        None => format!("it can be {}", alternatives(candidates, count)),
     }
 }
 
-fn alternatives(words: &[&str]) -> String {
-    let quoted: Vec<String> = words.iter().map(|w| format!("`{w}`")).collect();
+/// Words in a list; of very many, only the first, and the number of the others.
+pub fn list_words(words: &[&str]) -> String {
+    let listed = &words[..words.len().min(MAX_LISTED)];
+    match words.len() - listed.len() {
+        0 => listed.join(", "),
+        more => format!("{} and {more} more", listed.join(", ")),
+    }
+}
+
+fn alternatives<'a>(words: impl Iterator<Item = &'a str>, count: usize) -> String {
+    let quoted: Vec<String> = words.take(MAX_LISTED).map(|w| format!("`{w}`")).collect();
+    if count > quoted.len() {
+        return format!("{} or one of {} more", quoted.join(", "), count - quoted.len());
+    }
     match quoted.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
         _ => quoted.concat(),
     }
 }
 
-/// The number of letters to insert, remove, replace or swap with a neighbour to turn `a` into `b`, ignoring case
-/// (optimal string alignment).
-fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
-    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
-    rows[0] = (0..=b.len()).collect();
+fn lowercase_letters(word: &str) -> Vec<char> {
+    word.chars().flat_map(char::to_lowercase).collect()
+}
+
+/// The number of letters to insert, remove, replace or swap with a neighbour to turn `a` into `b` (optimal string
+/// alignment).
+fn edit_distance(a: &[char], b: &[char]) -> usize {
+    // The rows of the two prefixes of `a` before the current one, and of the current one.
+    let mut before: Vec<usize> = Vec::with_capacity(b.len() + 1);
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    let mut row: Vec<usize> = Vec::with_capacity(b.len() + 1);
     for i in 1..=a.len() {
-        rows[i][0] = i;
+        row.clear();
+        row.push(i);
         for j in 1..=b.len() {
-            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut best = replaced.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+            let replaced = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut best = replaced.min(last[j] + 1).min(row[j - 1] + 1);
             if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                best = best.min(rows[i - 2][j - 2] + 1);
+                best = best.min(before[j - 2] + 1);
             }
-            rows[i][j] = best;
+            row.push(best);
         }
+        std::mem::swap(&mut before, &mut last);
+        std::mem::swap(&mut last, &mut row);
     }
-    rows[a.len()][b.len()]
+    last[b.len()]
 }
 
 #[cfg(test)]
@@ -59,5 +109,16 @@ mod tests {
             assert_eq!(nearest_word(word, keys), meant, "{word}");
         }
         assert_eq!(suggestion("zzz", &["a1", "b1", "c1"]), "it can be `a1`, `b1` or `c1`");
+    }
+
+    #[test]
+    fn long_words_and_long_lists_are_shortened() {
+        let names: Vec<String> = (0..1000).map(|k| format!("name{k}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        assert_eq!(nearest_word(&"name".repeat(1000), names.iter().copied()), None);
+        assert_eq!(suggestion("nmae7", &names), "did you mean `name7`?");
+        let listed = suggestion("zzz", &names);
+        assert!(listed.ends_with("`name38`, `name39` or one of 960 more"), "{listed}");
+        assert!(list_words(&names).ends_with("name39 and 960 more"));
     }
 }

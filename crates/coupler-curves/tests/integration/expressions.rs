@@ -1,6 +1,6 @@
 //! Parsed expressions against expression trees that are evaluated independently.
 
-use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity};
+use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity, Scope};
 use coupler_curves::geometry::trig;
 use proptest::prelude::*;
 
@@ -180,7 +180,7 @@ proptest! {
     fn no_text_makes_the_parser_panic(any: String, nearly in NEARLY) {
         for text in [any, nearly] {
             assert_error_is_placed(Expression::parse(&text), &text);
-            assert_error_is_placed(Expression::parse(&text).and_then(|parsed| parsed.check(&["p"], |_| None)), &text);
+            assert_error_is_placed(Expression::parse(&text).and_then(|parsed| parsed.check(&Scope::from_numbers(["p"]))), &text);
             assert_error_is_placed(Caption::parse(&text), &text);
             assert_error_is_placed(Quantity::parse(&text, Dimension::Angle), &text);
             assert_error_is_placed(Quantity::parse(&text, Dimension::PaperLength), &text);

@@ -8,6 +8,10 @@ use coupler_curves::family::Family;
 /// The most numbers kept of a family, which are 16 MB. Curves beyond that are only counted.
 pub const MAX_NUMBERS: usize = 1 << 21;
 
+/// The most curves kept of a family, each of which takes some hundred bytes in addition to its numbers. Curves beyond
+/// that are only counted.
+pub const MAX_CURVES: usize = 200_000;
+
 /// A line of a chart. A point with a value that is not finite is a gap in it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
@@ -32,7 +36,7 @@ pub struct ChartData {
     pub series: Vec<Series>,
     /// The number of curves of the family.
     pub curve_count: usize,
-    /// The number of curves that are left out because of [`MAX_NUMBERS`].
+    /// The number of curves that are left out because of [`MAX_NUMBERS`] and [`MAX_CURVES`].
     pub left_out_count: usize,
 }
 
@@ -74,7 +78,7 @@ impl<'a> ChartBuilder<'a> {
     pub fn add(&mut self, sample: ChartSample) {
         self.curve_count += 1;
         self.number_count += sample.numbers.len();
-        if self.number_count > MAX_NUMBERS {
+        if self.number_count > MAX_NUMBERS || self.curve_count > MAX_CURVES {
             self.left_out_count += 1;
             return;
         }
@@ -154,19 +158,22 @@ impl<'a> ChartBuilder<'a> {
         let (traces, circuits) = (varies(|key| key.2), varies(|key| key.3));
         let differs = |k: &usize| self.groups.iter().any(|group| group[*k] != self.groups[0][*k]);
         let names: Vec<usize> = (0..self.chart.group_by.len()).filter(differs).collect();
-        let label = |&(group, cell, trace, circuit): &LineKey| {
+        // The keys are in order of groups and then of cells.
+        let groups = keys.chunk_by(|a, b| a.0 == b.0);
+        let has_several_cells: Vec<bool> =
+            groups.flat_map(|keys| keys.iter().map(|_| keys[0].1 != keys[keys.len() - 1].1)).collect();
+        let label = |(&(group, cell, trace, circuit), &needs_cell): (&LineKey, &bool)| {
             let value = |&k: &usize| {
                 let name = &self.family.names[self.chart.group_by[k]];
                 format!("{name} = {}", round_to_six_digits(self.groups[group][k]))
             };
             let mut parts: Vec<String> = names.iter().map(value).collect();
-            let needs_cell = keys.iter().any(|key| key.0 == group && key.1 != cell);
             parts.extend(needs_cell.then(|| format!("no. {cell}")));
             parts.extend(traces.then(|| format!("trace {trace}")));
             parts.extend(circuits.then(|| format!("circuit {circuit}")));
             parts.join(", ")
         };
-        keys.iter().map(label).collect()
+        keys.iter().zip(&has_several_cells).map(label).collect()
     }
 }
 

@@ -8,7 +8,7 @@ mod builder;
 mod sample;
 mod scope;
 
-pub use builder::{ChartBuilder, ChartData, MAX_NUMBERS, Series};
+pub use builder::{ChartBuilder, ChartData, MAX_CURVES, MAX_NUMBERS, Series};
 pub use sample::ChartSample;
 pub use scope::{definition, is_per_sample, scope, unit};
 

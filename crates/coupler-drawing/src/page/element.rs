@@ -1,5 +1,6 @@
 //! Elements for plotters: a drawing area places them, and inside it they keep full precision.
 
+use std::collections::HashSet;
 use std::iter::once;
 
 use plotters::coord::Shift;
@@ -179,6 +180,9 @@ impl TextLine {
 
     /// The line with the words that are single-letter `symbols` in italics.
     pub fn with_italics(mut self, symbols: &[String]) -> TextLine {
+        // A single letter is a symbol; a longer name is read as a word.
+        let letters: HashSet<&str> =
+            symbols.iter().map(String::as_str).filter(|symbol| symbol.chars().nth(1).is_none()).collect();
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let mut runs: Vec<TextRun> = Vec::new();
         let typeface = self.text.runs.first().map_or(Typeface::default(), |run| run.face.typeface);
@@ -192,9 +196,7 @@ impl TextLine {
             let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
             let end = if end == 0 { rest.find(is_word).unwrap_or(rest.len()) } else { end };
             let (piece, after) = rest.split_at(end);
-            // A single letter is a symbol; a longer name is read as a word.
-            let is_symbol = piece.chars().count() == 1 && symbols.iter().any(|symbol| symbol == piece);
-            push(piece, is_symbol);
+            push(piece, letters.contains(piece));
             rest = after;
         }
         self.text.runs = runs;
@@ -233,21 +235,25 @@ impl TextLine {
     }
 
     /// Truncates text that is wider than `width`, with an ellipsis.
+    ///
+    /// Characters are counted from the start of the line, so that the time does not grow with what is left out.
     fn truncate(&mut self, width: f64) {
-        while self.text.width() > width {
-            match self.text.runs.last_mut() {
-                Some(run) if run.text.chars().count() > 1 => {
-                    let kept: String = run.text.trim_end_matches('…').chars().collect();
-                    let shorter: String = kept.chars().take(kept.chars().count().saturating_sub(1)).collect();
-                    run.text = format!("{}…", shorter.trim_end());
-                    if shorter.is_empty() {
-                        self.text.runs.pop();
-                    }
-                }
-                Some(_) => {
-                    self.text.runs.pop();
-                }
-                None => break,
+        let size = self.text.size;
+        let mut width_before = 0.0;
+        let mut widths_before = Vec::with_capacity(self.text.runs.len());
+        for run in &self.text.runs {
+            widths_before.push(width_before);
+            width_before += run.face.width(&run.text, size);
+        }
+        let mut line_width = width_before;
+        while line_width > width {
+            let Some(mut run) = self.text.runs.pop() else { break };
+            line_width = widths_before[self.text.runs.len()];
+            if let Some(end) = truncated_length(&run, size, width - line_width) {
+                run.text.truncate(end);
+                run.text.push('…');
+                self.text.runs.push(run);
+                break;
             }
         }
     }
@@ -275,6 +281,32 @@ impl TextLine {
     fn to_item(&self, origin: Vector) -> Item {
         translated(&Item::Text(self.text.clone()), origin)
     }
+}
+
+/// The length in bytes of the longest beginning of a run that fits `width` with an ellipsis after it; `None` if none
+/// does. It is shorter than the run, and does not end with a space or an ellipsis.
+fn truncated_length(run: &TextRun, size: f64, width: f64) -> Option<usize> {
+    let text = run.text.trim_end_matches('…');
+    let ellipsis = run.face.advance('…');
+    // The advance of the characters so far, and the end of the last that is not a space.
+    let (mut advance, mut end) = (0.0, 0);
+    let mut found = None;
+    for (at, c) in text.char_indices() {
+        if at + c.len_utf8() == text.len() {
+            break;
+        }
+        advance += run.face.advance(c);
+        if !c.is_whitespace() {
+            if (advance + ellipsis) * size > width {
+                return found;
+            }
+            end = at + c.len_utf8();
+        }
+        if found.is_some() || ellipsis * size <= width {
+            found = Some(end);
+        }
+    }
+    found
 }
 
 #[cfg(test)]
@@ -309,5 +341,38 @@ mod tests {
             let width = (before + natural) - before;
             assert_eq!(sans("a line of some length").fit_width(width).text, sans("a line of some length").text, "{k}");
         }
+    }
+
+    /// Truncates a character at a time.
+    fn truncate_slowly(mut line: TextLine, width: f64) -> Text {
+        while line.text.width() > width {
+            match line.text.runs.last_mut() {
+                Some(run) if run.text.chars().count() > 1 => {
+                    let mut shorter = run.text.trim_end_matches('…').to_owned();
+                    shorter.pop();
+                    run.text = format!("{}…", shorter.trim_end());
+                    if shorter.is_empty() {
+                        line.text.runs.pop();
+                    }
+                }
+                _ => drop(line.text.runs.pop()),
+            }
+        }
+        line.text
+    }
+
+    #[test]
+    fn as_much_of_a_line_as_fits_is_kept() {
+        let symbols = ["p".to_owned()];
+        for text in ["p = 2, a line of p's and  spaces ", "pp", "p p p p", "…", "é p ü", "p"] {
+            let natural = sans(text).with_italics(&symbols).text.width();
+            for k in 0..=100 {
+                let width = natural * f64::from(k) / 99.5;
+                let mut line = sans(text).with_italics(&symbols);
+                line.truncate(width);
+                assert_eq!(line.text, truncate_slowly(sans(text).with_italics(&symbols), width), "{text} {width}");
+            }
+        }
+        assert!(sans(&"word ".repeat(200_000)).fit_width(100.0).text.width() <= 100.0);
     }
 }

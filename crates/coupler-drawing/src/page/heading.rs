@@ -145,6 +145,8 @@ fn split_at_separator(text: &str, fits: impl Fn(&str) -> bool) -> (&str, &str) {
     if fits(text) {
         return (text, "");
     }
-    let at = text.rmatch_indices(SEPARATOR).map(|(at, _)| at).find(|&at| fits(&text[..at]));
+    let separators: Vec<usize> = text.match_indices(SEPARATOR).map(|(at, _)| at).collect();
+    let fitting = separators.partition_point(|&at| fits(&text[..at]));
+    let at = fitting.checked_sub(1).map(|last| separators[last]);
     at.map_or((text, ""), |at| (&text[..at], &text[at + SEPARATOR.len()..]))
 }
