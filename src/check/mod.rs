@@ -7,6 +7,7 @@
 mod cells;
 mod curve;
 mod curve_samples;
+mod drawn_curves;
 mod family;
 mod finding;
 mod gallery;

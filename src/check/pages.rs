@@ -5,12 +5,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::curve_samples::CurveSamples;
+use super::drawn_curves::check_drawn_curves;
 use super::finding::{Change, Finding, Location};
 use super::images::image_change;
 use super::tables::file_change;
 use crate::pipeline::{FamilyPipeline, PageContent, PageJob, page_file_name};
-use crate::record::{FamilyRecord, FileRecord, TextDigests, read_drawn_curves, read_regular_file};
-use coupler_curves::solve::SolvedCell;
+use crate::record::{FamilyRecord, FileRecord, TextDigests, read_regular_file};
 use coupler_drawing::render::{self, PageFormat};
 
 /// The recorded pages of a family.
@@ -30,9 +30,6 @@ pub(super) struct PageFindings {
     differing_files: Vec<String>,
     findings: Vec<Finding>,
 }
-
-/// The greatest distance of a drawn curve from its recorded points, in millimetres on paper.
-const DRAWING_TOLERANCE_MM: f64 = 0.01;
 
 /// The largest page that is read, in bytes; this program writes none that large.
 const MAX_BYTES: u64 = 1 << 28;
@@ -66,8 +63,13 @@ impl<'a> RecordedPages<'a> {
         let svg = render::svg(&scene, plan.text_mode);
         if let Some(record) = svg_record {
             let recorded_svg = self.check_svg(record, &svg, &mut page);
-            if let (Some(bytes), PageContent::Cells { cells, .. }) = (recorded_svg, content) {
-                page.findings.extend(self.check_drawn_curves(record, &bytes, cells, recorded));
+            // A page that would be drawn just so today shows the present curves. If the recorded points differ from these,
+            // that is a finding on the points.
+            let differing_svg = recorded_svg.filter(|bytes| *bytes != svg);
+            if let (Some(bytes), PageContent::Cells { cells, .. }) = (differing_svg, content) {
+                let family = &self.pipeline.composer.planned.family;
+                let location = self.file_location(&record.name);
+                page.findings.extend(check_drawn_curves(&location, &bytes, (family, cells), recorded));
             }
         }
         if let Some(record) = png_record {
@@ -101,44 +103,6 @@ impl<'a> RecordedPages<'a> {
         }
         page.findings.extend(change.map(|change| location.finding(change)));
         Some(bytes)
-    }
-
-    /// Reads the curves of a recorded page, and compares them with the recorded points.
-    fn check_drawn_curves(
-        &self,
-        record: &FileRecord,
-        bytes: &[u8],
-        cells: &[SolvedCell],
-        recorded: impl Fn(usize) -> Option<Vec<CurveSamples>>,
-    ) -> Vec<Finding> {
-        let page = self.file_location(&record.name);
-        let curves = match read_drawn_curves(bytes) {
-            Ok(curves) => curves,
-            Err(error) => return vec![page.finding(Change::Damaged { message: error.to_string() })],
-        };
-        let mut findings = Vec::new();
-        let mut cell_curves: Option<(usize, Vec<CurveSamples>)> = None;
-        for curve in curves {
-            // The curves of a cell are consecutive, so that its rows are read once.
-            if cell_curves.as_ref().is_none_or(|(cell, _)| *cell != curve.cell) {
-                cell_curves = Some((curve.cell, recorded(curve.cell).unwrap_or_default()));
-            }
-            let mut recorded_curves = cell_curves.iter().flat_map(|(_, curves)| curves);
-            let is_same = |samples: &&CurveSamples| (samples.trace, samples.circuit) == (curve.trace, curve.circuit);
-            let Some(recorded_curve) = recorded_curves.find(is_same) else { continue };
-            let solved = cells.iter().find(|solved| solved.cell.number == curve.cell).or(cells.first());
-            let circuit = solved.and_then(|solved| solved.motion.circuits.get(curve.circuit.checked_sub(1)?));
-            let closed = circuit.is_none_or(|circuit| circuit.is_closed);
-            let samples = recorded_curve.inputs.iter().copied().zip(recorded_curve.points.iter().copied());
-            let distance = curve.furthest_sample(samples, closed).map_or(0.0, |(_, distance)| distance);
-            let stray = curve.max_stray(&recorded_curve.points, closed);
-            let distance = distance.max(stray.map_or(0.0, |stray| stray + DRAWING_TOLERANCE_MM));
-            if distance > DRAWING_TOLERANCE_MM {
-                let location = page.with_cell(curve.cell).with_curve(curve.trace, curve.circuit);
-                findings.push(location.finding(Change::DrawnOff { distance_mm: distance }));
-            }
-        }
-        findings
     }
 
     /// The findings on all pages that are not explained by the cells that have changed.

@@ -16,7 +16,7 @@ mod table;
 
 pub use cells::{CellTable, read_unassembled_cells};
 pub use digest::{Digest, RunningDigest, TextDigests};
-pub use drawn_curve::{DrawnCurve, DrawnCurveError, read_drawn_curves};
+pub use drawn_curve::{DrawnCurve, DrawnCurveError, SolvedCurve, read_drawn_curves};
 pub use folder::{FolderRecord, ImagesState, MAX_RECORDED_FILES, images_of_run};
 pub use images::IMAGES_FILE_NAME;
 pub use journal::{FamilyProgress, JOURNAL_FILE_NAME, JournalEntry, PartialFile, path_in_atlas};

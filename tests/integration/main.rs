@@ -23,6 +23,7 @@ mod limits;
 mod manifests;
 mod ownership;
 mod program;
+mod random_linkages;
 mod rates;
 mod readme;
 mod recorded_images;

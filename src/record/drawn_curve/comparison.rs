@@ -10,22 +10,25 @@ impl DrawnCurve {
     /// The sample in a dash that is furthest from the drawn lines: its index, and its distance in millimetres of the
     /// page, infinite if nothing is drawn. `None` if no sample is in a dash.
     ///
-    /// The samples are all samples of the curve in order, each with its input and its point in the plane; `closed` says
-    /// whether the curve continues from the last to the first. Samples without finite coordinates are skipped. A sample
-    /// at the end of a dash, to 1e-9 of the period, counts if the curve continues from it into the dash.
+    /// The samples are all samples of the curve in order, each with its input and its point in the plane; after the
+    /// last one, a closed curve continues to the input `after_last`. Samples without finite coordinates are skipped. A
+    /// sample at the end of a dash, to 1e-9 of the period and to rounding, counts if the curve continues from it into
+    /// the dash.
     ///
     /// Each sample takes a search in a tree of the segments, which ends early if the sample is nearer than the furthest
     /// so far.
-    pub fn furthest_sample(&self, samples: impl Iterator<Item = (f64, Point)>, closed: bool) -> Option<(usize, f64)> {
+    pub fn furthest_sample(
+        &self,
+        samples: impl Iterator<Item = (f64, Point)>,
+        after_last: Option<f64>,
+    ) -> Option<(usize, f64)> {
         let segments = self.polylines.iter().flat_map(|line| line.windows(2));
         let drawn = CapsuleTree::new(segments.map(|pair| Capsule { ends: [pair[0], pair[1]], radius: 0.0 }).collect());
         let mut samples = samples.enumerate().peekable();
         let mut previous = None;
         let mut furthest: Option<(usize, f64)> = None;
         while let Some((k, (input, place))) = samples.next() {
-            // After its last sample a closed curve continues with the same step of the input.
-            let extrapolated = previous.filter(|_| closed).map(|previous| 2.0 * input - previous);
-            let next = samples.peek().map(|(_, (input, _))| *input).or(extrapolated);
+            let next = samples.peek().map(|(_, (input, _))| *input).or(after_last);
             let is_drawn = self.is_in_dash(input, [previous, next]);
             previous = Some(input);
             if is_drawn && place.x.is_finite() && place.y.is_finite() {
@@ -42,7 +45,8 @@ impl DrawnCurve {
     /// Whether there is a dash at an input, given the inputs of the neighbouring samples.
     fn is_in_dash(&self, input: f64, neighbours: [Option<f64>; 2]) -> bool {
         let [period, drawn] = self.dash;
-        let tolerance = 1e-9 * period;
+        // The pages are drawn with multiples of the period, as rounded as the input itself.
+        let tolerance = 1e-9 * period + 4.0 * f64::EPSILON * input.abs();
         let phase = input.rem_euclid(period);
         let continues = |sign: f64| neighbours.iter().flatten().any(|other| (other - input) * sign > 0.0);
         if drawn >= period - tolerance {
@@ -56,31 +60,40 @@ impl DrawnCurve {
         }
     }
 
-    /// The greatest distance of the drawn lines from the interpolated samples beyond the tolerance, in millimetres of
-    /// the page. `None` if they are within the tolerance, or if there are fewer than five samples to interpolate.
+    /// The greatest distance of the drawn lines from the curve, in millimetres of the page; `None` if they are within
+    /// 0.01 mm of it.
     ///
     /// The samples are all samples of the curve in order, in the plane; `closed` says whether the curve continues from
-    /// the last to the first. Between two samples the interpolant is the cubic through four; the tolerance is 0.01 mm
-    /// and twice the error of the cubic, as estimated from fourth differences. A detour is therefore found where the
-    /// steps are small for the curve; where they are large, for example at limits of the input, the tolerance is
-    /// greater.
-    pub fn max_stray(&self, samples: &[Point], closed: bool) -> Option<f64> {
+    /// the last to the first. Where the cubic through four of them is exact enough, a drawn point on it is on the
+    /// curve. The distance of any other point is that of `distance_from_curve`, of a point of the page, which may end
+    /// its search at a distance that is at most its second argument.
+    pub fn max_stray(
+        &self,
+        samples: &[Point],
+        closed: bool,
+        distance_from_curve: impl Fn(Point, f64) -> f64,
+    ) -> Option<f64> {
         let is_place = |p: &&Point| p.x.is_finite() && p.y.is_finite();
         let places: Vec<Point> = samples.iter().filter(is_place).map(|p| self.page_from_plane.apply(*p)).collect();
-        let interpolant = CapsuleTree::new(SampleInterpolant::new(&places, closed)?.tubes());
-        let segments = self.polylines.iter().flat_map(|line| line.windows(2));
-        let stray = segments.flat_map(|pair| points_along(pair[0], pair[1])).fold(0.0, |most: f64, point| {
-            // The search ends early if the distance cannot exceed the greatest so far.
-            most.max(interpolant.signed_distance(point, most))
-        });
-        (stray > 0.0).then_some(stray)
+        let interpolant = SampleInterpolant::new(&places, closed);
+        let tubes = CapsuleTree::new(interpolant.map_or_else(Vec::new, |interpolant| interpolant.tubes()));
+        let points = self.polylines.iter().flat_map(|line| points_along(line));
+        let suspects = points.filter(|point| tubes.signed_distance(*point, 0.0) > 0.0);
+        // The search ends early if the distance cannot exceed the greatest so far.
+        let most = suspects.fold(TOLERANCE_MM, |most, point| most.max(distance_from_curve(point, most)));
+        (most > TOLERANCE_MM).then_some(most)
     }
 }
 
-/// Points along a segment, including its ends, at most a millimetre apart; a segment longer than 64 mm has 64 steps.
-fn points_along(a: Point, b: Point) -> impl Iterator<Item = Point> {
-    let steps = (b - a).norm().ceil().clamp(2.0, 64.0);
-    (0..=steps as u32).map(move |k| a + (b - a) * (f64::from(k) / steps))
+/// Points along a polyline, including its vertices, and the middles of its segments, at most a millimetre apart; a
+/// segment longer than 64 mm has 64 steps.
+fn points_along(line: &[Point]) -> impl Iterator<Item = Point> {
+    let after = |pair: &[Point]| {
+        let (a, b) = (pair[0], pair[1]);
+        let steps = (b - a).norm().ceil().clamp(2.0, 64.0);
+        (1..=steps as u32).map(move |k| a + (b - a) * (f64::from(k) / steps))
+    };
+    line.first().copied().into_iter().chain(line.windows(2).flat_map(after))
 }
 
 /// The curve through samples, by cubic interpolation.
@@ -113,14 +126,17 @@ impl SampleInterpolant<'_> {
         })
     }
 
-    /// The interpolant in chords, each with the tolerance as its radius.
+    /// The interpolant in chords, each with the tolerance as its radius; without those that are not exact enough.
     fn tubes(&self) -> Vec<Capsule> {
         let intervals = if self.is_closed { self.samples.len() } else { self.samples.len() - 1 };
-        (0..intervals).flat_map(|k| self.interval_tubes(k)).collect()
+        (0..intervals).filter_map(|k| self.interval_tubes(k)).flatten().collect()
     }
 
-    /// The chords from a sample to the next.
-    fn interval_tubes(&self, k: usize) -> impl Iterator<Item = Capsule> {
+    /// The chords from a sample to the next; `None` if they may be too far from the curve.
+    fn interval_tubes(&self, k: usize) -> Option<impl Iterator<Item = Capsule>> {
+        /// The greatest error of the chords, in millimetres. It is estimated, not bounded, and so is not a reason to
+        /// report a point; and it is small enough that no greater detour is missed.
+        const MAX_ERROR_MM: f64 = 0.25 * TOLERANCE_MM;
         let count = self.samples.len();
         let (first, before) = if self.is_closed {
             ((k + count - 1) % count, 1)
@@ -134,10 +150,10 @@ impl SampleInterpolant<'_> {
         let chords = second_difference(0).max(second_difference(1))
             / (8 * Self::CHORDS_PER_INTERVAL * Self::CHORDS_PER_INTERVAL) as f64;
         let remainder = if before == 1 { 3.0 / 128.0 } else { 1.0 / 24.0 } * self.max_fourth_difference(k);
-        let radius = TOLERANCE_MM + 2.0 * (chords + remainder);
         let point =
             move |j: usize| interpolate_cubic(four, before as f64 + j as f64 / Self::CHORDS_PER_INTERVAL as f64);
-        (0..Self::CHORDS_PER_INTERVAL).map(move |j| Capsule { ends: [point(j), point(j + 1)], radius })
+        let tube = move |j: usize| Capsule { ends: [point(j), point(j + 1)], radius: TOLERANCE_MM };
+        (chords + remainder <= MAX_ERROR_MM).then(|| (0..Self::CHORDS_PER_INTERVAL).map(tube))
     }
 
     /// The largest of the fourth differences that span an interval.
@@ -160,6 +176,8 @@ fn interpolate_cubic(four: [Point; 4], t: f64) -> Point {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
     use coupler_curves::geometry::{Similarity, trig};
 
@@ -186,8 +204,9 @@ mod tests {
 
     #[test]
     fn a_sample_at_the_end_of_a_dash_counts_if_the_curve_continues_into_it() {
-        let found = |dashes, count, step, moved, closed| {
-            let (k, distance) = circle(dashes).furthest_sample(samples(count, step, moved), closed).unwrap();
+        let found = |dashes, count, step, moved, closed: bool| {
+            let after_last = closed.then_some(360.0);
+            let (k, distance) = circle(dashes).furthest_sample(samples(count, step, moved), after_last).unwrap();
             (distance > 0.01).then_some((k, (distance * 100.0).round()))
         };
         assert_eq!(found(72, 72, 5.0, None, true), None);
@@ -202,23 +221,51 @@ mod tests {
         for (k, is_found) in [(2, true), (3, true), (4, false), (5, true)] {
             assert_eq!(found(72, 360, 1.0, Some(k), true).is_some(), is_found, "{k}");
         }
-        let empty = circle(0).furthest_sample(samples(72, 5.0, None), true);
+        let empty = circle(0).furthest_sample(samples(72, 5.0, None), Some(360.0));
         assert_eq!(empty, Some((0, f64::INFINITY)));
     }
 
     #[test]
+    fn after_a_limit_at_the_beginning_of_a_dash_the_curve_does_not_continue_into_it() {
+        // The input goes from 1 to 5 degrees and back: no dash begins at 5.
+        let ends = || [1.0, 5.0].map(|input| (input, at(input))).into_iter();
+        let distance = |after_last| circle(1).furthest_sample(ends(), after_last).unwrap().1;
+        assert!(distance(Some(1.0)) < 0.01);
+        assert!(distance(Some(9.0)) > 0.5);
+    }
+
+    #[test]
     fn a_detour_between_two_samples_is_found() {
-        let places: Vec<Point> = samples(72, 5.0, None).map(|(_, place)| place).collect();
-        let mut curve = circle(72);
-        assert_eq!(curve.max_stray(&places, true), None);
-        assert!(curve.max_stray(&places[..4], true).is_none());
-        let out = (curve.polylines[9][3] - curve.page_from_plane.origin) / 20.0;
-        curve.polylines[9][3] += out * 0.05;
-        let stray = curve.max_stray(&places, true).unwrap();
-        // The whole detour except the tolerance, which on a circle is hardly more than 0.01 mm.
-        assert!((0.035..=0.04).contains(&stray), "{stray}");
-        // An open half circle does not continue from its last sample to its first, so the drawn rest is a detour.
-        assert!(circle(72).max_stray(&places[..37], false).unwrap() > 10.0);
-        assert_eq!(circle(36).max_stray(&places[..37], false), None);
+        // Of 72 samples, the cubics are exact enough; of 4, there are none.
+        for (count, step, queries) in [(72, 5.0, 3), (4, 90.0, 1_000)] {
+            let places: Vec<Point> = samples(count, step, None).map(|(_, place)| place).collect();
+            let mut curve = circle(72);
+            let asked = Cell::new(0);
+            let distance_from_curve = |p: Point, _| {
+                asked.set(asked.get() + 1);
+                ((p - curve.page_from_plane.origin).norm() - 20.0).abs()
+            };
+            assert_eq!(curve.max_stray(&places, true, distance_from_curve), None);
+            assert_eq!(asked.get() > 0, count == 4);
+            let page_from_plane = curve.page_from_plane;
+            let out = (curve.polylines[9][3] - page_from_plane.origin) / 20.0;
+            curve.polylines[9][3] += out * 0.05;
+            let stray = curve.max_stray(&places, true, distance_from_curve).unwrap();
+            assert!((stray - 0.05).abs() < 1e-9, "{stray}");
+            assert!(asked.get() <= 2 * queries, "{}", asked.get());
+        }
+    }
+
+    #[test]
+    fn an_open_curve_does_not_continue_from_its_last_sample_to_its_first() {
+        let places: Vec<Point> = samples(37, 5.0, None).map(|(_, place)| place).collect();
+        // The curve is a half circle: its rest is a detour.
+        let distance_from_half = |p: Point, _| {
+            let from_centre = p - Point::new(50.0, 40.0);
+            let from_ends = [30.0, 70.0].map(|x| (p - Point::new(x, 40.0)).norm());
+            if from_centre.y <= 0.0 { (from_centre.norm() - 20.0).abs() } else { from_ends[0].min(from_ends[1]) }
+        };
+        assert!(circle(72).max_stray(&places, false, distance_from_half).unwrap() > 10.0);
+        assert_eq!(circle(36).max_stray(&places, false, distance_from_half), None);
     }
 }

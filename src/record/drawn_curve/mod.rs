@@ -1,4 +1,4 @@
-//! Reads the coupler curves of a page back from its SVG, and compares them with their samples.
+//! Reads the coupler curves of a page back from its SVG, and compares them with their samples and with the linkage.
 //!
 //! The page is not trusted: it may be truncated, edited, or of any size. Whatever differs from the output of
 //! [`svg`](coupler_drawing::render::svg) and could change how a curve is drawn is an error.
@@ -6,10 +6,12 @@
 mod comparison;
 mod path;
 mod reader;
+mod solved_curve;
 
 use coupler_curves::geometry::{Point, Similarity};
 
 pub use reader::read_drawn_curves;
+pub use solved_curve::SolvedCurve;
 
 /// A coupler curve as drawn on a page.
 #[derive(Clone, Debug, PartialEq)]

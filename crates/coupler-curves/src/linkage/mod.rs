@@ -110,6 +110,15 @@ impl Linkage {
         Input::Angle { turns }
     }
 
+    /// The turns of its fastest crank for a turn of the driven one, at least 1.
+    pub fn fastest_crank_ratio(&self) -> f64 {
+        let ratio = |joint: &Joint| match joint.kind {
+            JointKind::Gear { ratio: [turns, crank_turns], .. } => (turns as f64 / crank_turns as f64).abs(),
+            _ => 1.0,
+        };
+        self.joints.iter().map(ratio).fold(1.0, f64::max)
+    }
+
     /// The ids of the joints, in the order of [`Linkage::joints`].
     pub fn joint_ids(&self) -> impl DoubleEndedIterator<Item = JointId> + Clone + use<> {
         (0..self.joints.len()).map(JointId::new)

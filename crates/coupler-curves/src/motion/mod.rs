@@ -48,6 +48,7 @@ pub use pass::{InputPosition, Pass, PassEnd};
 pub use path::{Dash, DashPattern, JointPath, joint_paths};
 pub use positions::{DyadSigns, InputSlices, JointPositions, place_leading_joints};
 pub use sampling::{Circuit, MAX_SAMPLES, Sampler, Sampling};
+pub use spacing::eased_input;
 
 use crate::geometry::Point;
 use crate::linkage::Linkage;

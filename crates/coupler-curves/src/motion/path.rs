@@ -36,8 +36,9 @@ pub struct JointPath {
 /// The paths of the given joints on a circuit, one for each joint.
 ///
 /// No chord is further than `tolerance` (in the plane's unit) from the curve: half of that is for the refinement, as
-/// measured at the middle of a chord's input, and half for the removal of points that are that close to the line
-/// without them. The inputs are refined for all joints together.
+/// measured at the first quarter and the middle of a chord's input, and half for the removal of points that are that
+/// close to the line without them. The inputs are refined for all joints together. Where a position is undefined, or
+/// jumps between neighbouring values of the input, a dash ends and another one begins.
 pub fn joint_paths(
     linkage: &Linkage,
     circuit: &Circuit,
@@ -52,22 +53,40 @@ pub fn joint_paths(
         let nodes = PathNodes::from_pieces(linkage, pass, &pieces, joints, tolerance / 2.0);
         let runs = nodes.piece_ranges(&pieces);
         for (path, points) in out.iter_mut().zip(&nodes.points) {
-            let seam = usize::from(!path.points.is_empty());
-            path.points.extend(simplify_polyline(points, tolerance / 2.0).into_iter().skip(seam));
+            let defined: Vec<Point> = points.iter().copied().filter(is_defined).collect();
+            let seam = usize::from(meets(&path.points, &defined, tolerance));
+            path.points.extend(simplify_polyline(&defined, tolerance / 2.0).into_iter().skip(seam));
             for (piece, run) in pieces.iter().zip(&runs).filter(|(piece, _)| piece.is_drawn) {
-                let points = simplify_polyline(&points[run.clone()], tolerance / 2.0);
-                match path.dashes.last_mut() {
-                    // A dash that contains a limit continues from the previous pass.
-                    Some(last) if continues && piece.starts_pass && last.is_in_figure == piece.is_in_figure => {
-                        last.points.extend(points.into_iter().skip(1));
+                for line in nodes.unbroken_lines(points, run.clone(), tolerance) {
+                    let line = simplify_polyline(line, tolerance / 2.0);
+                    match path.dashes.last_mut() {
+                        // A dash that contains a limit continues from the previous pass.
+                        Some(last)
+                            if continues
+                                && piece.starts_pass
+                                && last.is_in_figure == piece.is_in_figure
+                                && meets(&last.points, &line, tolerance) =>
+                        {
+                            last.points.extend(line.into_iter().skip(1));
+                        }
+                        _ => path.dashes.push(Dash { points: line, is_in_figure: piece.is_in_figure }),
                     }
-                    _ => path.dashes.push(Dash { points, is_in_figure: piece.is_in_figure }),
                 }
             }
         }
         continues = pieces.last().is_some_and(|piece| piece.is_drawn);
     }
     out
+}
+
+/// Whether a position is defined.
+fn is_defined(p: &Point) -> bool {
+    p.x.is_finite() && p.y.is_finite()
+}
+
+/// Whether a line begins where another one ends.
+fn meets(before: &[Point], after: &[Point], tolerance: f64) -> bool {
+    before.last().zip(after.first()).is_some_and(|(end, begin)| (begin - end).norm() <= tolerance)
 }
 
 /// A part of a pass: a dash or a gap, in the direction of the pass.
@@ -130,16 +149,20 @@ impl PathNodes {
         joints: &[JointId],
         tolerance: f64,
     ) -> PathNodes {
-        /// The most input that a chord spans, in degrees: a longer one may cross its curve at its middle.
+        /// The most input that a chord spans, in degrees of the fastest crank: a longer one may cross its curve at its
+        /// middle.
         const MAX_CHORD_DEG: f64 = 3.0;
         /// The fewest chords of a pass.
         const MIN_CHORDS: f64 = 64.0;
-        /// Each round halves the input between neighbours; 2^-30 of a dash is far below any paper's resolution.
-        const MAX_ROUNDS: usize = 30;
+        /// Each round halves the input between neighbours. After this many they are neighbouring numbers: near a
+        /// singular position a joint may go as far as its links reach while the input changes by no more.
+        const MAX_ROUNDS: usize = 60;
         /// A pass of more nodes than this is not refined further, even if the tolerance is not met.
         const MAX_NODES: usize = 100_000;
         let longest = match linkage.input() {
-            Input::Angle { .. } => MAX_CHORD_DEG.min(pass.input_length() / MIN_CHORDS),
+            Input::Angle { .. } => {
+                (MAX_CHORD_DEG / linkage.fastest_crank_ratio()).min(pass.input_length() / MIN_CHORDS)
+            }
             Input::Length => pass.input_length() / MIN_CHORDS,
         };
         let mut inputs: Vec<f64> = Vec::new();
@@ -151,12 +174,17 @@ impl PathNodes {
         inputs.extend(pieces.last().map(|piece| piece.to));
         let mut nodes = PathNodes::at_inputs(linkage, pass, inputs, joints);
         for _ in 0..MAX_ROUNDS {
-            let pairs = (1..nodes.inputs.len()).filter(|&k| nodes.needs_refinement[k - 1]);
-            let middles: Vec<f64> = pairs.map(|k| (nodes.inputs[k - 1] + nodes.inputs[k]) / 2.0).collect();
-            if middles.is_empty() || nodes.inputs.len() > MAX_NODES {
+            let pairs = |k: &usize| nodes.needs_refinement[k - 1];
+            let pairs: Vec<usize> = (1..nodes.inputs.len()).filter(pairs).collect();
+            if pairs.is_empty() || nodes.inputs.len() > MAX_NODES {
                 break;
             }
-            nodes = nodes.refined(&PathNodes::at_inputs(linkage, pass, middles, joints), tolerance);
+            let at = |share: &dyn Fn(f64, f64) -> f64| {
+                let inputs = pairs.iter().map(|&k| share(nodes.inputs[k - 1], nodes.inputs[k])).collect();
+                PathNodes::at_inputs(linkage, pass, inputs, joints)
+            };
+            let (middles, quarters) = (at(&|a, b| (a + b) / 2.0), at(&|a, b| a + (b - a) / 4.0));
+            nodes = nodes.refined(&middles, &quarters, tolerance);
         }
         nodes
     }
@@ -170,16 +198,21 @@ impl PathNodes {
         PathNodes { needs_refinement: vec![true; inputs.len()], points: joints.iter().map(column).collect(), inputs }
     }
 
-    /// Inserts those middles of the chords to be refined that are further than `tolerance` from their chord.
-    fn refined(&self, middles: &PathNodes, tolerance: f64) -> PathNodes {
+    /// Inserts the middles of those chords that are further than `tolerance` from their curve at its middle, or at its
+    /// first quarter: at its middle the curve may cross the chord. Also of those whose middle is near one end: then the
+    /// joint moves fast in one half, and not necessarily along the chord.
+    fn refined(&self, middles: &PathNodes, quarters: &PathNodes, tolerance: f64) -> PathNodes {
         let mut next = 0;
         // For each node, the middle to be inserted after it, if any.
         let mut middle_after: Vec<Option<usize>> = vec![None; self.inputs.len()];
         for k in 1..self.inputs.len() {
             if self.needs_refinement[k - 1] {
-                let joints = self.points.iter().zip(&middles.points);
-                let exceeds_tolerance = |(points, middles): (&Vec<Point>, &Vec<Point>)| {
-                    distance_to_segment(middles[next], points[k - 1], points[k]) > tolerance
+                let joints = self.points.iter().zip(middles.points.iter().zip(&quarters.points));
+                let exceeds_tolerance = |(points, (middles, quarters)): (&Vec<Point>, (&Vec<Point>, &Vec<Point>))| {
+                    let (from, middle, to) = (points[k - 1], middles[next], points[k]);
+                    distance_to_segment(middle, from, to) > tolerance
+                        || distance_to_segment(quarters[next], from, to) > tolerance
+                        || is_uneven([from, middle, to], tolerance)
                 };
                 middle_after[k - 1] = joints.into_iter().any(exceeds_tolerance).then_some(next);
                 next += 1;
@@ -202,6 +235,34 @@ impl PathNodes {
         }
     }
 
+    /// The lines of a joint's `points` over a run of nodes, without undefined positions and jumps.
+    fn unbroken_lines<'p>(
+        &self,
+        points: &'p [Point],
+        run: std::ops::RangeInclusive<usize>,
+        tolerance: f64,
+    ) -> Vec<&'p [Point]> {
+        let is_jump = |k: usize| {
+            let [a, b] = [self.inputs[k], self.inputs[k + 1]];
+            let middle = (a + b) / 2.0;
+            (middle == a || middle == b) && (points[k + 1] - points[k]).norm() > tolerance
+        };
+        let mut lines = Vec::new();
+        let mut from = *run.start();
+        for k in run.clone() {
+            if !is_defined(&points[k]) {
+                lines.push(&points[from..k]);
+                from = k + 1;
+            } else if k < *run.end() && is_jump(k) {
+                lines.push(&points[from..=k]);
+                from = k + 1;
+            }
+        }
+        lines.push(&points[from..=*run.end()]);
+        lines.retain(|line| !line.is_empty());
+        lines
+    }
+
     /// The nodes of each piece, including its ends.
     fn piece_ranges(&self, pieces: &[PathPiece]) -> Vec<std::ops::RangeInclusive<usize>> {
         let mut from = 0;
@@ -213,4 +274,12 @@ impl PathNodes {
         };
         pieces.iter().map(run).collect()
     }
+}
+
+/// Whether the middle of a chord's input is so near one of its ends that the chord cannot be judged by it, and the chord
+/// is longer than `tolerance`. Next to a limit the larger part is 2.4 times the smaller one, next to a cusp 3 times.
+fn is_uneven([from, middle, to]: [Point; 3], tolerance: f64) -> bool {
+    const MAX_RATIO: f64 = 4.0;
+    let (before, after) = ((middle - from).norm(), (to - middle).norm());
+    before.max(after) > tolerance.max(MAX_RATIO * before.min(after))
 }

@@ -70,6 +70,12 @@ impl Circuit {
         self.passes[self.sample_passes[sample]].mode
     }
 
+    /// The input to which it continues after its last sample: on a full turn the whole turn, otherwise the input of the
+    /// first sample; `None` unless it is closed.
+    pub fn input_after_last(&self) -> Option<f64> {
+        self.passes.last().filter(|_| self.is_closed).map(|pass| pass.to.input.value)
+    }
+
     /// Whether the input reverses at the end of a pass, because a dyad is flat there.
     pub fn reverses_after(&self, pass: usize) -> bool {
         let last = pass + 1 == self.passes.len();

@@ -9,7 +9,7 @@ use crate::linkage::{JointId, Linkage};
 
 /// The input at a fraction of a pass, eased towards the ends where a dyad is flat: there a joint's position changes
 /// with the root of the input, and so evenly with this fraction.
-pub(super) fn eased_input(pass: &Pass, fraction: f64) -> f64 {
+pub fn eased_input(pass: &Pass, fraction: f64) -> f64 {
     let (from, to) = (pass.from.input.value, pass.to.input.value);
     let eased = match (pass.from.flat_dyads.is_empty(), pass.to.flat_dyads.is_empty()) {
         (true, true) => fraction,

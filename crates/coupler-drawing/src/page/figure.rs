@@ -58,6 +58,17 @@ pub(super) fn curve_paths(
     out
 }
 
+/// The bounds of a curve, or only their centre if the curve is so small, compared with the coordinates of its linkage,
+/// that rounding would be visible at the scale at which it fills a page.
+fn without_rounding(curve: Bounds, linkage: Bounds) -> Bounds {
+    /// The rounding of a position is about 1e-16 of the coordinates it is computed from: a millionth of the page.
+    const LEAST_SIZE: f64 = 1e-10;
+    let coordinates = [linkage.min.x, linkage.min.y, linkage.max.x, linkage.max.y];
+    let greatest = coordinates.into_iter().map(f64::abs).fold(0.0, f64::max);
+    let is_visible = curve.size().max() > LEAST_SIZE * greatest;
+    if is_visible { curve } else { Bounds::from_points([curve.centre()]) }
+}
+
 /// The figure of a panel: curves, and the linkage in one pose or several.
 pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
@@ -85,6 +96,7 @@ impl<'a> Figure<'a> {
         let curve =
             Bounds::from_points(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
         let key = mechanisms.iter().fold(curve, |key, mechanism| key.union(mechanism.bounds()));
+        let curve = without_rounding(curve, key);
         Some(Figure { panel, solved_cell: solved, mechanisms, seconds, extents: Extents { curve, linkage: key } })
     }
 
