@@ -121,6 +121,13 @@ const tests = [
       const scroll = page.getByRole("region", { name: "Table of curves" });
       await scroll.evaluate((element) => element.scrollTo(0, element.scrollHeight));
       await page.locator(`tr[aria-rowindex="${total + 1}"]`).waitFor();
+      const before = await arrayBytes(page);
+      await gallery.go("/");
+      const after = await arrayBytes(page);
+      console.log(
+        `     ${(before / 1e6).toFixed(0)} MB of arrays, and ${(after / 1e6).toFixed(0)} MB after leaving`,
+      );
+      assert.ok(after < before - 10e6, "the columns, filters and histograms are released");
       await gallery.close();
     },
   ],

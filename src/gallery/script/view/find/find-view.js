@@ -292,5 +292,8 @@ class FindView {
     this.list.end();
     window.clearTimeout(this.writing);
     window.clearTimeout(this.saying);
+    // A browser may keep form controls that were removed, and with them this view: its data are released.
+    this.panel.release();
+    [this.table, this.orders, this.filters, this.columns, this.rows] = [null, null, null, [], null];
   }
 }

@@ -43,7 +43,7 @@ export class FilterPanel {
     const toggled = ({ target }) => {
       if (target.open) this.opened.add(group);
       else this.opened.delete(group);
-      this.show(this.shown);
+      if (this.shown) this.show(this.shown);
     };
     return h(
       "details",
@@ -51,6 +51,13 @@ export class FilterPanel {
       h("summary", {}, label, h("span", { class: "note" }, ` ${elements.length}`)),
       elements,
     );
+  }
+
+  /** Removes the filters, and with them what they know of the table. */
+  release() {
+    this.filters.clear();
+    this.shown = null;
+    fill(this.element);
   }
 
   /** Shows the counts of the remaining rows, in groups that are open. */

@@ -51,6 +51,7 @@ export class ResultRows {
   end() {
     this.unwatch();
     this.paper.end();
+    [this.rows, this.table] = [[], null];
   }
 
   setRows(table, rows, columns, sort) {

@@ -27,6 +27,7 @@ export class ResultTiles extends TileWindow {
   end() {
     super.end();
     this.unwatch();
+    [this.rows, this.table, this.valueOf] = [[], null, () => null];
   }
 
   /** Replaces the rows shown. */
