@@ -10,6 +10,7 @@ use tempfile::TempDir;
 
 const MANIFEST: &str = r#"[atlas]
 title = "Atlas"
+output = "output"
 formats = ["svg"]
 
 [[family]]
