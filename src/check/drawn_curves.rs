@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::cell::LazyCell;
+use std::collections::HashMap;
 
 use super::curve_samples::{CurveSamples, point_distance};
 use super::finding::{Change, Finding, Location};
@@ -27,9 +28,12 @@ struct PageCell<'a> {
 
 /// Reads the curves of a recorded page, and compares them with the recorded points, which `recorded` returns by the
 /// number of a cell, and with the curves of the family as it is now, some cells of which are solved.
+///
+/// A curve that is drawn in the same way on the current page needs no comparison: it is the present one. If its recorded
+/// points are others, that is a finding on the points.
 pub(super) fn check_drawn_curves(
     page: &Location,
-    bytes: &[u8],
+    [bytes, current_page]: [&[u8]; 2],
     (family, cells): (&Family, &[SolvedCell]),
     recorded: impl Fn(usize) -> Option<Vec<CurveSamples>>,
 ) -> Vec<Finding> {
@@ -37,9 +41,11 @@ pub(super) fn check_drawn_curves(
         Ok(curves) => curves,
         Err(error) => return vec![page.finding(Change::Damaged { message: error.to_string() })],
     };
+    let drawn_now = read_drawn_curves(current_page).unwrap_or_default();
+    let drawn_now: HashMap<&str, &DrawnCurve> = drawn_now.iter().map(|curve| (curve.id.as_str(), curve)).collect();
     let mut findings = Vec::new();
     let mut current: Option<PageCell> = None;
-    for curve in curves {
+    for curve in curves.into_iter().filter(|curve| drawn_now.get(curve.id.as_str()) != Some(&curve)) {
         // The curves of a cell are consecutive, so that its rows are read once.
         let cell = match current.take() {
             Some(cell) if cell.number == curve.cell => cell,

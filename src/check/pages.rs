@@ -63,13 +63,11 @@ impl<'a> RecordedPages<'a> {
         let svg = render::svg(&scene, plan.text_mode);
         if let Some(record) = svg_record {
             let recorded_svg = self.check_svg(record, &svg, &mut page);
-            // A page that would be drawn just so today shows the present curves. If the recorded points differ from these,
-            // that is a finding on the points.
             let differing_svg = recorded_svg.filter(|bytes| *bytes != svg);
             if let (Some(bytes), PageContent::Cells { cells, .. }) = (differing_svg, content) {
                 let family = &self.pipeline.composer.planned.family;
                 let location = self.file_location(&record.name);
-                page.findings.extend(check_drawn_curves(&location, &bytes, (family, cells), recorded));
+                page.findings.extend(check_drawn_curves(&location, [&bytes, &svg], (family, cells), recorded));
             }
         }
         if let Some(record) = png_record {

@@ -123,7 +123,7 @@ fn pages_in_other_formats(
             Some(drawn) => drawn.inputs_sha256 == file.inputs_sha256,
             None => record.inputs_sha256 == earlier.inputs_sha256,
         };
-        let inputs_sha256 = file.inputs_sha256.clone().filter(|_| is_current);
+        let inputs_sha256 = file.inputs_sha256.filter(|_| is_current);
         Some(FileRecord { inputs_sha256, ..file.clone() })
     };
     earlier.files.iter().filter_map(kept_page).collect()

@@ -27,7 +27,7 @@ const HOSTILE: &str = "::error::a\u{1b}[31m\u{0}\n::error::b\r\n \t::warning::c\
 
 /// The same without the characters that a path, an argument or a field of a table cannot have.
 fn hostile_word() -> String {
-    HOSTILE.replace('\0', "").replace('"', "")
+    HOSTILE.replace(['\0', '"'], "")
 }
 
 struct Atlas {

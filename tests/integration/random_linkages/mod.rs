@@ -2,16 +2,26 @@
 
 mod generator;
 
+use std::fs;
 use std::process::Command;
+
+use sha2::{Digest, Sha256};
 
 use super::folder::Atlas;
 use generator::{KIND_COUNT, Random, manifest};
 
-/// The findings of a check right after the render.
-fn findings(text: &str) -> Vec<serde_json::Value> {
+/// The findings of a check right after the render, and of one after each page was given a comment: pages with other bytes
+/// than those of a fresh drawing are read back, and their curves compared with the linkages.
+fn findings(text: &str) -> [Vec<serde_json::Value>; 2] {
     let atlas = Atlas::new(text);
     let (code, _, errors) = atlas.run(&["-q", "-o", "out"]);
     assert_eq!(code, 0, "{errors}\n{text}");
+    let first = check(&atlas, text);
+    add_comments(&atlas);
+    [first, check(&atlas, text)]
+}
+
+fn check(atlas: &Atlas, text: &str) -> Vec<serde_json::Value> {
     let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
         .current_dir(atlas.0.path())
         .args(["check", "--against", "out", "--report", "json", "-q"])
@@ -21,6 +31,24 @@ fn findings(text: &str) -> Vec<serde_json::Value> {
         .unwrap_or_else(|_| panic!("{}\n{text}", String::from_utf8_lossy(&output.stderr)));
     assert!(report["curves"].as_u64().is_some_and(|curves| curves > 50), "{report}\n{text}");
     report["findings"].as_array().unwrap().clone()
+}
+
+/// Adds a comment to each page, and records its digest as if a run had written it so.
+fn add_comments(atlas: &Atlas) {
+    let path = atlas.out().join("run.json");
+    let mut run: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    for family in run["families"].as_array_mut().unwrap() {
+        let folder = atlas.out().join(family["id"].as_str().unwrap());
+        for file in family["files"].as_array_mut().unwrap() {
+            let name = file["name"].as_str().unwrap().to_owned();
+            if name.ends_with(".svg") {
+                let page = fs::read_to_string(folder.join(&name)).unwrap().replace("</svg>", "<!-- --></svg>");
+                file["sha256"] = format!("{:x}", Sha256::digest(&page)).into();
+                fs::write(folder.join(&name), page).unwrap();
+            }
+        }
+    }
+    fs::write(path, run.to_string()).unwrap();
 }
 
 /// A number from the environment.
@@ -36,7 +64,9 @@ fn a_check_right_after_the_render_finds_nothing() {
     let mut random = Random(number("RANDOM_SEED", 1951));
     for _ in 0..manifests {
         let text = manifest(&mut random, 0..KIND_COUNT, CELLS);
-        let found = findings(&text);
+        let [found, read_back] = findings(&text);
         assert!(found.is_empty(), "{found:#?}\n{text}");
+        let is_comment = |finding: &serde_json::Value| finding["kind"] == "drawing";
+        assert!(!read_back.is_empty() && read_back.iter().all(is_comment), "{read_back:#?}\n{text}");
     }
 }

@@ -20,11 +20,10 @@ pub struct DependencyCycle {
 pub fn dependency_order(count: usize, needs: impl Fn(usize) -> Vec<usize>) -> Result<Vec<usize>, DependencyCycle> {
     let mut dependents: Vec<Vec<usize>> = vec![Vec::new(); count];
     let mut missing_counts = vec![0; count];
-    for k in 0..count {
-        for need in needs(k) {
-            dependents[need].push(k);
-            missing_counts[k] += 1;
-        }
+    for (k, missing_count) in missing_counts.iter_mut().enumerate() {
+        let needed = needs(k);
+        *missing_count = needed.len();
+        needed.into_iter().for_each(|need| dependents[need].push(k));
     }
     let mut ready: BinaryHeap<Reverse<usize>> = (0..count).filter(|&k| missing_counts[k] == 0).map(Reverse).collect();
     let mut order: Vec<usize> = Vec::with_capacity(count);
