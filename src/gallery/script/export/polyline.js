@@ -7,36 +7,55 @@ import { distanceToChord } from "../kinematics/path.js";
 
 /**
  * The path over a circuit, [{ x, y }, …] from start to end. No chord is further than `tolerance` from the
- * curve: half of it is for the refinement, tested at the middle of each chord's input, and half for the
- * simplification.
+ * curve: half of it is for the refinement, tested at the first quarter and the middle of each chord's input,
+ * and half for the simplification.
  */
 export function polylineOfCurve({ linkage, circuitSamples, joint }, tolerance) {
   const alone = singlePointLinkage(linkage, joint);
   const out = [];
   for (const pass of circuitSamples.passes) {
-    const points = refinePass(alone.linkage, pass, alone.joint, tolerance / 2);
-    out.push(...simplifyPath(points, tolerance / 2).slice(out.length > 0 ? 1 : 0));
+    const nodes = refinePass(alone.linkage, pass, alone.joint, tolerance / 2);
+    const points = nodes.filter(({ x, y }) => Number.isFinite(x) && Number.isFinite(y));
+    const continues = out.length > 0 && points.length > 0 && separation(out.at(-1), points[0]) <= tolerance;
+    out.push(...simplifyPath(points, tolerance / 2).slice(continues ? 1 : 0));
   }
-  return out.filter(({ x, y }) => Number.isFinite(x) && Number.isFinite(y));
+  return out;
+}
+
+function separation(a, b) {
+  const [dx, dy] = [b.x - a.x, b.y - a.y];
+  return Math.sqrt(dx * dx + dy * dy);
+}
+
+/** The turns of a linkage's fastest crank for a turn of the driven one, at least 1. */
+function fastestCrankRatio(linkage) {
+  const ratio = ({ step }) => (step.kind === "gear" ? Math.abs(step.ratio[0] / step.ratio[1]) : 1);
+  return Math.max(1, ...linkage.joints.map(ratio));
 }
 
 // Refines the points of a pass; each round bisects the inputs of chords that are too far from the curve.
 function refinePass(linkage, pass, joint, tolerance) {
-  // A chord spans at most 3 degrees of crank rotation and 1/64 of the pass: a longer one may cross its curve
-  // at the middle.
-  const [LONGEST, FEWEST, ROUNDS, MOST] = [3, 64, 30, 100000];
+  // A chord spans at most 3 degrees of the fastest crank's rotation and 1/64 of the pass: a longer one may cross
+  // its curve at the middle.
+  const [LONGEST, FEWEST, ROUNDS, MOST] = [3, 64, 60, 100000];
   const length = passLength(pass);
-  const longest = linkage.input.isLength ? length / FEWEST : Math.min(LONGEST, length / FEWEST);
+  const most = LONGEST / fastestCrankRatio(linkage);
+  const longest = linkage.input.isLength ? length / FEWEST : Math.min(most, length / FEWEST);
   const chords = Math.min(Math.max(Math.ceil(length / longest), 1), MOST);
   const { from, to } = pass;
   const inputs = Array.from({ length: chords }, (_, k) => from + (to - from) * (k / chords));
   let nodes = nodesOnPass(linkage, pass, joint, [...inputs, to]);
   for (let round = 0; round < ROUNDS; round++) {
-    const open = [];
-    for (let k = 1; k < nodes.length; k++)
-      if (nodes[k - 1].open) open.push((nodes[k - 1].at + nodes[k].at) / 2);
-    if (open.length === 0 || nodes.length > MOST) break;
-    nodes = splitLongChords(nodes, nodesOnPass(linkage, pass, joint, open), tolerance);
+    const [middles, quarters] = [[], []];
+    for (let k = 1; k < nodes.length; k++) {
+      if (!nodes[k - 1].open) continue;
+      const [a, b] = [nodes[k - 1].at, nodes[k].at];
+      middles.push((a + b) / 2);
+      quarters.push(a + (b - a) / 4);
+    }
+    if (middles.length === 0 || nodes.length > MOST) break;
+    const at = (inputs) => nodesOnPass(linkage, pass, joint, inputs);
+    nodes = splitLongChords(nodes, at(middles), at(quarters), tolerance);
   }
   return nodes;
 }
@@ -46,19 +65,30 @@ function nodesOnPass(linkage, pass, joint, inputs) {
   return inputs.map((at, k) => ({ at, x: x[joint][k], y: y[joint][k], open: true }));
 }
 
-function splitLongChords(nodes, middles, tolerance) {
+function splitLongChords(nodes, middles, quarters, tolerance) {
   const out = [nodes[0]];
   let next = 0;
   for (let k = 1; k < nodes.length; k++) {
-    const before = nodes[k - 1];
+    const [before, after] = [nodes[k - 1], nodes[k]];
     if (before.open) {
-      const middle = middles[next++];
-      before.open = distanceToChord(middle, before, nodes[k]) > tolerance;
+      const [middle, quarter] = [middles[next], quarters[next]];
+      next += 1;
+      before.open =
+        distanceToChord(middle, before, after) > tolerance ||
+        distanceToChord(quarter, before, after) > tolerance ||
+        isUneven(before, middle, after, tolerance);
+      middle.open = before.open;
       if (before.open) out.push(middle);
     }
-    out.push(nodes[k]);
+    out.push(after);
   }
   return out;
+}
+
+// Whether the middle of a chord's input is so near one of its ends that the chord cannot be judged by it.
+function isUneven(from, middle, to, tolerance) {
+  const [before, after] = [separation(from, middle), separation(middle, to)];
+  return Math.max(before, after) > Math.max(tolerance, 4 * Math.min(before, after));
 }
 
 /**
