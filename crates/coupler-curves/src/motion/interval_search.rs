@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn the_search_for_one_circuit_doubles_with_the_number_of_dyads() {
-        for dyads in [5, 10, 20, 40] {
+        for dyads in [7, 14, 28] {
             let linkage = linkage_of_open_dyads(dyads, CircuitSelection::Start);
             let mut search = IntervalSearch::new(&linkage);
             trace_start_circuit(&mut search).unwrap();
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_search_for_all_circuits_is_bounded() {
-        for dyads in [20, 40] {
+        for dyads in [15, 30] {
             let linkage = linkage_of_open_dyads(dyads, CircuitSelection::All);
             let mut search = IntervalSearch::new(&linkage);
             assert!(matches!(search.find_all(), Err(AssemblyError::TooManyModes { .. })));
