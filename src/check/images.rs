@@ -10,8 +10,8 @@ use image::{DynamicImage, ImageFormat, ImageReader};
 
 use super::finding::{Change, Finding, Location};
 use crate::record::{
-    Digest, FileError, FileRecord, FolderRecord, IMAGES_FILE_NAME, ImagesState, RunningDigest, is_intact_png,
-    open_regular_file, read_regular_file,
+    Digest, FileError, FileRecord, FolderRecord, IMAGES_FILE_NAME, ImagesState, file_digest, is_intact_png,
+    read_regular_file,
 };
 
 /// The largest image that is read, in bytes: more than the pixels of a page of the greatest size and resolution.
@@ -67,15 +67,8 @@ fn is_same_image<'a>(recorded: &'a [u8], current: &'a [u8]) -> bool {
 pub(super) fn check_volume(output: &Path, record: &FileRecord) -> Option<Finding> {
     // A record is not trusted: a name with a folder would lead out of the atlas.
     let is_file_name = Path::new(&record.name).components().count() == 1;
-    let digest = || -> Result<Digest, FileError> {
-        if !is_file_name {
-            return Err(FileError::NotFound);
-        }
-        let mut digest = RunningDigest::default();
-        std::io::copy(&mut open_regular_file(&output.join(&record.name), u64::MAX)?, &mut digest)?;
-        Ok(digest.finish())
-    };
-    let change = match (digest(), record.image_sha256) {
+    let digest = if is_file_name { file_digest(&output.join(&record.name)) } else { Err(FileError::NotFound) };
+    let change = match (digest, record.image_sha256) {
         (Err(error), _) => Change::Damaged { message: error.to_string() },
         (Ok(_), None) => Change::Damaged { message: format!("is not in {IMAGES_FILE_NAME}") },
         (Ok(found), Some(recorded)) if found == recorded => return None,

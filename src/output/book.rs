@@ -10,7 +10,7 @@ use super::journal::{Journal, JournalFile};
 use super::{Error, Event, Options, files, previous_run};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::pipeline::{Composer, FamilyPipeline, Pagination, curves_by_page, measures_used_on_pages};
-use crate::record::{BookRecord, Digest, FileRecord, JournalEntry};
+use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups, CellSelection};
 use coupler_curves::solve::SolvedCell;
 use coupler_curves::template::CircuitSelection;
@@ -338,10 +338,10 @@ impl<'a> BookWriter<'a> {
         let pages = book.page_count();
         let bytes = book.finish(&book::outline(self.atlas, volume, [front, index.len()])).map_err(Error::Book)?;
         let name = previous_run::volume_name(volume);
-        self.journal.append(&JournalEntry::Writing(name.clone()))?;
-        files::write(&self.output.join(&name), &bytes)?;
-        let record = FileRecord::from_book(name, &bytes).with_inputs(self.inputs_sha256);
-        self.journal.append(&JournalEntry::written("", record.clone()))?;
+        let record = self.journal.replace_file("", &name, || {
+            files::write(&self.output.join(&name), &bytes)?;
+            Ok(FileRecord::from_book(name.clone(), &bytes).with_inputs(self.inputs_sha256))
+        })?;
         self.files.push((record, pages));
         Ok(())
     }

@@ -91,7 +91,7 @@ impl<'a> FamilyWriter<'a> {
         }
         let mut record = initial_record(task.pipeline);
         for name in pieces.finished_names() {
-            record.files.push(task.sink.registry.reuse_piece(&name)?);
+            record.files.push(task.sink.registry.reuse_if(&name, |_| true)?);
         }
         let tables =
             Tables { cells: resume("cells.csv", cells)?, points: resume("points.csv", points)?, pieces, open_pieces };
@@ -222,7 +222,8 @@ fn finished_pages(task: &FamilyTask, done: GroupsDone) -> Option<Vec<Vec<FileRec
     let pages = if cells == arrangement.kept.len() { pagination.page_count } else { pagination.first_page(cells) - 1 };
     let record = |page: usize| -> Option<Vec<FileRecord>> {
         let name = |format| page_file_name(&family.id, (page, pagination.page_count), format);
-        task.sink.formats.iter().map(|&format| task.sink.registry.reuse_intact(&name(format))).collect()
+        let is_finished = |record: &FileRecord| record.inputs_sha256.is_some();
+        task.sink.formats.iter().map(|&format| task.sink.registry.reuse_if(&name(format), is_finished)).collect()
     };
     (1..=pages).into_par_iter().map(record).collect()
 }

@@ -9,9 +9,7 @@ use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
 use crate::manifest::MAX_MANIFEST_BYTES;
-use crate::record::{
-    FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME, RunRecord, RunningDigest, open_regular_file,
-};
+use crate::record::{FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 
 /// Reads the text of a manifest: of a file, or of standard input if the path is `-`.
 ///
@@ -78,14 +76,8 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 
 /// Whether a file has the digest in its record; a record without a digest makes no claim.
 pub(super) fn is_intact(folder: &Path, record: &FileRecord) -> bool {
-    let digest = || -> Option<bool> {
-        let recorded = record.sha256.or(record.image_sha256)?;
-        let mut file = open_regular_file(&folder.join(&record.name), u64::MAX).ok()?;
-        let mut digest = RunningDigest::default();
-        io::copy(&mut file, &mut digest).ok()?;
-        Some(digest.finish() == recorded)
-    };
-    digest().unwrap_or(false)
+    let recorded = record.sha256.or(record.image_sha256);
+    recorded.is_some_and(|recorded| file_digest(&folder.join(&record.name)) == Ok(recorded))
 }
 
 /// Removes those files of a folder that exist, and their subfolders that are then empty. Symbolic links to folders or

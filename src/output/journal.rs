@@ -15,7 +15,7 @@ use crate::gallery::{self, DataBytes, GalleryFamily};
 use crate::manifest::{MAX_PAGE_FILES, Plan};
 use crate::record::{
     BookRecord, FamilyProgress, FamilyRecord, FileRecord, FolderRecord, IMAGES_FILE_NAME, JOURNAL_FILE_NAME,
-    JournalEntry, RUN_FILE_NAME, RunRecord, images_of_run, read_regular_file,
+    JournalEntry, RUN_FILE_NAME, RunRecord, images_of_run, path_in_atlas, read_regular_file,
 };
 
 /// The record of a run in progress: in memory, and in a journal on disk.
@@ -62,6 +62,23 @@ impl JournalFile {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         // A single call, so that a killed run leaves at most one incomplete line.
         file.write_all(&entry.to_line()).map_err(|source| Error::Write { path: self.path.clone(), source })
+    }
+
+    /// Replaces a file by `write`, and returns its record; `folder` is empty, or the id of the family. An entry before it
+    /// says that nothing is known about the file, and one after it that it is complete.
+    ///
+    /// # Errors
+    /// The error of `write`, or the journal cannot be written.
+    pub fn replace_file(
+        &self,
+        folder: &str,
+        name: &str,
+        write: impl FnOnce() -> Result<FileRecord, Error>,
+    ) -> Result<FileRecord, Error> {
+        self.append(&JournalEntry::Writing(path_in_atlas(folder, name)))?;
+        let record = write()?;
+        self.append(&JournalEntry::written(folder, record.clone()))?;
+        Ok(record)
     }
 }
 
@@ -252,11 +269,8 @@ impl<'a> Journal<'a> {
         let record = FileRecord::from_bytes(gallery::PAGE_FILE, page.as_bytes());
         if self.gallery.as_ref() != Some(&record) || !files::is_intact(&self.output, &record) {
             let path = self.output.join(gallery::PAGE_FILE);
-            let file = self.file()?;
-            file.append(&JournalEntry::Writing(record.name.clone()))?;
-            write(&path, page.as_bytes())?;
-            file.append(&JournalEntry::written("", record.clone()))?;
-            self.gallery = Some(record);
+            let write_page = || write(&path, page.as_bytes()).map(|()| record);
+            self.gallery = Some(self.file()?.replace_file("", gallery::PAGE_FILE, write_page)?);
         }
         Ok(())
     }
@@ -267,22 +281,30 @@ impl<'a> Journal<'a> {
     /// The record cannot be written.
     pub fn close(self) -> Result<RunRecord, Error> {
         let mut run = self.to_run();
-        let images_path = self.output.join(IMAGES_FILE_NAME);
-        match images_of_run(&mut run) {
-            Some(images) => write_if_different(&images_path, &images)?,
-            None if self.has_images_file => {
-                files::remove_files(&self.output, std::iter::once(IMAGES_FILE_NAME))?;
-            }
-            None => {}
-        }
-        write_if_different(&self.output.join(RUN_FILE_NAME), &run.to_bytes())?;
-        let journal = self.output.join(JOURNAL_FILE_NAME);
+        write_record(&self.output, &mut run, self.has_images_file)?;
         drop(self.file);
-        if fs::symlink_metadata(&journal).is_ok() {
-            fs::remove_file(&journal).map_err(|source| Error::Write { path: journal, source })?;
-        }
+        remove_journal(&self.output)?;
         Ok(run)
     }
+}
+
+/// Writes `images.json`, and then `run.json`. Without images and books, an `images.json` of an earlier run is removed.
+fn write_record(output: &Path, run: &mut RunRecord, has_images_file: bool) -> Result<(), Error> {
+    match images_of_run(run) {
+        Some(images) => write_if_different(&output.join(IMAGES_FILE_NAME), &images)?,
+        None if has_images_file => files::remove_files(output, std::iter::once(IMAGES_FILE_NAME))?,
+        None => {}
+    }
+    write_if_different(&output.join(RUN_FILE_NAME), &run.to_bytes())
+}
+
+/// Removes the journal, if there is one; a folder without it need not be writable.
+fn remove_journal(output: &Path) -> Result<(), Error> {
+    let path = output.join(JOURNAL_FILE_NAME);
+    if fs::symlink_metadata(&path).is_err() {
+        return Ok(());
+    }
+    fs::remove_file(&path).map_err(|source| Error::Write { path, source })
 }
 
 /// Writes a file unless it has these bytes already, so that an unchanged atlas needs no permission to write.
@@ -300,15 +322,8 @@ fn write_if_different(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 pub(super) fn suspend(output: &Path, continues: bool) {
     let write = || -> Result<(), Error> {
         let Ok(FolderRecord { mut run, is_unfinished: true, .. }) = FolderRecord::read(output) else { return Ok(()) };
-        if let Some(images) = images_of_run(&mut run) {
-            write_if_different(&output.join(IMAGES_FILE_NAME), &images)?;
-        }
-        write_if_different(&output.join(RUN_FILE_NAME), &run.to_bytes())?;
-        if !continues {
-            let path = output.join(JOURNAL_FILE_NAME);
-            fs::remove_file(&path).map_err(|source| Error::Write { path, source })?;
-        }
-        Ok(())
+        write_record(output, &mut run, false)?;
+        if continues { Ok(()) } else { remove_journal(output) }
     };
     let _ = write();
 }

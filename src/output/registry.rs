@@ -7,7 +7,7 @@ use super::Error;
 use super::files::{self, write};
 use super::journal::JournalFile;
 use super::table_file::TableFile;
-use crate::record::{Digest, FileRecord, JournalEntry, path_in_atlas};
+use crate::record::{Digest, FileRecord};
 
 /// Writes the files of a family, and adds them to the journal.
 #[derive(Debug)]
@@ -34,24 +34,18 @@ impl<'a> FileRegistry<'a> {
 
     /// The record of a file of the earlier run, if it is intact and was made from the same inputs.
     pub fn reuse_unchanged(&self, name: &str, inputs: Digest) -> Option<FileRecord> {
-        self.reuse_intact(name).filter(|record| record.inputs_sha256 == Some(inputs))
+        self.reuse_if(name, |record| record.inputs_sha256 == Some(inputs))
     }
 
-    /// The record of a file of the earlier run, if it is intact and known to have been made for some inputs.
-    pub fn reuse_intact(&self, name: &str) -> Option<FileRecord> {
-        let record = self.previous.get(name).filter(|record| record.inputs_sha256.is_some())?;
-        files::is_intact(&self.folder, record).then(|| (*record).clone())
-    }
-
-    /// The record of a piece of the gallery's data of the earlier run, if it is intact.
-    pub fn reuse_piece(&self, name: &str) -> Option<FileRecord> {
-        let record = self.previous.get(name).filter(|record| record.sha256.is_some())?;
-        files::is_intact(&self.folder, record).then(|| (*record).clone())
+    /// The record of a file of the earlier run, if it is usable and intact. The file is read only if it is usable.
+    pub fn reuse_if(&self, name: &str, is_usable: impl Fn(&FileRecord) -> bool) -> Option<FileRecord> {
+        let record = self.previous.get(name).copied().filter(|record| is_usable(record))?;
+        files::is_intact(&self.folder, record).then(|| record.clone())
     }
 
     /// Writes a file, and returns its record.
     pub fn write_file(&self, record: FileRecord, bytes: &[u8]) -> Result<FileRecord, Error> {
-        self.track_write(&record.name.clone(), || {
+        self.journal.replace_file(self.family, &record.name.clone(), || {
             let path = self.folder.join(&record.name);
             if let (true, Some(subfolder)) = (record.name.contains('/'), path.parent()) {
                 files::create_folder(subfolder)?;
@@ -62,14 +56,6 @@ impl<'a> FileRegistry<'a> {
 
     /// Renames a finished table to its final name, and returns its record.
     pub fn commit_file(&self, file: TableFile) -> Result<FileRecord, Error> {
-        self.track_write(&file.name(), || file.commit())
-    }
-
-    /// Replaces a file between two entries of the journal.
-    fn track_write(&self, name: &str, write: impl FnOnce() -> Result<FileRecord, Error>) -> Result<FileRecord, Error> {
-        self.journal.append(&JournalEntry::Writing(path_in_atlas(self.family, name)))?;
-        let record = write()?;
-        self.journal.append(&JournalEntry::written(self.family, record.clone()))?;
-        Ok(record)
+        self.journal.replace_file(self.family, &file.name(), || file.commit())
     }
 }

@@ -5,6 +5,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
+use super::digest::{Digest, RunningDigest};
+
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileError {
@@ -54,6 +56,16 @@ pub fn open_regular_file(path: &Path, max_bytes: u64) -> Result<File, FileError>
         return Err(FileError::TooLarge { bytes: metadata.len(), max: max_bytes });
     }
     Ok(File::open(path)?)
+}
+
+/// The digest of a regular file, read in parts.
+///
+/// # Errors
+/// The file cannot be read, or is not a regular file.
+pub fn file_digest(path: &Path) -> Result<Digest, FileError> {
+    let mut digest = RunningDigest::default();
+    io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digest)?;
+    Ok(digest.finish())
 }
 
 /// Reads a regular file of at most `max_bytes` bytes.
