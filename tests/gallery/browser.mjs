@@ -105,22 +105,35 @@ export async function eventually(check, sentence, within = 5000) {
   }
 }
 
+// The slowest test takes a few seconds; a browser that has died may never answer.
+const TEST_SECONDS = 120;
+
+/** The result of a promise, or an error if there is none after some seconds. */
+function within(seconds, promise) {
+  let timer = null;
+  const late = new Promise((_, fail) => {
+    timer = setTimeout(() => fail(new Error(`no result after ${seconds} seconds`)), 1000 * seconds);
+  });
+  return Promise.race([promise, late]).finally(() => clearTimeout(timer));
+}
+
 /**
  * Runs tests [[point, sentence, async function (context)], …] one after another, a line for each: "ok 1.2
- * sentence" or "FAILED …" with what was wrong. Ends the process with 1 if one failed; with 0 and a message
- * where there is no browser.
+ * sentence" or "FAILED …" with what was wrong, and ends the process: with 1 if one failed; with 0 and a message
+ * where there is no browser. A browser that has died is started again.
  */
 export async function runTests(tests, context = {}) {
   if (!hasBrowser()) {
     console.log("skipped: PLAYWRIGHT_CORE and CHROMIUM name no browser");
     return;
   }
-  const browser = await launchBrowser();
+  let browser = await launchBrowser();
   const only = process.env.ONLY;
   let failed = 0;
   for (const [point, sentence, test] of tests.filter(([point]) => !only || point.startsWith(only))) {
     try {
-      await test({ browser, ...context });
+      if (!browser.isConnected()) browser = await launchBrowser();
+      await within(TEST_SECONDS, test({ browser, ...context }));
       console.log(`ok ${point} ${sentence}`);
     } catch (error) {
       failed += 1;
@@ -132,8 +145,9 @@ export async function runTests(tests, context = {}) {
       );
     }
   }
-  await browser.close();
-  if (failed) process.exitCode = 1;
+  await within(10, browser.close()).catch((error) => console.log(`the browser was not closed: ${error.message}`));
+  // What a dead browser has left open does not keep the process alive.
+  process.exit(failed ? 1 : 0);
 }
 
 /**

@@ -205,8 +205,5 @@ const tests = [
 ];
 
 const atlas = largeAtlas(from, COPIES);
-try {
-  await runTests(tests, { atlas });
-} finally {
-  atlas.remove();
-}
+process.on("exit", () => atlas.remove());
+await runTests(tests, { atlas });
