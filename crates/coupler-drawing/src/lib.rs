@@ -2,7 +2,8 @@
 //!
 //! Data flows one way: solved cells of [`coupler_curves`] are composed into pages ([`page`], or [`plate`] for one
 //! curve), a page is a list of items at fixed positions ([`scene`]), and a scene is rendered to bytes ([`render`]).
-//! [`chart`] collects the numbers that charts show. Nothing in this crate reads or writes a file.
+//! [`chart`] collects the numbers that charts show, [`mechanism`] the parts of a linkage that are drawn. Nothing in this
+//! crate reads or writes a file.
 //!
 //! A four-bar, its class, one of its coupler curves, the longest straight portion of the curve, and the curve's plate:
 //!
@@ -21,6 +22,7 @@
 //! ```
 
 pub mod chart;
+pub mod mechanism;
 pub mod scene;
 
 pub mod page;

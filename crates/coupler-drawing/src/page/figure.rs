@@ -3,11 +3,12 @@
 use super::arrangement::{Arrangement, Extents, Rect};
 use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::marks;
-use super::mechanism::Mechanism;
+use super::mechanism::PosedMechanism;
 use super::plot::{Plot, round_number_below};
 use super::pose;
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PoseChoice};
+use crate::mechanism::Mechanism;
 use crate::scene::{Animation, Circle, Color, Item, Path};
 use coupler_curves::geometry::{Bounds, Point, Similarity};
 use coupler_curves::linkage::{Input, JointId};
@@ -74,7 +75,7 @@ pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
     solved_cell: &'a SolvedCell,
     /// The linkage in one pose, or in all poses of an animation.
-    mechanisms: Vec<Mechanism<'a>>,
+    mechanisms: Vec<PosedMechanism<'a>>,
     /// The duration of the animation.
     seconds: f64,
     pub extents: Extents,
@@ -91,8 +92,9 @@ impl<'a> Figure<'a> {
             PoseChoice::Fixed(pose) => (vec![pose.clone()], 0.0),
             PoseChoice::Animated { poses, seconds } => (poses.clone(), *seconds),
         };
-        let mechanism = |pose| Mechanism::new(&solved.linkage, circuit, pose, &panel.link_inks);
-        let mechanisms: Vec<Mechanism> = poses.into_iter().map(mechanism).collect();
+        let parts = Mechanism::new(&solved.linkage, circuit);
+        let mechanism = |pose| PosedMechanism::new(&solved.linkage, parts.clone(), pose, &panel.link_inks);
+        let mechanisms: Vec<PosedMechanism> = poses.into_iter().map(mechanism).collect();
         let curve =
             Bounds::from_points(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
         let key = mechanisms.iter().fold(curve, |key, mechanism| key.union(mechanism.bounds()));
@@ -101,7 +103,7 @@ impl<'a> Figure<'a> {
     }
 
     /// Items that depend on the pose, animated if there are several poses.
-    fn posed_items(&self, items: impl Fn(&Mechanism) -> Vec<Item>) -> Vec<Item> {
+    fn posed_items(&self, items: impl Fn(&PosedMechanism) -> Vec<Item>) -> Vec<Item> {
         match &self.mechanisms[..] {
             [only] => items(only),
             all => vec![Item::Animation(Animation { frames: all.iter().map(items).collect(), seconds: self.seconds })],
@@ -240,7 +242,7 @@ impl<'a> Figure<'a> {
                 curves.push(curve);
             }
         }
-        let circle = |curve: &MeasuredCurve, mechanism: &Mechanism| {
+        let circle = |curve: &MeasuredCurve, mechanism: &PosedMechanism| {
             let stroke = Some(theme.stroke(self.curve_ink(curve, theme), theme.fine_width));
             let centre = plot.page_from_plane.apply(mechanism.pose[curve.joint]);
             Item::Circle(Circle { centre, radius: theme.joint_radius, stroke, fill: Some(theme.paper) })

@@ -2,7 +2,7 @@
 
 use super::super::arrangement::Rect;
 use super::super::element::{Area, Drawing, TextLine, draw as put};
-use super::super::mechanism::Mechanism;
+use super::super::mechanism::PosedMechanism;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
 use super::labels::{self, LabelBox, Obstacles};
@@ -11,7 +11,7 @@ use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_no
 use coupler_curves::linkage::{JointId, is_plate};
 
 /// Draws the key at the head of a column; the result is the rest of the column.
-pub(super) fn draw(area: &Area, side: Rect, page: &CouplerGridPage, mechanism: &Mechanism, theme: &Theme) -> Rect {
+pub(super) fn draw(area: &Area, side: Rect, page: &CouplerGridPage, mechanism: &PosedMechanism, theme: &Theme) -> Rect {
     let linkage = &page.panel.solved_cell.linkage;
     let pose = |joint: &JointId| mechanism.pose[*joint];
     let (links, pivots) = (linkage.link_outlines(), linkage.pivots());

@@ -16,10 +16,11 @@ use super::element::{Area, CouplerCurve, Drawing, draw};
 use super::figure;
 use super::heading;
 use super::marks;
-use super::mechanism::Mechanism;
+use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
+use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
@@ -106,21 +107,22 @@ fn shown_curves<'a>(solved: &'a SolvedCell, curve_indices: &[usize]) -> Vec<Show
 }
 
 /// The linkage in its pose; `None` if the cell has no curve.
-fn posed_mechanism<'a>(panel: &'a Panel) -> Option<Mechanism<'a>> {
+fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
     let solved = panel.solved_cell;
     let circuit = solved.circuit(solved.curves.first()?);
     let pose = match &panel.pose {
         PoseChoice::Fixed(pose) => pose.clone(),
         PoseChoice::Clearest | PoseChoice::Animated { .. } => pose::clearest_pose(&solved.linkage, circuit),
     };
-    Some(Mechanism::new(&solved.linkage, circuit, pose, &panel.link_inks))
+    let mechanism = Mechanism::new(&solved.linkage, circuit);
+    Some(PosedMechanism::new(&solved.linkage, mechanism, pose, &panel.link_inks))
 }
 
 fn draw_figure(
     area: &Area,
     frame: Rect,
     page: &CouplerGridPage,
-    mechanism: &Mechanism,
+    mechanism: &PosedMechanism,
     shown: &[ShownCurve],
     options: &Options,
     theme: &Theme,
@@ -173,7 +175,7 @@ fn draw_figure(
 
 /// The points of a page without repetition, with their positions on it.
 fn distinct_points<'a>(
-    mechanism: &Mechanism,
+    mechanism: &PosedMechanism,
     shown: &'a [ShownCurve],
     plot: &Plot,
 ) -> impl Iterator<Item = (Point, &'a ShownCurve<'a>)> {
@@ -183,7 +185,7 @@ fn distinct_points<'a>(
 }
 
 /// The numbers of the points of a page, with the positions of the points.
-fn point_numbers(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+fn point_numbers(mechanism: &PosedMechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
     let number = |s: &ShownCurve| {
         let number = s.curve.trace.to_string();
         theme.text_line(&number, Point::origin(), Anchor::Middle, 0.85 * theme.note_size, s.ink(theme)).text
@@ -215,7 +217,7 @@ fn coupler_curve(
 }
 
 /// A small circle at the position of each point of the page in the pose.
-fn point_circles(mechanism: &Mechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<Item> {
+fn point_circles(mechanism: &PosedMechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<Item> {
     let circle = |(centre, s): (Point, &ShownCurve)| {
         let stroke = Some(theme.stroke(s.ink(theme), theme.fine_width));
         let fill = Some(if s.has_underline(theme) { s.ink(theme) } else { theme.paper });

@@ -1,0 +1,162 @@
+//! The parts of a linkage that are drawn: links as bars and plates, pivots, sliders with their guides, slots, actuators
+//! and gears.
+//!
+//! The parts are those of a linkage on a circuit; where they are in a pose is for the drawing to compute.
+
+use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal};
+use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage};
+use coupler_curves::motion::Circuit;
+
+/// The parts of a linkage on a circuit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mechanism {
+    /// The moving links, each with its joints in the order of its outline.
+    pub links: Vec<LinkOutline>,
+    /// The joints that the frame shares with moving links.
+    pub pivots: Vec<JointId>,
+    /// The sliders on lines of the frame or of a link.
+    pub blocks: Vec<Block>,
+    /// The slots in moving links.
+    pub slots: Vec<Slot>,
+    /// The actuators, from the pivot of the cylinder to the joint of the rod.
+    pub actuators: Vec<[JointId; 2]>,
+    /// The guides of sliders on the frame: the ends of the part that the slider uses.
+    pub guides: Vec<[Point; 2]>,
+    /// The pitch circles of gears: the joint at the centre and the radius.
+    pub pitch_circles: Vec<(JointId, f64)>,
+}
+
+/// A sliding block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    /// The joint at its centre.
+    pub joint: JointId,
+    /// Two joints on the line that it slides along.
+    pub line: [JointId; 2],
+}
+
+/// A slot in a moving link: the part of the line that the joint in it uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slot {
+    /// The foot of the line, or the joint of the yoke.
+    pub foot: JointId,
+    /// The joint that slides in it.
+    pub through: JointId,
+    /// Two joints, in whose direction the slot turns.
+    pub base: [JointId; 2],
+    /// The ends of the slot relative to its foot, along and across the direction of the base.
+    pub ends: [Vector; 2],
+}
+
+impl Mechanism {
+    /// The parts of a linkage on a circuit.
+    pub fn new(linkage: &Linkage, circuit: &Circuit) -> Mechanism {
+        let joints = || linkage.joint_ids().zip(&linkage.joints);
+        let block = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
+            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } => Some(Block { joint, line }),
+            _ => None,
+        };
+        let actuator = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
+            JointKind::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
+            _ => None,
+        };
+        Mechanism {
+            links: linkage.link_outlines(),
+            pivots: linkage.pivots(),
+            blocks: joints().filter_map(block).collect(),
+            slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
+            actuators: joints().filter_map(actuator).collect(),
+            guides: linkage.joint_ids().filter_map(|joint| find_guide(linkage, circuit, joint)).collect(),
+            pitch_circles: pitch_circles(linkage, circuit),
+        }
+    }
+
+    /// The joints that are drawn: those of links, and the pivots, each once and in order. The foot of a slot without
+    /// offset is its pivot, and is left out.
+    pub fn drawn_joints(&self, linkage: &Linkage) -> Vec<JointId> {
+        let mut joints: Vec<JointId> = self.links.iter().flat_map(|outline| outline.joints.iter().copied()).collect();
+        joints.extend(&self.pivots);
+        joints.sort_unstable();
+        joints.dedup();
+        joints.retain(|&joint| !matches!(linkage.joints[joint].kind, JointKind::Slot { offset: 0.0, .. }));
+        joints
+    }
+
+    /// The bounds of everything that is drawn of the linkage in a pose.
+    pub fn bounds(&self, pose: &[Point]) -> Bounds {
+        let gears = self.pitch_circles.iter().flat_map(|&(centre, radius)| {
+            [pose[centre] - Vector::repeat(radius), pose[centre] + Vector::repeat(radius)]
+        });
+        let joints = self.links.iter().flat_map(|outline| &outline.joints).chain(&self.pivots);
+        let joints = joints.map(|&joint| pose[joint]);
+        let slots = self.slots.iter().flat_map(|slot| slot.ends_in(pose));
+        Bounds::from_points(joints.chain(self.guides.iter().flatten().copied()).chain(gears).chain(slots))
+    }
+}
+
+impl Slot {
+    /// The ends of the slot in a pose.
+    pub fn ends_in(&self, pose: &[Point]) -> [Point; 2] {
+        let [from, to] = self.base;
+        let unit = (pose[to] - pose[from]).normalize();
+        self.ends.map(|end| pose[self.foot] + unit * end.x + left_normal(unit) * end.y)
+    }
+}
+
+/// The pitch circles of gears, centred on the pivots of both cranks. Gears that turn in the same direction mesh over an
+/// idler, which is not drawn, so there is a gap between them.
+fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
+    let crank = linkage.joints.iter().find_map(|joint| match joint.kind {
+        JointKind::Crank { pivot, .. } => Some(pivot),
+        _ => None,
+    });
+    let mut circles = Vec::new();
+    for joint in &linkage.joints {
+        if let (JointKind::Gear { pivot, ratio: [turns, crank_turns], .. }, Some(first)) = (joint.kind, crank) {
+            let distance = (circuit.positions.point(pivot, 0) - circuit.positions.point(first, 0)).norm();
+            let filled_part = if turns < 0 { 1.0 } else { 0.8 };
+            // The slower gear is the larger one.
+            let [own, other] = [crank_turns.abs() as f64, turns.abs() as f64]
+                .map(|n| filled_part * distance * n / (turns.abs() + crank_turns.abs()) as f64);
+            circles.extend([(pivot, own), (first, other)]);
+        }
+    }
+    circles
+}
+
+/// The ends of the part of a line on the frame that a slider uses.
+fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
+    let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = linkage.joints[joint].kind else {
+        return None;
+    };
+    let along = fixed_line_direction(linkage, circuit, line)?;
+    let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
+    Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
+}
+
+/// The direction of a line through two joints; `None` if it is not on the frame.
+fn fixed_line_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 2]) -> Option<Vector> {
+    let ground = linkage.ground();
+    (ground.position(p).is_some() && ground.position(q).is_some()).then_some(())?;
+    Some(circuit.positions.point(q, 0) - circuit.positions.point(p, 0))
+}
+
+/// The slot that has `joint` as its foot or yoke.
+fn find_slot(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Slot> {
+    // The line turns with a base: the pivot and the foot of a slot, the guide of a yoke, or the line itself of a slot
+    // without offset.
+    let ([from, to], through) = match linkage.joints[joint].kind {
+        JointKind::Slot { base: [pivot, through], offset: 0.0, .. } => ([pivot, through], through),
+        JointKind::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
+        JointKind::Yoke { from, line, .. } => (line, from),
+        _ => return None,
+    };
+    let in_base = |base: Vector, arm: Vector| Vector::new(base.dot(&arm), cross(base, arm)) / base.norm();
+    let point = |joint, sample| circuit.positions.point(joint, sample);
+    let arm = |i: usize| in_base(point(to, i) - point(from, i), point(through, i) - point(joint, i));
+    let arms: Vec<Vector> = (0..circuit.len()).map(arm).filter(|arm| arm.x.is_finite() && arm.y.is_finite()).collect();
+    let longest = arms.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    let by = |a: &&Vector, b: &&Vector| longest.dot(a).total_cmp(&longest.dot(b));
+    let ends = [*arms.iter().min_by(by)?, *arms.iter().max_by(by)?];
+    Some(Slot { foot: joint, through, base: [from, to], ends })
+}
