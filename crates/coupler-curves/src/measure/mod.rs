@@ -32,6 +32,7 @@ pub use path::cumulative_lengths;
 pub use straight::{StraightCriterion, StraightPortion};
 pub use symmetry::Symmetry;
 pub use symmetry_axis::SymmetryAxis;
+pub use transmission::transmission_angle;
 
 use std::cell::OnceCell;
 use std::rc::Rc;

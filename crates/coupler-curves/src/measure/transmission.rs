@@ -1,6 +1,6 @@
 use super::extreme::extremes;
 use super::{Measure, TracedCurve, Value};
-use crate::geometry::{cross, trig};
+use crate::geometry::{Point, cross, trig};
 use crate::linkage::{FourBar, JointId, JointKind, Linkage, length_tolerance};
 
 /// The measure `mu_min_deg`.
@@ -55,6 +55,20 @@ pub(super) fn transmission_angles(curve: &TracedCurve) -> Option<[f64; 2]> {
     }
     let at_crank = angle([o, b], [crank, coupler]);
     Some([at_rocker[0].min(at_crank[0]), at_rocker[1].max(at_crank[1])])
+}
+
+/// The transmission angle of the four-bar in a linkage in a pose, in degrees from 0 to 180; where the coupler is driven,
+/// that of the two pins which is further from 90 degrees. `None` if the linkage is not a four-bar.
+pub fn transmission_angle(linkage: &Linkage, pose: &[Point]) -> Option<f64> {
+    let FourBar { crank, coupler, rocker, .. } = FourBar::from_linkage(linkage)?;
+    let [o, a, b, c] = FourBar::pins(linkage)?;
+    let angle = |[from, to]: [JointId; 2], sides: [f64; 2]| opposite_angle((pose[from] - pose[to]).norm(), sides);
+    let at_rocker = angle([a, c], [coupler, rocker]);
+    if linkage.seen_from.is_none() || !is_driven(linkage, [a, b]) {
+        return Some(at_rocker);
+    }
+    let at_crank = angle([o, b], [crank, coupler]);
+    Some(if (at_crank - 90.0).abs() > (at_rocker - 90.0).abs() { at_crank } else { at_rocker })
 }
 
 /// Whether the link through two pins is the driven one: the crank of the linkage as it was built.

@@ -9,10 +9,12 @@ use super::interval_search::IntervalSearch;
 use super::pass::{InputPosition, Pass, PassEnd};
 use crate::linkage::{CircuitSelection, DyadId, DyadSet, Input, Linkage};
 
-/// A circuit that is not yet sampled.
+/// A circuit that is not yet sampled; see [`super::Sampler::sample_circuit`].
 #[derive(Clone, Debug)]
-pub(super) struct UnsampledCircuit {
+pub struct UnsampledCircuit {
+    /// Its passes, in order, at least one.
     pub passes: Vec<Pass>,
+    /// Whether it ends where it begins.
     pub is_closed: bool,
 }
 
@@ -33,14 +35,17 @@ fn input_range(passes: &[Pass]) -> [f64; 2] {
     [ends().fold(f64::INFINITY, f64::min), ends().fold(f64::NEG_INFINITY, f64::max)]
 }
 
-/// The result of [`find_circuits`].
-pub(super) struct CircuitSet {
+/// The circuits of a linkage; see [`find_circuits`].
+#[derive(Clone, Debug)]
+pub struct CircuitSet {
+    /// The circuits, in the order of [`super::Motion::circuits`].
     pub circuits: Vec<UnsampledCircuit>,
+    /// Why the linkage cannot be assembled at all, or not over the whole requested range.
     pub assembly_error: Option<AssemblyError>,
 }
 
-/// Finds the circuits that the linkage's [`crate::linkage::MotionOptions`] select, in order.
-pub(super) fn find_circuits(linkage: &Linkage) -> CircuitSet {
+/// Finds the circuits that the linkage's [`crate::linkage::MotionOptions`] select, without sampling them.
+pub fn find_circuits(linkage: &Linkage) -> CircuitSet {
     let mut search = IntervalSearch::new(linkage);
     let traced = match linkage.motion_options.circuits {
         CircuitSelection::Start => trace_start_circuit(&mut search),

@@ -40,6 +40,7 @@ mod series;
 mod spacing;
 
 pub use assembly_error::AssemblyError;
+pub use circuit::{CircuitSet, UnsampledCircuit, find_circuits};
 pub use derivatives::JointDerivatives;
 pub use instantaneous_motion::InstantaneousMotion;
 pub use interval_search::MAX_ASSEMBLY_MODES;
@@ -66,7 +67,7 @@ pub struct Motion {
 impl Motion {
     /// Finds and samples the circuits of a linkage.
     pub fn solve(linkage: &Linkage, sampler: &Sampler) -> Motion {
-        let found = circuit::find_circuits(linkage);
+        let found = find_circuits(linkage);
         if let Some(error) = found.circuits.iter().find_map(|circuit| sampler.excess_error(circuit)) {
             return Motion { circuits: Vec::new(), assembly_error: Some(error) };
         }

@@ -153,8 +153,8 @@ impl Sampler {
         }
     }
 
-    /// Samples a circuit.
-    pub(super) fn sample_circuit(&self, linkage: &Linkage, circuit: UnsampledCircuit) -> Circuit {
+    /// Samples a circuit of a linkage.
+    pub fn sample_circuit(&self, linkage: &Linkage, circuit: UnsampledCircuit) -> Circuit {
         let mut plan = self.plan_samples(&circuit, linkage);
         let mut positions = JointPositions::new(linkage.joints.len(), plan.inputs.len());
         let inputs = InputColumns::new(&plan.inputs);
