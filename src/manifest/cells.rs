@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use super::PlannedFamily;
 use super::names::MAX_LIMIT;
-use crate::sweep;
 use coupler_curves::family::{Cell, CellError, Family};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
+use coupler_curves::motion::MAX_CIRCUIT_BYTES;
 use coupler_curves::problem::{Problem, Span};
 use coupler_drawing::page::Layout;
 use coupler_drawing::render::Format;
@@ -96,9 +96,9 @@ pub(super) fn check_memory(family: &Family, layout: Layout, fields: &Fields, par
         Layout::Chart { .. } => 1,
         _ => layout.cells_per_page().min(family.cell_count()),
     };
-    let bytes = sweep::estimate_cell_bytes(family).saturating_mul(cells);
-    if bytes > sweep::MAX_BYTES {
-        let [needed, limit] = [bytes, sweep::MAX_BYTES].map(|bytes| bytes.div_ceil(1_000_000));
+    let bytes = family.estimate_cell_bytes().saturating_mul(cells);
+    if bytes > MAX_CIRCUIT_BYTES {
+        let [needed, limit] = [bytes, MAX_CIRCUIT_BYTES].map(|bytes| bytes.div_ceil(1_000_000));
         let of_page = if cells == 1 { "a cell".to_owned() } else { format!("the {cells} cells of a page") };
         let message = format!("{of_page} would take about {needed} MB, more than the limit of {limit} MB");
         let span = fields.get("sampling").map_or_else(|| fields.span.clone(), TomlValue::span);

@@ -1,7 +1,7 @@
 //! Distributes the cells of a family over pages.
 
 use crate::manifest::PlannedFamily;
-use crate::sweep::{self, CellSelection};
+use crate::sweep::CellSelection;
 use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure};
 use coupler_drawing::page::{self, Layout};
@@ -43,7 +43,7 @@ impl Pagination {
             _ => Vec::new(),
         };
         let chart_group_size =
-            (CHART_GROUP_BYTES / sweep::estimate_cell_bytes(&planned.family).max(1)).clamp(1, CHART_GROUP_SIZE);
+            (CHART_GROUP_BYTES / planned.family.estimate_cell_bytes().max(1)).clamp(1, CHART_GROUP_SIZE);
         let (size, pages) = match &planned.chart {
             None if planned.layout == Layout::CouplerGrid => (1, starts.last().map_or(0, |end| end - 1)),
             None => (cells_per_page, kept.div_ceil(cells_per_page)),

@@ -8,12 +8,10 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 
-use coupler_curves::family::{Family, Sampling};
-use coupler_curves::linkage::Input;
+use coupler_curves::family::Family;
 use coupler_curves::measure;
 use coupler_curves::motion::{self, Sampler};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, solve_measuring};
-use coupler_curves::template::CircuitSelection;
 use rayon::prelude::*;
 
 /// The cells that `where` keeps, by index, see [`CellSelection::kept`].
@@ -126,44 +124,12 @@ pub struct CellGroups<'a> {
 }
 
 /// The approximate limit of memory for groups in flight, in bytes.
-pub const MAX_BYTES: usize = motion::MAX_CIRCUIT_BYTES;
-
-/// The memory of a value in an additional column of a row, in bytes.
-const BYTES_PER_COLUMN: usize = 20;
-
-/// The most circuits that a linkage is assumed to have. If it has more, and they take too much memory, it counts as
-/// not assembled.
-const MAX_CIRCUITS: usize = 8;
-
-/// The memory that a solved cell of a family and its rows in tables take, in bytes, estimated from its first cell.
-pub fn estimate_cell_bytes(family: &Family) -> usize {
-    // The cells of a family differ in their dimensions only.
-    let Ok(linkage) = family.linkage(&family.cell(0)) else { return 0 };
-    let turns = match linkage.input() {
-        Input::Angle { turns } => turns as usize,
-        Input::Length => 1,
-    };
-    let samples = match family.sampling {
-        Sampling::Step(step) if linkage.input() != Input::Length => ((360.0 / step) as usize).saturating_mul(turns),
-        // The length of a stroke is known only when the linkage is solved.
-        Sampling::Step(_) => 0,
-        Sampling::Samples(n) | Sampling::DenseAtLimits(n) | Sampling::ArcLength(n) => n,
-    };
-    // Each assembly mode may have a circuit of its own.
-    let circuits = match family.template.circuits {
-        CircuitSelection::Start => 1,
-        CircuitSelection::All => 1usize.checked_shl(linkage.dyad_count() as u32).unwrap_or(MAX_CIRCUITS),
-    };
-    let circuits = circuits.min(MAX_CIRCUITS);
-    let column_bytes = linkage.traced.len() * family.columns.len() * BYTES_PER_COLUMN;
-    let bytes = motion::estimate_bytes(&linkage, std::iter::repeat_n(samples, circuits));
-    bytes.saturating_add(samples.saturating_mul(circuits * column_bytes))
-}
+const MAX_BYTES: usize = motion::MAX_CIRCUIT_BYTES;
 
 impl CellGroups<'_> {
     /// The number of groups in flight: enough to keep the threads busy, within the limit of memory.
     fn max_in_flight(&self, family: &Family) -> usize {
-        let bytes = estimate_cell_bytes(family).saturating_mul(self.size).saturating_add(self.work_bytes);
+        let bytes = family.estimate_cell_bytes().saturating_mul(self.size).saturating_add(self.work_bytes);
         (MAX_BYTES / bytes.max(1)).clamp(1, rayon::current_num_threads() * 4)
     }
 }

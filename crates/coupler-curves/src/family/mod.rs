@@ -1,6 +1,7 @@
 //! A family: a linkage template and its parameter sets, the cells.
 
 mod axis_values;
+mod memory;
 mod parameter_space;
 mod single_cell;
 
