@@ -16,7 +16,8 @@ pub mod sweep;
 
 pub mod design;
 
-pub mod manifest;
+pub use coupler_manifest as manifest;
+
 pub mod record;
 
 pub mod export;

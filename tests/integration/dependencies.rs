@@ -152,7 +152,8 @@ fn unsafe_code_is_forbidden() {
     assert_eq!(level, Some("forbid"));
     let curves = parsed(include_str!("../../crates/coupler-curves/Cargo.toml"));
     let drawing = parsed(include_str!("../../crates/coupler-drawing/Cargo.toml"));
-    for member in [&cargo, &curves, &drawing] {
+    let manifest = parsed(include_str!("../../crates/coupler-manifest/Cargo.toml"));
+    for member in [&cargo, &curves, &drawing, &manifest] {
         let inherits = table(member, "lints").get("workspace").and_then(|value| value.get_ref().as_bool());
         assert_eq!(inherits, Some(true));
     }

@@ -1,7 +1,7 @@
 //! Reads the `theme` of `[page]`: the name of a theme, or a table that modifies one.
 
-use super::bounded_number::read_within;
-use super::default_value;
+use crate::bounded_number::read_within;
+use crate::default_value;
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::{Problem, Span};
@@ -9,16 +9,16 @@ use coupler_drawing::page::Theme;
 use coupler_drawing::scene::{Color, Typeface};
 
 /// The schema of the name of a theme.
-pub(super) const NAME_FORM: ValueSchema = ValueSchema::Word(|| Theme::NAMED.map(|named| named.name).to_vec());
+pub(crate) const NAME_FORM: ValueSchema = ValueSchema::Word(|| Theme::NAMED.map(|named| named.name).to_vec());
 
 /// The name of the default theme, as JSON.
-pub(super) fn default_name() -> String {
+pub(crate) fn default_name() -> String {
     let [default, ..] = Theme::NAMED;
     default_value::string(default.name)
 }
 
 /// The table of a theme that modifies another.
-pub(super) static THEME: TableSchema = TableSchema::new(
+pub(crate) static THEME: TableSchema = TableSchema::new(
     "a theme",
     &[
         KeySchema::new("base", NAME_FORM, "The theme that it modifies.").with_default(default_name),
@@ -99,7 +99,7 @@ const LETTERING_SIZES: SizeAccessor =
     |theme| vec![&mut theme.title_size, &mut theme.source_size, &mut theme.caption_size, &mut theme.note_size];
 
 /// Reads a theme; values that cannot be parsed keep those of the base theme.
-pub(super) fn read<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Theme {
+pub(crate) fn read<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Theme {
     if value.get_ref().is_str() {
         return named_theme(value, parser).unwrap_or_default();
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::names::FamilyNames;
+use crate::names::FamilyNames;
 use coupler_curves::expression::{CompiledExpression, Expression, Scope};
 use coupler_curves::family::{Family, MAX_CELLS, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
@@ -11,7 +11,7 @@ use coupler_curves::template::Template;
 use coupler_drawing::chart::{self, Chart, PointSource, Quantity};
 
 /// The `chart` table of a family.
-pub(super) static CHART: TableSchema = TableSchema::new(
+pub(crate) static CHART: TableSchema = TableSchema::new(
     "`chart`",
     &[
         KeySchema::required(
@@ -40,14 +40,14 @@ pub(super) static CHART: TableSchema = TableSchema::new(
 
 const QUANTITY_FORM: ValueSchema = ValueSchema::WithExamples(&ValueSchema::Text, numeric_measures);
 /// The names of the measures that are numbers.
-pub(super) fn numeric_measures() -> Vec<&'static str> {
+pub(crate) fn numeric_measures() -> Vec<&'static str> {
     Family::numeric_measure_names().collect()
 }
 
 const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
 
 /// Checks the syntax of a chart's expressions, when the names they may use are not known.
-pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
+pub(crate) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
     let Some(fields) = fields.get("chart").and_then(|value| Fields::from_value(value, &CHART, parser)) else {
         return;
     };
@@ -62,7 +62,7 @@ pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut 
 }
 
 /// Reads the chart of a family.
-pub(super) fn read<'t>(
+pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
     template: &Template,
     names: &FamilyNames,
@@ -290,7 +290,7 @@ fn read_ranges<'t>(
 }
 
 /// Checks that a family has a `chart` if and only if its layout is `chart`.
-pub(super) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, parser: &mut TomlParser<'t>) {
+pub(crate) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, parser: &mut TomlParser<'t>) {
     match (is_chart, fields.get("chart"), fields.get("layout")) {
         (true, None, Some(layout)) => {
             let problem = Problem::error(layout.span(), "the layout is `chart`, but there is no `chart`");

@@ -4,7 +4,7 @@ use coupler_curves::linkage_format::{TomlParser, TomlValue};
 use coupler_curves::problem::Problem;
 
 /// Reads a number that must lie in a closed range; `what` is its unit, as messages name it.
-pub(super) fn read_within<'t>(
+pub(crate) fn read_within<'t>(
     value: &TomlValue<'t>,
     parser: &mut TomlParser<'t>,
     read: impl Fn(&TomlValue<'t>, &mut TomlParser<'t>) -> Option<f64>,

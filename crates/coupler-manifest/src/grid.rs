@@ -5,7 +5,7 @@ use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser,
 use coupler_curves::problem::Problem;
 
 /// What a grid may give for a name.
-pub(super) const VALUES_FORM: ValueSchema = ValueSchema::AnyOf(&[
+pub(crate) const VALUES_FORM: ValueSchema = ValueSchema::AnyOf(&[
     ValueSchema::List(&ValueSchema::Number, [1, usize::MAX]),
     ValueSchema::Table(&RANGE),
     ValueSchema::Number,
@@ -26,7 +26,7 @@ static RANGE: TableSchema = TableSchema::new(
 const MAX_COUNT: usize = usize::MAX >> 12;
 
 /// The values of one name, and their number.
-pub(super) struct GridValues {
+pub(crate) struct GridValues {
     pub values: AxisValues,
     /// The number of values; a float, since it may exceed any integer.
     pub count: f64,
@@ -46,7 +46,7 @@ struct DecimalRange {
 }
 
 /// Reads the values that a grid gives for a name.
-pub(super) fn read_values<'t>(name: &str, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
+pub(crate) fn read_values<'t>(name: &str, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
     if let Some(list) = value.get_ref().as_array() {
         if list.is_empty() {
             let problem = Problem::error(value.span(), format!("`{name}` has no values"));

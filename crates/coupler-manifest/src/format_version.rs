@@ -9,7 +9,7 @@ pub const FORMAT_VERSION: usize = 1;
 /// Whether a manifest is in this format; reports a problem if it is not.
 ///
 /// Nothing else can be checked then: what is an unknown key in this format may be a key in the other.
-pub(super) fn is_supported<'t>(document: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
+pub(crate) fn is_supported<'t>(document: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
     let atlas = document.get_ref().as_table().and_then(|root| root.get("atlas")?.get_ref().as_table());
     let Some(value) = atlas.and_then(|atlas| atlas.get("format")) else { return true };
     let is_number = value.get_ref().is_integer() || value.get_ref().is_float();

@@ -40,7 +40,7 @@ const IGNORED_FAMILY_KEYS: [&str; 3] = ["formats", "limit", "check"];
 const IGNORED_PAGE_KEYS: [&str; 8] = ["formats", "limit", "check", "grid", "cases", "let", "where", "sort"];
 
 /// The texts that the inputs of several families have in common.
-pub(super) struct SharedInputs {
+pub(crate) struct SharedInputs {
     /// That of all tables other than families and linkages.
     tables: Arc<str>,
     /// Those of the linkages, by their ids.

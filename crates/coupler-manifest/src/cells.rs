@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::PlannedFamily;
-use super::names::MAX_LIMIT;
+use crate::names::MAX_LIMIT;
+use crate::plan::PlannedFamily;
 use coupler_curves::family::{Cell, CellError, Family};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::motion::MAX_CIRCUIT_BYTES;
@@ -25,7 +25,7 @@ const MAX_BOOK_CELLS: usize = 1_000_000;
 
 /// How many cells, names, values and files the families of an atlas have so far.
 #[derive(Default)]
-pub(super) struct AtlasTotals {
+pub(crate) struct AtlasTotals {
     page_files: usize,
     book_cells: usize,
     cells: usize,
@@ -90,7 +90,7 @@ fn is_within((number, limit): (usize, usize), what: &str, (span, help): (Span, &
 }
 
 /// Checks that the cells of a page, which are in memory together, are not too large.
-pub(super) fn check_memory(family: &Family, layout: Layout, fields: &Fields, parser: &mut TomlParser) {
+pub(crate) fn check_memory(family: &Family, layout: Layout, fields: &Fields, parser: &mut TomlParser) {
     let cells = match layout {
         // Charts are drawn from the measures of all cells, which are solved a few at a time.
         Layout::Chart { .. } => 1,
@@ -125,7 +125,7 @@ enum ProblemKind {
 
 /// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are
 /// counted. `spans` are the places where the names get their values.
-pub(super) fn check(family: &Family, fields: &Fields, spans: &[Option<Span>], parser: &mut TomlParser) {
+pub(crate) fn check(family: &Family, fields: &Fields, spans: &[Option<Span>], parser: &mut TomlParser) {
     let mut problems: Vec<CellProblem> = Vec::new();
     let mut problem_indices: HashMap<ProblemKind, usize> = HashMap::new();
     for k in 0..family.cell_count() {
@@ -190,14 +190,13 @@ fn case_span(fields: &Fields, k: usize) -> Option<Span> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manifest;
 
     const TEXT: &str = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\nsampling = { samples = 9 }\n\
                         panels = [1, 1]\ngrid = { p = [2, 3], a = [2] }";
 
     /// The messages of the problems that a family adds to totals.
     fn problems(mut totals: AtlasTotals) -> Vec<String> {
-        let planned = &manifest::parse(TEXT).plan.unwrap().families[0];
+        let planned = &crate::parse(TEXT).plan.unwrap().families[0];
         let mut parser = TomlParser::new(TEXT);
         let document = parser.parse_document();
         let root = Fields::with_any_keys(&document, "a manifest", &mut parser).unwrap();

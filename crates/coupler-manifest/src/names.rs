@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::grid::{self, GridValues};
+use crate::grid::{self, GridValues};
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
@@ -10,7 +10,7 @@ use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
 use coupler_curves::template::Template;
 
 /// The names of a family and where their values come from.
-pub(super) struct FamilyNames {
+pub(crate) struct FamilyNames {
     pub all: Vec<String>,
     pub space: ParameterSpace,
     pub derived: Vec<(usize, CompiledExpression)>,
@@ -22,7 +22,7 @@ pub(super) struct FamilyNames {
 }
 
 /// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`.
-pub(super) fn read_names<'t>(
+pub(crate) fn read_names<'t>(
     template: &Template,
     fields: &Fields<'_, 't>,
     parser: &mut TomlParser<'t>,
@@ -144,7 +144,7 @@ impl NameTable {
 }
 
 /// Checks the syntax of `let`, `where` and `sort`, when the names they may use are not known.
-pub(super) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
+pub(crate) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
     if let Some(lets) = fields.get("let").and_then(|value| Fields::with_any_keys(value, "`let`", parser)) {
         for (name, span, value) in lets.entries() {
             linkage_format::check_identifier(name, span, parser);
@@ -209,10 +209,10 @@ fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], parser: &mut TomlPar
 
 /// The most cells that `limit` may allow, and the most of all families of an atlas: all of them are checked before any
 /// is solved, which takes about a microsecond each, and the order of their pages takes 16 bytes each.
-pub(super) const MAX_LIMIT: usize = 10_000_000;
+pub(crate) const MAX_LIMIT: usize = 10_000_000;
 
 /// The values of `grid` or `cases`, by name.
-pub(super) enum NamedSpace {
+pub(crate) enum NamedSpace {
     Grid(Vec<(String, Span, AxisValues)>),
     Cases(Vec<Vec<(String, Span, f64)>>),
 }
@@ -235,7 +235,7 @@ impl NamedSpace {
 }
 
 /// Reads `grid` or `cases`.
-pub(super) fn read_space<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
+pub(crate) fn read_space<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
     let limit = match fields.get("limit") {
         None => MAX_CELLS,
         Some(value) => parser.integer(value, 1, MAX_LIMIT)?,

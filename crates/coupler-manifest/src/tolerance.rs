@@ -59,10 +59,10 @@ impl PartialTolerances {
 }
 
 /// The `[check]` table, for all families.
-pub(super) static CHECK: TableSchema = TableSchema::new("[check]", &KEYS);
+pub(crate) static CHECK: TableSchema = TableSchema::new("[check]", &KEYS);
 
 /// The `check` table of a family.
-pub(super) static FAMILY_CHECK: TableSchema = TableSchema::new("`check`", &KEYS);
+pub(crate) static FAMILY_CHECK: TableSchema = TableSchema::new("`check`", &KEYS);
 
 static KEYS: [KeySchema; 3] = [
     KeySchema::new("atol", ValueSchema::InRange([0.0, f64::MAX]), "How far a point may move, in units of length.")
@@ -82,7 +82,7 @@ static KEYS: [KeySchema; 3] = [
 ];
 
 /// Reads the tolerances of a table.
-pub(super) fn read<'t>(
+pub(crate) fn read<'t>(
     value: Option<&TomlValue<'t>>,
     table: &'static TableSchema,
     parser: &mut TomlParser<'t>,

@@ -2,28 +2,25 @@
 
 use std::sync::Arc;
 
-use super::cells::{self, AtlasTotals};
-use super::names::{check_expression_syntax, read_names, read_space};
-use super::schema::{
+use crate::cells::{self, AtlasTotals};
+use crate::inputs::ManifestInputs;
+use crate::names::{check_expression_syntax, read_names, read_space};
+use crate::plan::PlannedFamily;
+use crate::schema::{
     DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
 };
-use super::{ManifestInputs, PlannedFamily, Templates, chart, settings, tolerance};
+use crate::templates::Templates;
+use crate::{chart, settings, tolerance};
 use coupler_curves::expression::{Dimension, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
-use coupler_curves::problem::{Problem, Span, suggestion};
+use coupler_curves::problem::{Problem, suggestion};
 use coupler_curves::template::{Orientation, Template};
 use coupler_drawing::page::{Layout, Options};
 use coupler_drawing::render::Format;
 
-/// The id of a table and its place; `None` if it has none.
-pub(super) fn id_and_span(value: &TomlValue) -> Option<(String, Span)> {
-    let id = value.get_ref().as_table()?.get("id")?;
-    Some((id.get_ref().as_str()?.to_owned(), id.span()))
-}
-
 /// What families share.
-pub(super) struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// The linkages that they may name.
     pub templates: &'a Templates,
     /// The formats of the atlas.
@@ -33,7 +30,7 @@ pub(super) struct Context<'a> {
 }
 
 /// Reads a family, and adds it to `totals`.
-pub(super) fn read<'t>(
+pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
     Context { templates, formats, page }: Context,
     totals: &mut AtlasTotals,

@@ -1,11 +1,11 @@
 //! The keys of a manifest and of its `[[family]]` tables.
 
-use super::chart::{CHART, numeric_measures};
-use super::default_value;
-use super::grid::VALUES_FORM;
-use super::names::MAX_LIMIT;
-use super::settings::{ATLAS, FORMATS, PAGE};
-use super::tolerance::{CHECK, FAMILY_CHECK};
+use crate::chart::{CHART, numeric_measures};
+use crate::default_value;
+use crate::grid::VALUES_FORM;
+use crate::names::MAX_LIMIT;
+use crate::settings::{ATLAS, FORMATS, PAGE};
+use crate::tolerance::{CHECK, FAMILY_CHECK};
 use coupler_curves::catalogue;
 use coupler_curves::expression::Dimension;
 use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, MEASURES, StraightCriterion};
@@ -33,7 +33,7 @@ pub static MANIFEST: TableSchema = TableSchema::new(
 );
 
 /// The `[[family]]` table.
-pub(super) static FAMILY: TableSchema = TableSchema::new(
+pub(crate) static FAMILY: TableSchema = TableSchema::new(
     "a [[family]]",
     &[
         KeySchema::required("id", ValueSchema::Slug, "Its name, also that of its folder and its files."),
@@ -127,16 +127,16 @@ fn default_straight() -> String {
 }
 
 /// The default columns and rows of a page of panels, if the page has room for them.
-pub(super) const DEFAULT_PANELS: [usize; 2] = [5, 3];
+pub(crate) const DEFAULT_PANELS: [usize; 2] = [5, 3];
 
 /// The default layout.
-pub(super) const DEFAULT_LAYOUT: &str = "panels";
+pub(crate) const DEFAULT_LAYOUT: &str = "panels";
 
 /// The default placement: whether linkages are mirrored, and how far they are turned, in degrees.
-pub(super) const DEFAULT_PLACE: (bool, f64) = (false, 0.0);
+pub(crate) const DEFAULT_PLACE: (bool, f64) = (false, 0.0);
 
 /// The `place` table: how linkages are placed in the plane.
-pub(super) static PLACE: TableSchema = TableSchema::new(
+pub(crate) static PLACE: TableSchema = TableSchema::new(
     "`place`",
     &[
         KeySchema::new("mirror", ValueSchema::Boolean, "Whether they are mirrored about the x-axis.")
@@ -147,7 +147,7 @@ pub(super) static PLACE: TableSchema = TableSchema::new(
 );
 
 /// The `sampling` table.
-pub(super) static SAMPLING: TableSchema = TableSchema::new(
+pub(crate) static SAMPLING: TableSchema = TableSchema::new(
     "`sampling`",
     &[
         KeySchema::new("step", ValueSchema::Input, "At every multiple of a step of the input, and at limits."),
@@ -164,7 +164,7 @@ pub(super) static SAMPLING: TableSchema = TableSchema::new(
 
 /// How a given number of samples is distributed over a circuit.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub(super) enum Spacing {
+pub(crate) enum Spacing {
     /// Evenly in the input.
     #[default]
     Even,
@@ -175,14 +175,14 @@ pub(super) enum Spacing {
 }
 
 /// The words for spacings.
-pub(super) const SPACINGS: [(&str, Spacing); 3] =
+pub(crate) const SPACINGS: [(&str, Spacing); 3] =
     [("even", Spacing::Even), ("smooth", Spacing::Smooth), ("arc", Spacing::Arc)];
 
 /// The least tolerance of a straight portion; portions straighter than this cannot be told apart.
-pub(super) const MIN_TOLERANCE: f64 = 1e-8;
+pub(crate) const MIN_TOLERANCE: f64 = 1e-8;
 
 /// The `straight` table: the criterion for the straight portion.
-pub(super) static STRAIGHT: TableSchema = TableSchema::new(
+pub(crate) static STRAIGHT: TableSchema = TableSchema::new(
     "`straight`",
     &[
         KeySchema::new(

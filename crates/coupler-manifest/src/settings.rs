@@ -1,7 +1,8 @@
 //! Reads the tables `[atlas]` and `[page]`.
 
-use super::bounded_number::read_within;
-use super::{FORMAT_VERSION, default_value, theme};
+use crate::bounded_number::read_within;
+use crate::format_version::FORMAT_VERSION;
+use crate::{default_value, theme};
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::Problem;
@@ -9,7 +10,7 @@ use coupler_drawing::page::{Options, Paper};
 use coupler_drawing::render::{Format, TextMode};
 
 /// The settings of `[atlas]`.
-pub(super) struct AtlasSettings {
+pub(crate) struct AtlasSettings {
     pub title: String,
     pub output: Option<String>,
     pub formats: Vec<Format>,
@@ -29,7 +30,7 @@ const MAX_VOLUME_PAGES: usize = 10_000;
 const DEFAULT_PAPER: (&str, Paper) = Paper::NAMED[1];
 
 /// The settings of `[page]`.
-pub(super) struct PageSettings {
+pub(crate) struct PageSettings {
     pub options: Options,
     pub dpi: f64,
     pub text_mode: TextMode,
@@ -45,7 +46,7 @@ impl Default for PageSettings {
 const MAX_PIXELS: f64 = 4e8;
 
 /// The `[atlas]` table.
-pub(super) static ATLAS: TableSchema = TableSchema::new(
+pub(crate) static ATLAS: TableSchema = TableSchema::new(
     "[atlas]",
     &[
         KeySchema::new(
@@ -72,14 +73,14 @@ pub(super) static ATLAS: TableSchema = TableSchema::new(
 );
 
 /// The `formats` of an atlas or a family.
-pub(super) const FORMATS: KeySchema = KeySchema::new(
+pub(crate) const FORMATS: KeySchema = KeySchema::new(
     "formats",
     ValueSchema::List(&ValueSchema::Word(|| Format::ALL.map(Format::name).to_vec()), [1, usize::MAX]),
     "The formats of pages: svg and png, a file for each page, and pdf, one book of all of them.",
 );
 
 /// The `[page]` table.
-pub(super) static PAGE: TableSchema = TableSchema::new(
+pub(crate) static PAGE: TableSchema = TableSchema::new(
     "[page]",
     &[
         KeySchema::new(
@@ -133,7 +134,7 @@ const DPI_RANGE: [f64; 2] = [10.0, 2400.0];
 const TEXT_MODES: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
 
 /// Reads `[atlas]`.
-pub(super) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<AtlasSettings> {
+pub(crate) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<AtlasSettings> {
     let fields = Fields::from_value(value, &ATLAS, parser)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", parser);
     let output = match fields.get("output") {
@@ -173,7 +174,7 @@ fn normalize_folder(text: &str, is_windows: bool) -> Result<String, &'static str
 }
 
 /// Reads a list of formats; repeated formats are dropped.
-pub(super) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Format>> {
+pub(crate) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Format>> {
     let list = parser.list(value)?;
     if list.is_empty() {
         parser
@@ -199,7 +200,7 @@ pub(super) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
 }
 
 /// Reads `[page]`; the defaults if there is none.
-pub(super) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t>) -> Option<PageSettings> {
+pub(crate) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t>) -> Option<PageSettings> {
     let default = PageSettings::default();
     let Some(value) = value else { return Some(default) };
     let fields = Fields::from_value(value, &PAGE, parser)?;

@@ -1,0 +1,141 @@
+//! Parses a manifest as a whole.
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use coupler_curves::linkage_format::{Fields, TomlParser};
+use coupler_curves::problem::Problem;
+use coupler_curves::template::Template;
+use coupler_drawing::render::Format;
+
+use crate::cells::AtlasTotals;
+use crate::inputs::SharedInputs;
+use crate::plan::{Plan, PlannedFamily};
+use crate::schema::MANIFEST;
+use crate::templates::{Templates, id_and_span};
+use crate::tolerance::PartialTolerances;
+use crate::{family, format_version, settings, tolerance};
+
+/// The result of parsing a manifest.
+#[derive(Clone, Debug)]
+pub struct ParseOutcome {
+    /// The plan; `None` if any problem is an error.
+    pub plan: Option<Plan>,
+    /// The problems found, warnings among them.
+    pub problems: Vec<Problem>,
+}
+
+/// The most bytes of a manifest.
+pub const MAX_MANIFEST_BYTES: usize = 1 << 23;
+
+/// The most values, tables and lists of a manifest, enough for some hundred thousand cases. While it is parsed, each takes
+/// up to about 260 bytes.
+const MAX_MANIFEST_VALUES: usize = 1_000_000;
+
+/// A problem of a manifest that is too long; `None` for others.
+fn length_problem(text: &str) -> Option<Problem> {
+    // Each value follows one of these characters; those inside strings and comments are few.
+    let values = || text.bytes().filter(|byte| matches!(byte, b'=' | b',' | b'{' | b'[')).count();
+    let (count, limit, unit) = if text.len() > MAX_MANIFEST_BYTES {
+        (text.len(), MAX_MANIFEST_BYTES, "bytes")
+    } else {
+        (values(), MAX_MANIFEST_VALUES, "values")
+    };
+    let message = format!("the manifest has {count} {unit}, more than the limit of {limit}");
+    let problem = Problem::error(0..first_line_len(text), message);
+    (count > limit).then(|| problem.with_help("divide it, or give ranges in place of lists"))
+}
+
+/// Parses a manifest.
+pub fn parse(text: &str) -> ParseOutcome {
+    if let Some(problem) = length_problem(text) {
+        return ParseOutcome { plan: None, problems: vec![problem] };
+    }
+    let mut parser = TomlParser::new(text);
+    let plan = read_plan(text, &mut parser);
+    let problems = parser.into_problems();
+    let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
+    ParseOutcome { plan, problems }
+}
+
+/// Parses the `[[linkage]]` tables of a manifest, and ignores its other tables.
+pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
+    if let Some(problem) = length_problem(text) {
+        return (Vec::new(), vec![problem]);
+    }
+    let mut parser = TomlParser::new(text);
+    let document = parser.parse_document();
+    let root = Fields::with_any_keys(&document, "a manifest", &mut parser)
+        .filter(|_| format_version::is_supported(&document, &mut parser));
+    let templates = match root {
+        Some(root) => Templates::read(&root, &mut parser).manifest_templates,
+        None => Vec::new(),
+    };
+    (templates, parser.into_problems())
+}
+
+fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
+    let document = parser.parse_document();
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        let help = "`coupler-atlas init` writes one to start from";
+        parser.report(Problem::error(0..0, "the manifest is empty").with_help(help));
+        return None;
+    }
+    if !format_version::is_supported(&document, parser) {
+        return None;
+    }
+    let root = Fields::from_value(&document, &MANIFEST, parser)?;
+    let atlas = match root.get("atlas") {
+        Some(value) => settings::atlas(value, parser),
+        None => {
+            let problem = Problem::error(0..first_line_len(text), "the manifest has no [atlas]");
+            parser.report(problem.with_help("add a table [atlas] with title = \"…\""));
+            None
+        }
+    };
+    let page = settings::page(root.get("page"), parser);
+    let tolerances = tolerance::read(root.get("check"), &tolerance::CHECK, parser);
+    let templates = Templates::read(&root, parser);
+    let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
+    let tables = root.tables("family", parser);
+    if tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array()) {
+        let problem = Problem::error(0..first_line_len(text), "the manifest has no family");
+        parser.report(problem.with_help("add a table [[family]] with id, linkage, sampling, and grid or cases"));
+    }
+    let mut families: Vec<PlannedFamily> = Vec::new();
+    let mut ids: HashSet<String> = HashSet::new();
+    let mut totals = AtlasTotals::default();
+    let shared_inputs = SharedInputs::from_manifest(&root);
+    for value in tables {
+        let page = page.as_ref().map(|page| &page.options);
+        let context = family::Context { templates: &templates, formats: &formats, page };
+        let read = family::read(value, context, &mut totals, parser);
+        if let Some((id, span)) = id_and_span(value) {
+            let message = format!("there are two families `{id}`");
+            if !ids.insert(id) {
+                let problem = Problem::error(span, message);
+                parser.report(problem.with_help("an id names the family's folder: give each family its own"));
+            }
+        }
+        let tolerances = |family: PartialTolerances| family.or(tolerances);
+        families.extend(read.map(|read| PlannedFamily {
+            manifest_inputs: shared_inputs.of_family(value),
+            tolerances: tolerances(read.tolerances),
+            ..read
+        }));
+    }
+    let (atlas, page) = (atlas?, page?);
+    Some(Plan {
+        title: atlas.title,
+        output: atlas.output,
+        volume_pages: atlas.volume_pages,
+        page: page.options,
+        dpi: page.dpi,
+        text_mode: page.text_mode,
+        families,
+    })
+}
+
+fn first_line_len(text: &str) -> usize {
+    text.find('\n').unwrap_or(text.len())
+}

@@ -1,0 +1,57 @@
+//! Parses manifests of atlases: TOML that names families of planar linkages and says how they are drawn.
+//!
+//! [`parse`] turns a text into a validated [`Plan`], or reports every problem in it with its place and a remedy. It uses
+//! no files, threads or clocks, and what it returns depends on the text alone.
+//!
+//! ```
+//! let text = r#"
+//!     [atlas]
+//!     title = "Straight lines"
+//!
+//!     [[family]]
+//!     id = "hoeken"
+//!     linkage = "hoeken"
+//!     sampling = { samples = 180 }
+//!     grid = { a = [1, 2] }
+//! "#;
+//! let outcome = coupler_manifest::parse(text);
+//! let plan = outcome.plan.expect("a manifest without errors");
+//! assert_eq!(plan.families[0].family.cell_count(), 2);
+//! ```
+
+mod bounded_number;
+mod default_value;
+mod format_version;
+mod inputs;
+mod tolerance;
+
+mod theme;
+
+mod settings;
+
+mod grid;
+
+mod names;
+
+mod chart;
+
+mod schema;
+
+mod plan;
+
+mod cells;
+mod templates;
+
+mod family;
+
+mod document;
+
+pub use cells::MAX_PAGE_FILES;
+pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_linkages};
+pub use format_version::FORMAT_VERSION;
+pub use inputs::ManifestInputs;
+pub use plan::{Plan, PlannedFamily};
+pub use schema::MANIFEST;
+pub use tolerance::{PartialTolerances, Tolerances};
+
+pub use coupler_curves::linkage_format::{KeySchema, TableSchema, ValueSchema};

@@ -1,0 +1,67 @@
+//! What a manifest asks for.
+
+use coupler_curves::family::Family;
+use coupler_curves::problem::Span;
+use coupler_drawing::chart::Chart;
+use coupler_drawing::page;
+use coupler_drawing::render::{Format, TextMode};
+
+use crate::inputs::ManifestInputs;
+use crate::tolerance::PartialTolerances;
+
+/// A validated manifest: what to solve, and how to draw it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The atlas's title.
+    pub title: String,
+    /// The output folder, as the manifest gives it, if it does.
+    pub output: Option<String>,
+    /// The most pages of a volume of the book.
+    pub volume_pages: usize,
+    /// The options that all pages share.
+    pub page: page::Options,
+    /// The resolution of PNG images, in pixels per inch.
+    pub dpi: f64,
+    /// How text is written in SVG.
+    pub text_mode: TextMode,
+    /// The families, in order.
+    pub families: Vec<PlannedFamily>,
+}
+
+/// A family and how it is rendered.
+#[derive(Clone, Debug)]
+pub struct PlannedFamily {
+    /// The family.
+    pub family: Family,
+    /// How pages are laid out.
+    pub layout: page::Layout,
+    /// What its charts show; `None` unless its layout is charts.
+    pub chart: Option<Chart>,
+    /// The formats of its pages.
+    pub formats: Vec<Format>,
+    /// The line under the title of its pages.
+    pub source: String,
+    /// What the manifest contributes to its files.
+    pub manifest_inputs: ManifestInputs,
+    /// How much it may differ from a recorded atlas.
+    pub tolerances: PartialTolerances,
+    /// The place of its table in the manifest.
+    pub span: Span,
+    /// The place of its `where` in the manifest.
+    pub filter_span: Option<Span>,
+}
+
+impl PlannedFamily {
+    /// The most pages that the family can have, if `where` keeps all its cells.
+    pub fn max_pages(&self) -> usize {
+        let cells = self.family.cell_count();
+        let points = self.family.template.curve_count();
+        match (&self.chart, self.layout) {
+            (Some(chart), layout) => chart.y.len().div_ceil(layout.cells_per_page()),
+            (None, page::Layout::CouplerGrid) => {
+                cells.saturating_mul(points.div_ceil(page::Layout::POINTS_PER_PAGE).max(1))
+            }
+            (None, layout) => cells.div_ceil(layout.cells_per_page()),
+        }
+    }
+}
