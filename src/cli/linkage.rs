@@ -1,11 +1,11 @@
-//! Linkages and parameter values given on the command line.
+//! Linkages and numbers given on the command line.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use coupler_atlas::{manifest, output};
 use coupler_curves::catalogue;
-use coupler_curves::expression::Expression;
+use coupler_curves::expression::{Error, Expression};
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
 
@@ -34,20 +34,8 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Resu
     })
 }
 
-/// Reads `name=value`, where the value is a number or an expression without names.
-pub(super) fn parse_parameter(text: &str) -> Result<(String, f64), InputError> {
-    const EXAMPLE: &str = "p=2 or \"a=sqrt(2)\"";
-    let error = || InputError(format!("`{text}`: there is no `=`; write it like {EXAMPLE}"));
-    let (name, value) = text.split_once('=').ok_or_else(error)?;
-    Ok((name.trim().to_owned(), parse_number(value, EXAMPLE)?))
-}
-
 /// Reads a number or an expression without names; `example` is shown in the error.
 pub(super) fn parse_number(text: &str, example: &str) -> Result<f64, InputError> {
-    let error = |message: String| InputError(format!("`{text}`: {message}; write it like {example}"));
-    let expression = Expression::parse(text).map_err(|syntax_error| error(syntax_error.message))?;
-    match expression.names().first() {
-        Some(name) => Err(error(format!("`{name}` has no value here"))),
-        None => Ok(expression.evaluate(|_| f64::NAN)),
-    }
+    let error = |error: Error| InputError(format!("`{text}`: {error}; write it like {example}"));
+    Expression::evaluate_constant(text).map_err(error)
 }

@@ -248,12 +248,9 @@ fn parse_kinds(names: &[String], errors: &mut Vec<String>) -> Vec<LinkageKind> {
 
 /// Reads a finite number or an expression without names; `example` is shown in the error.
 fn parse_number(text: &str, example: &str) -> Result<f64, String> {
-    let expression =
-        Expression::parse(text).map_err(|error| format!("`{text}`: {}; write it like {example}", error.message))?;
-    if let Some(name) = expression.names().first() {
-        return Err(format!("`{text}`: `{name}` has no value here; write it like {example}"));
-    }
-    match expression.evaluate(|_| f64::NAN) {
+    let value =
+        Expression::evaluate_constant(text).map_err(|error| format!("`{text}`: {error}; write it like {example}"))?;
+    match value {
         value if value.is_finite() => Ok(value),
         value => Err(format!("`{text}` is {value}: give a finite number, as in {example}")),
     }

@@ -1,8 +1,6 @@
 //! `export`: writes curves to a file, to a folder, or to standard output.
 
-mod moved_point;
 mod selection;
-mod selector;
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -11,8 +9,8 @@ use clap::Args;
 use coupler_atlas::export::{self, Format, Options};
 use coupler_atlas::manifest::Plan;
 use coupler_atlas::output;
-use coupler_curves::exchange::{ParameterSet, SelectedCurve, manifest_fragment};
-use coupler_curves::family::{Family, MAX_SAMPLES, Sampling};
+use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
+use coupler_curves::family::{Family, MAX_SAMPLES, Sampling, parse_parameter};
 use coupler_curves::problem::suggestion;
 use coupler_drawing::page;
 use coupler_drawing::plate::PAPER;
@@ -22,7 +20,6 @@ use super::linkage::{self, DEFAULT_SAMPLES};
 use super::source::{self, DEFAULT_MANIFEST};
 use super::{InputError, InputErrors, Outcome, pluralize, print, print_bytes, print_stderr, printable};
 use selection::CurveSelection;
-use selector::CurveSelector;
 
 /// Export curves as drawings, still or moving, CAD drawings, tables, JSON, or a fragment of a manifest.
 ///
@@ -155,7 +152,7 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
     let mut problems = Vec::new();
     let (mut given, mut curves) = (Vec::new(), Vec::new());
     for word in &arguments.words {
-        match (CurveSelector::parse_curve_numbers(word), linkage::parse_parameter(word)) {
+        match (CurveName::parse_curve_numbers(word), parse_parameter(word)) {
             (Some(curve), _) => curves.push(curve),
             (None, Ok(parameter)) => given.push(parameter),
             (None, Err(error)) => problems.push(error.to_string()),
@@ -170,12 +167,12 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
         Err(errors) => problems.extend(errors.iter().map(|error| format!("{id}: {error}"))),
         Ok(family) if problems.is_empty() => {
             let mut selection = CurveSelection::empty(family, source);
-            let selector = |curve| CurveSelector { family: id.to_owned(), cell: Some(1), curve, overrides: Vec::new() };
-            let selectors: Vec<CurveSelector> = match curves.len() {
-                0 => vec![selector(None)],
-                _ => curves.into_iter().map(|curve| selector(Some(curve))).collect(),
+            let name = |curve| CurveName { family: id.to_owned(), cell: Some(1), curve, overrides: Vec::new() };
+            let names: Vec<CurveName> = match curves.len() {
+                0 => vec![name(None)],
+                _ => curves.into_iter().map(|curve| name(Some(curve))).collect(),
             };
-            selectors.iter().try_for_each(|selector| selection.add(selector)).map_err(InputError)?;
+            names.iter().try_for_each(|name| selection.add(name)).map_err(|error| InputError(error.to_string()))?;
             return Ok(selection);
         }
         Ok(_) => {}
@@ -200,29 +197,29 @@ fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelec
     let mut problems = Vec::new();
     let mut selections: Vec<CurveSelection> = Vec::new();
     for word in words {
-        let selector = match CurveSelector::parse(word) {
-            Ok(selector) => selector,
+        let name = match CurveName::parse(word) {
+            Ok(name) => name,
             Err(error) => {
-                problems.push(error);
+                problems.push(error.to_string());
                 continue;
             }
         };
-        let Some(planned) = planned.iter().find(|planned| planned.family.id == selector.family) else {
-            let help = suggestion(&selector.family, &ids);
-            problems.push(format!("`{word}`: there is no family `{}`: {help}", selector.family));
+        let Some(planned) = planned.iter().find(|planned| planned.family.id == name.family) else {
+            let help = suggestion(&name.family, &ids);
+            problems.push(format!("`{word}`: there is no family `{}`: {help}", name.family));
             continue;
         };
         let (family, source) = (&planned.family, &planned.source);
-        if selector.overrides.is_empty() {
+        if name.overrides.is_empty() {
             let is_same_family =
                 |selection: &CurveSelection| selection.overrides.is_empty() && selection.family.id == family.id;
             let index = selections.iter().position(is_same_family).unwrap_or_else(|| {
                 selections.push(CurveSelection::empty(family.clone(), source.clone()));
                 selections.len() - 1
             });
-            problems.extend(selections[index].add(&selector).err());
+            problems.extend(selections[index].add(&name).err().map(|error| error.to_string()));
         } else {
-            match CurveSelection::with_overrides(family, source, &selector) {
+            match CurveSelection::with_overrides(family, source, &name) {
                 Ok(selection) => selections.push(selection),
                 Err(errors) => problems.extend(errors),
             }

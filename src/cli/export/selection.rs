@@ -1,16 +1,12 @@
 //! The selected curves of a family, cell by cell.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use coupler_atlas::sweep::{self, CellGroups, CellIndices};
-use coupler_curves::family::{Family, ParameterSpace};
+use coupler_curves::exchange::CurveName;
+use coupler_curves::family::{Family, NoSuchCell};
 use coupler_curves::measure;
-use coupler_curves::problem::suggestion;
-use coupler_curves::solve::SolvedCell;
-
-use super::moved_point::move_point;
-use super::selector::CurveSelector;
+use coupler_curves::solve::{ChangedCell, OriginalNumbers, SolvedCell};
 
 /// The selected curves of a family.
 pub(super) struct CurveSelection {
@@ -19,10 +15,8 @@ pub(super) struct CurveSelection {
     pub source: String,
     /// Parameters that replace those of a cell; if names are any, that cell is the only one.
     pub overrides: Vec<(String, f64)>,
-    /// The number to show for the only cell, if its parameters are replaced.
-    cell_number: Option<usize>,
-    /// The number of a moved trace in the family, and the number to show for it.
-    trace_alias: Option<[usize; 2]>,
+    /// The numbers to show for the only cell and its curves, if its parameters are replaced.
+    original_numbers: Option<OriginalNumbers>,
     /// The selected curves by the index of their cell.
     cells: BTreeMap<usize, CellSelection>,
 }
@@ -41,7 +35,7 @@ impl CurveSelection {
     /// Selects every curve of a family.
     pub fn all(family: Family, source: String) -> CurveSelection {
         let cells = (0..family.cell_count()).map(|cell| (cell, CellSelection::Any)).collect();
-        CurveSelection { family, source, overrides: Vec::new(), cell_number: None, trace_alias: None, cells }
+        CurveSelection { family, source, overrides: Vec::new(), original_numbers: None, cells }
     }
 
     /// Selects no curve of a family.
@@ -49,19 +43,19 @@ impl CurveSelection {
         CurveSelection { cells: BTreeMap::new(), ..CurveSelection::all(family, source) }
     }
 
-    /// Adds the curves that a selector without overrides names in this family.
+    /// Adds the curves that a name without overrides names in this family.
     ///
     /// # Errors
     /// The family has no such cell.
-    pub fn add(&mut self, selector: &CurveSelector) -> Result<(), String> {
-        let Some(cell) = selector.cell else {
+    pub fn add(&mut self, name: &CurveName) -> Result<(), NoSuchCell> {
+        let Some(cell) = name.cell else {
             for cell in 0..self.family.cell_count() {
                 self.cells.entry(cell).or_insert(CellSelection::Any);
             }
             return Ok(());
         };
-        let cell = cell_index(&self.family, cell)?;
-        match (selector.curve, self.cells.get_mut(&cell)) {
+        let cell = self.family.cell_index(cell)?;
+        match (name.curve, self.cells.get_mut(&cell)) {
             (Some(curve), None) => drop(self.cells.insert(cell, CellSelection::Only([curve].into()))),
             (Some(curve), Some(CellSelection::Only(curves))) => drop(curves.insert(curve)),
             // Every curve of the cell is selected already.
@@ -71,51 +65,17 @@ impl CurveSelection {
         Ok(())
     }
 
-    /// Selects the curves that a selector with overrides names.
+    /// Selects the curves that a name with overrides names.
     ///
     /// # Errors
-    /// Every error in the selector, one message each.
-    pub fn with_overrides(
-        family: &Family,
-        source: &str,
-        selector: &CurveSelector,
-    ) -> Result<CurveSelection, Vec<String>> {
-        let number = selector.cell.unwrap_or(1);
-        let k = cell_index(family, number).map_err(|error| vec![error])?;
-        let cell = family.cell(k);
-        let mut case: Vec<(usize, f64)> = (0..family.names.len())
-            .filter(|&slot| family.space.assigns(k, slot))
-            .map(|slot| (slot, cell.values[slot]))
-            .collect();
-        let known: Vec<&str> = family.names.iter().map(String::as_str).collect();
-        let mut errors = Vec::new();
-        // The name of a coordinate contains a dot; that of a parameter never does.
-        let (points, parameters): (Vec<_>, Vec<_>) =
-            selector.overrides.iter().partition(|(name, _)| name.contains('.'));
-        for (name, value) in parameters {
-            match known.iter().position(|known| known == name) {
-                Some(slot) => {
-                    case.retain(|(assigned, _)| *assigned != slot);
-                    case.push((slot, *value));
-                }
-                None => errors.push(format!("{}: there is no `{name}`: {}", family.id, suggestion(name, &known))),
-            }
-        }
-        // A named curve is exported even if `where` would leave its cell out.
-        let family = Family { space: ParameterSpace::Cases(vec![case]), filter: None, sort: None, ..family.clone() };
-        if errors.is_empty() {
-            let cell_errors = family.cell_errors(&family.cell(0));
-            errors.extend(cell_errors.iter().map(|error| format!("{}:{number}: {error}", family.id)));
-        }
-        if !errors.is_empty() {
-            return Err(errors);
-        }
-        let (family, trace_alias) = with_moved_point(family, selector, &points)
-            .map_err(|error| vec![format!("{}: {error}", selector.family)])?;
-        let curve = selector.curve.map(|[trace, circuit]| [trace_alias.map_or(trace, |[number, _]| number), circuit]);
-        let cells = [(0, curve.map_or(CellSelection::AtLeastOne, |curve| CellSelection::Only([curve].into())))].into();
-        let (source, overrides) = (source.to_owned(), selector.overrides.clone());
-        Ok(CurveSelection { family, source, overrides, cell_number: Some(number), trace_alias, cells })
+    /// Every error in the name, one message each.
+    pub fn with_overrides(family: &Family, source: &str, name: &CurveName) -> Result<CurveSelection, Vec<String>> {
+        let trace = name.curve.map(|[trace, _]| trace);
+        let ChangedCell { family, numbers } = ChangedCell::new(family, name.cell.unwrap_or(1), trace, &name.overrides)
+            .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+        let cells = [(0, name.curve.map_or(CellSelection::AtLeastOne, |curve| CellSelection::Only([curve].into())))];
+        let (source, overrides) = (source.to_owned(), name.overrides.clone());
+        Ok(CurveSelection { family, source, overrides, original_numbers: Some(numbers), cells: cells.into() })
     }
 
     /// Solves the selected cells; calls `work` with each on all threads, and `receive` with the results in order.
@@ -141,30 +101,28 @@ impl CurveSelection {
             work_bytes: 0,
             requested_measures: (!with_measures).then_some(&needed),
         };
-        let works = |_, solved: Vec<SolvedCell>| solved.into_iter().map(|solved| work(self.renumber(solved))).next();
+        let works =
+            |_, solved: Vec<SolvedCell>| solved.into_iter().map(|solved| work(self.restore_numbers(solved))).next();
         let mut receive = receive;
         sweep::process_groups(&self.family, groups, works, |result| result.map_or(Ok(()), &mut receive))
     }
 
-    fn renumber(&self, mut solved: SolvedCell) -> SolvedCell {
-        if let Some(number) = self.cell_number {
-            solved.cell.number = number;
+    fn restore_numbers(&self, solved: SolvedCell) -> SolvedCell {
+        match &self.original_numbers {
+            Some(numbers) => numbers.restore(solved),
+            None => solved,
         }
-        solved
     }
 
     fn cell_selection(&self, solved: &SolvedCell) -> Option<&CellSelection> {
-        let cell = if self.cell_number.is_some() { 0 } else { solved.cell.number - 1 };
+        let cell = if self.original_numbers.is_some() { 0 } else { solved.cell.number - 1 };
         self.cells.get(&cell)
     }
 
-    /// Removes the curves of a cell that are not selected, and gives a moved trace the number to show for it.
+    /// Removes the curves of a cell that are not selected.
     pub fn retain_selected(&self, mut solved: SolvedCell) -> SolvedCell {
         if let Some(CellSelection::Only(curves)) = self.cell_selection(&solved) {
             solved.curves.retain(|curve| curves.contains(&[curve.trace, curve.circuit]));
-        }
-        if let Some([number, shown]) = self.trace_alias {
-            solved.curves.iter_mut().filter(|curve| curve.trace == number).for_each(|curve| curve.trace = shown);
         }
         solved
     }
@@ -196,33 +154,4 @@ impl CurveSelection {
             _ => Vec::new(),
         }
     }
-}
-
-/// Moves the traced point of a family of one cell by overrides of its coordinates; returns the trace alias if the
-/// number of the trace changes.
-fn with_moved_point(
-    family: Family,
-    selector: &CurveSelector,
-    coordinates: &[&(String, f64)],
-) -> Result<(Family, Option<[usize; 2]>), String> {
-    if coordinates.is_empty() {
-        return Ok((family, None));
-    }
-    let [trace, _] =
-        selector.curve.ok_or("only the point of a single curve can be moved; name it by cell, trace and circuit")?;
-    let cell = family.cell(0);
-    let (template, moved_trace) = move_point(&family.template, trace, family.parameter_values(&cell), coordinates)?;
-    Ok((Family { template: Arc::new(template), ..family }, (moved_trace != trace).then_some([moved_trace, trace])))
-}
-
-/// The index of the cell with a number.
-///
-/// # Errors
-/// The family has no such cell.
-fn cell_index(family: &Family, number: usize) -> Result<usize, String> {
-    let cells = family.cell_count();
-    if number <= cells {
-        return Ok(number - 1);
-    }
-    Err(format!("there is no {}:{number}: its cells are numbered from 1 to {cells}", family.id))
 }

@@ -1,9 +1,10 @@
-//! The exchange formats of a curve: CSV, JSON, DXF and a fragment of a manifest.
+//! The name of a curve and its exchange formats: CSV, JSON, DXF and a fragment of a manifest.
 //!
 //! Each format is a submodule that turns a [`SelectedCurve`] into text; selecting curves and writing files happen
 //! elsewhere.
 
 mod circle;
+mod curve_name;
 mod dxf;
 mod fragment;
 mod json;
@@ -12,6 +13,7 @@ mod points;
 mod pretty_json;
 mod table;
 
+pub use curve_name::{CurveName, CurveNameError};
 pub use fragment::manifest_fragment;
 pub use number::{append_integer, append_number};
 pub use table::PointTable;
@@ -79,15 +81,15 @@ impl<'a> SelectedCurve<'a> {
     /// Its name: `evans:12.1.1`, or with overridden parameters `evans:12.1.1?p=2.5&k=2`.
     pub fn name(&self) -> String {
         let [cell, trace, circuit] = self.cell_trace_circuit();
-        let overrides = self.format_overrides(|name, value| format!("{name}={value}"));
-        let query = if overrides.is_empty() { String::new() } else { format!("?{}", overrides.join("&")) };
-        format!("{}:{cell}.{trace}.{circuit}{query}", self.family.id)
+        let (family, overrides) = (self.family.id.clone(), self.overrides.to_vec());
+        CurveName { family, cell: Some(cell), curve: Some([trace, circuit]), overrides }.to_string()
     }
 
     /// The name of its files, without an extension: `evans-12-1-1`, `evans-12-1-1-p-2.5`.
     pub fn file_stem(&self) -> String {
         let [cell, trace, circuit] = self.cell_trace_circuit();
-        let overrides = self.format_overrides(|name, value| format!("-{name}-{value}")).concat();
+        let override_suffix = |(name, value): &(String, f64)| format!("-{name}-{}", format_number(*value));
+        let overrides: String = self.overrides.iter().map(override_suffix).collect();
         format!("{}-{cell}-{trace}-{circuit}{overrides}", self.family.id)
     }
 
@@ -95,10 +97,6 @@ impl<'a> SelectedCurve<'a> {
     fn cell_trace_circuit(&self) -> [usize; 3] {
         let curve = self.curve();
         [self.solved.cell.number, curve.trace, curve.circuit]
-    }
-
-    fn format_overrides(&self, format: impl Fn(&str, String) -> String) -> Vec<String> {
-        self.overrides.iter().map(|(name, value)| format(name, format_number(*value))).collect()
     }
 
     /// The curve in its cell.

@@ -53,6 +53,24 @@ impl Expression {
         Expression { program: vec![(Instruction::Push(value), 0..0)], names: Vec::new() }
     }
 
+    /// The value of an expression without names, such as `2` or `sqrt(2)`; it need not be finite.
+    ///
+    /// # Errors
+    /// The text is not an expression, or uses a name.
+    pub fn evaluate_constant(text: &str) -> Result<f64, Error> {
+        let expression = Expression::parse(text)?;
+        let load = expression.program.iter().find_map(|(instruction, span)| match instruction {
+            Instruction::Load(name) => Some((&expression.names[*name], span)),
+            _ => None,
+        });
+        match load {
+            Some((name, span)) => {
+                Err(Error::new(span.clone(), format!("`{name}` has no value here"), "write a number"))
+            }
+            None => Ok(expression.evaluate(|_| f64::NAN)),
+        }
+    }
+
     /// The names it uses, each once, in order of first use; constants such as `pi` are not among them.
     pub fn names(&self) -> &[String] {
         &self.names

@@ -3,10 +3,12 @@
 mod axis_values;
 mod memory;
 mod parameter_space;
+mod parameter_text;
 mod single_cell;
 
 pub use axis_values::AxisValues;
 pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
+pub use parameter_text::{ParameterSyntaxError, parse_parameter};
 pub use single_cell::{ParameterError, ParameterErrors};
 
 use std::cell::LazyCell;
@@ -79,6 +81,18 @@ pub enum CellError {
     Template(#[from] template::Error),
 }
 
+/// A family has no cell with a number.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no {family}:{number}: its cells are numbered from 1 to {count}")]
+pub struct NoSuchCell {
+    /// The id of the family.
+    pub family: String,
+    /// The number.
+    pub number: usize,
+    /// The number of its cells.
+    pub count: usize,
+}
+
 /// Sorts expressions so that each comes after those it uses; each is paired with the index of the name it defines.
 ///
 /// # Errors
@@ -106,6 +120,16 @@ impl Family {
     /// The number of cells.
     pub fn cell_count(&self) -> usize {
         self.space.count()
+    }
+
+    /// The index, from 0, of the cell with a number, from 1.
+    ///
+    /// # Errors
+    /// The family has no such cell.
+    pub fn cell_index(&self, number: usize) -> Result<usize, NoSuchCell> {
+        let count = self.cell_count();
+        let index = number.checked_sub(1).filter(|k| *k < count);
+        index.ok_or_else(|| NoSuchCell { family: self.id.clone(), number, count })
     }
 
     /// The `k`-th cell, from 0.

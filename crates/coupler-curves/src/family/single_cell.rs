@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::{CellError, Family, ParameterSpace, Sampling, StraightCriterion, sort_by_dependency};
+use super::{Case, CellError, Family, ParameterSpace, Sampling, StraightCriterion, sort_by_dependency};
 use crate::expression::{Kind, Scope};
 use crate::measure;
 use crate::problem::suggestion;
@@ -70,6 +70,20 @@ impl fmt::Display for ParameterErrors {
 impl std::error::Error for ParameterErrors {}
 
 impl Family {
+    /// The values that the `k`-th parameter set, from 0, gives to names; all others are derived from these.
+    pub fn case(&self, k: usize) -> Case {
+        let cell = self.cell(k);
+        let slots = (0..self.names.len()).filter(|&slot| self.space.assigns(k, slot));
+        slots.map(|slot| (slot, cell.values[slot])).collect()
+    }
+
+    /// The same family with a single parameter set, and without `where` and `sort`: a cell that is asked for is not left
+    /// out. The values are those of the case if it has them, and otherwise derived; [`Family::cell_errors`] has the
+    /// errors in them.
+    pub fn with_case(&self, case: Case) -> Family {
+        Family { space: ParameterSpace::Cases(vec![case]), filter: None, sort: None, ..self.clone() }
+    }
+
     /// A family of one cell: a linkage with these values, and its defaults for the other parameters.
     ///
     /// # Errors

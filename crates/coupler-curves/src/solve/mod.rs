@@ -1,4 +1,10 @@
-//! Solves one cell of a family: its linkage, motion and measures.
+//! Solves one cell of a family: its linkage, motion and measures; changes its parameters before.
+
+mod changed_cell;
+mod moved_point;
+
+pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
+pub use moved_point::MovedPointError;
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};

@@ -1,7 +1,33 @@
 //! Moves a traced point on its link by the overrides `M.along` and `M.across`.
 
-use coupler_curves::expression::{CompiledExpression, Expression, Kind, Scope};
-use coupler_curves::template::{Coordinate, JointKindTemplate, JointTemplate, Template};
+use crate::expression::{CompiledExpression, Expression, Kind, Scope};
+use crate::template::{Coordinate, JointKindTemplate, JointTemplate, Template};
+
+/// Why the point of a trace cannot be moved.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MovedPointError {
+    /// No trace is given.
+    #[error("only the point of a single curve can be moved; name it by cell, trace and circuit")]
+    NotSingleCurve,
+    /// The linkage has no trace with this number.
+    #[error("there is no trace {0}")]
+    NoSuchTrace(usize),
+    /// The joint with this name has no coordinates on a link.
+    #[error("`{0}` is not a point with `along` and `across`, and cannot be moved on its link")]
+    NoCoordinates(String),
+    /// A name is not that of a coordinate of the point.
+    #[error("there is no `{name}`: it can be `{point}.along` or `{point}.across`")]
+    UnknownCoordinate {
+        /// The name.
+        name: String,
+        /// The point.
+        point: String,
+    },
+    /// The coordinates of the point with this name are not finite.
+    #[error("the coordinates of `{0}` are not finite")]
+    NotFinite(String),
+}
 
 /// Moves the point of a trace, counted from 1, on its link, and returns the new template and the number of its trace.
 ///
@@ -9,17 +35,18 @@ use coupler_curves::template::{Coordinate, JointKindTemplate, JointTemplate, Tem
 /// moved point is added to the template as a joint of its own, which becomes the last trace.
 ///
 /// # Errors
-/// The trace does not exist, its point cannot be moved, or an override has an unknown name.
+/// No trace is given, the trace does not exist, its point cannot be moved, or an override has an unknown name.
 pub(super) fn move_point(
     template: &Template,
-    trace: usize,
+    trace: Option<usize>,
     values: &[f64],
     overrides: &[&(String, f64)],
-) -> Result<(Template, usize), String> {
-    let (joint, point) = find_traced_point(template, trace).ok_or_else(|| format!("there is no trace {trace}"))?;
+) -> Result<(Template, usize), MovedPointError> {
+    let trace = trace.ok_or(MovedPointError::NotSingleCurve)?;
+    let (joint, point) = find_traced_point(template, trace).ok_or(MovedPointError::NoSuchTrace(trace))?;
     let JointTemplate { name, kind } = &template.joints[joint];
     let JointKindTemplate::Point { base, along, across } = kind else {
-        return Err(format!("`{name}` is not a point with `along` and `across`, and cannot be moved on its link"));
+        return Err(MovedPointError::NoCoordinates(name.clone()));
     };
     let number = |coordinate: &Coordinate, k: usize| {
         coordinate.values(|expression| expression.evaluate(|slot| values[slot])).get(k).copied().unwrap_or(f64::NAN)
@@ -30,11 +57,13 @@ pub(super) fn move_point(
         match word.strip_prefix(name.as_str()).and_then(|rest| rest.strip_prefix('.')) {
             Some("along") => coordinates[0] = *value,
             Some("across") => coordinates[1] = *value,
-            _ => return Err(format!("there is no `{word}`: it can be `{name}.along` or `{name}.across`")),
+            _ => {
+                return Err(MovedPointError::UnknownCoordinate { name: word.clone(), point: name.clone() });
+            }
         }
     }
     let [Some(along), Some(across)] = coordinates.map(constant_expression) else {
-        return Err(format!("the coordinates of `{name}` are not finite"));
+        return Err(MovedPointError::NotFinite(name.clone()));
     };
     let kind =
         JointKindTemplate::Point { base: *base, along: Coordinate::Single(along), across: Coordinate::Single(across) };
