@@ -46,13 +46,19 @@ fn length_problem(text: &str) -> Option<Problem> {
     (count > limit).then(|| problem.with_help("divide it, or give ranges in place of lists"))
 }
 
-/// Parses a manifest.
+/// Parses a manifest; formats that this build cannot write are errors.
 pub fn parse(text: &str) -> ParseOutcome {
+    let built_in: Vec<Format> = Format::ALL.into_iter().filter(|format| format.is_built_in()).collect();
+    parse_for_formats(text, &built_in)
+}
+
+/// Parses a manifest for a program that writes these formats; others are errors.
+pub fn parse_for_formats(text: &str, writable: &[Format]) -> ParseOutcome {
     if let Some(problem) = length_problem(text) {
         return ParseOutcome { plan: None, problems: vec![problem] };
     }
     let mut parser = TomlParser::new(text);
-    let plan = read_plan(text, &mut parser);
+    let plan = read_plan(text, writable, &mut parser);
     let problems = parser.into_problems();
     let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
     ParseOutcome { plan, problems }
@@ -74,7 +80,7 @@ pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
     (templates, parser.into_problems())
 }
 
-fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
+fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option<Plan> {
     let document = parser.parse_document();
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         let help = "`coupler-atlas init` writes one to start from";
@@ -86,7 +92,7 @@ fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
     }
     let root = Fields::from_value(&document, &MANIFEST, parser)?;
     let atlas = match root.get("atlas") {
-        Some(value) => settings::atlas(value, parser),
+        Some(value) => settings::atlas(value, writable, parser),
         None => {
             let problem = Problem::error(0..first_line_len(text), "the manifest has no [atlas]");
             parser.report(problem.with_help("add a table [atlas] with title = \"…\""));
@@ -108,7 +114,7 @@ fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
     let shared_inputs = SharedInputs::from_manifest(&root);
     for value in tables {
         let page = page.as_ref().map(|page| &page.options);
-        let context = family::Context { templates: &templates, formats: &formats, page };
+        let context = family::Context { templates: &templates, formats: &formats, writable, page };
         let read = family::read(value, context, &mut totals, parser);
         if let Some((id, span)) = id_and_span(value) {
             let message = format!("there are two families `{id}`");
@@ -138,4 +144,19 @@ fn read_plan(text: &str, parser: &mut TomlParser) -> Option<Plan> {
 
 fn first_line_len(text: &str) -> usize {
     text.find('\n').unwrap_or(text.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_that_cannot_be_written_are_errors() {
+        let text = "[atlas]\ntitle = \"T\"\nformats = [\"pdf\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+                    formats = [\"png\"]\nsampling = { samples = 9 }\ngrid = { p = [2], a = [2] }";
+        assert!(parse_for_formats(text, &Format::ALL).plan.is_some());
+        let messages: Vec<String> =
+            parse_for_formats(text, &[Format::Svg]).problems.into_iter().map(|problem| problem.message).collect();
+        assert_eq!(messages, ["this build cannot write `pdf`", "this build cannot write `png`"]);
+    }
 }

@@ -25,6 +25,8 @@ pub(crate) struct Context<'a> {
     pub templates: &'a Templates,
     /// The formats of the atlas.
     pub formats: &'a [Format],
+    /// The formats that they may name.
+    pub writable: &'a [Format],
     /// The options of pages; `None` if `[page]` could not be parsed.
     pub page: Option<&'a Options>,
 }
@@ -32,7 +34,7 @@ pub(crate) struct Context<'a> {
 /// Reads a family, and adds it to `totals`.
 pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
-    Context { templates, formats, page }: Context,
+    Context { templates, formats, writable, page }: Context,
     totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
@@ -46,7 +48,7 @@ pub(crate) fn read<'t>(
     let (title, source) = (text("title", parser), text("source", parser));
     let formats = match fields.get("formats") {
         None => Some(formats.to_vec()),
-        Some(value) => settings::formats(value, parser),
+        Some(value) => settings::formats(value, writable, parser),
     };
     let sampling = fields
         .required("sampling", "sampling = { step = \"2 deg\" }", parser)

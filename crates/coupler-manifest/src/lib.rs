@@ -47,7 +47,7 @@ mod family;
 mod document;
 
 pub use cells::MAX_PAGE_FILES;
-pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_linkages};
+pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_for_formats, parse_linkages};
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
 pub use plan::{Plan, PlannedFamily};

@@ -133,8 +133,12 @@ const DPI_RANGE: [f64; 2] = [10.0, 2400.0];
 /// The words for text modes.
 const TEXT_MODES: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
 
-/// Reads `[atlas]`.
-pub(crate) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<AtlasSettings> {
+/// Reads `[atlas]`; formats that are not `writable` are errors.
+pub(crate) fn atlas<'t>(
+    value: &TomlValue<'t>,
+    writable: &[Format],
+    parser: &mut TomlParser<'t>,
+) -> Option<AtlasSettings> {
     let fields = Fields::from_value(value, &ATLAS, parser)?;
     let title = fields.required_text("title", "title = \"Straight-line coupler curves\"", parser);
     let output = match fields.get("output") {
@@ -147,7 +151,7 @@ pub(crate) fn atlas<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> O
     };
     let formats = match fields.get("formats") {
         None => Some(DEFAULT_FORMATS.to_vec()),
-        Some(value) => formats(value, parser),
+        Some(value) => formats(value, writable, parser),
     };
     let volume_pages = match fields.get("volume_pages") {
         None => Some(DEFAULT_VOLUME_PAGES),
@@ -173,8 +177,12 @@ fn normalize_folder(text: &str, is_windows: bool) -> Result<String, &'static str
     }
 }
 
-/// Reads a list of formats; repeated formats are dropped.
-pub(crate) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Format>> {
+/// Reads a list of formats; repeated formats are dropped, and those that are not `writable` are errors.
+pub(crate) fn formats<'t>(
+    value: &TomlValue<'t>,
+    writable: &[Format],
+    parser: &mut TomlParser<'t>,
+) -> Option<Vec<Format>> {
     let list = parser.list(value)?;
     if list.is_empty() {
         parser
@@ -186,7 +194,7 @@ pub(crate) fn formats<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
     let mut all_read = true;
     for item in list {
         match parser.word(item, &words) {
-            Some(format) if !format.is_built_in() => {
+            Some(format) if !writable.contains(&format) => {
                 let problem = Problem::error(item.span(), format!("this build cannot write `{}`", format.name()));
                 parser.report(problem.with_help("leave the format out, or build the program with the feature `pdf`"));
                 all_read = false;
