@@ -21,18 +21,21 @@ pub fn svg(curve: &CouplerCurve) -> Vec<u8> {
 
 /// Draws a curve with its linkage and its caption.
 pub fn compose(curve: &SelectedCurve, pose: PoseChoice, options: &Options) -> Scene {
+    page::compose_panels(&panel_page(curve, &curve.name(), pose), options)
+}
+
+/// The plate as a page of one panel; `name` is that of the curve.
+pub(crate) fn panel_page<'a>(curve: &'a SelectedCurve, name: &'a str, pose: PoseChoice) -> PanelPage<'a> {
     let SelectedCurve { family, source, solved, .. } = curve;
     let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
-    let name = curve.name();
     let heading = Heading::new(&family.title)
         .with_family_id(&family.id)
-        .with_atlas_title(&name)
+        .with_atlas_title(name)
         .with_source(*source)
         .with_symbols(&family.names);
     let facts = page::cell_facts(solved);
     let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose);
-    let plate = PanelPage { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] };
-    page::compose_panels(&plate, options)
+    PanelPage { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] }
 }
 
 /// The poses of a circuit as an animation, denser towards the limits of the input; an open circuit is traversed

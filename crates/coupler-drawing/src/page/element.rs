@@ -1,70 +1,18 @@
-//! Elements for plotters: a drawing area places them, and inside it they keep full precision.
+//! The elements that areas record: groups of items and lines of text, in full precision.
 
 use std::collections::HashSet;
-use std::iter::once;
-
-use plotters::coord::Shift;
-use plotters::drawing::DrawingArea;
-use plotters::element::{Drawable, PointCollection};
-use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 use crate::scene::{
-    Anchor, Animation, Canvas, Circle, Color, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
+    Anchor, Animation, Circle, Color, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
 };
 use coupler_curves::geometry::{Point, Similarity, Vector};
 use coupler_curves::motion::{self, DashPattern};
 
-/// A part of the page; lengths are in 1/100 mm, and the origin is the upper left corner.
-pub(super) type Area<'s> = DrawingArea<Canvas<'s>, Shift>;
-
-/// Draws an element at the origin of an area.
-pub(super) fn draw<'a, E>(area: &Area, element: &'a E)
-where
-    &'a E: PointCollection<'a, BackendCoord>,
-    E: for<'s> Drawable<Canvas<'s>>,
-{
-    // A canvas cannot fail, and no element draws on an area, which would borrow it twice.
-    area.draw(element).expect("recording a scene does not fail");
+/// An element, whose geometry is in millimetres from the origin of the area it is drawn on.
+pub(super) trait Element {
+    /// The item of the page, for the position of that origin on the page.
+    fn to_item(&self, origin: Vector) -> Item;
 }
-
-/// The width and height of an area in millimetres.
-pub(super) fn size(area: &Area) -> Vector {
-    let (width, height) = area.dim_in_pixel();
-    Canvas::to_millimetres((width as i32, height as i32)).coords
-}
-
-/// Implements an element whose geometry is in millimetres from the origin of the area it is drawn on.
-macro_rules! anchored_at_origin {
-    ($element:ty) => {
-        impl<'a> PointCollection<'a, BackendCoord> for &'a $element {
-            type Point = BackendCoord;
-            type IntoIter = std::iter::Once<BackendCoord>;
-
-            fn point_iter(self) -> Self::IntoIter {
-                once((0, 0))
-            }
-        }
-
-        impl<'s> Drawable<Canvas<'s>> for $element {
-            fn draw<I: Iterator<Item = BackendCoord>>(
-                &self,
-                mut origin: I,
-                canvas: &mut Canvas<'s>,
-                _: (u32, u32),
-            ) -> Result<(), DrawingErrorKind<std::convert::Infallible>> {
-                if let Some(origin) = origin.next() {
-                    canvas.record(self.to_item(Canvas::to_millimetres(origin).coords));
-                }
-                Ok(())
-            }
-        }
-    };
-}
-
-anchored_at_origin!(CouplerCurve);
-anchored_at_origin!(Drawing);
-anchored_at_origin!(GroupElement);
-anchored_at_origin!(TextLine);
 
 /// A coupler curve: a group with an id, a title and data attributes.
 pub(super) struct CouplerCurve {
@@ -84,7 +32,7 @@ pub(super) struct CouplerCurve {
     pub marks: Vec<Circle>,
 }
 
-impl CouplerCurve {
+impl Element for CouplerCurve {
     fn to_item(&self, origin: Vector) -> Item {
         let lines = |figure: bool| -> Vec<Polyline> {
             let drawn = self.dash_lines.iter().filter(|dash| dash.is_in_figure == figure && dash.points.len() > 1);
@@ -106,7 +54,9 @@ impl CouplerCurve {
             items: paths.chain(marks).collect(),
         })
     }
+}
 
+impl CouplerCurve {
     /// The transform and the dashes of the curve, with which a drawing can be compared with its samples. The numbers
     /// parse to the same `f64`.
     fn drawing_data(&self, origin: Vector) -> [(&'static str, String); 3] {
@@ -128,21 +78,16 @@ pub(super) struct Drawing {
     pub items: Vec<Item>,
 }
 
-impl Drawing {
+impl Element for Drawing {
     fn to_item(&self, origin: Vector) -> Item {
         let items = self.items.iter().map(|item| translated(item, origin)).collect();
         Item::Group(Group { class: self.class, title: self.title.clone(), items, ..Group::default() })
     }
 }
 
-/// A group with an id and data attributes.
-pub(super) struct GroupElement {
-    pub group: Group,
-}
-
-impl GroupElement {
+impl Element for Item {
     fn to_item(&self, origin: Vector) -> Item {
-        translated(&Item::Group(self.group.clone()), origin)
+        translated(self, origin)
     }
 }
 
@@ -277,7 +222,9 @@ impl TextLine {
         }
         lines.iter().map(|line| line.trim_start().to_owned()).collect()
     }
+}
 
+impl Element for TextLine {
     fn to_item(&self, origin: Vector) -> Item {
         translated(&Item::Text(self.text.clone()), origin)
     }

@@ -1,7 +1,8 @@
 //! The figure of a cell: its curves and the linkage that traces them.
 
+use super::area::Area;
 use super::arrangement::{Arrangement, Extents, Rect};
-use super::element::{Area, CouplerCurve, Drawing, draw};
+use super::element::{CouplerCurve, Drawing};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::plot::{Plot, round_number_below};
@@ -113,7 +114,7 @@ impl<'a> Figure<'a> {
     /// Draws the figure in a frame of an area.
     pub fn draw(
         &self,
-        area: &Area,
+        area: &impl Area,
         whole: Rect,
         arrangement: Arrangement,
         page: &PanelPage,
@@ -145,7 +146,7 @@ impl<'a> Figure<'a> {
     /// Draws the curves in dashes, and their coupler points.
     fn draw_curves(
         &self,
-        area: &Area,
+        area: &impl Area,
         plot: &Plot,
         page: &PanelPage,
         (paths, period): (Vec<motion::JointPath>, f64),
@@ -175,30 +176,30 @@ impl<'a> Figure<'a> {
                 // A dot marks each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
             };
-            draw(area, &element);
+            area.record(&element);
         }
         let points = self.coupler_point_items(plot, theme);
-        draw(area, &Drawing { class: "coupler-point", title: String::new(), items: points });
+        area.record(&Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
     /// Draws the curves as light solid lines: in the key, and under the dashes to lead the eye across the gaps.
-    fn draw_solid_curves(&self, area: &Area, paths: &[motion::JointPath], weight: f64, theme: &Theme) {
+    fn draw_solid_curves(&self, area: &impl Area, paths: &[motion::JointPath], weight: f64, theme: &Theme) {
         let solid = |(curve, path): (&MeasuredCurve, &motion::JointPath)| {
             let ink = theme.faded(self.curve_ink(curve, theme));
             Item::Path(Path::stroked(path.points.clone(), theme.stroke(ink, weight)))
         };
         let items = self.solved_cell.curves.iter().zip(paths).map(solid).collect();
-        draw(area, &Drawing { class: "trail", title: String::new(), items });
+        area.record(&Drawing { class: "trail", title: String::new(), items });
     }
 
     /// Draws the marks of the curves: axes of symmetry and straight portions.
-    fn draw_marks(&self, area: &Area, plot: &Plot, theme: &Theme) {
+    fn draw_marks(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
         let axes = marks::symmetry_axis_items(self.solved_cell, plot, theme);
-        draw(area, &Drawing { class: "axis", title: String::new(), items: axes });
+        area.record(&Drawing { class: "axis", title: String::new(), items: axes });
         let portion =
             |curve| marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme);
         let items = self.solved_cell.curves.iter().filter_map(portion).collect();
-        draw(area, &Drawing { class: "straight", title: String::new(), items });
+        area.record(&Drawing { class: "straight", title: String::new(), items });
     }
 
     /// The path of every curve, in the order of the curves.
@@ -250,15 +251,15 @@ impl<'a> Figure<'a> {
         self.posed_items(|mechanism| curves.iter().map(|curve| circle(curve, mechanism)).collect())
     }
 
-    fn draw_underlay(&self, area: &Area, plot: &Plot, theme: &Theme) {
+    fn draw_underlay(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
         let items = self.posed_items(|mechanism| mechanism.underlay_items(plot, theme));
-        draw(area, &Drawing { class: "underlay", title: String::new(), items });
+        area.record(&Drawing { class: "underlay", title: String::new(), items });
     }
 
-    fn draw_linkage(&self, area: &Area, plot: &Plot, theme: &Theme) {
+    fn draw_linkage(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
         let traced = |joint| self.solved_cell.curves.iter().find(|curve| curve.joint == joint);
         let ink = |joint| traced(joint).map_or(theme.ink, |curve| self.curve_ink(curve, theme));
         let items = self.posed_items(|mechanism| mechanism.linkage_items(plot, theme, ink));
-        draw(area, &Drawing { class: "linkage", title: String::new(), items });
+        area.record(&Drawing { class: "linkage", title: String::new(), items });
     }
 }

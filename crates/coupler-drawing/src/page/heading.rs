@@ -1,11 +1,8 @@
 //! The frame of every page: border, title, source line and folio.
 
-use plotters::element::Rectangle;
-use plotters::style::{RGBColor, ShapeStyle};
-
-use super::element::{Area, draw, size};
+use super::area::Area;
 use super::theme::Theme;
-use crate::scene::{Anchor, Canvas, Color};
+use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 
 /// The texts around the contents of a page: title, source line and folio.
@@ -82,9 +79,9 @@ impl<'a> Heading<'a> {
     }
 
     /// Draws border, title, source line and folio.
-    pub(super) fn draw(&self, root: &Area, theme: &Theme) {
+    pub(super) fn draw(&self, root: &impl Area, theme: &Theme) {
         draw_border(root, theme);
-        let page = size(root);
+        let page = root.size();
         let mut at = draw_title(root, self.family_title, theme);
         let (left, right) = (at.x, page.x - at.x);
         let source_line = |text: &str, at| {
@@ -94,14 +91,14 @@ impl<'a> Heading<'a> {
         let fits = |text: &str| source_line(text, at).text.width() <= right - left;
         let (first, second) = split_at_separator(&self.source, fits);
         for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
-            draw(root, &source_line(line, at).fit_width(right - left));
+            root.record(&source_line(line, at).fit_width(right - left));
             at.y += 1.35 * theme.source_size;
         }
         let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
         let atlas = theme.text_line(self.atlas_title, at, Anchor::End, theme.source_size, theme.grey);
         let folio = self.folio();
         let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
-        draw(root, &atlas.fit_width_with_suffix(folio, right - left));
+        root.record(&atlas.fit_width_with_suffix(folio, right - left));
     }
 
     /// The page number, which ends the last line of the page, with a separator before it.
@@ -114,22 +111,18 @@ impl<'a> Heading<'a> {
 const SEPARATOR: &str = " · ";
 
 /// Draws the border of a page.
-pub(super) fn draw_border(root: &Area, theme: &Theme) {
-    let page = size(root);
-    let Color(r, g, b) = theme.ink;
-    let corner = |x: f64, y: f64| (Canvas::to_pixels(x), Canvas::to_pixels(y));
-    let border = [corner(theme.border, theme.border), corner(page.x - theme.border, page.y - theme.border)];
-    let stroke_width = Canvas::to_pixels(theme.fine_width) as u32;
-    let style = ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width };
-    draw(root, &Rectangle::new(border, style));
+pub(super) fn draw_border(root: &impl Area, theme: &Theme) {
+    let page = root.size();
+    let corners = [Point::new(theme.border, theme.border), Point::new(page.x - theme.border, page.y - theme.border)];
+    root.record_rectangle(corners, theme.stroke(theme.ink, theme.fine_width));
 }
 
 /// Draws the title of a page; the position at which the line under it starts.
-pub(super) fn draw_title(root: &Area, title: &str, theme: &Theme) -> Point {
+pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point {
     let left = theme.border + theme.margin;
     let at = Point::new(left, theme.border + 1.9 * theme.title_size);
     let line = theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink);
-    draw(root, &line.fit_width(size(root).x - 2.0 * left));
+    root.record(&line.fit_width(root.size().x - 2.0 * left));
     Point::new(left, at.y + 1.85 * theme.source_size)
 }
 

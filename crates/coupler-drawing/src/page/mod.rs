@@ -3,9 +3,12 @@
 //! [`PanelPage`], [`ChartPage`], [`CouplerGridPage`] and [`OverlayPage`] say what is on a page; [`Options`] says what
 //! all pages of an atlas have in common. Each has a function that composes it, such as [`compose_panels`].
 
+mod area;
 mod arrangement;
 pub mod book;
+#[cfg(feature = "plotters")]
 mod chart;
+mod chart_grid;
 mod coupler_grid;
 mod element;
 mod figure;
@@ -19,6 +22,8 @@ mod plot;
 mod pose;
 mod theme;
 
+#[cfg(feature = "plotters")]
+pub use chart::compose_charts;
 pub use heading::Heading;
 pub use marks::{PAGE_MEASURES, cell_facts};
 pub use panel::{Panel, PoseChoice};
@@ -91,12 +96,12 @@ impl Layout {
 
     /// The most columns and rows of charts that fit on a page.
     pub fn max_charts(options: &Options) -> [usize; 2] {
-        chart::max_grid(options.paper, &options.theme.for_paper(options.paper))
+        chart_grid::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
     /// The layout for `count` charts: as many on a page as can be read well.
     pub fn for_charts(options: &Options, count: usize) -> Layout {
-        let [columns, rows] = chart::balanced_grid(options.paper, &options.theme.for_paper(options.paper), count);
+        let [columns, rows] = chart_grid::balanced_grid(options.paper, &options.theme.for_paper(options.paper), count);
         Layout::Chart { columns, rows }
     }
 
@@ -238,8 +243,7 @@ pub fn compose_overlay(page: &OverlayPage, options: &Options) -> Scene {
 pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
-    let [columns, rows] = page.layout.grid();
-    panels::compose(&mut scene, page, (columns, rows), options, &theme);
+    panels::compose(&area::whole_page(&mut scene), page, options, &theme);
     scene
 }
 
@@ -248,14 +252,6 @@ pub fn compose_coupler_grid(page: &CouplerGridPage, options: &Options) -> Scene 
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
     coupler_grid::compose(&mut scene, page, options, &theme);
-    scene
-}
-
-/// Composes a page of charts.
-pub fn compose_charts(page: &ChartPage, options: &Options) -> Scene {
-    let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&page.heading, options, &theme);
-    chart::compose(&mut scene, page, &theme);
     scene
 }
 

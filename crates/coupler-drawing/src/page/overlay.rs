@@ -1,37 +1,36 @@
 //! A page on which a curve is overlaid on its recorded form, with the differences magnified.
 
-use plotters::drawing::IntoDrawingArea;
-
 use super::OverlayPage;
+use super::area::{self, Area};
 use super::arrangement::Rect;
-use super::element::{Area, Drawing, draw, size};
+use super::element::Drawing;
 use super::heading;
 use super::plot::{Plot, round_number_below};
 use super::theme::Theme;
-use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Polyline, Scene};
+use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Scene};
 use coupler_curves::geometry::{Bounds, Point, Vector};
 
 pub(super) fn compose(scene: &mut Scene, page: &OverlayPage, theme: &Theme) {
-    let root = Canvas::new(scene).into_drawing_area();
+    let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
     let mut at = heading::draw_title(&root, page.title, theme);
-    let paper = size(&root);
+    let paper = root.size();
     let width = paper.x - 2.0 * at.x;
     for line in &page.details {
-        draw(&root, &theme.text_line(line, at, Anchor::Start, theme.source_size, theme.grey).fit_width(width));
+        root.record(&theme.text_line(line, at, Anchor::Start, theme.source_size, theme.grey).fit_width(width));
         at.y += 1.35 * theme.source_size;
     }
     let foot = theme.border + theme.margin + 2.0 * theme.source_size;
     let frame = Rect { corner: Point::new(at.x, at.y), size: Vector::new(width, paper.y - foot - at.y) };
     draw_figure(&root, frame, page, theme);
     let at = Point::new(paper.x - at.x, paper.y - theme.border - 0.6 * theme.margin);
-    draw(&root, &theme.text_line(page.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
+    root.record(&theme.text_line(page.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
 }
 
 /// The length at which the greatest difference is drawn, as a fraction of the height of the figure.
 const MAX_DIFFERENCE_PART: f64 = 0.08;
 
-fn draw_figure(area: &Area, frame: Rect, page: &OverlayPage, theme: &Theme) {
+fn draw_figure(area: &impl Area, frame: Rect, page: &OverlayPage, theme: &Theme) {
     let is_defined = |p: &&Point| p.x.is_finite() && p.y.is_finite();
     let all = page.recorded.iter().chain(&page.current).chain(&page.current_path).filter(is_defined).copied();
     let bounds = Bounds::from_points(all);
@@ -56,9 +55,9 @@ fn draw_figure(area: &Area, frame: Rect, page: &OverlayPage, theme: &Theme) {
     }
     let faded = theme.faded(old);
     let recorded = vec![path(&recorded, faded, 2.0 * theme.curve_width)];
-    draw(area, &Drawing { class: "recorded", title: "recorded".to_owned(), items: recorded });
+    area.record(&Drawing { class: "recorded", title: "recorded".to_owned(), items: recorded });
     let current = vec![path(&page.current_path, new, theme.hair_width)];
-    draw(area, &Drawing { class: "now", title: "current".to_owned(), items: current });
+    area.record(&Drawing { class: "now", title: "current".to_owned(), items: current });
     let pairs: Vec<(Point, Vector)> = match page.recorded.len() == page.current.len() {
         true => page.current.iter().zip(&page.recorded).map(|(new, old)| (*new, old - new)).collect(),
         false => Vec::new(),
@@ -78,20 +77,17 @@ fn draw_figure(area: &Area, frame: Rect, page: &OverlayPage, theme: &Theme) {
         Item::Circle(Circle { centre: on_page(*p), radius: 1.6 * theme.joint_radius, stroke, fill: None })
     };
     let worst = page.worst_points.iter().filter(is_defined);
-    draw(
-        area,
-        &Drawing {
-            class: "worst",
-            title: "the greatest differences".to_owned(),
-            items: worst.map(|p| mark(p, old)).collect(),
-        },
-    );
+    area.record(&Drawing {
+        class: "worst",
+        title: "the greatest differences".to_owned(),
+        items: worst.map(|p| mark(p, old)).collect(),
+    });
 }
 
 /// Draws a line from each sample towards its recorded position, `magnification` times as long as the difference, and
 /// the legend.
 fn draw_differences(
-    area: &Area,
+    area: &impl Area,
     frame: Rect,
     pairs: &[(Point, Vector)],
     magnification: f64,
@@ -111,8 +107,8 @@ fn draw_differences(
         times if times < 1.0 => format!("the difference, magnified {times} times"),
         times => format!("the difference, magnified {times:.0} times"),
     };
-    draw(area, &Drawing { class: "difference", title: magnified.clone(), items: vec![hairlines] });
+    area.record(&Drawing { class: "difference", title: magnified.clone(), items: vec![hairlines] });
     let legend = format!("thin line: current; broad pale line: recorded; hairlines: {magnified}");
     let at = Point::new(frame.corner.x, frame.corner.y + frame.size.y + theme.source_size);
-    draw(area, &theme.text_line(&legend, at, Anchor::Start, theme.note_size, theme.grey).fit_width(frame.size.x));
+    area.record(&theme.text_line(&legend, at, Anchor::Start, theme.note_size, theme.grey).fit_width(frame.size.x));
 }

@@ -1,37 +1,36 @@
 //! The `panels` layout: a grid of cells, each with its figure, number and caption.
 
-use plotters::drawing::IntoDrawingArea;
-
+use super::area::Area;
 use super::arrangement::{Arrangement, Extents, Rect};
-use super::element::{Area, Drawing, draw, size};
+use super::element::Drawing;
 use super::figure::Figure;
 use super::heading::margins;
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, Paper};
-use crate::scene::{Anchor, Canvas, Color, Item, Scene};
+use crate::scene::{Anchor, Color, Item};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::solve::SolvedCell;
 
-pub(super) fn compose(scene: &mut Scene, page: &PanelPage, grid: (usize, usize), options: &Options, theme: &Theme) {
-    let root = Canvas::new(scene).into_drawing_area();
-    page.heading.draw(&root, theme);
-    draw_panels(&root, page, grid, options, theme);
+pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) {
+    page.heading.draw(root, theme);
+    draw_panels(root, page, options, theme);
 }
 
-fn draw_panels(root: &Area, page: &PanelPage, (columns, rows): (usize, usize), options: &Options, theme: &Theme) {
-    let [top, bottom, side] = margins(theme).map(Canvas::to_pixels);
-    let areas = root.margin(top, bottom, side, side).split_evenly((rows, columns));
-    let theme = &theme.for_panel_size(size(&areas[0]));
+fn draw_panels<A: Area>(root: &A, page: &PanelPage, options: &Options, theme: &Theme) {
+    let [top, bottom, side] = margins(theme);
+    let [columns, rows] = page.layout.grid();
+    let areas = root.without_margins([top, bottom, side, side]).grid_cells(rows, columns);
+    let theme = &theme.for_panel_size(areas[0].size());
     let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
-    let facts = FactsLayout::for_page(page, size(&areas[0]).x - 1.2 * theme.caption_size, theme);
+    let facts = FactsLayout::for_page(page, areas[0].size().x - 1.2 * theme.caption_size, theme);
     let has_notes =
         page.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.assembly_error.is_some());
     let lines = f64::from(u8::from(has_notes) + facts.line_count());
     let foot = theme.caption_size * 1.5 + lines * theme.note_size * 1.5 + 2.2 * theme.caption_size;
-    // One arrangement fits all panels: plotters splits a page to within a hundredth of a millimetre.
-    let figure_rect = |area: &Area| {
+    // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
+    let figure_rect = |area: &A| {
         let gap = 1.2 * theme.caption_size;
-        let size = size(area) - Vector::new(gap, 0.0) - Vector::new(gap, foot);
+        let size = area.size() - Vector::new(gap, 0.0) - Vector::new(gap, foot);
         Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
@@ -103,16 +102,16 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
 }
 
 /// Draws the cell's number at the upper left, and its lines of text at the foot.
-fn draw_caption(area: &Area, (foot, facts): (f64, FactsLayout), panel: &Panel, symbols: &[String], theme: &Theme) {
-    let panel_size = size(area);
+fn draw_caption(area: &impl Area, (foot, facts): (f64, FactsLayout), panel: &Panel, symbols: &[String], theme: &Theme) {
+    let panel_size = area.size();
     let number = panel.solved_cell.cell.number.to_string();
     let at = Point::new(0.8 * theme.caption_size, theme.note_size);
-    draw(area, &theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
+    area.record(&theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
     let width = panel_size.x - 1.2 * theme.caption_size;
     let mut y = panel_size.y - foot + 1.5 * theme.caption_size;
     let mut line = |text: &str, size: f64, color, symbols: &[String]| {
         let line = theme.text_line(text, Point::new(panel_size.x / 2.0, y), Anchor::Middle, size, color);
-        draw(area, &line.with_italics(symbols).fit_width(width));
+        area.record(&line.with_italics(symbols).fit_width(width));
         y += 1.45 * theme.note_size;
     };
     line(&panel.caption, theme.caption_size, theme.ink, symbols);
@@ -129,7 +128,7 @@ fn draw_caption(area: &Area, (foot, facts): (f64, FactsLayout), panel: &Panel, s
 }
 
 /// Draws a message in place of a figure: the cell is not assembled, and the reason.
-pub(super) fn draw_not_assembled(area: &Area, frame: Rect, cell: &SolvedCell, theme: &Theme) {
+pub(super) fn draw_not_assembled(area: &impl Area, frame: Rect, cell: &SolvedCell, theme: &Theme) {
     let reason = cell.motion.assembly_error.as_ref().map_or("it has no curve".to_owned(), ToString::to_string);
     let centre = frame.centre();
     let text_line = |text: &str, size: f64, color: Color| {
@@ -144,5 +143,5 @@ pub(super) fn draw_not_assembled(area: &Area, frame: Rect, cell: &SolvedCell, th
         text.position.y = first + step * k as f64;
     }
     let items = lines.into_iter().map(Item::Text).collect();
-    draw(area, &Drawing { class: "not-assembled", title: String::new(), items });
+    area.record(&Drawing { class: "not-assembled", title: String::new(), items });
 }

@@ -1,7 +1,8 @@
 //! A frame in which a figure is drawn to scale, with its scale bar.
 
+use super::area::Area;
 use super::arrangement::Rect;
-use super::element::{Area, Drawing, draw};
+use super::element::Drawing;
 use super::theme::Theme;
 use crate::scene::{Anchor, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
@@ -38,7 +39,7 @@ impl Plot {
     }
 
     /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width.
-    pub fn draw_scale_bar(&self, area: &Area, theme: &Theme) {
+    pub fn draw_scale_bar(&self, area: &impl Area, theme: &Theme) {
         let scale = self.page_from_plane.scale;
         let units = round_number_below(0.2 * self.rect.size.x / scale);
         let length = units * scale;
@@ -63,7 +64,7 @@ impl Plot {
         let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
         let bar = Item::Path(Path { polylines: lines, stroke, fill: None });
         let text = Item::Text(Text { position: Point::new(left + length + gap, at.y), ..text.text });
-        draw(area, &Drawing { class: "scale", title: format!("scale bar: {label}"), items: vec![bar, text] });
+        area.record(&Drawing { class: "scale", title: format!("scale bar: {label}"), items: vec![bar, text] });
     }
 }
 

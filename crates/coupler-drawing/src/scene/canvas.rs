@@ -8,7 +8,7 @@ use plotters_backend::{
     FontTransform,
 };
 
-use super::{Anchor, Circle, Color, Face, Item, Path, Polyline, Scene, Stroke, Text, TextRun, Typeface};
+use super::{Anchor, Circle, Color, Face, Item, Path, Polyline, Scene, Stroke, Text, TextRun, Typeface, pixel};
 use coupler_curves::geometry::Point;
 
 /// A plotters backend that records a [`Scene`]; its pixel is 1/100 mm.
@@ -19,9 +19,6 @@ pub struct Canvas<'s> {
 
 type DrawResult = Result<(), DrawingErrorKind<Infallible>>;
 
-/// Pixels of the backend per millimetre.
-const PIXELS_PER_MM: f64 = 100.0;
-
 impl<'s> Canvas<'s> {
     /// A canvas that records into a scene.
     pub fn new(scene: &'s mut Scene) -> Canvas<'s> {
@@ -31,16 +28,6 @@ impl<'s> Canvas<'s> {
     /// Records an item in full precision, as the elements of this crate do.
     pub fn record(&mut self, item: Item) {
         self.scene.items.push(item);
-    }
-
-    /// A length in millimetres in pixels of the backend, rounded.
-    pub fn to_pixels(mm: f64) -> i32 {
-        (mm * PIXELS_PER_MM).round() as i32
-    }
-
-    /// A coordinate of the backend in millimetres.
-    pub fn to_millimetres((x, y): BackendCoord) -> Point {
-        Point::new(f64::from(x) / PIXELS_PER_MM, f64::from(y) / PIXELS_PER_MM)
     }
 
     /// A colour blended with that of the paper, so that the formats need no transparency.
@@ -55,7 +42,7 @@ impl<'s> Canvas<'s> {
     fn to_stroke<S: BackendStyle>(&self, style: &S) -> Stroke {
         Stroke {
             color: self.blend(style.color()),
-            width: f64::from(style.stroke_width()) / PIXELS_PER_MM,
+            width: f64::from(style.stroke_width()) / pixel::PER_MM,
             has_round_ends: false,
         }
     }
@@ -74,7 +61,7 @@ impl DrawingBackend for Canvas<'_> {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
-        (Canvas::to_pixels(self.scene.width) as u32, Canvas::to_pixels(self.scene.height) as u32)
+        (pixel::from_millimetres(self.scene.width) as u32, pixel::from_millimetres(self.scene.height) as u32)
     }
 
     fn ensure_prepared(&mut self) -> DrawResult {
@@ -94,18 +81,18 @@ impl DrawingBackend for Canvas<'_> {
     }
 
     fn draw_rect<S: BackendStyle>(&mut self, a: BackendCoord, b: BackendCoord, style: &S, fill: bool) -> DrawResult {
-        let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(Canvas::to_millimetres);
+        let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(pixel::to_millimetres);
         self.record_path(corners.to_vec(), true, style, fill)
     }
 
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> DrawResult {
-        self.record_path(path.into_iter().map(Canvas::to_millimetres).collect(), false, style, false)
+        self.record_path(path.into_iter().map(pixel::to_millimetres).collect(), false, style, false)
     }
 
     fn draw_circle<S: BackendStyle>(&mut self, centre: BackendCoord, radius: u32, style: &S, fill: bool) -> DrawResult {
         let (stroke, fill) =
             if fill { (None, Some(self.blend(style.color()))) } else { (Some(self.to_stroke(style)), None) };
-        let (centre, radius) = (Canvas::to_millimetres(centre), f64::from(radius) / PIXELS_PER_MM);
+        let (centre, radius) = (pixel::to_millimetres(centre), f64::from(radius) / pixel::PER_MM);
         self.record(Item::Circle(Circle { centre, radius, stroke, fill }));
         Ok(())
     }
@@ -115,11 +102,11 @@ impl DrawingBackend for Canvas<'_> {
         path: I,
         style: &S,
     ) -> DrawResult {
-        self.record_path(path.into_iter().map(Canvas::to_millimetres).collect(), true, style, true)
+        self.record_path(path.into_iter().map(pixel::to_millimetres).collect(), true, style, true)
     }
 
     fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> DrawResult {
-        let (face, size) = (face_for_style(self.scene.typeface, style), style.size() / PIXELS_PER_MM);
+        let (face, size) = (face_for_style(self.scene.typeface, style), style.size() / pixel::PER_MM);
         let (ascent, descent) = face.ascent_and_descent();
         // From the anchor of the line's box down to its baseline.
         let drop = match style.anchor().v_pos {
@@ -132,7 +119,7 @@ impl DrawingBackend for Canvas<'_> {
             HPos::Center => Anchor::Middle,
             HPos::Right => Anchor::End,
         };
-        let at = Canvas::to_millimetres(at);
+        let at = pixel::to_millimetres(at);
         let (quarter_turns, at) = match style.transform() {
             FontTransform::None => (0, Point::new(at.x, at.y + drop)),
             FontTransform::Rotate90 => (1, Point::new(at.x - drop, at.y)),

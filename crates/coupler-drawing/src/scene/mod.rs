@@ -1,15 +1,19 @@
 //! Scenes: finished pages as display lists in millimetres.
 //!
 //! A [`Scene`] is recorded by a [`Canvas`], a plotters `DrawingBackend` whose pixel is 1/100 mm. Elements of plotters
-//! are recorded in whole pixels, elements of this crate in full precision. The origin of the page is its upper left
-//! corner, with x to the right and y down.
+//! are recorded in whole pixels, elements of this crate in full precision. Without the feature `plotters`, pages without
+//! charts are recorded to the same scenes. The origin of the page is its upper left corner, with x to the right and y
+//! down.
 
 mod book;
+#[cfg(feature = "plotters")]
 mod canvas;
 mod color;
 mod font;
+pub(crate) mod pixel;
 
 pub use book::{OutlineEntry, PageLink, PageNumber};
+#[cfg(feature = "plotters")]
 pub use canvas::Canvas;
 pub use color::Color;
 pub use font::{Face, OutlineSegment, Typeface};

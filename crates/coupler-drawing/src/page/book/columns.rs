@@ -1,13 +1,12 @@
 //! Lists in columns, on as many pages as needed.
 
-use plotters::drawing::IntoDrawingArea;
-
 use super::super::Options;
-use super::super::element::{Area, Drawing, TextLine, draw, size};
+use super::super::area::{self, Area};
+use super::super::element::{Drawing, TextLine};
 use super::super::heading;
 use super::super::theme::Theme;
 use super::{Atlas, Volume, draw_page_number, empty_scene};
-use crate::scene::{Anchor, Canvas, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
+use crate::scene::{Anchor, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A row of a list. Pages are numbered as in the atlas, from 1.
@@ -101,15 +100,15 @@ pub(super) fn compose_list(
     let front = front(pages.len());
     let page = |(k, placed): (usize, &&[PlacedLine])| {
         let mut scene = empty_scene(format!("{}: {}", header.title, header.atlas.title), options, theme);
-        let root = Canvas::new(&mut scene).into_drawing_area();
+        let root = area::whole_page(&mut scene);
         heading::draw_border(&root, theme);
         let at = heading::draw_title(&root, header.title, theme);
         let title = header.atlas.title;
         let subtitle = header.volume.name().map_or(title.to_owned(), |name| format!("{title} · {name}"));
         let subtitle = theme.text_line(&subtitle, at, Anchor::Start, theme.source_size, theme.grey);
-        draw(&root, &subtitle.fit_width(size(&root).x - 2.0 * at.x));
+        root.record(&subtitle.fit_width(root.size().x - 2.0 * at.x));
         let leaders = columns.draw_lines(&root, placed, theme);
-        draw(&root, &Drawing { class: "leaders", title: String::new(), items: leaders });
+        root.record(&Drawing { class: "leaders", title: String::new(), items: leaders });
         drop(root);
         scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, header.volume, front)).collect();
         draw_page_number(
@@ -215,7 +214,7 @@ impl ColumnLayout {
     }
 
     /// Draws lines; the result is the leaders of their entries.
-    fn draw_lines(&self, root: &Area, placed: &[PlacedLine], theme: &Theme) -> Vec<Item> {
+    fn draw_lines(&self, root: &impl Area, placed: &[PlacedLine], theme: &Theme) -> Vec<Item> {
         let mut leaders = Vec::new();
         for line in placed {
             let at = self.line_start(line);
@@ -224,12 +223,12 @@ impl ColumnLayout {
             let at_start = |line: TextLine| TextLine { text: Text { position: at, ..line.text } };
             match line.row {
                 Row::Heading { page, .. } => {
-                    draw(root, &at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
+                    root.record(&at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
                     if let Some(page) = page.filter(|_| line.is_first) {
-                        draw(root, &text_line(&page.to_string(), end, Anchor::End, theme.note_size, theme));
+                        root.record(&text_line(&page.to_string(), end, Anchor::End, theme.note_size, theme));
                     }
                 }
-                Row::Note(_) => draw(root, &at_start(note_line(text, theme)).fit_width(self.column_size.x)),
+                Row::Note(_) => root.record(&at_start(note_line(text, theme)).fit_width(self.column_size.x)),
                 Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, at, theme)),
             }
         }
@@ -238,13 +237,13 @@ impl ColumnLayout {
     }
 
     /// Draws an entry; the result is the dots of its leader.
-    fn draw_entry(&self, root: &Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Polyline> {
+    fn draw_entry(&self, root: &impl Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Polyline> {
         let right = at.x + self.column_size.x;
         let line = entry
             .text_line(at, theme)
             .fit_width(self.column_size.x - self.page_width - self.value_width - self.curve_width);
         let from = at.x + line.text.width();
-        draw(root, &line);
+        root.record(&line);
         let numbers = [
             (entry.page.to_string(), right, theme.ink),
             (entry.value.clone(), right - self.page_width, theme.ink),
@@ -254,7 +253,7 @@ impl ColumnLayout {
         for (text, x, ink) in numbers.into_iter().filter(|(text, ..)| !text.is_empty()) {
             let number = theme.text_line(&text, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
             to = number.text.start().x;
-            draw(root, &number);
+            root.record(&number);
         }
         leader_dots(from, to, at.y, theme)
     }

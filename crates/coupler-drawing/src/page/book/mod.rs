@@ -20,14 +20,12 @@ mod title;
 
 use std::ops::Range;
 
-use plotters::drawing::IntoDrawingArea;
-
 pub use index_entry::IndexEntry;
 
-use super::element::{draw, size};
+use super::area::{self, Area};
 use super::theme::Theme;
 use super::{Options, PanelPage};
-use crate::scene::{Anchor, Canvas, OutlineEntry, PageNumber, Scene};
+use crate::scene::{Anchor, OutlineEntry, PageNumber, Scene};
 use columns::ListHeader;
 use coupler_curves::geometry::Point;
 
@@ -214,10 +212,10 @@ pub fn draw_page_number(scene: &mut Scene, label: PageNumber, options: &Options)
         PageNumber::Roman(number) => to_roman(number),
         PageNumber::Arabic(number) => number.to_string(),
     };
-    let root = Canvas::new(scene).into_drawing_area();
-    let page = size(&root);
+    let root = area::whole_page(scene);
+    let page = root.size();
     let at = Point::new(page.x / 2.0, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
-    draw(&root, &theme.text_line(&text, at, Anchor::Middle, theme.source_size, theme.grey));
+    root.record(&theme.text_line(&text, at, Anchor::Middle, theme.source_size, theme.grey));
 }
 
 fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {

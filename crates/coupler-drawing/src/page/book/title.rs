@@ -1,15 +1,14 @@
 //! The title page of a volume.
 
-use plotters::drawing::IntoDrawingArea;
-
+use super::super::area::{self, Area};
 use super::super::arrangement::{Arrangement, Rect};
-use super::super::element::{Area, Drawing, draw, size};
+use super::super::element::Drawing;
 use super::super::figure::Figure;
 use super::super::heading;
 use super::super::theme::Theme;
 use super::super::{Options, PanelPage};
 use super::{Atlas, Chapter, Volume, draw_page_number};
-use crate::scene::{Anchor, Canvas, Color, Item, PageNumber, Path, Scene};
+use crate::scene::{Anchor, Color, Item, PageNumber, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// The most lines for families.
@@ -22,12 +21,12 @@ pub(super) fn compose(
     frontispiece: Option<&PanelPage>,
     (options, theme): (&Options, &Theme),
 ) {
-    let root = Canvas::new(scene).into_drawing_area();
+    let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
-    let page = size(&root);
+    let page = root.size();
     let width = page.x - 2.0 * (theme.border + 2.0 * theme.margin);
     let centred = |text: &str, y: f64, size: f64, color: Color| {
-        draw(&root, &theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(width));
+        root.record(&theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(width));
     };
     let lines = family_lines(atlas);
     let step = 1.7 * theme.source_size;
@@ -99,14 +98,14 @@ fn family_lines(atlas: &Atlas) -> Vec<String> {
 }
 
 /// Draws a line under the title.
-fn draw_rule(root: &Area, centre: Point, length: f64, theme: &Theme) {
+fn draw_rule(root: &impl Area, centre: Point, length: f64, theme: &Theme) {
     let half = Vector::new(length / 2.0, 0.0);
     let path = Path::stroked(vec![centre - half, centre + half], theme.stroke(theme.hairline, theme.fine_width));
-    draw(root, &Drawing { class: "rule", title: String::new(), items: vec![Item::Path(path)] });
+    root.record(&Drawing { class: "rule", title: String::new(), items: vec![Item::Path(path)] });
 }
 
 /// Draws the first panel of a page, if it has a curve and there is enough space.
-fn draw_frontispiece(root: &Area, frame: Rect, page: &PanelPage, (options, theme): (&Options, &Theme)) {
+fn draw_frontispiece(root: &impl Area, frame: Rect, page: &PanelPage, (options, theme): (&Options, &Theme)) {
     let Some(figure) = page.panels.first().and_then(Figure::from_panel) else { return };
     if frame.size.x > 10.0 * theme.joint_radius && frame.size.y > 10.0 * theme.joint_radius {
         figure.draw(root, frame, Arrangement::Combined, page, (options, theme));

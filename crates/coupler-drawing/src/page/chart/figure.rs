@@ -1,18 +1,17 @@
 //! The figure of a chart: axes, lines and their labels.
 
 use plotters::chart::ChartBuilder;
-use plotters::coord::Shift;
-use plotters::drawing::DrawingArea;
 use plotters::style::{Color as _, IntoFont, RGBColor, ShapeStyle, TextStyle};
 
 use super::super::ChartPage;
-use super::super::element::{Area, Drawing, GroupElement, draw, size};
+use super::super::area::{Area, PlottersArea};
+use super::super::element::Drawing;
 use super::super::theme::Theme;
 use super::line::{ClippedLine, LineStyle};
 use super::line_labels::{self, LineLabel};
 use super::scale::{RangeEnds, Scale, ScaleOptions, is_drawable};
 use crate::chart::{PointSource, Quantity, Series};
-use crate::scene::{Anchor, Canvas, Color, Group, Item};
+use crate::scene::{Anchor, Color, Group, Item, pixel};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A chart with its scales and margins.
@@ -78,7 +77,7 @@ impl<'a> ChartFigure<'a> {
 
     /// Draws the chart with a width for the tick labels on the left, in millimetres; the result is the data attributes
     /// that relate positions on the page to values.
-    pub fn draw(&self, area: &Area, left: f64, theme: &Theme) -> Vec<(&'static str, String)> {
+    pub fn draw(&self, area: &PlottersArea, left: f64, theme: &Theme) -> Vec<(&'static str, String)> {
         let gap = 1.2 * theme.caption_size;
         let head = 2.6 * theme.caption_size;
         let foot = 2.0 * tick_length(theme) + 1.5 * theme.note_size + 3.0 * theme.caption_size;
@@ -88,23 +87,24 @@ impl<'a> ChartFigure<'a> {
             return Vec::new();
         };
         let mut builder = ChartBuilder::on(area);
-        builder.margin_top(Canvas::to_pixels(head)).margin_right(Canvas::to_pixels(gap + self.right_margin));
-        builder.y_label_area_size(Canvas::to_pixels(left)).x_label_area_size(Canvas::to_pixels(foot));
+        builder
+            .margin_top(pixel::from_millimetres(head))
+            .margin_right(pixel::from_millimetres(gap + self.right_margin));
+        builder.y_label_area_size(pixel::from_millimetres(left)).x_label_area_size(pixel::from_millimetres(foot));
         // A canvas cannot fail.
         let mut context = builder.build_cartesian_2d(x.clone(), y.clone()).expect("recording a scene does not fail");
         let style = |color: Color, width: f64| ShapeStyle {
             color: to_rgb(color).to_rgba(),
             filled: false,
-            stroke_width: Canvas::to_pixels(width) as u32,
+            stroke_width: pixel::from_millimetres(width) as u32,
         };
         let grey = to_rgb(theme.grey);
-        let label =
-            TextStyle::from(("serif", theme.note_size * f64::from(Canvas::to_pixels(1.0))).into_font()).color(&grey);
+        let label = TextStyle::from(("serif", theme.note_size * pixel::PER_MM).into_font()).color(&grey);
         let mut mesh = context.configure_mesh();
         mesh.bold_line_style(style(theme.hairline, theme.hair_width))
             .light_line_style(style(theme.faded(theme.hairline), 0.6 * theme.hair_width));
         mesh.axis_style(style(theme.grey, 0.7 * theme.fine_width)).label_style(label);
-        mesh.set_all_tick_mark_size(Canvas::to_pixels(tick_length(theme)))
+        mesh.set_all_tick_mark_size(pixel::from_millimetres(tick_length(theme)))
             .draw()
             .expect("recording a scene does not fail");
         let frame = context.plotting_area().strip_coord_spec();
@@ -114,14 +114,14 @@ impl<'a> ChartFigure<'a> {
     }
 
     /// Draws the quantity of the y axis above the frame, with its unit and, if it fits, its definition.
-    fn draw_title(&self, area: &Area, theme: &Theme) {
-        let width = size(area).x;
+    fn draw_title(&self, area: &PlottersArea, theme: &Theme) {
+        let width = area.size().x;
         let y = 1.2 * theme.caption_size;
         let name = quantity_title(self.quantity());
         let title = theme.text_line(&name, Point::new(0.0, y), Anchor::Start, theme.caption_size, theme.ink);
         let title = title.with_italics(self.page.heading.symbols).fit_width(width);
         let after = title.text.width() + 1.2 * theme.caption_size;
-        draw(area, &title);
+        area.record(&title);
         let definition =
             |text: &str| theme.text_line(text, Point::new(after, y), Anchor::Start, theme.note_size, theme.grey);
         let whole = self.quantity().definition;
@@ -130,21 +130,21 @@ impl<'a> ChartFigure<'a> {
             [": ", ", "].into_iter().filter_map(|separator| whole.split_once(separator)).map(|(start, _)| start);
         let fitting = std::iter::once(whole).chain(shorter).find(|text| definition(text).text.width() <= width - after);
         if let Some(text) = fitting.filter(|text| !text.is_empty()) {
-            draw(area, &definition(text));
+            area.record(&definition(text));
         }
     }
 
     /// Draws the quantity of the x axis under the frame, and the number of values that a logarithmic axis leaves out.
-    fn draw_x_title(&self, area: &Area, frame: &Area, foot: f64, theme: &Theme) {
-        let (all, inner) = (size(area), size(frame));
-        let left = f64::from(frame.get_base_pixel().0 - area.get_base_pixel().0) / f64::from(Canvas::to_pixels(1.0));
+    fn draw_x_title(&self, area: &PlottersArea, frame: &PlottersArea, foot: f64, theme: &Theme) {
+        let (all, inner) = (area.size(), frame.size());
+        let left = f64::from(frame.get_base_pixel().0 - area.get_base_pixel().0) / pixel::PER_MM;
         let y = all.y - foot + 2.0 * tick_length(theme) + 1.5 * theme.note_size + 1.1 * theme.caption_size;
         let name = quantity_title(&self.page.chart.x);
         let title =
             theme.text_line(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption_size, theme.ink);
         let title = title.with_italics(self.page.heading.symbols).fit_width(0.9 * inner.x);
         let note_width = (inner.x - title.text.width()) / 2.0 - theme.caption_size;
-        draw(area, &title);
+        area.record(&title);
         let left_out: usize = self.clipped_lines(frame).iter().map(|line| line.nonpositive_count).sum();
         if left_out > 0 {
             let note = match left_out {
@@ -152,20 +152,20 @@ impl<'a> ChartFigure<'a> {
                 n => format!("{n} values of 0 or less are left out"),
             };
             let note = theme.text_line(&note, Point::new(left + inner.x, y), Anchor::End, theme.note_size, theme.grey);
-            draw(area, &note.fit_width(note_width));
+            area.record(&note.fit_width(note_width));
         }
     }
 
     /// Draws the reason why there is nothing to draw.
-    fn draw_empty_message(&self, area: &Area, theme: &Theme) {
+    fn draw_empty_message(&self, area: &PlottersArea, theme: &Theme) {
         let is_log = self.quantity().is_log || self.page.chart.x.is_log;
         let text = if is_log { "no positive value for a logarithmic axis" } else { "no finite value" };
-        let at = Point::from(size(area) / 2.0);
-        let line = theme.text_line(text, at, Anchor::Middle, theme.caption_size, theme.grey).fit_width(size(area).x);
-        draw(area, &Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
+        let at = Point::from(area.size() / 2.0);
+        let line = theme.text_line(text, at, Anchor::Middle, theme.caption_size, theme.grey).fit_width(area.size().x);
+        area.record(&Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
     }
 
-    fn clipped_lines(&self, frame: &Area) -> Vec<ClippedLine> {
+    fn clipped_lines(&self, frame: &PlottersArea) -> Vec<ClippedLine> {
         let Some([x, y]) = &self.scales else { return Vec::new() };
         let size = frame_size(frame);
         self.page
@@ -176,7 +176,7 @@ impl<'a> ChartFigure<'a> {
     }
 
     /// Draws the lines, each as a group, and their labels next to the frame.
-    fn draw_lines(&self, frame: &Area, theme: &Theme) {
+    fn draw_lines(&self, frame: &PlottersArea, theme: &Theme) {
         let lines = self.clipped_lines(frame);
         let span = frame_size(frame);
         // Points are marked if they are far enough apart on all charts of the page.
@@ -189,7 +189,7 @@ impl<'a> ChartFigure<'a> {
             let mut items = style.line_items(&line.runs, theme);
             let marked = if with_marks { &line.points } else { &line.isolated_points };
             items.extend(marked.iter().map(|at| style.mark_item(*at, theme)));
-            draw(frame, &GroupElement { group: self.series_group(k, series, items) });
+            frame.record(&Item::Group(self.series_group(k, series, items)));
             if let Some(end) = line.end_point().filter(|_| !series.label.is_empty()) {
                 labels.push(LineLabel { text: &series.label, style, end_height: end.y });
             }
@@ -202,7 +202,7 @@ impl<'a> ChartFigure<'a> {
             theme,
         );
         if !items.is_empty() {
-            draw(frame, &Drawing { class: "keys", title: String::new(), items });
+            frame.record(&Drawing { class: "keys", title: String::new(), items });
         }
     }
 
@@ -242,14 +242,13 @@ fn to_rgb(Color(r, g, b): Color) -> RGBColor {
 }
 
 /// The width and height of the frame between its first and its last pixel, both of which plotters counts as inside.
-fn frame_size(frame: &DrawingArea<Canvas, Shift>) -> Vector {
-    let pixel = 1.0 / f64::from(Canvas::to_pixels(1.0));
-    size(frame) - Vector::new(pixel, pixel)
+fn frame_size(frame: &PlottersArea) -> Vector {
+    frame.size() - Vector::repeat(1.0 / pixel::PER_MM)
 }
 
 /// The data attributes that relate positions on the page to values: the frame of the chart and the ranges of its axes.
-fn axis_data(frame: &Area, [x, y]: [&Scale; 2]) -> Vec<(&'static str, String)> {
-    let corner = Canvas::to_millimetres(frame.get_base_pixel());
+fn axis_data(frame: &PlottersArea, [x, y]: [&Scale; 2]) -> Vec<(&'static str, String)> {
+    let corner = pixel::to_millimetres(frame.get_base_pixel());
     let opposite = corner + frame_size(frame);
     let kind = |scale: &Scale| if scale.is_log { "log" } else { "linear" }.to_owned();
     vec![

@@ -1,28 +1,28 @@
 //! The foot of a page: the proportions in large type, the facts and the folio; and the source in the column.
 
+use super::super::area::Area;
 use super::super::arrangement::Rect;
-use super::super::element::{Area, draw as put, size};
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, Options, figure};
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 
 /// Draws the foot; the result is its height from the edge of the paper.
-pub(super) fn draw(area: &Area, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
-    let paper = size(area);
+pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
+    let paper = area.size();
     let (left, right) = (theme.border + theme.margin, paper.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
     let at = Point::new(left, paper.y - theme.border - 0.65 * theme.margin);
     // Some SVG viewers collapse consecutive spaces, but not an em space.
     let proportions = page.panel.caption.replace("  ", "\u{2003}");
     let proportions = theme.text_line(&proportions, at, Anchor::Start, theme.title_size, theme.ink);
-    put(area, &proportions.with_italics(page.heading.symbols).fit_width(half));
+    area.record(&proportions.with_italics(page.heading.symbols).fit_width(half));
     let line =
         |text: &str, y: f64| theme.text_line(text, Point::new(right, y), Anchor::End, theme.source_size, theme.grey);
-    put(area, &line(&page.heading.titles(), at.y).fit_width_with_suffix(&page.heading.folio(), half));
+    area.record(&line(&page.heading.titles(), at.y).fit_width_with_suffix(&page.heading.folio(), half));
     let facts = facts(page, options);
     if !facts.is_empty() {
-        put(area, &line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
+        area.record(&line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
     }
     theme.border + 0.65 * theme.margin + 1.5 * theme.title_size
 }
@@ -40,7 +40,7 @@ fn facts(page: &CouplerGridPage, options: &Options) -> String {
 }
 
 /// Draws the source, if there is one, at the foot of the column, in as many lines as needed.
-pub(super) fn draw_source(area: &Area, side: Rect, page: &CouplerGridPage, theme: &Theme) {
+pub(super) fn draw_source(area: &impl Area, side: Rect, page: &CouplerGridPage, theme: &Theme) {
     let symbols = page.heading.symbols;
     if page.heading.source.is_empty() {
         return;
@@ -54,6 +54,6 @@ pub(super) fn draw_source(area: &Area, side: Rect, page: &CouplerGridPage, theme
     for (k, line) in lines.iter().enumerate() {
         let at = Point::new(right, first + step * k as f64);
         let line = theme.text_line(line, at, Anchor::End, theme.note_size, theme.grey);
-        put(area, &line.with_italics(symbols).fit_width(side.size.x));
+        area.record(&line.with_italics(symbols).fit_width(side.size.x));
     }
 }

@@ -1,7 +1,8 @@
 //! The key: a small drawing of the linkage in its pose, with the names of its links.
 
+use super::super::area::Area;
 use super::super::arrangement::Rect;
-use super::super::element::{Area, Drawing, TextLine, draw as put};
+use super::super::element::{Drawing, TextLine};
 use super::super::mechanism::PosedMechanism;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
@@ -11,7 +12,13 @@ use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_no
 use coupler_curves::linkage::{JointId, is_plate};
 
 /// Draws the key at the head of a column; the result is the rest of the column.
-pub(super) fn draw(area: &Area, side: Rect, page: &CouplerGridPage, mechanism: &PosedMechanism, theme: &Theme) -> Rect {
+pub(super) fn draw(
+    area: &impl Area,
+    side: Rect,
+    page: &CouplerGridPage,
+    mechanism: &PosedMechanism,
+    theme: &Theme,
+) -> Rect {
     let linkage = &page.panel.solved_cell.linkage;
     let pose = |joint: &JointId| mechanism.pose[*joint];
     let (links, pivots) = (linkage.link_outlines(), linkage.pivots());
@@ -39,7 +46,7 @@ pub(super) fn draw(area: &Area, side: Rect, page: &CouplerGridPage, mechanism: &
     }));
     let mut obstacles = Obstacles::default();
     obstacles.add(&items, false);
-    put(area, &Drawing { class: "key", title: String::new(), items });
+    area.record(&Drawing { class: "key", title: String::new(), items });
 
     let centre = page_from_plane.apply(bounds.centre());
     let is_fixed = |joint: &JointId| linkage.ground().position(*joint).is_some();
@@ -57,7 +64,7 @@ pub(super) fn draw(area: &Area, side: Rect, page: &CouplerGridPage, mechanism: &
         if let Some((_, spot)) = labels::clearest_box(spots, |spot| obstacles.clearance(spot, 0.3 * letter)) {
             placed.push(spot);
             text.text.position = spot.centre + Vector::new(0.0, half.y);
-            put(area, &text);
+            area.record(&text);
         }
     }
     Rect { corner: side.corner + Vector::new(0.0, height), size: side.size - Vector::new(0.0, height) }

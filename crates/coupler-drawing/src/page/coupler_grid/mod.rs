@@ -9,10 +9,9 @@ mod key;
 mod labels;
 mod table;
 
-use plotters::drawing::IntoDrawingArea;
-
+use super::area::{self, Area};
 use super::arrangement::Rect;
-use super::element::{Area, CouplerCurve, Drawing, draw};
+use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
 use super::marks;
@@ -21,7 +20,7 @@ use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Canvas, Circle, Color, Item, Path, Scene, Text};
+use crate::scene::{Anchor, Circle, Color, Item, Path, Scene, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
 use coupler_curves::motion::{self, DashPattern};
@@ -50,7 +49,7 @@ impl ShownCurve<'_> {
 pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
     let theme = &with_legible_notes(theme, size);
-    let root = Canvas::new(scene).into_drawing_area();
+    let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
     let foot = footer::draw(&root, page, options, theme);
     let edge = theme.border + theme.margin;
@@ -119,7 +118,7 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
 }
 
 fn draw_figure(
-    area: &Area,
+    area: &impl Area,
     frame: Rect,
     page: &CouplerGridPage,
     mechanism: &PosedMechanism,
@@ -156,7 +155,7 @@ fn draw_figure(
         theme,
     );
 
-    let group = |class, items| draw(area, &Drawing { class, title: String::new(), items });
+    let group = |class, items| area.record(&Drawing { class, title: String::new(), items });
     group("underlay", underlay);
     group("grid", grid);
     group("straight", straight);
@@ -166,7 +165,7 @@ fn draw_figure(
     };
     group("trail", shown.iter().zip(&paths).filter_map(underline).collect());
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
-        draw(area, &coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
+        area.record(&coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
     group("linkage", linkage);
     group("coupler-point", points);

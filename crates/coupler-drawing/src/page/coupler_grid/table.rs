@@ -1,8 +1,9 @@
 //! The table of the points of a page: coordinates on the link, and the straight portion of the curve.
 
 use super::super::CouplerGridPage;
+use super::super::area::Area;
 use super::super::arrangement::Rect;
-use super::super::element::{Area, Drawing, draw as put};
+use super::super::element::Drawing;
 use super::super::marks::format_significant;
 use super::super::theme::Theme;
 use super::{ShownCurve, input_unit};
@@ -20,7 +21,7 @@ const COLUMNS: [(&str, f64); 5] =
 const POINT_COLUMNS: usize = 3;
 
 /// Draws the table at the head of a frame.
-pub(super) fn draw(area: &Area, frame: Rect, page: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) {
+pub(super) fn draw(area: &impl Area, frame: Rect, page: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) {
     let solved = page.panel.solved_cell;
     let has_circuits = solved.motion.circuits.len() > 1;
     let row = 1.5 * theme.note_size;
@@ -33,22 +34,22 @@ pub(super) fn draw(area: &Area, frame: Rect, page: &CouplerGridPage, shown: &[Sh
     // A traced joint of a link has no coordinates.
     let is_blank = |column: usize| (1..POINT_COLUMNS).contains(&column) && coordinates.iter().all(Option::is_none);
     for (column, (head, _)) in COLUMNS.iter().enumerate().take(columns).filter(|(column, _)| !is_blank(*column)) {
-        put(area, &theme.text_line(head, at(column, y), Anchor::End, 0.9 * theme.note_size, theme.grey));
+        area.record(&theme.text_line(head, at(column, y), Anchor::End, 0.9 * theme.note_size, theme.grey));
     }
     let rule =
         vec![Point::new(frame.corner.x, y + 0.4 * row), Point::new(frame.corner.x + frame.size.x, y + 0.4 * row)];
     let rule = Item::Path(Path::stroked(rule, theme.stroke(theme.hairline, theme.hair_width)));
-    put(area, &Drawing { class: "rule", title: String::new(), items: vec![rule] });
+    area.record(&Drawing { class: "rule", title: String::new(), items: vec![rule] });
     y += 0.25 * row;
     let last = frame.corner.y + frame.size.y - 3.0 * row;
     for (k, (s, coordinates)) in shown.iter().zip(&coordinates).enumerate() {
         y += row;
         if y > last && k + 1 < shown.len() {
             let rest = format!("and {} more", shown.len() - k);
-            put(area, &theme.text_line(&rest, at(4, y), Anchor::End, theme.note_size, theme.grey));
+            area.record(&theme.text_line(&rest, at(4, y), Anchor::End, theme.note_size, theme.grey));
             break;
         }
-        put(area, &swatch(Point::new(frame.corner.x, y - 0.35 * theme.note_size), s, theme));
+        area.record(&swatch(Point::new(frame.corner.x, y - 0.35 * theme.note_size), s, theme));
         let number =
             if has_circuits { format!("{}/{}", s.curve.trace, s.curve.circuit) } else { s.curve.trace.to_string() };
         let [along, across] =
@@ -56,7 +57,7 @@ pub(super) fn draw(area: &Area, frame: Rect, page: &CouplerGridPage, shown: &[Sh
         let [straight, over] = format_straight_portion(solved, s.curve);
         for (column, text) in [number, along, across, straight, over].iter().enumerate().take(columns) {
             let color = if column == 0 { s.ink(theme) } else { theme.grey };
-            put(area, &theme.text_line(text, at(column, y), Anchor::End, theme.note_size, color));
+            area.record(&theme.text_line(text, at(column, y), Anchor::End, theme.note_size, color));
         }
     }
 }
