@@ -5,6 +5,10 @@
 //! [`chart`] collects the numbers that charts show, [`mechanism`] the parts of a linkage that are drawn. Nothing in this
 //! crate reads or writes a file.
 //!
+//! Features, all by default: `plotters` for charts, `fonts` for text as outlines, `png` and `pdf` for these formats.
+//! Without them, plates and the other pages are composed to the same scenes and written as SVG with text, and the crate
+//! builds for WebAssembly without imports.
+//!
 //! A four-bar, its class, one of its coupler curves, the longest straight portion of the curve, and the curve's plate:
 //!
 //! ```

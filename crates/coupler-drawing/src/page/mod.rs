@@ -1,4 +1,5 @@
-//! The layouts of pages: panels, charts, coupler grids and overlays, composed to a [`Scene`] through plotters.
+//! The layouts of pages: panels, charts, coupler grids and overlays, composed to a [`Scene`], through plotters where the
+//! feature is on.
 //!
 //! [`PanelPage`], [`ChartPage`], [`CouplerGridPage`] and [`OverlayPage`] say what is on a page; [`Options`] says what
 //! all pages of an atlas have in common. Each has a function that composes it, such as [`compose_panels`].

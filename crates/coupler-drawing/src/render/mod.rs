@@ -82,5 +82,6 @@ pub enum TextMode {
     #[default]
     Text,
     /// As outlines of glyphs, which look the same everywhere.
+    #[cfg(feature = "fonts")]
     Outlines,
 }

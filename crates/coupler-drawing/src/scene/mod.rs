@@ -16,7 +16,9 @@ pub use book::{OutlineEntry, PageLink, PageNumber};
 #[cfg(feature = "plotters")]
 pub use canvas::Canvas;
 pub use color::Color;
-pub use font::{Face, OutlineSegment, Typeface};
+#[cfg(feature = "fonts")]
+pub use font::OutlineSegment;
+pub use font::{Face, Typeface};
 
 use coupler_curves::geometry::Point;
 

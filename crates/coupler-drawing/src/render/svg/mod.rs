@@ -1,15 +1,16 @@
 //! The SVG format.
 
 mod number;
+#[cfg(feature = "fonts")]
+mod outlines;
 mod path_data;
 
 use std::fmt::Write;
 
 use super::TextMode;
-use crate::scene::{Anchor, Animation, Circle, Color, Group, Item, OutlineSegment, Path, Scene, Stroke, Text};
-use coupler_curves::geometry::Point;
+use crate::scene::{Anchor, Animation, Circle, Color, Group, Item, Path, Scene, Stroke, Text};
 use number::{Number, to_micrometres};
-use path_data::{PathWriter, absolute_path_data, write_path_data};
+use path_data::{absolute_path_data, write_path_data};
 
 /// Renders a scene to an SVG document; coordinates are in millimetres, rounded to 1/1000 mm.
 pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
@@ -48,8 +49,11 @@ impl SvgWriter {
             Item::Path(path) => self.write_path(path, None),
             Item::Circle(circle) => self.write_circle(circle, None),
             Item::Animation(animation) => self.write_animation(animation),
-            Item::Text(text) if self.text_mode == TextMode::Outlines => self.write_outlines(text),
-            Item::Text(text) => self.write_text(text),
+            Item::Text(text) => match self.text_mode {
+                TextMode::Text => self.write_text(text),
+                #[cfg(feature = "fonts")]
+                TextMode::Outlines => self.write_outlines(text),
+            },
         }
     }
 
@@ -174,41 +178,6 @@ impl SvgWriter {
             }
         }
         self.output.push_str("</text>\n");
-    }
-
-    /// Writes a text as one path, with the text as its label.
-    fn write_outlines(&mut self, text: &Text) {
-        let label: String = text.runs.iter().map(|run| run.text.as_str()).collect();
-        self.write(format_args!("<path role=\"img\" aria-label=\"{}\"", Escaped(&label)));
-        if text.quarter_turns != 0 {
-            let [x, y] = [text.position.x, text.position.y].map(|c| Number(to_micrometres(c)));
-            self.write(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
-        }
-        self.output.push_str(" d=\"");
-        let mut path = PathWriter::default();
-        let mut at = text.start();
-        for run in &text.runs {
-            for c in run.text.chars() {
-                let on_page = |[x, y]: [f64; 2]| Point::new(at.x + x * text.size, at.y - y * text.size);
-                for segment in run.face.outline(c).iter().copied() {
-                    match segment {
-                        OutlineSegment::Move(p) => path.write_command(&mut self.output, 'm', &[on_page(p)]),
-                        OutlineSegment::Line(p) => path.write_command(&mut self.output, 'l', &[on_page(p)]),
-                        OutlineSegment::Quad(c, p) => {
-                            path.write_command(&mut self.output, 'q', &[on_page(c), on_page(p)])
-                        }
-                        OutlineSegment::Cubic(c, d, p) => {
-                            path.write_command(&mut self.output, 'c', &[on_page(c), on_page(d), on_page(p)])
-                        }
-                        OutlineSegment::Close => path.close(&mut self.output),
-                    }
-                }
-                at.x += run.face.advance(c) * text.size;
-            }
-        }
-        self.output.push('"');
-        self.write_paint(None, Some(text.color));
-        self.end_element("path", None);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Typefaces, and the glyphs of their characters.
+//! The glyphs in the font files: their outlines and indices.
 
 use std::borrow::Cow;
 use std::sync::{LazyLock, OnceLock};
@@ -7,66 +7,7 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
-/// A typeface of the DejaVu family; its font files are embedded in the program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Typeface {
-    /// DejaVu Serif.
-    Serif,
-    /// DejaVu Serif Condensed.
-    #[default]
-    SerifCondensed,
-    /// DejaVu Sans.
-    Sans,
-    /// DejaVu Sans Condensed.
-    SansCondensed,
-    /// DejaVu Sans Mono.
-    Mono,
-}
-
-impl Typeface {
-    /// Every typeface with its name in a manifest.
-    pub const NAMED: [(&'static str, Typeface); 5] = [
-        ("serif", Typeface::Serif),
-        ("serif-condensed", Typeface::SerifCondensed),
-        ("sans", Typeface::Sans),
-        ("sans-condensed", Typeface::SansCondensed),
-        ("mono", Typeface::Mono),
-    ];
-
-    /// The upright face.
-    pub fn regular(self) -> Face {
-        Face { typeface: self, is_italic: false }
-    }
-
-    /// The italic or oblique face, for the names of parameters.
-    pub fn italic(self) -> Face {
-        Face { typeface: self, is_italic: true }
-    }
-
-    /// The value of `font-family` in an SVG: this typeface, then families of similar width.
-    pub fn fallback_families(self) -> &'static str {
-        match self {
-            Typeface::Serif => "'DejaVu Serif','Bitstream Vera Serif',Georgia,'Noto Serif',serif",
-            Typeface::SerifCondensed => {
-                "'DejaVu Serif Condensed','Bitstream Vera Serif','Noto Serif',Charter,Cambria,Georgia,'DejaVu Serif',serif"
-            }
-            Typeface::Sans => "'DejaVu Sans','Bitstream Vera Sans',Verdana,'Noto Sans',sans-serif",
-            Typeface::SansCondensed => {
-                "'DejaVu Sans Condensed','Open Sans','Noto Sans','Segoe UI',Tahoma,'DejaVu Sans',sans-serif"
-            }
-            Typeface::Mono => "'DejaVu Sans Mono','Bitstream Vera Sans Mono',Menlo,Consolas,'Noto Sans Mono',monospace",
-        }
-    }
-}
-
-/// The upright or the italic face of a typeface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Face {
-    /// The typeface.
-    pub typeface: Typeface,
-    /// Whether it is italic or oblique.
-    pub is_italic: bool,
-}
+use super::{Face, Typeface};
 
 /// A segment of the outline of a glyph, in ems with y up, from the origin of the glyph on the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,8 +38,6 @@ struct Font {
 struct Glyph {
     /// The glyph index in the font.
     index: u32,
-    /// The advance width in ems.
-    advance: f64,
     outline: Vec<OutlineSegment>,
 }
 
@@ -123,14 +62,12 @@ impl Font {
     /// The glyph of a character; a box if the face does not have it.
     fn read_glyph(&self, character: char) -> Glyph {
         let id = self.font.charmap().map(character).unwrap_or(GlyphId::NOTDEF);
-        let advance = self.font.glyph_metrics(Size::unscaled(), LocationRef::default()).advance_width(id);
         let mut pen = Pen { units_per_em: self.units_per_em, segments: Vec::new() };
         if let Some(glyph) = self.font.outline_glyphs().get(id) {
             // A glyph that cannot be drawn has an empty outline.
             let _ = glyph.draw(DrawSettings::unhinted(Size::unscaled(), LocationRef::default()), &mut pen);
         }
-        let advance = f64::from(advance.unwrap_or_default()) / self.units_per_em;
-        Glyph { index: id.to_u32(), advance, outline: pen.segments }
+        Glyph { index: id.to_u32(), outline: pen.segments }
     }
 }
 
@@ -161,23 +98,6 @@ impl Face {
             (Typeface::Mono, false) => font!(sans_mono, regular),
             (Typeface::Mono, true) => font!(sans_mono, oblique),
         }
-    }
-
-    /// The width of a text at a font size, in the unit of `size`, without kerning.
-    pub fn width(self, text: &str, size: f64) -> f64 {
-        text.chars().map(|c| self.advance(c)).sum::<f64>() * size
-    }
-
-    /// The advance width of a character, in ems.
-    pub fn advance(self, character: char) -> f64 {
-        self.font().glyph(character).advance
-    }
-
-    /// The ascent and the descent of the face, in ems, both positive.
-    pub fn ascent_and_descent(self) -> (f64, f64) {
-        let Font { font, units_per_em, .. } = self.font();
-        let metrics = font.metrics(Size::unscaled(), LocationRef::default());
-        (f64::from(metrics.ascent) / units_per_em, f64::from(-metrics.descent) / units_per_em)
     }
 
     /// The outline of a character; a box if the face does not have it.
@@ -232,16 +152,79 @@ impl OutlinePen for Pen {
 mod tests {
     use super::*;
 
+    fn faces() -> impl Iterator<Item = Face> {
+        Typeface::NAMED.into_iter().flat_map(|(_, typeface)| [typeface.regular(), typeface.italic()])
+    }
+
     #[test]
     fn all_faces_have_the_characters_of_pages() {
-        for face in Typeface::NAMED.into_iter().flat_map(|(_, typeface)| [typeface.regular(), typeface.italic()]) {
+        for face in faces() {
             for c in "Watt's linkage · p = 2.00, 5° – × ∞ §".chars().filter(|c| *c != ' ') {
                 assert_ne!(face.font().font.charmap().map(c), None, "{c}");
                 assert!(!face.outline(c).is_empty() && face.advance(c) > 0.1, "{c}");
             }
         }
-        let [wide, narrow] =
-            ["MM", "ii"].map(|text| Typeface::NAMED.map(|(_, typeface)| typeface.regular().width(text, 10.0)));
-        assert!((0..4).all(|k| wide[k] > narrow[k]) && wide[4] == narrow[4], "{wide:?} {narrow:?}");
+    }
+
+    /// The advance width of every character in the font of a face, by code point, in units of the font.
+    fn font_widths(face: Face) -> Vec<i32> {
+        let font = &face.font().font;
+        let (characters, metrics) = (font.charmap(), font.glyph_metrics(Size::unscaled(), LocationRef::default()));
+        let width = |code: u32| {
+            let glyph = char::from_u32(code).and_then(|c| characters.map(c)).unwrap_or(GlyphId::NOTDEF);
+            metrics.advance_width(glyph).unwrap_or_default() as i32
+        };
+        (0..=u32::from(char::MAX)).map(width).collect()
+    }
+
+    /// The runs of numbers, as `widths.bin` has them.
+    fn encode_runs(numbers: &[i32]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut push = |mut number: usize| {
+            while number > 0x7f {
+                bytes.push(number as u8 | 0x80);
+                number >>= 7;
+            }
+            bytes.push(number as u8);
+        };
+        let mut rest = numbers.len();
+        for run in numbers.chunk_by(|a, b| a == b) {
+            rest -= run.len();
+            push(if rest == 0 { 0 } else { run.len() });
+            push((if run[0] < 0 { -2 * run[0] - 1 } else { 2 * run[0] }) as usize);
+        }
+        bytes
+    }
+
+    /// `widths.bin`, from the fonts.
+    fn encode_widths() -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for typeface in [Typeface::Serif, Typeface::Sans] {
+            let [upright, italic] = [typeface.regular(), typeface.italic()].map(font_widths);
+            let differences: Vec<i32> = italic.iter().zip(&upright).map(|(italic, upright)| italic - upright).collect();
+            bytes.extend(encode_runs(&upright));
+            bytes.extend(encode_runs(&differences));
+        }
+        bytes
+    }
+
+    /// `WRITE_WIDTHS=1 cargo test --package coupler-drawing widths` writes the table.
+    #[test]
+    fn widths_are_those_of_the_fonts() {
+        let table = encode_widths();
+        if std::env::var_os("WRITE_WIDTHS").is_some() {
+            std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/src/scene/font/widths.bin"), &table).unwrap();
+        }
+        assert!(table == include_bytes!("widths.bin"), "widths.bin is not that of the fonts, or has just been written");
+        for face in faces() {
+            let metrics = face.font().font.metrics(Size::unscaled(), LocationRef::default());
+            let units = f64::from(metrics.units_per_em);
+            let heights = (f64::from(metrics.ascent) / units, f64::from(-metrics.descent) / units);
+            assert_eq!(face.ascent_and_descent(), heights);
+            for (code, width) in (0..).zip(font_widths(face)) {
+                let Some(c) = char::from_u32(code) else { continue };
+                assert_eq!(face.advance(c), f64::from(width) / units, "{c:?} in {face:?}");
+            }
+        }
     }
 }
