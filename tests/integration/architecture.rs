@@ -114,33 +114,52 @@ fn only_the_program_uses_files_threads_clocks_and_the_terminal() {
     }
 }
 
-/// The number of crates a package is built from on this machine, including itself.
-fn crate_count(package: &str) -> usize {
+/// The crates a package is built from on this machine, including itself, each with its version.
+fn crates(package: &str, options: &[&str]) -> Vec<String> {
     let tree = Command::new(env!("CARGO"))
         .args(["tree", "--locked", "--offline", "--edges", "normal", "--prefix", "none", "--package", package])
+        .args(options)
         .current_dir(root())
         .output()
         .unwrap();
     assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
     let tree = String::from_utf8(tree.stdout).unwrap();
-    let mut crates: Vec<&str> = tree.lines().map(|line| line.trim_end_matches(" (*)")).collect();
+    let mut crates: Vec<String> = tree.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect();
     crates.sort_unstable();
     crates.dedup();
-    crates.len()
+    crates
 }
 
 #[test]
 fn the_core_is_built_from_few_crates() {
-    let count = crate_count("coupler-curves");
+    let count = crates("coupler-curves", &[]).len();
     assert!((10..=50).contains(&count), "coupler-curves is built from {count} crates");
-    let program = crate_count("coupler-atlas");
-    assert!(program > count);
+    let plates = crates("coupler-drawing", &["--no-default-features"]).len();
+    let drawing = crates("coupler-drawing", &[]).len();
+    let program = crates("coupler-atlas", &[]).len();
+    assert!(program > drawing && drawing > plates && plates > count);
     // Other systems take other crates.
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         let page = include_str!("../../docs/architecture.md");
-        for (package, count) in [("coupler-curves", count), ("coupler-atlas", program)] {
+        for (package, counts) in [
+            ("coupler-curves", format!("{count} crates")),
+            ("coupler-drawing", format!("{plates} crates without features, {drawing} with all")),
+            ("coupler-atlas", format!("{program} crates")),
+        ] {
             let row = page.lines().find(|line| line.starts_with(&format!("| [`{package}`]"))).unwrap();
-            assert!(row.ends_with(&format!("| {count} crates |")), "{package} is built from {count} crates");
+            assert!(row.ends_with(&format!("| {counts} |")), "{package} is built from {counts}");
         }
+    }
+}
+
+#[test]
+fn plates_need_neither_plotters_nor_font_files_nor_threads() {
+    let is_one_of = |name: &'static str| move |one: &String| one.starts_with(&format!("{name} "));
+    let [plates, drawing] = [&["--no-default-features"][..], &[]].map(|options| crates("coupler-drawing", options));
+    for name in ["plotters", "plotters-backend", "dejavu", "skrifa"] {
+        assert!(!plates.iter().any(is_one_of(name)) && drawing.iter().any(is_one_of(name)), "{name}");
+    }
+    for name in ["rayon", "wasm-bindgen", "js-sys", "web-sys"] {
+        assert!(!plates.iter().any(is_one_of(name)), "{name}");
     }
 }
