@@ -3,19 +3,21 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use coupler_curves::linkage_format::{Fields, TomlValue, canonical_text};
+use coupler_curves::linkage_format::{Fields, TomlValue, canonical_toml};
 
 /// The part of a manifest that determines a family's files, in a form that does not depend on how it is written.
 ///
 /// Two manifests in which it is equal give the same files with the same version of the program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ManifestInputs {
-    /// The tables that apply to every family.
+    /// The tables that apply to every family, each as a line of TOML.
     tables: Arc<str>,
-    /// The linkage; empty for one of the catalogue.
+    /// The linkage as an inline table; empty for one of the catalogue.
     linkage: Arc<str>,
-    /// The table of the family, except the formats.
+    /// The table of the family as an inline table, except the formats.
     family: String,
+    /// The same without the parameter sets.
+    settings: String,
     /// The keys of that table that determine a page of cells, in addition to the cells' values and curves.
     page: String,
 }
@@ -24,6 +26,13 @@ impl ManifestInputs {
     /// What determines all files of the family, except the formats.
     pub fn family_text(&self) -> String {
         [&*self.tables, &*self.linkage, &self.family].concat()
+    }
+
+    /// A manifest of this family alone, with `cases` in place of its own parameter sets: an inline array of tables.
+    pub(super) fn excerpt(&self, cases: &str) -> String {
+        let linkage = if self.linkage.is_empty() { String::new() } else { format!("linkage=[{}]\n", self.linkage) };
+        let settings = self.settings.strip_suffix('}').unwrap_or_default();
+        format!("{}{linkage}family=[{settings},cases={cases}}}]\n", self.tables)
     }
 
     /// What determines a page of cells, in addition to the cells' values and curves.
@@ -36,6 +45,8 @@ impl ManifestInputs {
 const IGNORED_ATLAS_KEYS: [&str; 4] = ["format", "output", "formats", "volume_pages"];
 /// Keys of a family that do not change the contents of its files.
 const IGNORED_FAMILY_KEYS: [&str; 3] = ["formats", "limit", "check"];
+/// [`IGNORED_FAMILY_KEYS`], and the keys of the parameter sets.
+const IGNORED_SETTINGS: [&str; 5] = ["formats", "limit", "check", "grid", "cases"];
 /// [`IGNORED_FAMILY_KEYS`], and the keys that determine the values of cells, their curves and their order.
 const IGNORED_PAGE_KEYS: [&str; 8] = ["formats", "limit", "check", "grid", "cases", "let", "where", "sort"];
 
@@ -53,10 +64,10 @@ impl SharedInputs {
         let mut tables = String::new();
         for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage", "check"].contains(key)) {
             let ignored_keys: &[&str] = if key == "atlas" { &IGNORED_ATLAS_KEYS } else { &[] };
-            tables.push_str(&format!("{key:?}={},", canonical_text(value, ignored_keys)));
+            tables.push_str(&format!("{key}={}\n", canonical_toml(value, ignored_keys)));
         }
         let linkages = root.get("linkage").and_then(|value| value.get_ref().as_array());
-        let by_id = |table| Some((string_at("id", table)?.to_owned(), Arc::from(canonical_text(table, &[]))));
+        let by_id = |table| Some((string_at("id", table)?.to_owned(), Arc::from(canonical_toml(table, &[]))));
         SharedInputs { tables: Arc::from(tables), linkages: linkages.into_iter().flatten().filter_map(by_id).collect() }
     }
 
@@ -66,8 +77,9 @@ impl SharedInputs {
         ManifestInputs {
             tables: Arc::clone(&self.tables),
             linkage: linkage.cloned().unwrap_or_default(),
-            family: canonical_text(family, &IGNORED_FAMILY_KEYS),
-            page: canonical_text(family, &IGNORED_PAGE_KEYS),
+            family: canonical_toml(family, &IGNORED_FAMILY_KEYS),
+            settings: canonical_toml(family, &IGNORED_SETTINGS),
+            page: canonical_toml(family, &IGNORED_PAGE_KEYS),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a manifest asks for.
 
 use coupler_curves::family::Family;
+use coupler_curves::linkage_format::toml_number;
 use coupler_curves::problem::Span;
 use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
@@ -52,6 +53,21 @@ pub struct PlannedFamily {
 }
 
 impl PlannedFamily {
+    /// A manifest of this family alone, in which its names have the same order: of its parameter sets it has the first of
+    /// each distinct set of names, see [`coupler_curves::family::ParameterSpace::distinct_names`]. It cannot be rendered as the family is, but
+    /// says all that determines a curve whose parameters are known.
+    pub fn excerpt(&self) -> String {
+        let family = &self.family;
+        let case = |k: usize| {
+            let cell = family.cell(k);
+            let values = family.space.slots_of(k).map(|slot| (&family.names[slot], cell.values[slot]));
+            let values: Vec<String> = values.map(|(name, value)| format!("{name}={}", toml_number(value))).collect();
+            format!("{{{}}}", values.join(","))
+        };
+        let cases: Vec<String> = family.space.distinct_names().into_iter().map(|(first, _)| case(first)).collect();
+        self.manifest_inputs.excerpt(&format!("[{}]", cases.join(",")))
+    }
+
     /// The most pages that the family can have, if `where` keeps all its cells.
     pub fn max_pages(&self) -> usize {
         let cells = self.family.cell_count();

@@ -7,6 +7,7 @@ use super::{ParameterSet, format_number, sampling_fields};
 use crate::catalogue;
 use crate::family::{Family, StraightCriterion};
 use crate::geometry::{Vector, trig};
+use crate::linkage_format::quoted;
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
 /// The families of some parameter sets, in their order, to be put into a manifest that has an `[atlas]` and the custom
@@ -133,20 +134,4 @@ fn placement_to_toml(placement: &Orientation) -> String {
     let is_mirrored = placement.handedness() < 0.0;
     let deg = if Orientation::new(is_mirrored, rounded) == *placement { rounded } else { deg };
     format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(deg))
-}
-
-/// A text as a quoted TOML string.
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
 }

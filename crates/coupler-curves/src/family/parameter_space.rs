@@ -1,3 +1,5 @@
+use std::collections::HashSet;
+
 use super::AxisValues;
 
 /// The most cells of a family that sets no `limit`.
@@ -56,6 +58,25 @@ impl ParameterSpace {
         slots.sort_unstable();
         slots.dedup();
         slots
+    }
+
+    /// The distinct lists of names that sets give values to, by their indices and in order, each with the index of the
+    /// first set that has it. A grid has one.
+    pub fn distinct_names(&self) -> Vec<(usize, Vec<usize>)> {
+        let count = match self {
+            ParameterSpace::Grid(_) => self.count().min(1),
+            ParameterSpace::Cases(cases) => cases.len(),
+        };
+        let mut found: Vec<(usize, Vec<usize>)> = Vec::new();
+        let mut known: HashSet<Vec<usize>> = HashSet::new();
+        for k in 0..count {
+            let mut slots: Vec<usize> = self.slots_of(k).collect();
+            slots.sort_unstable();
+            if known.insert(slots.clone()) {
+                found.push((k, slots));
+            }
+        }
+        found
     }
 
     /// The number of sets that give a value to each of the first `names` names.

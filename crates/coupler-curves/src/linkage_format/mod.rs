@@ -10,7 +10,7 @@ mod names;
 mod schema;
 mod toml_parser;
 
-pub use canonical::canonical_text;
+pub use canonical::{canonical_toml, quoted, toml_number};
 pub use fields::Fields;
 pub use linkage::{
     CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
