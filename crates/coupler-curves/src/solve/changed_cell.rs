@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::SolvedCell;
 use super::moved_point::{MovedPointError, move_point};
-use crate::family::{CellError, Family, NoSuchCell};
+use crate::family::{Case, CellError, Family, NoSuchCell};
+use crate::linkage::CircuitSelection;
 use crate::problem::suggestion;
 
 /// A changed cell of a family.
@@ -14,6 +15,8 @@ pub struct ChangedCell {
     pub family: Family,
     /// The numbers that the cell and its curves have in the family it was taken from.
     pub numbers: OriginalNumbers,
+    /// The number of a circuit among all circuits of the linkage, if one was asked for.
+    pub circuit: Option<usize>,
 }
 
 /// The numbers of a changed cell and of its curves in the family that the cell was taken from.
@@ -51,6 +54,14 @@ pub enum ChangeError {
         /// What is wrong with its values.
         error: CellError,
     },
+    /// The number of a circuit is not a whole number from 1.
+    #[error("{family}: `circuit` is {value}, not the number of a circuit, 1 or more")]
+    Circuit {
+        /// The id of the family.
+        family: String,
+        /// The number.
+        value: f64,
+    },
     /// The point cannot be moved.
     #[error("{family}: {error}")]
     MovedPoint {
@@ -66,7 +77,8 @@ impl ChangedCell {
     /// coordinates.
     ///
     /// `M.along` and `M.across` are the coordinates of the point M on its link, which must be the point of `trace`,
-    /// counted from 1.
+    /// counted from 1. `circuit` is the number of a circuit, from 1, among all circuits of the linkage, of which the
+    /// family may have only one.
     ///
     /// # Errors
     /// The family has no such cell; or every unknown name; or else every error in the cell's values; or else why the
@@ -77,19 +89,36 @@ impl ChangedCell {
         trace: Option<usize>,
         overrides: &[(String, f64)],
     ) -> Result<ChangedCell, Vec<ChangeError>> {
-        let id = || family.id.clone();
         let k = family.cell_index(number).map_err(|error| vec![error.into()])?;
-        let mut case = family.case(k);
+        ChangedCell::from_case(family, (number, family.case(k)), trace, overrides)
+    }
+
+    /// The same for the cell with a number that these values make, whether the family has it or not.
+    ///
+    /// # Errors
+    /// As of [`ChangedCell::new`].
+    pub fn from_case(
+        family: &Family,
+        (number, mut case): (usize, Case),
+        trace: Option<usize>,
+        overrides: &[(String, f64)],
+    ) -> Result<ChangedCell, Vec<ChangeError>> {
+        let id = || family.id.clone();
         let known: Vec<&str> = family.names.iter().map(String::as_str).collect();
         let mut errors = Vec::new();
         // The name of a coordinate contains a dot; that of a parameter never does.
         let (coordinates, parameters): (Vec<_>, Vec<_>) = overrides.iter().partition(|(name, _)| name.contains('.'));
+        let mut circuit = None;
         for (name, value) in parameters {
             match known.iter().position(|known| known == name) {
                 Some(slot) => {
                     case.retain(|(assigned, _)| *assigned != slot);
                     case.push((slot, *value));
                 }
+                None if name == "circuit" => match value {
+                    value if *value >= 1.0 && value.fract() == 0.0 => circuit = Some(*value as usize),
+                    value => errors.push(ChangeError::Circuit { family: id(), value: *value }),
+                },
                 None => {
                     let suggestion = suggestion(name, &known);
                     errors.push(ChangeError::UnknownName { family: id(), name: name.clone(), suggestion });
@@ -113,11 +142,19 @@ impl ChangedCell {
             numbers.moved_trace = trace.filter(|trace| *trace != moved_trace).map(|trace| [moved_trace, trace]);
             changed.template = Arc::new(template);
         }
-        Ok(ChangedCell { family: changed, numbers })
+        if circuit.is_some() {
+            Arc::make_mut(&mut changed.template).circuits = CircuitSelection::All;
+        }
+        Ok(ChangedCell { family: changed, numbers, circuit })
     }
 }
 
 impl OriginalNumbers {
+    /// The number of a trace of the original cell in the changed one, both from 1.
+    pub fn trace(&self, original: usize) -> usize {
+        self.moved_trace.filter(|[_, from]| *from == original).map_or(original, |[moved, _]| moved)
+    }
+
     /// The only cell of [`ChangedCell::family`] with its original numbers: the curves of a moved point take the place of
     /// those that it had before.
     pub fn restore(&self, mut solved: SolvedCell) -> SolvedCell {

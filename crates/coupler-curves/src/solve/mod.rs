@@ -4,7 +4,7 @@ mod changed_cell;
 mod moved_point;
 
 pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
-pub use moved_point::MovedPointError;
+pub use moved_point::{MovablePoint, MovedPointError, PointCoordinate};
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};

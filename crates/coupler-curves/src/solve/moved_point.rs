@@ -1,6 +1,6 @@
 //! Moves a traced point on its link by the overrides `M.along` and `M.across`.
 
-use crate::expression::{CompiledExpression, Expression, Kind, Scope};
+use crate::expression::{CompiledExpression, Expression, Kind, PostfixToken, Scope};
 use crate::template::{Coordinate, JointKindTemplate, JointTemplate, Template};
 
 /// Why the point of a trace cannot be moved.
@@ -29,6 +29,55 @@ pub enum MovedPointError {
     NotFinite(String),
 }
 
+/// A point on a link that can be moved by overrides of its coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovablePoint {
+    /// The name of the joint.
+    pub name: String,
+    /// The coordinates along and across its base.
+    pub coordinates: [PointCoordinate; 2],
+}
+
+/// A coordinate of a point on a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointCoordinate {
+    /// Its value.
+    pub value: f64,
+    /// Whether it is a number in the linkage, and not computed.
+    pub is_constant: bool,
+    /// Whether it is a parameter of the linkage.
+    pub is_parameter: bool,
+}
+
+impl MovablePoint {
+    /// The point of a trace, counted from 1, of a template with these values of its parameters; `None` if the trace has
+    /// no point with coordinates.
+    pub fn of_trace(template: &Template, trace: usize, values: &[f64]) -> Option<MovablePoint> {
+        let (joint, point) = find_traced_point(template, trace)?;
+        let JointTemplate { name, kind: JointKindTemplate::Point { along, across, .. } } = &template.joints[joint]
+        else {
+            return None;
+        };
+        let coordinate = |coordinate: &Coordinate, k: usize| {
+            let value = coordinate_value(coordinate, k, values);
+            match coordinate {
+                Coordinate::Single(expression) => {
+                    let is_name = matches!(expression.postfix().collect::<Vec<_>>()[..], [PostfixToken::Name(_)]);
+                    PointCoordinate { value, is_constant: expression.slots().is_empty(), is_parameter: is_name }
+                }
+                Coordinate::Range { .. } => PointCoordinate { value, is_constant: false, is_parameter: false },
+            }
+        };
+        let coordinates = [coordinate(along, point / across.count()), coordinate(across, point % across.count())];
+        Some(MovablePoint { name: name.clone(), coordinates })
+    }
+}
+
+/// The `k`-th value of a coordinate.
+fn coordinate_value(coordinate: &Coordinate, k: usize, values: &[f64]) -> f64 {
+    coordinate.values(|expression| expression.evaluate(|slot| values[slot])).get(k).copied().unwrap_or(f64::NAN)
+}
+
 /// Moves the point of a trace, counted from 1, on its link, and returns the new template and the number of its trace.
 ///
 /// `values` are the values of the template's parameters. If the point is one of a grid, the grid is unchanged, and the
@@ -48,11 +97,11 @@ pub(super) fn move_point(
     let JointKindTemplate::Point { base, along, across } = kind else {
         return Err(MovedPointError::NoCoordinates(name.clone()));
     };
-    let number = |coordinate: &Coordinate, k: usize| {
-        coordinate.values(|expression| expression.evaluate(|slot| values[slot])).get(k).copied().unwrap_or(f64::NAN)
-    };
     let is_grid = along.count() * across.count() > 1;
-    let mut coordinates = [number(along, point / across.count()), number(across, point % across.count())];
+    let mut coordinates = [
+        coordinate_value(along, point / across.count(), values),
+        coordinate_value(across, point % across.count(), values),
+    ];
     for (word, value) in overrides {
         match word.strip_prefix(name.as_str()).and_then(|rest| rest.strip_prefix('.')) {
             Some("along") => coordinates[0] = *value,
