@@ -1,60 +1,48 @@
-//! Exports single curves: as a drawing, still or animated, as DXF for CAD, as a table, as JSON, and as manifest text.
+//! Exports single curves: as files of text, see [`coupler_drawing::curve_file`], and as images of their plates.
 
 use coupler_curves::exchange::SelectedCurve;
-use coupler_drawing::page::{self, PoseChoice};
+use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
+use coupler_drawing::page::PoseChoice;
 use coupler_drawing::plate;
-use coupler_drawing::render::{self, PngError, TextMode};
+use coupler_drawing::render::{self, PngError};
 
 /// The format of an exported curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Format {
-    /// A plate of the curve with its linkage.
-    Svg,
-    /// An animated plate of the curve with its linkage.
-    MovingSvg,
+    /// A file of text.
+    Text(CurveFormat),
     /// The plate as a PNG image.
     Png,
-    /// A drawing for CAD, as DXF of AutoCAD R12.
-    Dxf,
-    /// Its rows of `points.csv`.
-    Csv,
-    /// Linkage, parameters, circuits, points and measures.
-    Json,
-    /// Manifest text that reproduces the curve; the curves of an export are in one file.
-    Toml,
 }
 
 impl Format {
+    /// Manifest text; the curves of an export are in one file.
+    pub const TOML: Format = Format::Text(CurveFormat::Toml);
+
     /// Every format.
-    pub const ALL: [Format; 7] =
-        [Format::Svg, Format::MovingSvg, Format::Png, Format::Dxf, Format::Csv, Format::Json, Format::Toml];
+    pub const ALL: [Format; 7] = [
+        Format::Text(CurveFormat::Svg),
+        Format::Text(CurveFormat::MovingSvg),
+        Format::Png,
+        Format::Text(CurveFormat::Dxf),
+        Format::Text(CurveFormat::Csv),
+        Format::Text(CurveFormat::Json),
+        Format::TOML,
+    ];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            Format::Svg => "svg",
-            Format::MovingSvg => "moving-svg",
+            Format::Text(format) => format.name(),
             Format::Png => "png",
-            Format::Dxf => "dxf",
-            Format::Csv => "csv",
-            Format::Json => "json",
-            Format::Toml => "toml",
         }
     }
 
-    /// The end of its file names.
-    pub fn file_suffix(self) -> &'static str {
-        if self == Format::MovingSvg { "-moving.svg" } else { self.extension() }
-    }
-
-    fn extension(self) -> &'static str {
+    /// The file name of a curve, such as `evans-12-1-1.dxf` or `evans-12-1-1-p-2.5.dxf`.
+    pub fn file_name(self, curve: &SelectedCurve) -> String {
         match self {
-            Format::Svg | Format::MovingSvg => ".svg",
-            Format::Png => ".png",
-            Format::Dxf => ".dxf",
-            Format::Csv => ".csv",
-            Format::Json => ".json",
-            Format::Toml => ".toml",
+            Format::Text(format) => format.file_name(curve),
+            Format::Png => format!("{}.png", curve.file_stem()),
         }
     }
 }
@@ -62,20 +50,10 @@ impl Format {
 /// Options for exporting curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The paper and the appearance of plates.
-    pub page: page::Options,
-    /// How text is written in SVG.
-    pub text_mode: TextMode,
+    /// How files of text are written.
+    pub file: FileOptions,
     /// The resolution of images, in pixels per inch.
     pub dpi: f64,
-    /// How far a chord of a DXF polyline may be from its curve, relative to the longer side of the bounding box of its
-    /// samples.
-    pub chord_tolerance: f64,
-}
-
-impl Options {
-    /// The default of `chord_tolerance`.
-    pub const DEFAULT_CHORD_TOLERANCE: f64 = 1e-4;
 }
 
 /// Renders a curve in a format; as manifest text, this curve alone.
@@ -83,22 +61,8 @@ impl Options {
 /// # Errors
 /// The image would have too many pixels.
 pub fn bytes(curve: &SelectedCurve, format: Format, options: &Options) -> Result<Vec<u8>, PngError> {
-    let plate = || plate::compose(curve, PoseChoice::Clearest, &options.page);
-    Ok(match format {
-        Format::Svg => render::svg(&plate(), options.text_mode),
-        Format::MovingSvg => {
-            let pose = plate::moving_view(&curve.solved.linkage, curve.circuit(), curve.curve().circuit);
-            render::svg(&plate::compose(curve, pose, &options.page), options.text_mode)
-        }
-        Format::Png => render::png(&plate(), options.dpi)?,
-        Format::Dxf => curve.to_dxf(options.chord_tolerance).into_bytes(),
-        Format::Csv => curve.to_csv(),
-        Format::Json => curve.to_json().into_bytes(),
-        Format::Toml => curve.to_toml().into_bytes(),
-    })
-}
-
-/// The file name of a curve in a format, such as `evans-12-1-1.dxf` or `evans-12-1-1-p-2.5.dxf`.
-pub fn file_name(curve: &SelectedCurve, format: Format) -> String {
-    format!("{}{}", curve.file_stem(), format.file_suffix())
+    match format {
+        Format::Text(format) => Ok(curve_file::bytes(curve, format, &options.file)),
+        Format::Png => render::png(&plate::compose(curve, PoseChoice::Clearest, &options.file.page), options.dpi),
+    }
 }

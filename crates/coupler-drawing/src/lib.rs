@@ -35,4 +35,6 @@ pub mod render;
 
 pub mod plate;
 
+pub mod curve_file;
+
 pub use plate::svg as plate_svg;

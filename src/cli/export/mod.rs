@@ -12,6 +12,7 @@ use coupler_atlas::output;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, Sampling, parse_parameter};
 use coupler_curves::problem::suggestion;
+use coupler_drawing::curve_file::FileOptions;
 use coupler_drawing::page;
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::TextMode;
@@ -59,7 +60,7 @@ pub struct Arguments {
     )]
     samples: Option<u32>,
     /// The greatest distance of a chord of a DXF polyline from the curve, relative to the curve's extent.
-    #[arg(long, value_name = "X", default_value_t = Options::DEFAULT_CHORD_TOLERANCE, value_parser = parse_chord)]
+    #[arg(long, value_name = "X", default_value_t = FileOptions::DEFAULT_CHORD_TOLERANCE, value_parser = parse_chord)]
     chord: f64,
     #[arg(
         long,
@@ -121,15 +122,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let mut formats = arguments.format.clone();
     formats.sort_unstable();
     formats.dedup();
-    let files = curves * formats.iter().filter(|format| **format != Format::Toml).count()
-        + usize::from(formats.contains(&Format::Toml));
+    let files = curves * formats.iter().filter(|format| **format != Format::TOML).count()
+        + usize::from(formats.contains(&Format::TOML));
     let options = export_options(arguments, plan.as_ref());
     let mut destination = Destination::from_path(arguments.output.as_deref(), files)?;
     let mut cases = Vec::new();
     for selection in &selections {
         export_selection(selection, (&formats, &options), &mut destination, &mut cases)?;
     }
-    if formats.contains(&Format::Toml) {
+    if formats.contains(&Format::TOML) {
         destination.write_file("curves.toml", manifest_fragment(&cases).as_bytes())?;
     }
     if let Destination::Folder(folder) = destination {
@@ -272,12 +273,8 @@ fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {
         None => page::Options::for_paper(PAPER),
     };
     let dpi = arguments.dpi.map(f64::from).or(plan.map(|plan| plan.dpi)).unwrap_or(f64::from(DEFAULT_DPI));
-    Options {
-        page,
-        text_mode: plan.map_or(TextMode::Text, |plan| plan.text_mode),
-        dpi,
-        chord_tolerance: arguments.chord,
-    }
+    let text_mode = plan.map_or(TextMode::Text, |plan| plan.text_mode);
+    Options { file: FileOptions { page, text_mode, chord_tolerance: arguments.chord }, dpi }
 }
 
 /// Writes the files of a selection, and appends its cells to `cases`.
@@ -287,7 +284,7 @@ fn export_selection<'a>(
     destination: &mut Destination,
     cases: &mut Vec<ParameterSet<'a>>,
 ) -> anyhow::Result<()> {
-    let curve_formats = || formats.iter().filter(|format| **format != Format::Toml);
+    let curve_formats = || formats.iter().filter(|format| **format != Format::TOML);
     let export_cell = |solved| {
         let curves = SelectedCurve::all_from_cell(
             &selection.family,
@@ -298,7 +295,7 @@ fn export_selection<'a>(
         let mut files = Vec::new();
         for curve in &curves {
             for &format in curve_formats() {
-                files.push((export::file_name(curve, format), export::bytes(curve, format, options)));
+                files.push((format.file_name(curve), export::bytes(curve, format, options)));
             }
         }
         (files, curves.iter().map(ParameterSet::from_curve).collect::<Vec<_>>())

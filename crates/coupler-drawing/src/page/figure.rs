@@ -12,7 +12,7 @@ use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
 use crate::scene::{Animation, Circle, Color, Item, Path};
 use coupler_curves::geometry::{Bounds, Point, Similarity};
-use coupler_curves::linkage::{Input, JointId};
+use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::motion::{self, Circuit, DashPattern};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -22,11 +22,11 @@ pub(super) const MAX_CHORD_ERROR: f64 = 0.009;
 
 /// The range of the input that a dash and its gap span: `dash_deg` for an angle; for a length, the greatest round
 /// number up to a twentieth of the longest pass.
-pub(super) fn dash_period(solved: &SolvedCell, options: &Options) -> f64 {
-    if solved.linkage.input() != Input::Length {
+pub fn dash_period(linkage: &Linkage, circuits: &[Circuit], options: &Options) -> f64 {
+    if linkage.input() != Input::Length {
         return options.dash_deg;
     }
-    let passes = solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes);
+    let passes = circuits.iter().flat_map(|circuit| &circuit.passes);
     round_number_below(passes.map(|pass| pass.input_length()).fold(0.0, f64::max) / 20.0)
 }
 
@@ -121,7 +121,7 @@ impl<'a> Figure<'a> {
         (options, theme): (&Options, &Theme),
     ) {
         let [curve, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
-        let period = dash_period(self.solved_cell, options);
+        let period = dash_period(&self.solved_cell.linkage, &self.solved_cell.motion.circuits, options);
         let in_dashes = |plot: &Plot| {
             let paths = self.paths(plot, period, theme);
             self.draw_solid_curves(area, &paths, theme.hair_width, theme);

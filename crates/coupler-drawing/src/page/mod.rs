@@ -25,6 +25,7 @@ mod theme;
 
 #[cfg(feature = "plotters")]
 pub use chart::compose_charts;
+pub use figure::dash_period;
 pub use heading::Heading;
 pub use marks::{PAGE_MEASURES, cell_facts};
 pub use panel::{Panel, PoseChoice};

@@ -81,7 +81,7 @@ pub enum TextMode {
     /// As text elements, which can be searched and read aloud; what they look like depends on the installed fonts.
     #[default]
     Text,
-    /// As outlines of glyphs, which look the same everywhere.
-    #[cfg(feature = "fonts")]
+    /// As outlines of glyphs, which look the same everywhere. Without the feature `fonts`, text is written as text
+    /// elements.
     Outlines,
 }

@@ -31,7 +31,7 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, 
 fn facts(page: &CouplerGridPage, options: &Options) -> String {
     let solved = page.panel.solved_cell;
     let dash = || {
-        let span = figure::dash_period(solved, options);
+        let span = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
         format!("one dash and its gap = {span}{} of input", super::input_unit(solved))
     };
     let dash = if page.curve_indices.is_empty() { String::new() } else { dash() };

@@ -132,7 +132,7 @@ fn draw_figure(
     let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
     let plot = Plot::new(frame, theme).fitted_to(extents);
     plot.draw_scale_bar(area, theme);
-    let period = figure::dash_period(solved, options);
+    let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
     let paths = figure::curve_paths(solved, &page.curve_indices, plot.page_from_plane, dashes);
     let underlay = mechanism.underlay_items(&plot, theme);

@@ -50,9 +50,9 @@ impl SvgWriter {
             Item::Circle(circle) => self.write_circle(circle, None),
             Item::Animation(animation) => self.write_animation(animation),
             Item::Text(text) => match self.text_mode {
-                TextMode::Text => self.write_text(text),
                 #[cfg(feature = "fonts")]
                 TextMode::Outlines => self.write_outlines(text),
+                _ => self.write_text(text),
             },
         }
     }
