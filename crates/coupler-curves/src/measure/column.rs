@@ -24,7 +24,7 @@ struct Sample<'a> {
 }
 
 /// All columns. Derivatives are per radian of input, or per unit of length; unbounded ones are infinite.
-pub const COLUMNS: [Column; 24] = [
+pub static COLUMNS: [Column; 24] = [
     Column { name: "vx", definition: "velocity along x", compute: |s| s.velocity().x },
     Column { name: "vy", definition: "velocity along y", compute: |s| s.velocity().y },
     Column { name: "ax", definition: "acceleration along x", compute: |s| s.acceleration().x },

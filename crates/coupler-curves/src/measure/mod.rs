@@ -183,7 +183,7 @@ impl Measure {
 }
 
 /// All measures, in the order of the columns.
-pub const ALL: [Measure; 33] = [
+pub static ALL: [Measure; 33] = [
     class::CLASS,
     four_bar_type::TYPE,
     four_bar_type::SHORTEST,
