@@ -490,12 +490,23 @@ fn parameters_and_coupler_points_can_be_changed() {
 }
 
 #[test]
+fn a_circuit_beside_those_of_the_family_can_be_named() {
+    let folder = export("csv");
+    let named = text(folder.path(), &["export", "evans:1.1.1?circuit=2", "--format", "csv"]);
+    let own = text(folder.path(), &["export", "evans:1.1.1?circuit=1", "--format", "csv"]);
+    assert_eq!(own, file(folder.path(), "evans", [1, 1, 1], ".csv"));
+    // The second circuit of a crank-rocker is the first in the other assembly mode.
+    assert!(named.contains("\n1,1,2,-1,0,"), "{named}");
+    assert_eq!(named.lines().count(), own.lines().count());
+}
+
+#[test]
 fn all_wrong_arguments_are_reported_and_nothing_is_written() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
     fs::write(folder.path().join("a-file"), "mine").unwrap();
     let before = files(folder.path());
-    let cases: [(&[&str], &[&str]); 17] = [
+    let cases: [(&[&str], &[&str]); 19] = [
         (&["evan:1.1.1"], &["there is no family `evan`: did you mean `evans`?"]),
         (
             &["evans:9", "evans:1.x", "wat"],
@@ -515,6 +526,8 @@ fn all_wrong_arguments_are_reported_and_nothing_is_written() {
         (&["watt:2"], &["watt:2: it is not assembled: B cannot be placed"]),
         (&["watt:2.1.1"], &["there is no watt:2.1.1: it is not assembled"]),
         (&["evans:1.1.1?q=2"], &["evans: there is no `q`"]),
+        (&["evans:1.1.1?circuit=0.5"], &["evans: `circuit` is 0.5, not the number of a circuit, 1 or more"]),
+        (&["evans:1.1.1?circuit=3"], &["there is no evans:1.1.3: its cell has 2 curves, evans:1.1.1 to evans:1.1.2"]),
         (&["evans:1.1.1?p=-2"], &["evans:1: `p` is -2, and must be more than 0"]),
         (&["evans?p=2"], &["only the parameters of a single cell can be replaced"]),
         (&["evans:1.1.1?M.up=2"], &["there is no `M.up`: it can be `M.along` or `M.across`"]),
