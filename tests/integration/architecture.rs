@@ -9,8 +9,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The source folders of the crates.
-const CRATES: [&str; 4] =
-    ["crates/coupler-curves/src", "crates/coupler-drawing/src", "crates/coupler-manifest/src", "src"];
+const CRATES: [&str; 5] = [
+    "crates/coupler-curves/src",
+    "crates/coupler-drawing/src",
+    "crates/coupler-manifest/src",
+    "crates/coupler-kernel/src",
+    "src",
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -99,14 +104,14 @@ fn only_the_program_uses_files_threads_clocks_and_the_terminal() {
         "println!",
         "eprintln!",
     ];
-    for source in &CRATES[..3] {
+    for source in &CRATES[..4] {
         for (path, code) in code_files(&root().join(source)) {
             for word in banned {
                 assert!(!code.contains(word), "{} uses {word}", path.display());
             }
         }
     }
-    for (path, code) in code_files(&root().join(CRATES[3])) {
+    for (path, code) in code_files(&root().join(CRATES[4])) {
         // Output depends on no clock, and only the command line prints.
         assert!(!code.contains("SystemTime") && !code.contains("Instant::now"), "{} uses a clock", path.display());
         let prints = ["println!", "eprintln!", "stdout()", "stderr()"].iter().any(|word| code.contains(word));
@@ -159,7 +164,9 @@ fn plates_need_neither_plotters_nor_font_files_nor_threads() {
     for name in ["plotters", "plotters-backend", "dejavu", "skrifa"] {
         assert!(!plates.iter().any(is_one_of(name)) && drawing.iter().any(is_one_of(name)), "{name}");
     }
-    for name in ["rayon", "wasm-bindgen", "js-sys", "web-sys"] {
-        assert!(!plates.iter().any(is_one_of(name)), "{name}");
+    let kernel = crates("coupler-kernel", &["--target", "wasm32-unknown-unknown"]);
+    assert!(kernel.iter().any(is_one_of("coupler-manifest")));
+    for name in ["rayon", "wasm-bindgen", "js-sys", "web-sys", "plotters", "dejavu", "skrifa"] {
+        assert!(![&plates, &kernel].iter().any(|crates| crates.iter().any(is_one_of(name))), "{name}");
     }
 }

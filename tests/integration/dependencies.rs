@@ -1,6 +1,7 @@
 //! docs/dependencies.md and deny.toml agree with the manifests, the lock file and the licences of the crates.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
@@ -143,7 +144,8 @@ fn all_crates_are_from_crates_io_and_none_is_banned() {
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// The lints of the workspace apply to libraries, program, tests, benchmarks and examples of every crate alike.
+/// The lints of the workspace apply to libraries, program, tests, benchmarks and examples of every crate alike, except the
+/// kernel, whose functions for the page share memory with it: only their module allows unsafe code.
 #[test]
 fn unsafe_code_is_forbidden() {
     let cargo = parsed(include_str!("../../Cargo.toml"));
@@ -157,4 +159,12 @@ fn unsafe_code_is_forbidden() {
         let inherits = table(member, "lints").get("workspace").and_then(|value| value.get_ref().as_bool());
         assert_eq!(inherits, Some(true));
     }
+    let kernel = parsed(include_str!("../../crates/coupler-kernel/Cargo.toml"));
+    let rust = table(table(&kernel, "lints"), "rust");
+    assert_eq!(rust.get("unsafe_code").and_then(|value| value.get_ref().as_str()), Some("deny"));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/coupler-kernel/src");
+    let allows = |path: &Path| std::fs::read_to_string(path).unwrap().contains("unsafe_code");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| allows(path));
+    let names: Vec<_> = files.map(|path| path.file_name().unwrap().to_owned()).collect();
+    assert_eq!(names, ["exports.rs"]);
 }

@@ -1,0 +1,146 @@
+//! Open families: what is needed to study and export their curves.
+
+use serde_json::{Value, json};
+
+use coupler_curves::exchange::{ParameterSet, SelectedCurve, manifest_fragment};
+use coupler_curves::expression::CompiledExpression;
+use coupler_curves::family::{Case, Family};
+use coupler_curves::motion::Sampler;
+use coupler_curves::problem::Problem;
+use coupler_curves::solve::{ChangedCell, solve_cell};
+use coupler_curves::template::{CircuitSelection, JointKindTemplate};
+use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
+use coupler_drawing::plate::PAPER;
+use coupler_drawing::render::Format;
+use coupler_manifest::PlannedFamily;
+
+use crate::request::CurveRequest;
+
+/// An open family.
+#[derive(Debug)]
+pub(crate) struct OpenFamily {
+    pub planned: PlannedFamily,
+    /// How its curves are exported.
+    pub options: FileOptions,
+}
+
+impl OpenFamily {
+    /// Opens the first family of a manifest.
+    ///
+    /// # Errors
+    /// The errors of the manifest, one on a line.
+    pub fn from_manifest(manifest: &str) -> Result<OpenFamily, String> {
+        let outcome = coupler_manifest::parse_for_formats(manifest, &Format::ALL);
+        let messages = || {
+            let errors = outcome.problems.iter().filter(|problem| problem.is_error());
+            errors.map(|Problem { message, .. }| message.as_str()).collect::<Vec<_>>().join("\n")
+        };
+        let plan = outcome.plan.as_ref().ok_or_else(messages)?;
+        let planned = plan.families.first().ok_or("the manifest has no family")?.clone();
+        let options = FileOptions {
+            page: plan.page.clone().with_paper(PAPER),
+            text_mode: plan.text_mode,
+            chord_tolerance: FileOptions::DEFAULT_CHORD_TOLERANCE,
+        };
+        Ok(OpenFamily { planned, options })
+    }
+
+    /// What the page has to know of the family.
+    pub fn description(&self) -> Value {
+        let Family { names, template, derived, .. } = &self.planned.family;
+        let is_whole = |name: &str| {
+            template.joints.iter().any(|joint| match &joint.kind {
+                JointKindTemplate::Gear { ratio, .. } => {
+                    ratio.iter().any(|part| part.name_or_number().as_deref() == Some(name))
+                }
+                _ => false,
+            })
+        };
+        let name = |(slot, name): (usize, &String)| {
+            let bounds = template.parameters.get(slot).map(|parameter| [parameter.min, parameter.max]);
+            let [min, max] = bounds.unwrap_or_default();
+            let expression = derived.iter().find(|(other, _)| *other == slot).map(|(_, expression)| expression);
+            let is_derived = expression.is_some_and(|expression: &CompiledExpression| !expression.slots().is_empty());
+            json!({ "name": name, "min": min, "max": max, "is_whole": is_whole(name), "is_derived": is_derived })
+        };
+        json!({
+            "names": names.iter().enumerate().map(name).collect::<Vec<_>>(),
+            "is_length": template.is_driven_by_length(),
+            "has_all_circuits": template.circuits == CircuitSelection::All,
+        })
+    }
+
+    /// The cell of a curve with its changes.
+    ///
+    /// # Errors
+    /// What is wrong with the values or the changes, one on a line.
+    pub fn changed_cell(&self, curve: &CurveRequest) -> Result<ChangedCell, String> {
+        let family = &self.planned.family;
+        let slot = |name: &str| family.names.iter().position(|known| known == name);
+        let value = |(name, value): &(String, f64)| {
+            slot(name).map(|slot| (slot, *value)).ok_or_else(|| format!("there is no `{name}`"))
+        };
+        let case: Case = curve.values.iter().map(value).collect::<Result<_, _>>()?;
+        let [trace, _] = curve.curve;
+        ChangedCell::from_case(family, (curve.cell, case), Some(trace), &curve.changes)
+            .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+    }
+
+    /// Solves a curve as the program does, and calls `work` with it.
+    ///
+    /// # Errors
+    /// Why there is no such curve.
+    fn with_selected_curve<T>(
+        &self,
+        request: &CurveRequest,
+        work: impl FnOnce(&SelectedCurve) -> T,
+    ) -> Result<T, String> {
+        let ChangedCell { family, numbers, circuit } = self.changed_cell(request)?;
+        let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).ok_or("it has no linkage")?;
+        let reason = solved.reason();
+        let mut solved = numbers.restore(solved);
+        let [trace, named] = request.curve;
+        let wanted = [trace, circuit.unwrap_or(named)];
+        solved.curves.retain(|curve| [curve.trace, curve.circuit] == wanted);
+        let curves = SelectedCurve::all_from_cell(&family, &self.planned.source, &request.changes, &solved);
+        let missing = || if reason.is_empty() { "this circuit no longer exists".to_owned() } else { reason };
+        curves.first().map(work).ok_or_else(missing)
+    }
+
+    /// A curve in a format: the name of the file and its text.
+    ///
+    /// # Errors
+    /// Why there is no such curve, or no such format.
+    pub fn export(&self, request: &CurveRequest, format: &str) -> Result<Value, String> {
+        let known = CurveFormat::ALL.into_iter().find(|known| known.name() == format);
+        let format = known.ok_or_else(|| format!("there is no format `{format}`"))?;
+        self.with_selected_curve(request, |curve| {
+            let bytes = curve_file::bytes(curve, format, &self.options);
+            json!({ "name": format.file_name(curve), "text": String::from_utf8_lossy(&bytes) })
+        })
+    }
+}
+
+/// A manifest fragment with the cells of some curves of open families.
+///
+/// # Errors
+/// Why there is no such curve.
+pub(crate) fn fragment(curves: &[(&OpenFamily, &CurveRequest)]) -> Result<String, String> {
+    let changed: Vec<(ChangedCell, String)> = curves
+        .iter()
+        .map(|(family, request)| {
+            let name = family.with_selected_curve(request, |curve| curve.name())?;
+            Ok((family.changed_cell(request)?, name))
+        })
+        .collect::<Result<_, String>>()?;
+    let set = |(ChangedCell { family, .. }, name): &(ChangedCell, String)| {
+        let values = family.parameter_values(&family.cell(0)).to_vec();
+        (family.clone(), values, name.clone())
+    };
+    let owned: Vec<(Family, Vec<f64>, String)> = changed.iter().map(set).collect();
+    let sets: Vec<ParameterSet> = owned
+        .iter()
+        .map(|(family, values, name)| ParameterSet { family, values: values.clone(), curve_name: name.clone() })
+        .collect();
+    Ok(manifest_fragment(&sets))
+}

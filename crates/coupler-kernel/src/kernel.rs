@@ -1,0 +1,171 @@
+//! The kernel: open families and studies by their handles.
+
+use serde_json::{Value, json};
+
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{Cognates, JointId};
+use coupler_curves::motion;
+
+use crate::description::{opened_json, study_json};
+use crate::family::{OpenFamily, fragment};
+use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
+use crate::paths::{measures_json, path_json, speeds_json};
+use crate::reading::{nearest_place, reading_json};
+use crate::request::{CurveRequest, Request};
+use crate::response::{Numbers, Response};
+use crate::study::{Opened, Place, Study};
+
+/// What the page has opened, by handles from 0; the handle of what is closed is used again.
+#[derive(Debug, Default)]
+pub struct Kernel {
+    families: Slots<OpenFamily>,
+    studies: Slots<OpenStudy>,
+}
+
+/// A study with what is computed once for all its poses.
+#[derive(Debug)]
+struct OpenStudy {
+    family: usize,
+    study: Study,
+    cognates: Option<Cognates>,
+}
+
+impl Kernel {
+    /// The numbers of a pose before the positions of the joints: the transmission angle, the velocity, the pole, the
+    /// inflection pole, and the pins of both cognates.
+    pub const POSE_HEADER: usize = 15;
+
+    /// Answers a request in JSON.
+    pub fn call(&mut self, request: &str) -> Response {
+        let mut numbers = Numbers::default();
+        let answer = Request::parse(request).and_then(|request| self.answer(request, &mut numbers));
+        numbers.into_response(&answer.unwrap_or_else(|error| json!({ "error": error })))
+    }
+
+    fn answer(&mut self, request: Request, numbers: &mut Numbers) -> Result<Value, String> {
+        Ok(match request {
+            Request::About => json!({
+                "version": env!("CARGO_PKG_VERSION"),
+                "compiler": env!("KERNEL_COMPILER"),
+                "sources": env!("KERNEL_SOURCES"),
+            }),
+            Request::OpenFamily { manifest } => {
+                let family = OpenFamily::from_manifest(&manifest)?;
+                let description = family.description();
+                merged(json!({ "family": self.families.insert(family) }), description)
+            }
+            Request::CloseFamily { family } => json!({ "closed": self.families.remove(family) }),
+            Request::OpenStudy { curve, shown, is_rough } => self.open_study(&curve, shown, is_rough, numbers)?,
+            Request::CloseStudy { study } => json!({ "closed": self.studies.remove(study) }),
+            Request::Path { study, tolerance } => {
+                let OpenStudy { family, study, .. } = self.studies.get(study)?;
+                path_json(study, &self.families.get(*family)?.options.page, tolerance, numbers)
+            }
+            Request::Speeds { study, count } => speeds_json(self.study(study)?, count, numbers),
+            Request::Measures { study } => measures_json(self.study(study)?, numbers),
+            Request::Cognates { study } => json!(cognates_json(self.study(study)?, numbers)),
+            Request::Centrodes { study, samples } => json!(centrodes_json(self.study(study)?, samples, numbers)),
+            Request::Nearest { study, point: [x, y] } => {
+                let study = self.study(study)?;
+                nearest_place(study, Point::new(x, y)).map_or(Value::Null, |place| reading_json(study, place))
+            }
+            Request::Reading { study, pass, input } => reading_json(self.study(study)?, Place { pass, input }),
+            Request::Export { curve, format } => self.families.get(curve.family)?.export(&curve, &format)?,
+            Request::Fragment { curves } => {
+                let curves = curves
+                    .iter()
+                    .map(|curve| Ok((self.families.get(curve.family)?, curve)))
+                    .collect::<Result<Vec<_>, String>>()?;
+                json!({ "text": fragment(&curves)? })
+            }
+        })
+    }
+
+    fn open_study(
+        &mut self,
+        curve: &CurveRequest,
+        shown: Option<usize>,
+        is_rough: bool,
+        numbers: &mut Numbers,
+    ) -> Result<Value, String> {
+        let family = self.families.get(curve.family)?;
+        let changed = match family.changed_cell(curve) {
+            Ok(changed) => changed,
+            Err(reason) => return Ok(json!({ "reason": reason, "circuits": [] })),
+        };
+        let opened = Opened::new(changed, curve.curve, shown, is_rough);
+        let found = opened_json(family, curve, &opened);
+        let Ok(study) = opened.study else { return Ok(found) };
+        let description = study_json(&study, numbers);
+        let open = OpenStudy { family: curve.family, cognates: cognates(&study), study };
+        let handle = json!({ "study": self.studies.insert(open) });
+        Ok(merged(merged(handle, found), description))
+    }
+
+    fn study(&self, handle: usize) -> Result<&Study, String> {
+        self.studies.get(handle).map(|open| &open.study)
+    }
+
+    /// The pose of a study's linkage at an input of a pass: the numbers of [`Kernel::POSE_HEADER`], NaN where they are
+    /// not defined, and the positions of all joints; empty without such a study or pass.
+    pub fn pose(&self, study: usize, pass: usize, input: f64, out: &mut Vec<f64>) {
+        out.clear();
+        let Ok(OpenStudy { study, cognates, .. }) = self.studies.get(study) else { return };
+        let Some(moved) = study.passes().get(pass) else { return };
+        let pose = motion::pose(&study.linkage, moved, input);
+        let velocity = study.velocity(moved, input);
+        let undefined = Point::new(f64::NAN, f64::NAN);
+        let instant = study.instant(moved, input);
+        let [pole, inflection] = instant.map_or([undefined; 2], |instant| [instant.pole, instant.inflection_pole()]);
+        let pins = cognates.as_ref().and_then(|cognates| cognate_pins(study, cognates, &pose));
+        out.extend([study.transmission_angle(&pose).unwrap_or(f64::NAN), velocity.x, velocity.y]);
+        let points = [pole, inflection].into_iter().chain(pins.unwrap_or([undefined; 4])).chain(pose);
+        out.extend(points.flat_map(|p| [p.x, p.y]));
+    }
+
+    /// The position of a joint of a study's linkage at an input of a pass; NaN where there is none.
+    pub fn joint_position(&self, study: usize, joint: usize, pass: usize, input: f64) -> [f64; 2] {
+        let position = self.study(study).ok().filter(|study| joint < study.linkage.joints.len());
+        let position = position.and_then(|study| study.joint_position(JointId::new(joint), pass, input));
+        position.map_or([f64::NAN; 2], |p| [p.x, p.y])
+    }
+}
+
+/// Two JSON objects as one.
+fn merged(mut first: Value, second: Value) -> Value {
+    if let (Value::Object(first), Value::Object(second)) = (&mut first, second) {
+        first.extend(second);
+    }
+    first
+}
+
+/// Things by their handles.
+#[derive(Debug)]
+struct Slots<T>(Vec<Option<T>>);
+
+impl<T> Default for Slots<T> {
+    fn default() -> Slots<T> {
+        Slots(Vec::new())
+    }
+}
+
+impl<T> Slots<T> {
+    /// Adds a thing; its handle, the least that is free.
+    fn insert(&mut self, thing: T) -> usize {
+        let free = self.0.iter().position(Option::is_none).unwrap_or(self.0.len());
+        if free == self.0.len() {
+            self.0.push(None);
+        }
+        self.0[free] = Some(thing);
+        free
+    }
+
+    /// Removes a thing; whether there was one.
+    fn remove(&mut self, handle: usize) -> bool {
+        self.0.get_mut(handle).and_then(Option::take).is_some()
+    }
+
+    fn get(&self, handle: usize) -> Result<&T, String> {
+        self.0.get(handle).and_then(Option::as_ref).ok_or_else(|| format!("the handle {handle} is not open"))
+    }
+}
