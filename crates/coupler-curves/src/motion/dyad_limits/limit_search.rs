@@ -124,7 +124,11 @@ impl LimitSearch<'_> {
     /// Inputs between neighbours of which there is one limit at most, and the inputs at which a bound is touched and
     /// not crossed.
     fn bracket_limits(&self, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
-        let pieces = cut_into_pieces(self.linkage, self.dyad, self.mode, self.ends());
+        let is_flat = match self.span {
+            Span::FullTurn => [false; 2],
+            Span::Range { .. } => self.ends().map(|end| self.margin(end).abs() <= tolerance),
+        };
+        let pieces = cut_into_pieces(self.linkage, self.dyad, self.mode, self.ends(), is_flat);
         let mut inputs: Vec<f64> = pieces.iter().map(|piece| piece.from).chain(pieces.last().map(|p| p.to)).collect();
         let mut touched = Vec::new();
         for run in pieces.chunk_by(|a, b| !a.is_certain && !b.is_certain).filter(|run| !run[0].is_certain) {

@@ -12,6 +12,10 @@ const PIECES_PER_TURN: f64 = 16.0;
 /// The greatest number of halvings of a piece: the narrowest is 2^-40, about 1e-12, of a turn.
 const MAX_HALVINGS: usize = 36;
 
+/// Near an end of the range at which the extent is at a bound no piece is certain: those within this part of the range are
+/// not halved. There the joints depend on the root of the distance from the end, and finer pieces would be many.
+const FLAT_END: f64 = 1.0 / 16_777_216.0;
+
 /// Halving ends when this many pieces are uncertain, because an extent that stays at a bound is never certain.
 const MAX_OPEN_PIECES: usize = 512;
 
@@ -25,8 +29,16 @@ pub(super) struct Piece {
 }
 
 /// Cuts an input range into pieces on which the extent of a dyad is certain to cross a bound once at most, except on
-/// pieces too narrow to be halved.
-pub(super) fn cut_into_pieces(linkage: &Linkage, dyad: &Dyad, mode: AssemblyMode, [from, to]: [f64; 2]) -> Vec<Piece> {
+/// pieces too narrow to be halved. `is_flat` says whether the extent is at a bound at each end of the range.
+pub(super) fn cut_into_pieces(
+    linkage: &Linkage,
+    dyad: &Dyad,
+    mode: AssemblyMode,
+    [from, to]: [f64; 2],
+    is_flat: [bool; 2],
+) -> Vec<Piece> {
+    let reach = FLAT_END * (to - from);
+    let is_at_flat_end = |[a, b]: [f64; 2]| is_flat[0] && b - from <= reach || is_flat[1] && to - a <= reach;
     let turns = if linkage.input() == Input::Length { 1.0 } else { (to - from) / 360.0 };
     let n = (turns * PIECES_PER_TURN).ceil().max(1.0);
     let at = |k: f64| if k == n { to } else { from + (to - from) * k / n };
@@ -38,7 +50,8 @@ pub(super) fn cut_into_pieces(linkage: &Linkage, dyad: &Dyad, mode: AssemblyMode
         for [from, to] in open {
             let middle = from + (to - from) / 2.0;
             let is_certain_here = is_certain(linkage, dyad, mode, [from, middle, to]);
-            if is_certain_here || !can_halve || middle <= from || middle >= to {
+            let is_narrow = is_at_flat_end([from, to]) || middle <= from || middle >= to;
+            if is_certain_here || !can_halve || is_narrow {
                 done.push(Piece { from, to, is_certain: is_certain_here });
             } else {
                 next.extend([[from, middle], [middle, to]]);
