@@ -8,7 +8,8 @@ use std::path::Path;
 use std::process::Command;
 
 fn main() {
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let package = env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR");
+    let workspace = Path::new(&package).join("../..");
     let digest = sources::digest(&workspace).expect("the workspace can be read");
     let compiler = Command::new(env::var_os("RUSTC").expect("cargo sets RUSTC")).arg("--version").output();
     let compiler = String::from_utf8(compiler.expect("the compiler runs").stdout).expect("its version is text");

@@ -1,4 +1,4 @@
-//! The style sheets and scripts of the page.
+//! The style sheets and scripts of the page, and its module for WebAssembly.
 
 /// A style sheet or script of the page.
 #[derive(Clone, Copy, Debug)]
@@ -11,23 +11,40 @@ pub struct Asset {
 
 include!(concat!(env!("OUT_DIR"), "/gallery_parts.rs"));
 
-/// Joins modules, each after those it imports, into one script.
+/// The kernel, `coupler-kernel` for WebAssembly, compressed with gzip; `.ci/kernel update` writes it.
+pub const KERNEL: &[u8] = include_bytes!("kernel.wasm.gz");
+
+/// Joins modules, each after those it imports, into one script without comments and indentation.
 ///
 /// Imports are removed, and exports become plain definitions; the modules must therefore not declare the same name
 /// twice at the top level.
 pub fn join_modules(modules: &[Asset]) -> String {
-    let mut script = String::new();
-    for Asset { name, text } in modules {
-        script.push_str(&format!("// {name}\n"));
+    let statements = modules.iter().flat_map(|Asset { text, .. }| {
         let mut in_import = false;
-        for line in text.lines() {
-            in_import |= line.starts_with("import ");
-            if !in_import {
-                script.push_str(line.strip_prefix("export ").unwrap_or(line));
-                script.push('\n');
-            }
-            in_import &= !line.trim_end().ends_with(';');
-        }
-    }
-    script
+        text.lines().filter_map(move |line| {
+            let is_import = in_import || line.starts_with("import ");
+            in_import = is_import && !line.ends_with(';');
+            (!is_import).then(|| line.strip_prefix("export ").unwrap_or(line))
+        })
+    });
+    compact(statements)
+}
+
+/// Lines of a script without indentation, without empty lines, and without the lines that are comments.
+///
+/// A literal over several lines would lose its indentation: the scripts have none.
+pub fn compact<'l>(lines: impl Iterator<Item = &'l str>) -> String {
+    let mut in_comment = false;
+    let code = lines.map(str::trim).filter(|line| {
+        let is_comment =
+            in_comment || line.starts_with("//") || line.starts_with("/*") && !has_code_after_comment(line);
+        in_comment = (in_comment || line.starts_with("/*")) && !line.contains("*/");
+        !is_comment && !line.is_empty()
+    });
+    code.flat_map(|line| [line, "\n"]).collect()
+}
+
+/// Whether a line, which begins with a comment, has code after it.
+fn has_code_after_comment(line: &str) -> bool {
+    line.split_once("*/").is_some_and(|(_, code)| !code.is_empty())
 }

@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::pieces::{CellData, PieceContent, PieceIndex, PieceSeries};
-use super::template_json::{expression_json, template_json};
 use super::typed_array::{f64s, u8s, u16s, u32s};
 use crate::manifest::{Plan, PlannedFamily};
-use coupler_curves::family::{Sampling, StraightCriterion};
+use coupler_curves::family::Sampling;
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::measure;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, Status};
@@ -19,7 +18,7 @@ use coupler_drawing::scene::{Group, Item, Scene};
 pub const SCRIPT_FILE: &str = "gallery.js";
 
 /// The greatest number of points of a curve: enough to draw a thumbnail, to select the curve with a pointer, and to
-/// compare shapes. The page solves the linkage itself to show a curve in detail.
+/// compare shapes. The page's kernel solves the linkage to show a curve in detail.
 const MAX_POINTS: usize = 128;
 
 /// The code of a missing word.
@@ -42,8 +41,6 @@ impl<'a> FamilyScript<'a> {
     /// `statements` are those of a family that is small enough to have everything in its head, and otherwise empty.
     pub fn head(self, pieces: &[PieceIndex], statements: &str) -> String {
         let family = &self.planned.family;
-        let derived: Vec<Value> =
-            family.derived.iter().map(|(slot, expression)| json!([slot, expression_json(expression)])).collect();
         let (paper, color) = (self.plan.page.paper, self.plan.page.theme.paper.to_string());
         let layout = match self.planned.layout {
             Layout::Panels { .. } => "panels",
@@ -66,14 +63,13 @@ impl<'a> FamilyScript<'a> {
                 "layout": layout,
                 "panels": has_panels.then(|| self.planned.layout.cells_per_page()),
                 "sampling": sampling_json(family.sampling),
+                "is_length": family.template.is_driven_by_length(),
                 "paper": { "width": paper.width, "height": paper.height, "color": color },
-                "columns": family.columns.iter().map(|column| column.name).collect::<Vec<_>>(),
-                "dash_deg": self.plan.page.dash_deg,
-                "straight": straight_json(family.straight),
-                "template": template_json(&family.template),
+                // What the kernel opens: all that determines a curve whose assigned values are known.
+                "manifest": self.planned.excerpt(),
                 "names": family.names,
                 "free": family.space.assigned_slots(),
-                "derived": derived,
+                "assignments": self.assignments(),
                 "measures": self.measures(false).map(|(_, measure)| measure.name).collect::<Vec<_>>(),
                 "words": self.measures(true).map(|(_, measure)| measure.name).collect::<Vec<_>>(),
                 "pieces": { "table": index(PieceSeries::Table), "curves": index(PieceSeries::Curves) },
@@ -108,6 +104,22 @@ impl<'a> FamilyScript<'a> {
         CellData { table: self.table_rows(&kept, &curves), curves: self.outlines(&kept, &curves), content }
     }
 
+    /// The distinct lists of slots that parameter sets assign, each in order.
+    fn assignments(self) -> Vec<Vec<usize>> {
+        self.planned.family.space.distinct_names().into_iter().map(|(_, slots)| slots).collect()
+    }
+
+    /// For each cell the index of the list of slots that its parameter set assigns; `None` if there is only one list.
+    fn assignment_of_cells(self, kept: &[&SolvedCell]) -> Option<Value> {
+        let lists = self.assignments();
+        let index = |solved: &&SolvedCell| {
+            let mut slots: Vec<usize> = self.planned.family.space.slots_of(solved.cell.number - 1).collect();
+            slots.sort_unstable();
+            lists.iter().position(|list| *list == slots).unwrap_or(0)
+        };
+        (lists.len() > 1).then(|| u16s(kept.iter().map(index)))
+    }
+
     /// The measures of the family that are words, or those that are numbers, with their indices.
     fn measures(self, is_word: bool) -> impl Iterator<Item = (usize, &'static measure::Measure)> + 'a {
         self.planned.family.computed_measures().filter(move |(_, measure)| measure.is_word == is_word)
@@ -134,6 +146,7 @@ impl<'a> FamilyScript<'a> {
                 // The first number, if the others follow it.
                 "number": if is_run { json!(numbers.first()) } else { u32s(numbers) },
                 "values": (0..self.planned.family.names.len()).map(column).collect::<Vec<_>>(),
+                "assignment": self.assignment_of_cells(kept),
                 "status": u8s(kept.iter().map(status)),
                 "curves": u16s(kept.iter().map(|s| s.curves.len())),
                 "trace": u16s(curves.iter().map(|(_, curve)| curve.trace)),
@@ -203,21 +216,12 @@ fn statement(name: &str, value: &Value) -> String {
 }
 
 /// The sampling as JSON, with the keys of a manifest.
-pub fn sampling_json(sampling: Sampling) -> Value {
+fn sampling_json(sampling: Sampling) -> Value {
     match sampling {
         Sampling::Step(step) => json!({ "step": step }),
         Sampling::Samples(samples) => json!({ "samples": samples }),
         Sampling::DenseAtLimits(samples) => json!({ "samples": samples, "spacing": "smooth" }),
         Sampling::ArcLength(samples) => json!({ "samples": samples, "spacing": "arc" }),
-    }
-}
-
-/// The criterion for the straight portion as JSON, with the keys of a manifest.
-pub fn straight_json(straight: StraightCriterion) -> Value {
-    match straight {
-        StraightCriterion::Tolerance(tolerance) => json!({ "tolerance": tolerance }),
-        StraightCriterion::Input(input) => json!({ "input": input }),
-        StraightCriterion::Length(length) => json!({ "length": length }),
     }
 }
 

@@ -1,11 +1,15 @@
 //! `index.html`, the page of the gallery.
 
+use std::io::{self, Write};
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::assets::{SCRIPTS, STYLES, join_modules};
+use super::assets::{KERNEL, SCRIPTS, STYLES, compact, join_modules};
 use super::pieces::{PieceSeries, is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
@@ -48,18 +52,30 @@ pub const PAGE_FILE: &str = "index.html";
 /// The page, with placeholders like `{{title}}`.
 const PAGE_TEMPLATE: &str = include_str!("index.html");
 
+/// The script that unpacks and runs the page's script.
+const LOADER: &str = include_str!("loader.js");
+
 /// The text of `index.html`, for the families of a run.
+///
+/// # Panics
+///
+/// Never: its script is compressed in memory.
 pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
-    let style: String = STYLES.iter().map(|part| part.text).collect();
+    // Without indentation and empty lines.
+    let lines = STYLES.iter().flat_map(|part| part.text.lines()).map(str::trim_start).filter(|line| !line.is_empty());
+    let style: String = lines.flat_map(|line| [line, "\n"]).collect();
     let script = join_modules(SCRIPTS);
+    let loader = compact(LOADER.lines());
     // Escaped, so that the data cannot end its script element.
     let data = atlas_json(run, families).to_string().replace('<', "\\u003c");
     let parts = [
         ("title", escape_html(&run.title)),
-        ("policy", content_security_policy(&style, &script)),
+        ("policy", content_security_policy(&style, [&loader, &script])),
         ("style", style),
         ("atlas", data),
-        ("script", script),
+        ("kernel", BASE64_STANDARD.encode(KERNEL)),
+        ("packed_script", BASE64_STANDARD.encode(gzip(script.as_bytes()).expect("memory takes all bytes"))),
+        ("loader", loader),
     ];
     let mut page = String::new();
     let mut rest = PAGE_TEMPLATE;
@@ -73,15 +89,23 @@ pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     page
 }
 
-/// The policy by which the page may only run its own script and the scripts in its folder, and show images.
-fn content_security_policy(style: &str, script: &str) -> String {
-    let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+/// The policy by which the page may only run its own script, the scripts in its folder and modules for WebAssembly, and
+/// show images.
+fn content_security_policy(style: &str, scripts: [&str; 2]) -> String {
+    let digest = |text: &str| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text.as_bytes())));
     format!(
-        "default-src 'none'; script-src 'self' 'sha256-{}'; style-src 'sha256-{}'; img-src 'self' data: blob:; \
+        "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' {}; style-src {}; img-src 'self' data: blob:; \
          base-uri 'none'; form-action 'none'",
-        digest(script),
+        scripts.map(digest).join(" "),
         digest(style)
     )
+}
+
+/// Bytes compressed with gzip, the same on every machine.
+fn gzip(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    encoder.finish()
 }
 
 fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {

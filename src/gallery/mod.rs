@@ -3,20 +3,18 @@
 //! A page opened from disk cannot fetch files, but it can load scripts. The data of a family are therefore scripts of
 //! statements, in pieces of bounded size that the page loads when a view shows what is in them. They are written while
 //! cells and pages are produced, so that memory stays bounded. The page itself is joined from the style sheets and
-//! scripts in this folder.
+//! scripts in this folder, and has a module for WebAssembly, the kernel, which computes with the linkages.
 
 mod assets;
 mod family_script;
 mod index;
 mod pieces;
-mod template_json;
 mod typed_array;
 
-pub use assets::{Asset, SCRIPTS, STYLES, join_modules};
-pub use family_script::{FamilyScript, SCRIPT_FILE, sampling_json, straight_json};
+pub use assets::{Asset, KERNEL, SCRIPTS, STYLES, join_modules};
+pub use family_script::{FamilyScript, SCRIPT_FILE};
 pub use index::{DataBytes, GalleryFamily, PAGE_FILE, index_html};
 pub use pieces::{
     CellData, DataFile, MAX_PIECE_BYTES, MAX_SINGLE_FILE_BYTES, OpenPiece, PieceContent, PieceIndex, PieceSeries,
     PieceWriter, is_data_file_name, parse_piece_file_name, piece_file_name,
 };
-pub use template_json::template_json;

@@ -65,15 +65,7 @@ addTest(
       seen.push(at.text);
     }
     assert.ok(seen.length < 80, "Tab comes to an end");
-    for (const name of [
-      "Skip to content",
-      "Families",
-      "Theme",
-      "All pages",
-      "Zoom out",
-      "Fit",
-      "Zoom in",
-    ]) {
+    for (const name of ["Skip to content", "Families", "Theme", "All pages", "Zoom out", "Fit", "Zoom in"]) {
       assert.ok(
         seen.some((text) => text.startsWith(name)),
         `${name} is not among ${seen}`,
@@ -243,7 +235,7 @@ addTest(
   async (g, page) => {
     const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute("content");
     assert.match(policy, /default-src 'none'/);
-    assert.doesNotMatch(policy, /unsafe/);
+    assert.doesNotMatch(policy.replace("'wasm-unsafe-eval'", ""), /unsafe/);
     const html = await page.content();
     assert.doesNotMatch(html.replace(/<script[\s\S]*?<\/script>/g, ""), /\son\w+="/);
   },
@@ -262,7 +254,11 @@ addTest(
     await page.waitForSelector(".page-sheet img");
     assert.equal(await filter(), "none", "it is remembered");
     await page.getByRole("combobox", { name: "Theme" }).selectOption("light");
-    assert.equal(await page.getByRole("button", { name: "Printed colours" }).count(), 0, "of no use in the light");
+    assert.equal(
+      await page.getByRole("button", { name: "Printed colours" }).count(),
+      0,
+      "of no use in the light",
+    );
   },
 );
 

@@ -145,7 +145,9 @@ export async function runTests(tests, context = {}) {
       );
     }
   }
-  await within(10, browser.close()).catch((error) => console.log(`the browser was not closed: ${error.message}`));
+  await within(10, browser.close()).catch((error) =>
+    console.log(`the browser was not closed: ${error.message}`),
+  );
   // What a dead browser has left open does not keep the process alive.
   process.exit(failed ? 1 : 0);
 }

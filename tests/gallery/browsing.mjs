@@ -248,6 +248,8 @@ addTest(
         await page.waitForSelector(".page-sheet .picture");
         for (const link of await page.locator(".overlay a").all()) {
           await link.focus();
+          // The first curve is read when the kernel is loaded.
+          await page.waitForSelector(".reading:not([hidden])", { timeout: 5000 });
           const read = await page.locator(".reading").innerText();
           assert.match(
             read,

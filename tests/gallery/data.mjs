@@ -3,11 +3,11 @@
 import assert from "node:assert/strict";
 
 import { pageFile } from "../../src/gallery/script/data/atlas.js";
-import { outlineCache } from "../../src/gallery/script/data/cache.js";
+import { outlineCache } from "../../src/gallery/script/data/atlas.js";
 import { holdPieces, needPieces } from "../../src/gallery/script/data/needs.js";
 import { unpackColumn, unpackInto } from "../../src/gallery/script/data/packed.js";
 import { Series } from "../../src/gallery/script/data/series.js";
-import { MAX_HEIGHT, scrollScale } from "../../src/gallery/script/view/long-scroll.js";
+import { MAX_HEIGHT, scrollScale } from "../../src/gallery/script/view/long-list.js";
 import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
 
 // The files of pages: more than a thousand are in subfolders of a thousand.

@@ -12,7 +12,9 @@ export function familyOf(folder, id) {
 
 /** The table points.csv of a family: { header, rows: Map of "cell.trace.circuit" to lines }. */
 export function pointsOf(folder, id) {
-  const [header, ...lines] = readFileSync(join(folder, id, "points.csv"), "utf8").trimEnd().split("\n");
+  const [header, ...lines] = readFileSync(join(folder, id, "points.csv"), "utf8")
+    .trimEnd()
+    .split("\n");
   const rows = new Map();
   for (const line of lines) {
     const key = line.split(",", 3).join(".");
@@ -27,7 +29,9 @@ export function entitiesOf(dxf) {
   const lines = dxf.trimEnd().split("\n");
   const pairs = [];
   for (let k = 0; k + 1 < lines.length; k += 2) pairs.push([Number(lines[k]), lines[k + 1]]);
-  const begin = pairs.findIndex(([code, value], k) => code === 2 && value === "ENTITIES" && pairs[k - 1][1] === "SECTION");
+  const begin = pairs.findIndex(
+    ([code, value], k) => code === 2 && value === "ENTITIES" && pairs[k - 1][1] === "SECTION",
+  );
   const entities = [];
   let last = null;
   for (const [code, value] of pairs.slice(begin + 1)) {
@@ -49,7 +53,10 @@ export function filesOfZip(bytes) {
   while (view.getUint32(at, true) === 0x04034b50) {
     const [size, name] = [view.getUint32(at + 18, true), view.getUint16(at + 26, true)];
     const from = at + 30 + name + view.getUint16(at + 28, true);
-    files.push({ name: new TextDecoder().decode(bytes.subarray(at + 30, at + 30 + name)), bytes: bytes.subarray(from, from + size) });
+    files.push({
+      name: new TextDecoder().decode(bytes.subarray(at + 30, at + 30 + name)),
+      bytes: bytes.subarray(from, from + size),
+    });
     at = from + size;
   }
   return files;

@@ -6,7 +6,7 @@ import { measureValue } from "../../src/gallery/script/data/family.js";
 import { filterColumns } from "../../src/gallery/script/find/columns.js";
 import { Filters } from "../../src/gallery/script/find/filter.js";
 import { BINS, binCounts, histogramOf } from "../../src/gallery/script/find/histogram.js";
-import { Orders, passingRows } from "../../src/gallery/script/find/order.js";
+import { Orders, passingRows } from "../../src/gallery/script/find/filter.js";
 import { formatFindQuery, parseFindQuery } from "../../src/gallery/script/find/query.js";
 import { CurveTable } from "../../src/gallery/script/find/table.js";
 import { address, parseAddress } from "../../src/gallery/script/data/address.js";

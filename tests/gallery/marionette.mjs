@@ -155,7 +155,9 @@ class Firefox {
 
   async wheel([x, y], deltaY) {
     const roll = { type: "scroll", x: Math.round(x), y: Math.round(y), deltaX: 0, deltaY, duration: 0 };
-    await this.asks("WebDriver:PerformActions", { actions: [{ type: "wheel", id: "wheel", actions: [roll] }] });
+    await this.asks("WebDriver:PerformActions", {
+      actions: [{ type: "wheel", id: "wheel", actions: [roll] }],
+    });
   }
 
   /** Presses keys, one after another; those without a letter by their names of WebDriver, "\uE014". */
@@ -196,7 +198,10 @@ class Firefox {
   }
 
   async close() {
-    await Promise.race([this.asks("Marionette:Quit", { flags: ["eForceQuit"] }).catch(() => null), this.gone]);
+    await Promise.race([
+      this.asks("Marionette:Quit", { flags: ["eForceQuit"] }).catch(() => null),
+      this.gone,
+    ]);
     await Promise.race([this.gone, paused(PATIENCE / 6)]);
     this.child.kill("SIGKILL");
     await this.gone;

@@ -7,12 +7,8 @@ import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
 import { Series } from "../../src/gallery/script/data/series.js";
-import { circuitPortion } from "../../src/gallery/script/draw/circuit-portion.js";
 import { clippedData, segmentInBox } from "../../src/gallery/script/draw/clipping.js";
-import { dashData, dashPattern } from "../../src/gallery/script/draw/dashes.js";
 import { fittedView, planePoint, roundBelow, zoomedView } from "../../src/gallery/script/draw/plane-view.js";
-import { changedValues } from "../../src/gallery/script/kinematics/parameter-changes.js";
-import { poseAt } from "../../src/gallery/script/kinematics/poses.js";
 import {
   timelineOf,
   followInput,
@@ -21,13 +17,13 @@ import {
   placeAtPart,
   turningParts,
 } from "../../src/gallery/script/view/plate/timeline.js";
-import { straightSummary } from "../../src/gallery/script/view/plate/paths.js";
-import { summaryOfStudy } from "../../src/gallery/script/view/plate/summary.js";
+import { pathsOfStudy, straightSummary } from "../../src/gallery/script/view/plate/paths.js";
+import { summaryOfStudy } from "../../src/gallery/script/view/plate/study.js";
 import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
 import { plateCurveName } from "../../src/gallery/script/view/plate/plate-query.js";
-import { PoseSolver } from "../../src/gallery/script/view/plate/pose-solver.js";
-import { studyOf } from "../../src/gallery/script/view/plate/study.js";
+import { Pose, recordedValues, studyOf } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./export-data.mjs";
+import { kernelOf } from "./kernel.mjs";
 
 const [folder] = process.argv.slice(2);
 const ids = readdirSync(folder).filter((id) => existsSync(join(folder, id, "gallery.js")));
@@ -42,54 +38,38 @@ const linesOf = (data) =>
 const lengthOf = (line) =>
   line.slice(1).reduce((sum, [x, y], k) => sum + Math.hypot(x - line[k][0], y - line[k][1]), 0);
 
-/** A path along the x-axis, as long as its input, over inputs in turn. */
-const straightPath = (...ends) => {
-  const inputs = [];
-  const points = [];
-  const starts = [];
-  for (let k = 0; k + 1 < ends.length; k += 1) {
-    starts.push(Math.max(inputs.length - 1, 0));
-    for (let i = k === 0 ? 0 : 1; i <= 50; i += 1) inputs.push(ends[k] + ((ends[k + 1] - ends[k]) * i) / 50);
-  }
-  inputs.forEach((at) => points.push(at, 0));
-  return { inputs: Float64Array.from(inputs), points: Float64Array.from(points), starts };
-};
-
-const pass = (from, to, flats = [0, 0]) => ({
+const pass = (from, to, isFlat = false) => ({
   from,
   to,
-  signs: 0,
-  begin: { at: from, flat: flats[0] },
-  end: { at: to, flat: flats[1] },
+  from_is_flat: isFlat,
+  to_is_flat: isFlat,
+  sides: [],
 });
+
+const kernel = await kernelOf(folder);
+
+/** The study of the first curve of a family with changes, [[name, value], …]. */
+const firstStudy = (family, changes = [], ...more) =>
+  studyOf(kernel, kernel.curve(family, 0, changes), ...more);
+
+/** The parameters of a family's first curve that can be changed. */
+const firstParameters = (family, changes = new Map()) => {
+  const recorded = recordedValues(kernel, family, 0);
+  const { names } = kernel.family(family).description;
+  return changeableParameters(family, names, recorded, firstStudy(family, changes), changes);
+};
 
 const tests = [
   [
-    "a dash is the first 3 of every 5 degrees, from input 0",
+    "a dash covers 3 of every 5 degrees, and the dashes are on the path",
     () => {
-      const lines = linesOf(dashData(straightPath(0, 360), dashPattern(5)));
-      assert.equal(lines.length, 72);
-      lines.forEach((line, k) => {
-        // Numbers are written in seven digits.
-        assert.ok(Math.abs(line[0][0] - 5 * k) < 1e-4, `dash ${k} begins at ${line[0][0]}`);
-        assert.ok(Math.abs(lengthOf(line) - 3) < 2e-4, `dash ${k} is ${lengthOf(line)} long`);
-      });
-    },
-  ],
-  [
-    "dashes are at the same inputs when the input falls",
-    () => {
-      const spans = (data) =>
-        linesOf(data).map((line) =>
-          [line[0][0], line[line.length - 1][0]]
-            .map(Math.round)
-            .sort((a, b) => a - b)
-            .join(),
-        );
-      const there = spans(dashData(straightPath(-40, 40), dashPattern(5)));
-      const back = spans(dashData(straightPath(40, -40), dashPattern(5)));
-      assert.deepEqual([...back].sort(), [...there].sort());
-      assert.deepEqual(spans(dashData(straightPath(-40, 40, -40), dashPattern(5))), [...there, ...back]);
+      const study = firstStudy(familyOf(folder, "evans"));
+      const path = study.kernel.path(1e-5 * study.size);
+      const { dashes, lead } = pathsOfStudy(study, path, null, { on: new Set(), isRough: false });
+      assert.equal(linesOf(dashes).length, 72);
+      const [whole] = linesOf(lead);
+      const part = linesOf(dashes).reduce((sum, line) => sum + lengthOf(line), 0) / lengthOf(whole);
+      assert.ok(part > 0.55 && part < 0.65, `${part} of the path`);
     },
   ],
   [
@@ -128,7 +108,7 @@ const tests = [
   [
     "a crank stays at a limit, and comes back on the other branch when it was pushed",
     () => {
-      const timeline = timelineOf({ passes: [pass(-40, 40, [1, 1]), pass(40, -40, [1, 1])], closed: true });
+      const timeline = timelineOf({ passes: [pass(-40, 40, true), pass(40, -40, true)], closed: true });
       const place = { pass: 0, input: 30 };
       followInput(timeline, place, 42, 3);
       assert.deepEqual([place.pass, place.input], [0, 40]);
@@ -160,22 +140,25 @@ const tests = [
   [
     "positions by fraction and by input agree on every linkage, and so do poses",
     () => {
+      const pose = new Pose();
       for (const id of ids) {
-        const study = studyOf(familyOf(folder, id), 0, new Map());
-        assert.equal(study.reason, undefined, `${id}: ${study.reason}`);
-        const poser = new PoseSolver(study.linkage);
+        const study = firstStudy(familyOf(folder, id));
+        assert.equal(study.reason, null, `${id}: ${study.reason}`);
         const place = {};
         for (let k = 0; k <= 64; k += 1) {
           placeAtPart(study.timeline, k / 64, place);
           const part = partOfInput(study.timeline, place.pass, place.input);
           assert.ok(Math.abs(part - k / 64) < 1e-7, `${id}: part ${k / 64} became ${part}`);
-          const on = study.timeline.passes[place.pass];
-          assert.deepEqual(
-            [...poser.solve(on, place.input)],
-            [...poseAt(study.linkage, on, place.input)],
-            id,
-          );
+          pose.move(study, place.pass, place.input);
+          assert.equal(pose.joints.length, 2 * study.joints.length, id);
+          const at = [...study.kernel.jointPosition(study.joint, place.pass, place.input)];
+          const { place: read } = study.kernel.reading(place.pass, place.input);
+          for (const axis of [0, 1]) {
+            assert.equal(read[axis], pose.joints[2 * study.joint + axis], id);
+            assert.ok(Math.abs(at[axis] - read[axis]) < 1e-9 * study.size, `${id}: ${at} is not ${read}`);
+          }
         }
+        study.kernel.close();
       }
     },
   ],
@@ -184,13 +167,8 @@ const tests = [
     () => {
       for (const id of ids) {
         const family = familyOf(folder, id);
-        const fine = studyOf(family, 0, new Map());
-        const rough = studyOf(family, 0, new Map(), null, true);
-        assert.deepEqual(
-          rough.routes[rough.shown].passes.map(({ from, to, signs }) => [from, to, signs]),
-          fine.routes[fine.shown].passes.map(({ from, to, signs }) => [from, to, signs]),
-          id,
-        );
+        const [fine, rough] = [firstStudy(family), firstStudy(family, [], null, true)];
+        assert.deepEqual(rough.circuits[rough.shown], fine.circuits[fine.shown], id);
       }
     },
   ],
@@ -198,19 +176,48 @@ const tests = [
     "a derived value follows its expression",
     () => {
       const family = familyOf(folder, "evans-straight");
-      const slots = family.derived.filter(([, expression]) => typeof expression !== "number");
-      assert.ok(slots.length > 0);
-      const recorded = changedValues(family, 3, new Map());
+      const { names } = kernel.family(family).description;
+      const derived = names.filter((name) => name.is_derived).map(({ name }) => name);
+      assert.ok(derived.length > 0);
+      const { values } = firstStudy(family);
       // With a parameter changed to its own value, all values stay the same.
       const name = family.names[family.free[0]];
-      const same = changedValues(family, 3, new Map([[name, recorded[family.free[0]]]]));
-      recorded.forEach((value, slot) =>
-        assert.ok(Math.abs(same[slot] - value) <= 1e-14 * Math.abs(value), family.names[slot]),
-      );
-      const kinds = new Map(
-        changeableParameters(family, 3, 1, new Map()).map((parameter) => [parameter.name, parameter.kind]),
-      );
-      for (const [slot] of slots) assert.equal(kinds.get(family.names[slot]), "derived");
+      assert.deepEqual(firstStudy(family, [[name, values[name]]]).values, values);
+      const changed = firstStudy(family, [[name, 1.01 * values[name]]]).values;
+      assert.ok(derived.some((other) => changed[other] !== values[other]));
+      const kinds = new Map(firstParameters(family).map((parameter) => [parameter.name, parameter.kind]));
+      for (const other of derived) assert.equal(kinds.get(other), "derived");
+    },
+  ],
+  [
+    "the values of a cell are those of the atlas",
+    () => {
+      for (const id of ids) {
+        const family = familyOf(folder, id);
+        const count = family.curves.count;
+        for (const curve of new Set([0, Math.floor(count / 2), count - 1])) {
+          const { values } = recordedValues(kernel, family, curve);
+          family.names.forEach((name, slot) => {
+            const own = family.cells.values[family.curves.cell[curve] * family.names.length + slot];
+            // A name may have no value in a cell.
+            if (!Number.isNaN(own)) assert.equal(values[name], own, `${id}: ${name}`);
+          });
+        }
+      }
+    },
+  ],
+  [
+    "the kernel goes on after a failure, with families and studies opened again",
+    () => {
+      const study = firstStudy(familyOf(folder, "watt"));
+      const before = study.kernel.reading(0, study.timeline.passes[0].from);
+      const failed = kernel.instance;
+      const { kernel_allocate: allocate } = failed.exports;
+      failed.exports = { ...failed.exports, kernel_pose: () => allocate(-1) };
+      assert.throws(() => study.kernel.pose(0, 0), /^Error: the kernel failed: /);
+      assert.notEqual(kernel.instance, failed);
+      assert.deepEqual(study.kernel.reading(0, study.timeline.passes[0].from), before);
+      assert.throws(() => kernel.call({ method: "nothing" }), /there is no request/);
     },
   ],
   [
@@ -221,10 +228,16 @@ const tests = [
       const table = new Series("evans", "table", [{ bytes: 0, cells: 1, curves: 2, numbers: [1, 1] }]);
       table.pieces[0].data = {};
       const curves = { ...one.curves, cell: [0, 0], trace: [1, 1], circuit: [1, 2] };
-      const all = { ...one, template: { ...one.template, circuits: "all" }, table, curves };
+      const all = { ...one, table, curves };
       const changes = new Map([["p", 2.5]]);
       const named = (family, shown) =>
-        plateCurveName({ family, curve: 0, changes, study: { home: 0, shown } });
+        plateCurveName({
+          family,
+          curve: 0,
+          changes,
+          study: { home: 0, shown },
+          description: { has_all_circuits: family === all },
+        });
       assert.equal(named(all, 0), "evans:1.1.1?p=2.5");
       assert.equal(named(all, 1), "evans:1.1.2?p=2.5");
       assert.equal(named(all, 2), "evans:1.1.1?p=2.5&circuit=3", "a curve that is not there");
@@ -240,7 +253,7 @@ const tests = [
         const measures = Object.fromEntries(names.map((name) => [name, whole.curves.measures[name]]));
         return { ...whole, curves: { ...whole.curves, measures } };
       };
-      const study = studyOf(whole, 0, new Map());
+      const study = firstStudy(whole);
       const summary = (family) => summaryOfStudy(family, 0, study, true);
       assert.match(summary(whole), /straightest portion .* Transmission angle from /);
       assert.doesNotMatch(summary(measured("mu_min_deg", "straight_length")), /straightest|Transmission/);
@@ -254,12 +267,7 @@ const tests = [
     () => {
       for (const id of ids) {
         const family = familyOf(folder, id);
-        for (const { name, low, high, recorded, min, max, grain } of changeableParameters(
-          family,
-          0,
-          1,
-          new Map(),
-        )) {
+        for (const { name, low, high, recorded, min, max, grain } of firstParameters(family)) {
           assert.ok(
             low <= recorded && recorded <= high && low < high && grain > 0,
             `${id}: ${name} from ${low} to ${high}`,
@@ -276,13 +284,8 @@ const tests = [
     "the straight portion of Peaucellier's inversor is the whole of its line",
     () => {
       const family = familyOf(folder, "peaucellier-lipkin");
-      const { linkage, circuit, joint, timeline } = studyOf(family, 0, new Map());
-      const { from, to } = timeline.passes[0];
-      const { points } = circuitPortion(linkage, circuit, joint, {
-        start: from,
-        span: to - from,
-        length: family.curves.measures.straight_length[0],
-      });
+      const { straight } = firstStudy(family).kernel.measures();
+      const { points } = straight;
       const long = Math.hypot(points[points.length - 2] - points[0], points[points.length - 1] - points[1]);
       assert.ok(Math.abs(long - family.curves.measures.straight_length[0]) < 1e-9 * long);
     },

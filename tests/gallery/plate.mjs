@@ -5,10 +5,11 @@
 
 import { runTests } from "./browser.mjs";
 import { ACCESSIBILITY } from "./plate-accessibility.mjs";
+import { KERNEL } from "./plate-kernel.mjs";
 import { MOTION } from "./plate-motion.mjs";
 import { PARAMETERS } from "./plate-parameters.mjs";
 import { READINGS } from "./plate-readings.mjs";
 
 const [folder] = process.argv.slice(2);
 
-await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY], { folder });
+await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL], { folder });

@@ -16,7 +16,7 @@ import {
   resampled,
   reversedOutline,
 } from "../../src/gallery/script/shape/outline.js";
-import { smoothed } from "../../src/gallery/script/shape/smoothing.js";
+import { smoothed } from "../../src/gallery/script/shape/query-shape.js";
 import { parseShape } from "../../src/gallery/script/shape/parse.js";
 import { searchByShape } from "../../src/gallery/script/shape/search.js";
 import { composed, fitted, inverted, transformed } from "../../src/gallery/script/shape/similarity.js";
@@ -72,8 +72,7 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   const circle = (count, noise) =>
     Float64Array.from(
       { length: 2 * count },
-      (_, k) =>
-        (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / count) + noise * (2 * random() - 1),
+      (_, k) => (k % 2 ? Math.sin : Math.cos)((2 * Math.PI * (k >> 1)) / count) + noise * (2 * random() - 1),
     );
   for (const points of [circle(300, 0), circle(12, 0), Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)])
     assert.equal(smoothed(points, true), points);
@@ -140,7 +139,8 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
     expected.forEach((value, k) => near(points[k], k % 2 ? -value : value, 1e-12, what));
   };
   const line = '<path d="M1 0L3 0L3 1"/>';
-  const moved = (transform, expected) => near2(`<g transform="${transform}">${line}</g>`, expected, transform);
+  const moved = (transform, expected) =>
+    near2(`<g transform="${transform}">${line}</g>`, expected, transform);
   moved("translate(5)", [6, 0, 8, 0, 8, 1]);
   moved("translate(5,-2)", [6, -2, 8, -2, 8, -1]);
   moved("scale(2)", [2, 0, 6, 0, 6, 2]);

@@ -18,6 +18,7 @@ mod folder;
 mod formats;
 mod gallery;
 mod hostile_text;
+mod kernel_module;
 mod lettering;
 mod limits;
 mod manifests;

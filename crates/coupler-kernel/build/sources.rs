@@ -58,7 +58,8 @@ pub fn digest(workspace: &Path) -> io::Result<String> {
             add("dependency", line);
         }
     }
-    for name in ["workspace.package", "profile.kernel"] {
+    let headers = manifest.lines().filter_map(|line| line.strip_prefix('[')?.strip_suffix(']'));
+    for name in headers.filter(|name| *name == "workspace.package" || name.starts_with("profile.kernel")) {
         add(name, &section(&manifest, name).collect::<Vec<_>>().join("\n"));
     }
     Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect())

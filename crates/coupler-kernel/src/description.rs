@@ -76,11 +76,14 @@ pub(crate) fn study_json(study: &Study, numbers: &mut Numbers) -> Value {
         "shown": study.shown,
         "joints": joints,
         "joint": joint.index(),
+        "traced": linkage.traced.iter().map(|joint| joint.index()).collect::<Vec<_>>(),
         "others": others,
         "is_length": linkage.input() == Input::Length,
         "is_mirrored": linkage.placement.handedness() < 0.0,
         "crank": crank_json(study, numbers),
-        "four_bar": four_bar.map(|four_bar| json!({ "class": four_bar.class().name() })),
+        "four_bar": four_bar.map(|four_bar| {
+            json!({ "class": four_bar.class().name(), "transmission_range": study.transmission_range() })
+        }),
         "has_cognates": cognates(study).is_some(),
         "has_pole": rotates,
         "mechanism": mechanism_json(study, numbers),
@@ -149,6 +152,7 @@ fn mechanism_json(study: &Study, numbers: &mut Numbers) -> Value {
     json!({
         "bars": outlines(false),
         "plates": outlines(true),
+        "frame": indices(pivots),
         "fixed": indices(&fixed),
         "fixed_at": numbers.points(at_start(&fixed)),
         "frame_at": numbers.points(at_start(pivots)),

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use coupler_curves::exchange::{ParameterSet, SelectedCurve, manifest_fragment};
+use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Case, Family};
 use coupler_curves::motion::Sampler;
@@ -107,6 +107,16 @@ impl OpenFamily {
         curves.first().map(work).ok_or_else(missing)
     }
 
+    /// The name of a curve, which is solved only if its number may have changed.
+    fn curve_name(&self, request: &CurveRequest) -> Result<String, String> {
+        if !request.changes.is_empty() {
+            return self.with_selected_curve(request, |curve| curve.name());
+        }
+        let family = self.planned.family.id.clone();
+        let (cell, curve) = (Some(request.cell), Some(request.curve));
+        Ok(CurveName { family, cell, curve, overrides: Vec::new() }.to_string())
+    }
+
     /// A curve in a format: the name of the file and its text.
     ///
     /// # Errors
@@ -128,10 +138,7 @@ impl OpenFamily {
 pub(crate) fn fragment(curves: &[(&OpenFamily, &CurveRequest)]) -> Result<String, String> {
     let changed: Vec<(ChangedCell, String)> = curves
         .iter()
-        .map(|(family, request)| {
-            let name = family.with_selected_curve(request, |curve| curve.name())?;
-            Ok((family.changed_cell(request)?, name))
-        })
+        .map(|(family, request)| Ok((family.changed_cell(request)?, family.curve_name(request)?)))
         .collect::<Result<_, String>>()?;
     let set = |(ChangedCell { family, .. }, name): &(ChangedCell, String)| {
         let values = family.parameter_values(&family.cell(0)).to_vec();

@@ -21,16 +21,26 @@ pub(crate) fn cognate_pins(study: &Study, cognates: &Cognates, pose: &[Point]) -
     Some([a, b, c, d])
 }
 
-/// The pivots of both cognates, and the bounds of their pins over the circuit.
+/// The lengths of the linkage and of both cognates, with the coordinates of their coupler points; the pivots of both
+/// cognates; and what their pins reach over the circuit.
 pub(crate) fn cognates_json(study: &Study, numbers: &mut Numbers) -> Option<Value> {
     let cognates = cognates(study)?;
     let pivots = cognates.others.map(|cognate| numbers.points(cognate.four_bar.pivots));
-    let pose = |sample: usize| -> Vec<Point> {
-        study.linkage.joint_ids().map(|joint| study.circuit.positions.point(joint, sample)).collect()
-    };
-    let pins = (0..study.circuit.len()).filter_map(|sample| cognate_pins(study, &cognates, &pose(sample)));
+    let pins =
+        (0..study.circuit.len()).filter_map(|sample| cognate_pins(study, &cognates, &study.sampled_pose(sample)));
     let pins: Vec<Point> = pins.flatten().chain([cognates.third_pivot]).collect();
-    Some(json!({ "pivots": pivots, "reached": numbers.points(pins) }))
+    let [first, second] = cognates.others.map(|cognate| cognate.four_bar);
+    let lengths = [cognates.original, first, second].map(|PlacedFourBar { lengths, coupler_point, .. }| {
+        json!({
+            "frame": lengths.frame,
+            "crank": lengths.crank,
+            "coupler": lengths.coupler,
+            "rocker": lengths.rocker,
+            "along": coupler_point.x,
+            "across": coupler_point.y,
+        })
+    });
+    Some(json!({ "lengths": lengths, "pivots": pivots, "reached": numbers.points(pins) }))
 }
 
 /// The fixed centrode in the plane, and the moving one in the frame of the link, which has its origin at the first joint

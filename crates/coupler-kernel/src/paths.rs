@@ -47,7 +47,7 @@ pub(crate) fn speeds_json(study: &Study, count: usize, numbers: &mut Numbers) ->
     })
 }
 
-/// All measures of the curve as the program computes them, and its straight portion.
+/// All measures of the curve as the program computes them, infinite ones as words, and its straight portion.
 pub(crate) fn measures_json(study: &Study, numbers: &mut Numbers) -> Value {
     let motion = Motion { circuits: vec![study.circuit.clone()], assembly_error: None };
     let curve = TracedCurve::new(&study.linkage, &motion, &motion.circuits[0], study.joint)
@@ -57,6 +57,8 @@ pub(crate) fn measures_json(study: &Study, numbers: &mut Numbers) -> Value {
         .zip(measure::compute_all(&curve))
         .map(|(measure, value)| {
             let value = match value {
+                // JSON has no infinity.
+                measure::Value::Number(number) if number.is_infinite() => json!(number.to_string()),
                 measure::Value::Number(number) => json!(number),
                 measure::Value::Word(word) => json!(word),
                 measure::Value::Missing => Value::Null,

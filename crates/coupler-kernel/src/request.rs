@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-/// A request. As JSON it is an object with its name in snake case as `method`, and with its fields.
+/// A request. As JSON it is an object with its name in snake case as `method`, and with its fields. Numbers may be given as
+/// strings: these are read to the last bit, as numbers of JSON need not be.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// What the module was built from.
@@ -194,7 +195,10 @@ impl<'v> Object<'v> {
 }
 
 fn number(value: &Value) -> Option<f64> {
-    value.as_f64()
+    match value {
+        Value::String(text) => text.parse().ok(),
+        value => value.as_f64(),
+    }
 }
 
 fn index(value: &Value) -> Option<usize> {
@@ -205,7 +209,7 @@ fn index(value: &Value) -> Option<usize> {
 fn named_number(value: &Value) -> Result<(String, f64), String> {
     let pair = value.as_array().map(Vec::as_slice);
     match pair {
-        Some([Value::String(name), value]) => value.as_f64().map(|value| (name.clone(), value)),
+        Some([Value::String(name), value]) => number(value).map(|value| (name.clone(), value)),
         _ => None,
     }
     .ok_or_else(|| format!("`{value}` is not a name with a number"))

@@ -218,6 +218,19 @@ impl Study {
         InstantaneousMotion::from_joint(&single.0, &derivatives, single.1)
     }
 
+    /// The positions of all joints at a sample of the circuit.
+    pub fn sampled_pose(&self, sample: usize) -> Vec<Point> {
+        self.linkage.joint_ids().map(|joint| self.circuit.positions.point(joint, sample)).collect()
+    }
+
+    /// The least and the greatest transmission angle at the samples of the circuit, in degrees, which include its limits;
+    /// `None` if the linkage is not a four-bar.
+    pub fn transmission_range(&self) -> Option<[f64; 2]> {
+        let angles = (0..self.circuit.len()).filter_map(|sample| self.transmission_angle(&self.sampled_pose(sample)));
+        let finite = angles.filter(|angle| angle.is_finite());
+        finite.map(|angle| [angle; 2]).reduce(|[least, most], [angle, _]| [least.min(angle), most.max(angle)])
+    }
+
     /// The transmission angle in a pose, in degrees; `None` if the linkage is not a four-bar.
     pub fn transmission_angle(&self, pose: &[Point]) -> Option<f64> {
         measure::transmission_angle(&self.linkage, pose)

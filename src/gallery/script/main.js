@@ -1,6 +1,8 @@
 // The entry point of the gallery.
 
 import { openAtlas } from "./data/atlas.js";
+import { KernelLoader } from "./kernel/kernel.js";
+import { elementIn } from "./view/dom.js";
 import { tabPins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { findRoute } from "./view/find/find-view.js";
@@ -11,9 +13,13 @@ import { pageRoute } from "./view/page.js";
 import { plateRoute } from "./view/plate/route.js";
 import { familyRoute } from "./view/family.js";
 
-const app = { atlas: openAtlas(document, window), pins: tabPins(window) };
+const shared = {
+  atlas: openAtlas(document, window),
+  kernel: new KernelLoader(document),
+  pins: tabPins(window),
+};
 
 /** The routes, the more specific first. */
 const routes = [overviewRoute, findRoute, shapeRoute, compareRoute, plateRoute, pageRoute, familyRoute];
 
-openShell(app, routes, document.getElementById("gallery"));
+openShell(shared, routes, elementIn(document, "#gallery"));

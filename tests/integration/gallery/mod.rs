@@ -5,4 +5,4 @@ mod data;
 mod page;
 mod parts;
 mod pieces;
-mod solver;
+mod scripts;

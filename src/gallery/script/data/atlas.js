@@ -1,40 +1,50 @@
 // The atlas: the summary of all families, and the data of each family, loaded on first use.
 
-import { outlineCache } from "./cache.js";
 import { FamilyReader, PieceReader } from "./reader.js";
 
+// The size of the files whose points are kept, in bytes: more than a search loads without a request.
+const MAX_KEPT_BYTES = 64e6;
+
 /**
- * Opens the atlas of `document`: { title, program, measures, families: [{ id, title, … }], book, family(id)
- * }. `family(id)` resolves to a family (reader.js) when its head is loaded; its method `load(piece)` loads a
- * piece, and `used(piece)` keeps a loaded one from being dropped soon.
+ * Opens the atlas of a document: its summary, and `family(id)`, which resolves to a family (reader.js) when its
+ * head is loaded.
  *
  * A page opened from disk cannot fetch files but can load scripts; the scripts of families call
  * `couplerAtlas`.
+ * @param {Document} document @param {Window & { couplerAtlas?: object }} window
  */
 export function openAtlas(document, window) {
-  const summary = JSON.parse(document.getElementById("atlas").textContent);
-  const heads = new Map();
-  const families = new Map();
+  /** @type {AtlasSummary} */ const summary = JSON.parse(document.getElementById("atlas")?.textContent ?? "");
+  /** @type {Map<string, Promise<Family>>} */ const heads = new Map();
+  /** @type {Map<string, Family>} */ const families = new Map();
   const cache = outlineCache();
-  let reader = null;
-  let finished = null;
+  /** @type {FamilyReader | PieceReader | null} */ let reader = null;
+  /** @type {{ family?: Family, piece?: Piece } | null} */ let finished = null;
   window.couplerAtlas = {
     begin: (head) => {
       reader = new FamilyReader(head);
     },
     piece: ({ id, series, number }) => {
       const family = families.get(id);
-      const piece = (series === "table" ? family?.table : family?.outlines)?.pieces[number - 1];
-      reader = piece ? new PieceReader(family, piece) : null;
+      const piece = family?.[series === "table" ? "table" : "outlines"].pieces[number - 1];
+      reader = family && piece ? new PieceReader(family, piece) : null;
     },
     cells: (rows) => reader?.cells(rows),
     curves: (outlines) => reader?.curves(outlines),
     page: (page) => reader?.page(page),
     end: () => {
-      finished = { result: reader?.finish(), piece: reader?.piece };
+      finished = reader && {
+        family: reader.family,
+        piece: reader instanceof PieceReader ? reader.piece : undefined,
+      };
+      reader?.finish();
     },
   };
-  // Scripts run one at a time, each followed by its load event.
+  /**
+   * Runs a script; resolves to what `accept` takes of it. Scripts run one at a time, each followed by its load event.
+   * @template T @param {string} file @param {(done: NonNullable<typeof finished>) => T | undefined | false} accept
+   * @returns {Promise<T>}
+   */
   const run = (file, accept) =>
     new Promise((resolve, reject) => {
       const script = document.createElement("script");
@@ -53,24 +63,25 @@ export function openAtlas(document, window) {
       script.onerror = failed;
       document.head.append(script);
     });
-  const loadPiece = (family, piece) => {
+  /** @param {Piece} piece */
+  const load = async (piece) => {
     piece.loading ??= run(piece.file, (done) => done.piece === piece).finally(() => {
       piece.loading = null;
     });
-    return piece.loading.then(() => cache.use(piece));
+    await piece.loading;
+    cache.use(piece);
   };
-  const loadHead = (shown) =>
-    run(shown.script, ({ result }) => result?.id === shown.id && result).then((family) => {
-      families.set(shown.id, family);
-      family.load = (piece) => loadPiece(family, piece);
-      family.used = (piece) => cache.use(piece);
-      return family;
-    });
-  const family = (id) => {
-    const shown = summary.families.find((candidate) => candidate.id === id);
-    if (!shown?.script) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));
-    if (!heads.has(id)) heads.set(id, loadHead(shown));
-    return heads.get(id);
+  const loadHead = async (id, script) => {
+    const head = await run(script, ({ family }) => family?.id === id && family);
+    families.set(id, Object.assign(head, { load, used: cache.use }));
+    return head;
+  };
+  const family = (/** @type {string} */ id) => {
+    const script = summary.families.find((candidate) => candidate.id === id)?.script;
+    if (!script) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));
+    const head = heads.get(id) ?? loadHead(id, script);
+    heads.set(id, head);
+    return head;
   };
   return { ...summary, family };
 }
@@ -79,7 +90,7 @@ export function openAtlas(document, window) {
 const PAGES_PER_FOLDER = 1000;
 
 /** The file of a page, numbered from 1; null if the family's pages are not written as files. */
-export function pageFile(atlas, id, page) {
+export function pageFile(/** @type {Atlas} */ atlas, id, page) {
   const shown = atlas.families.find((family) => family.id === id);
   if (!shown?.page_format || page > shown.pages) return null;
   const name = `${id}-${String(page).padStart(3, "0")}.${shown.page_format}`;
@@ -93,4 +104,29 @@ function pageFolder(page, pages) {
   const last = Math.min(first + PAGES_PER_FOLDER - 1, pages);
   const digits = Math.max(String(pages).length, 4);
   return `${[first, last].map((number) => String(number).padStart(digits, "0")).join("-")}/`;
+}
+
+/**
+ * Keeps the pieces of points that were used last, up to `maxBytes` of files, and those that are held
+ * (needs.js); `use(piece)` is called with a loaded piece. Pieces of tables are kept, since they are small;
+ * those in the head of a family have no file to be loaded from again.
+ */
+export function outlineCache(maxBytes = MAX_KEPT_BYTES) {
+  /** The pieces with data, the one used last at the end. @type {Set<Piece>} */
+  const kept = new Set();
+  const use = (/** @type {Piece} */ piece) => {
+    if (piece.name === "table" || piece.bytes === 0) return;
+    const isNew = !kept.delete(piece);
+    kept.add(piece);
+    if (!isNew) return;
+    let bytes = [...kept].reduce((sum, one) => sum + one.bytes, 0);
+    for (const one of kept) {
+      if (bytes <= maxBytes) return;
+      if (one === piece || one.holds > 0) continue;
+      one.data = null;
+      kept.delete(one);
+      bytes -= one.bytes;
+    }
+  };
+  return { use };
 }

@@ -5,7 +5,7 @@ import { upperBound } from "./series.js";
 /** The code of a missing word. */
 export const NO_WORD = 255;
 
-/** The index of the cell with a number, or undefined. */
+/** The index of the cell with a number, or undefined. @param {Family} _ */
 function findCell({ table, cells }, number) {
   const piece = table.ofNumber(number);
   if (!piece?.data) return undefined;
@@ -14,14 +14,14 @@ function findCell({ table, cells }, number) {
   return cell < firstCell + count && cells.number[cell] === number ? cell : undefined;
 }
 
-/** The index of the first curve of a cell, or of a later one. */
+/** The index of the first curve of a cell, or of a later one. @param {Family} _ */
 function firstCurveOf({ table, curves }, cell) {
-  const { firstCurve, curves: count } = table.ofCell(cell);
+  const { firstCurve = 0, curves: count = 0 } = table.ofCell(cell) ?? {};
   return firstCurve + upperBound(count, (k) => curves.cell[firstCurve + k] < cell);
 }
 
 /** The key of a curve in addresses: the numbers of its cell, its trace and its circuit. */
-export function curveKey(family, curve) {
+export function curveKey(/** @type {Family} */ family, curve) {
   const { cell, trace, circuit } = family.curves;
   return `${family.cells.number[cell[curve]]}.${trace[curve]}.${circuit[curve]}`;
 }
@@ -31,7 +31,7 @@ export function parseCurveKey(key) {
   return /^[0-9]+\.[0-9]+\.[0-9]+$/.test(key ?? "") ? key.split(".").map(Number) : null;
 }
 
-/** The index of the curve with a key, or undefined. */
+/** The index of the curve with a key, or undefined. @param {Family} family */
 export function findCurve(family, key) {
   const [number, trace, circuit] = parseCurveKey(key) ?? [];
   const cell = number === undefined ? undefined : findCell(family, number);
@@ -43,7 +43,7 @@ export function findCurve(family, key) {
   return undefined;
 }
 
-/** The number of curves of a cell, by its index. */
+/** The number of curves of a cell, by its index. @param {Family} family */
 export function curveCountOf(family, cell) {
   const first = firstCurveOf(family, cell);
   let curve = first;
@@ -51,7 +51,7 @@ export function curveCountOf(family, cell) {
   return curve - first;
 }
 
-/** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. */
+/** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. @param {Family} _ */
 export function curvePoints({ outlines }, curve) {
   const piece = outlines.ofCurve(curve);
   if (!piece?.data) return new Float64Array();
@@ -67,50 +67,50 @@ export function curvePoints({ outlines }, curve) {
   return out;
 }
 
-/** The bounding box of a curve, [x0, y0, x1, y1]. */
+/** The bounding box of a curve, [x0, y0, x1, y1]. @param {Family} _ */
 export function curveBox({ outlines }, curve) {
   const piece = outlines.ofCurve(curve);
   const at = 4 * (curve - (piece?.firstCurve ?? 0));
   return piece?.data ? piece.data.box.subarray(at, at + 4) : [NaN, NaN, NaN, NaN];
 }
 
-/** A text of a cell: its "caption", its "note", or the "reason" why it is not assembled or only in part. */
+/**
+ * A text of a cell: its "caption", its "note", or the "reason" why it is not assembled or only in part.
+ * @param {Family} _ @param {"caption" | "note" | "reason"} name
+ */
 export function cellText({ outlines }, cell, name) {
   const piece = outlines.ofCell(cell);
   return piece?.data?.[name][cell - piece.firstCell] ?? "";
 }
 
-/** The caption of a cell. */
+/** The caption of a cell. @param {Family} family */
 export function cellCaption(family, cell) {
   return cellText(family, cell, "caption");
 }
 
-/** The caption of the cell of a curve. */
+/** The caption of the cell of a curve. @param {Family} family */
 export function curveCaption(family, curve) {
   return cellCaption(family, family.curves.cell[curve]);
 }
 
-/**
- * The views of a page: [{ cell, scale, origin, curves: [curve] }], cells and curves as indices; none if not
- * loaded.
- */
-export function pageViews(family, page) {
+/** The views of a page; none if not loaded. @param {Family} family @param {number} page @returns {PageDrawing[]} */
+export function pageViews(/** @type {Family} */ family, page) {
   const views = family.outlines.ofPage(page)?.data?.pages.get(page) ?? [];
   return views.map(({ cell, scale, origin, curves }) => ({
-    cell: findCell(family, cell),
+    cell: findCell(family, cell) ?? -1,
     scale,
     origin,
-    curves: curves.map(([trace, circuit]) => findCurve(family, `${cell}.${trace}.${circuit}`)),
+    curves: curves.map(([trace, circuit]) => findCurve(family, `${cell}.${trace}.${circuit}`) ?? -1),
   }));
 }
 
-/** The numbers of the cells drawn on a page. */
+/** The numbers of the cells drawn on a page. @param {Family} _ */
 export function cellNumbersOnPage({ outlines }, page) {
   return (outlines.ofPage(page)?.data?.pages.get(page) ?? []).map(({ cell }) => cell);
 }
 
 /** The page of a curve, from 1, among those that are loaded; 0 if it is on none of them. */
-export function pageOfCurve(family, curve) {
+export function pageOfCurve(/** @type {Family} */ family, curve) {
   const key = curveKey(family, curve);
   for (const { data } of family.outlines.pieces) {
     const page = data && (data.pageOfKey ??= pagesByKey(data)).get(key);
@@ -119,7 +119,7 @@ export function pageOfCurve(family, curve) {
   return 0;
 }
 
-function pagesByKey({ pages }) {
+function pagesByKey(/** @type {PieceData} */ { pages }) {
   const found = new Map();
   for (const [page, views] of pages)
     for (const { cell, curves } of views)
@@ -127,14 +127,14 @@ function pagesByKey({ pages }) {
   return found;
 }
 
-/** The values of a cell's names, in the order of `family.names`. */
+/** The values of a cell's names, in the order of `family.names`. @param {Family} family */
 export function cellValues(family, cell) {
   const width = family.names.length;
   return family.cells.values.slice(cell * width, (cell + 1) * width);
 }
 
 /** The value of a measure of a curve: a number, a word, or undefined if it does not apply. */
-export function measureValue(family, curve, name) {
+export function measureValue(/** @type {Family} */ family, curve, name) {
   const numbers = family.curves.measures[name];
   if (numbers) return Number.isNaN(numbers[curve]) ? undefined : numbers[curve];
   const words = family.curves.words[name];

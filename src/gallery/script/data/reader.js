@@ -4,73 +4,69 @@ import { NO_WORD } from "./family.js";
 import { concatenateArrays, unpackColumn, unpackInto } from "./packed.js";
 import { Series } from "./series.js";
 
-/**
- * The family with a head, before any of its pieces is loaded:
- *
- * what the head passes (id, title, source, legend, linkage, layout, panels (the number on a page, null if
- *   that does not say which cells a page has), sampling, paper { width, height, color "#rrggbb" }, dash_deg,
- *   straight, template, names, free, derived),
- * cells { count, number, values (count × names), status (0 ok, 1 partial, 2 none) },
- * curves { count, cell, trace, circuit, closed, measures { name: f64[] }, words { name: { values, codes } }
- *   },
- * table, outlines: the Series of its pieces, pageCount, ranges [[least, greatest]] of its names, and traces:
- *   the greatest number of a traced point.
- *
- * Cells and curves are indices from 0. The arrays of cells and curves are valid where a piece of the table is
- * loaded; captions, points and pages, which may be dropped again, are read with the functions of family.js.
- */
-function newFamily({ pieces, measures, words, ...head }) {
+/** The family with a head, before any of its pieces is loaded. @returns {Family} */
+function newFamily(/** @type {FamilyHead} */ { pieces, measures, words, ...head }) {
   const table = new Series(head.id, "table", pieces.table);
   const outlines = new Series(head.id, "curves", pieces.curves);
-  const ranges = head.names.map((_, slot) =>
-    pieces.table
-      .filter((entry) => entry.ranges[slot])
-      .map((entry) => entry.ranges[slot])
-      .reduce(([a, b], [c, d]) => [Math.min(a, c), Math.max(b, d)], [Infinity, -Infinity]),
-  );
+  const ranges = head.names.map((_, slot) => {
+    const known = pieces.table.flatMap((entry) => (entry.ranges?.[slot] ? [entry.ranges[slot]] : []));
+    return widestRange(known);
+  });
   return {
     ...head,
-    cells: {
-      count: table.cells,
-      number: new Uint32Array(),
-      values: new Float64Array(),
-      status: new Uint8Array(),
-    },
-    curves: {
-      count: table.curves,
-      cell: new Uint32Array(),
-      trace: new Uint16Array(),
-      circuit: new Uint16Array(),
-      closed: new Uint8Array(),
-      measures: Object.fromEntries(measures.map((name) => [name, new Float64Array()])),
-      words: Object.fromEntries(words.map((name) => [name, { values: [], codes: new Uint8Array() }])),
-    },
+    cells: tableOfCells(0, table.cells, 0),
+    curves: tableOfCurves(0, table.curves, measures, words),
     table,
     outlines,
     pageCount: outlines.pages,
     ranges,
-    traces: Math.max(0, ...pieces.table.map((entry) => entry.traces)),
+    traces: Math.max(0, ...pieces.table.map((entry) => entry.traces ?? 0)),
     measureNames: { numbers: measures, words },
+    load: () => Promise.resolve(),
+    used: () => {},
   };
 }
 
-/** Makes room for the whole table, which takes memory only where it is filled. */
-function allocateTable({ cells, curves, names }) {
+/** @param {[number, number][]} ranges @returns {[number, number]} */
+function widestRange(ranges) {
+  return [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, most]) => most))];
+}
+
+/** The columns of `count` cells, with room for `room`. @returns {Cells} */
+function tableOfCells(room, count, width) {
+  return {
+    count,
+    number: new Uint32Array(room),
+    values: new Float64Array(room * width),
+    assignment: new Uint16Array(room),
+    status: new Uint8Array(room),
+  };
+}
+
+/** The columns of `count` curves, with room for `room`. @returns {Curves} */
+function tableOfCurves(room, count, measures, words) {
+  const wordsOf = (name) => [name, { values: [], codes: new Uint8Array(room).fill(NO_WORD) }];
+  return {
+    count,
+    cell: new Uint32Array(room),
+    trace: new Uint16Array(room),
+    circuit: new Uint16Array(room),
+    closed: new Uint8Array(room),
+    measures: Object.fromEntries(measures.map((name) => [name, new Float64Array(room)])),
+    words: Object.fromEntries(words.map(wordsOf)),
+  };
+}
+
+/** Makes room for the whole table, which takes memory only where it is filled. @param {Family} _ */
+function allocateTable(/** @type {Family} */ { cells, curves, names, measureNames }) {
   if (cells.number.length === cells.count) return;
-  cells.number = new Uint32Array(cells.count);
-  cells.values = new Float64Array(cells.count * names.length);
-  cells.status = new Uint8Array(cells.count);
-  curves.cell = new Uint32Array(curves.count);
-  curves.trace = new Uint16Array(curves.count);
-  curves.circuit = new Uint16Array(curves.count);
-  curves.closed = new Uint8Array(curves.count);
-  for (const name of Object.keys(curves.measures)) curves.measures[name] = new Float64Array(curves.count);
-  for (const word of Object.values(curves.words)) word.codes = new Uint8Array(curves.count).fill(NO_WORD);
+  Object.assign(cells, tableOfCells(cells.count, cells.count, names.length));
+  Object.assign(curves, tableOfCurves(curves.count, curves.count, measureNames.numbers, measureNames.words));
 }
 
 /** Collects the statements of a family's head; `finish()` returns the family. */
 export class FamilyReader {
-  constructor(head) {
+  constructor(/** @type {FamilyHead} */ head) {
     this.family = newFamily(head);
     const { table, outlines } = this.family;
     // A small family has everything in its head: its pieces have no files.
@@ -99,11 +95,13 @@ export class FamilyReader {
 
 /** Collects the statements of a piece; `finish()` adds its data to the family. */
 export class PieceReader {
-  constructor(family, piece) {
-    Object.assign(this, { family, piece });
-    [this.cell, this.curve] = [piece.firstCell, piece.firstCurve];
-    this.chunks = [];
-    this.pages = new Map();
+  constructor(/** @type {Family} */ family, /** @type {Piece} */ piece) {
+    this.family = family;
+    this.piece = piece;
+    this.cell = piece.firstCell;
+    this.curve = piece.firstCurve;
+    /** @type {Chunk[]} */ this.chunks = [];
+    /** @type {PieceData["pages"]} */ this.pages = new Map();
   }
 
   /** Rows of the table, written to their places. */
@@ -119,6 +117,7 @@ export class PieceReader {
       const values = unpackColumn(Float64Array, count, column);
       for (let k = 0; k < count; k += 1) cells.values[(this.cell + k) * width + slot] = values[k];
     });
+    unpackInto(cells.assignment, this.cell, count, rows.assignment ?? 0);
     unpackInto(cells.status, this.cell, count, rows.status);
     const each = unpackColumn(Uint16Array, count, rows.curves);
     let end = this.curve;
@@ -131,15 +130,12 @@ export class PieceReader {
     measureNames.numbers.forEach((name, k) =>
       unpackInto(curves.measures[name], this.curve, all, rows.measures[k]),
     );
-    measureNames.words.forEach((name, k) =>
-      addWords(
-        curves.words[name],
-        this.curve,
-        unpackColumn(Uint8Array, all, rows.words[k].codes),
-        rows.words[k],
-      ),
-    );
-    [this.cell, this.curve] = [this.cell + count, end];
+    measureNames.words.forEach((name, k) => {
+      const { codes, values } = rows.words[k];
+      addWords(curves.words[name], this.curve, unpackColumn(Uint8Array, all, codes), values);
+    });
+    this.cell += count;
+    this.curve = end;
   }
 
   /** Captions of cells, and points of curves. */
@@ -164,28 +160,36 @@ export class PieceReader {
 
   finish() {
     if (this.piece.name === "table") {
-      this.piece.data = {};
+      this.piece.data = emptyPiece();
       return;
     }
-    const all = (name, kind) =>
-      concatenateArrays(
-        this.chunks.map((chunk) => chunk[name]),
-        kind,
-      );
-    const texts = (name) => this.chunks.flatMap((chunk) => chunk[name]);
-    const data = packedPoints(
-      all("box", Float64Array),
-      all("counts", Uint16Array),
-      all("points", Uint16Array),
+    const { chunks, pages } = this;
+    const texts = (/** @type {"reason" | "caption" | "note"} */ name) => chunks.flatMap((one) => one[name]);
+    const box = concatenateArrays(
+      chunks.map((one) => one.box),
+      Float64Array,
     );
-    Object.assign(data, { reason: texts("reason"), caption: texts("caption"), note: texts("note") });
-    data.pages = this.pages;
-    this.piece.data = data;
+    const counts = concatenateArrays(
+      chunks.map((one) => one.counts),
+      Uint16Array,
+    );
+    const points = concatenateArrays(
+      chunks.map((one) => one.points),
+      Uint16Array,
+    );
+    const words = { reason: texts("reason"), caption: texts("caption"), note: texts("note") };
+    this.piece.data = { ...packedPoints(box, counts, points), ...words, pages };
   }
 }
 
-/** The points of curves, as a loaded piece has them, from their boxes, numbers and points. */
-export function packedPoints(box, counts, points) {
+/** The data of a piece of the table, whose rows are with those of the other pieces. @returns {PieceData} */
+function emptyPiece() {
+  const none = packedPoints(new Float64Array(), new Uint16Array(), new Uint16Array());
+  return { ...none, caption: [], note: [], reason: [], pages: new Map() };
+}
+
+/** The points of curves as a loaded piece has them, without texts. @param {Float64Array} box @param {Uint16Array} counts */
+export function packedPoints(box, counts, /** @type {Uint16Array} */ points) {
   const start = new Uint32Array(counts.length + 1);
   counts.forEach((count, k) => {
     start[k + 1] = start[k] + count;
@@ -193,46 +197,29 @@ export function packedPoints(box, counts, points) {
   return { box, start, points };
 }
 
+/** The places of words in a list of known ones, to which new ones are added. @param {string[]} words */
+export function renamedWords(words, /** @type {string[]} */ known) {
+  return words.map((word) => (known.includes(word) ? known.indexOf(word) : known.push(word) - 1));
+}
+
 /** Adds the words of some curves, which have a numbering of their own. */
-function addWords(column, at, codes, { values }) {
-  const renamed = values.map((word) =>
-    column.values.includes(word) ? column.values.indexOf(word) : column.values.push(word) - 1,
-  );
+function addWords(/** @type {Words} */ column, at, codes, values) {
+  const renamed = renamedWords(values, column.values);
   for (let k = 0; k < codes.length; k += 1) column.codes[at + k] = renamed[codes[k]] ?? NO_WORD;
 }
 
 /**
- * A family like another one with a single curve, whose table and outline are given: `cells` and `curves` as
- * in newFamily, `outline` { box, counts, points, caption, note, reason }.
+ * A family like another one with a single curve: its tables and its piece of points.
+ * @param {Family} family @param {Cells} cells @param {Curves} curves @param {PieceData} data @returns {Family}
  */
-export function singleCurveFamily(
-  family,
-  { number, values, status, trace, circuit, closed, measures, words },
-  outline,
-) {
-  const entry = { bytes: 0, cells: 1, curves: 1, numbers: [number, number] };
-  const [table, outlines] = ["table", "curves"].map((name) => new Series(family.id, name, [entry]));
-  table.pieces[0].data = {};
-  const { caption, note, reason } = outline;
-  outlines.pieces[0].data = {
-    ...packedPoints(outline.box, outline.counts, outline.points),
-    ...{ caption: [caption], note: [note], reason: [reason] },
-    pages: new Map(),
-  };
-  return {
-    ...family,
-    cells: { count: 1, number: Uint32Array.of(number), values, status: Uint8Array.of(status) },
-    curves: {
-      count: 1,
-      cell: Uint32Array.of(0),
-      trace: Uint16Array.of(trace),
-      circuit: Uint16Array.of(circuit),
-      closed: Uint8Array.of(closed),
-      measures,
-      words,
-    },
-    table,
-    outlines,
-    pageCount: 0,
-  };
+export function singleCurveFamily(family, cells, curves, data) {
+  const [number] = cells.number;
+  /** @type {PieceEntry} */ const entry = { bytes: 0, cells: 1, curves: 1, numbers: [number, number] };
+  const [table, outlines] = [
+    new Series(family.id, "table", [entry]),
+    new Series(family.id, "curves", [entry]),
+  ];
+  table.pieces[0].data = emptyPiece();
+  outlines.pieces[0].data = data;
+  return { ...family, cells, curves, table, outlines, pageCount: 0 };
 }

@@ -1,58 +1,40 @@
 // The pieces of a family's data, and which of them contains a cell, a curve or a page.
 
-/**
- * The pieces of a series, "table" or "curves", from the index in the head of a family: [{ name, number, file,
- * bytes, cells, curves, pages, numbers (of the first and the last cell), firstCell, firstCurve, firstPage,
- * data, loading, holds }], with `data` null until the piece is loaded. First pages count from 1.
- */
+/** The pieces of a series, from the index in the head of a family; pages are counted from 1. */
 export class Series {
+  /** @param {string} id @param {"table" | "curves"} name @param {PieceEntry[]} entries */
   constructor(id, name, entries) {
     let [firstCell, firstCurve, firstPage] = [0, 0, 1];
-    this.pieces = entries.map((entry, k) => {
-      const { bytes, cells, curves, pages = 0, numbers } = entry;
+    /** @type {Piece[]} */ this.pieces = entries.map(({ bytes, cells, curves, pages = 0, numbers }, k) => {
       const number = k + 1;
       const file = `${id}/gallery-${name}-${String(number).padStart(4, "0")}.js`;
-      const state = { data: null, loading: null, holds: 0 };
-      const piece = { name, number, file, bytes, cells, curves, pages, numbers, ...state };
-      Object.assign(piece, { firstCell, firstCurve, firstPage });
+      const first = { firstCell, firstCurve, firstPage };
       firstCell += cells;
       firstCurve += curves;
       firstPage += pages;
-      return piece;
+      const state = { data: null, loading: null, holds: 0 };
+      return { name, number, file, bytes, cells, curves, pages, numbers, ...first, ...state };
     });
     this.withCells = this.pieces.filter(({ cells }) => cells > 0);
-    [this.cells, this.curves, this.pages] = [firstCell, firstCurve, firstPage - 1];
+    this.cells = firstCell;
+    this.curves = firstCurve;
+    this.pages = firstPage - 1;
     this.bytes = this.pieces.reduce((sum, { bytes }) => sum + bytes, 0);
   }
 
   /** The piece with a cell, by its index. */
   ofCell(cell) {
-    return pieceAt(
-      this.pieces,
-      (piece) => piece.firstCell,
-      (piece) => piece.cells,
-      cell,
-    );
+    return pieceAt(this.pieces, "firstCell", "cells", cell);
   }
 
   /** The piece with a curve, by its index. */
   ofCurve(curve) {
-    return pieceAt(
-      this.pieces,
-      (piece) => piece.firstCurve,
-      (piece) => piece.curves,
-      curve,
-    );
+    return pieceAt(this.pieces, "firstCurve", "curves", curve);
   }
 
   /** The piece with a page, numbered from 1. */
   ofPage(page) {
-    return pieceAt(
-      this.pieces,
-      (piece) => piece.firstPage,
-      (piece) => piece.pages,
-      page,
-    );
+    return pieceAt(this.pieces, "firstPage", "pages", page);
   }
 
   /** The piece with the cell of a number, if there is such a cell. */
@@ -70,12 +52,14 @@ export class Series {
 }
 
 /**
- * The piece whose range, from `first` on and `count` long, contains a number; pieces without any are skipped.
+ * The piece whose range of cells, curves or pages contains a number; pieces without any are skipped.
+ * @param {Piece[]} pieces @param {"firstCell" | "firstCurve" | "firstPage"} first
+ * @param {"cells" | "curves" | "pages"} count @param {number} at
  */
 function pieceAt(pieces, first, count, at) {
   // Of pieces with the same first number, only the last is not empty.
-  const piece = pieces[upperBound(pieces.length, (k) => first(pieces[k]) <= at) - 1];
-  return piece && at < first(piece) + count(piece) ? piece : undefined;
+  const piece = pieces[upperBound(pieces.length, (k) => pieces[k][first] <= at) - 1];
+  return piece && at < piece[first] + piece[count] ? piece : undefined;
 }
 
 /** The number of leading indices below `count` for which a condition holds that fails for all after them. */

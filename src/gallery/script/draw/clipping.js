@@ -6,7 +6,7 @@ import { dataNumber } from "./path-data.js";
  * Path data of the part of a polyline [x, y, …] in a box [x0, y0, x1, y1]; it is interrupted at points that
  * are not finite.
  */
-export function clippedData(points, box, digits = 6) {
+export function clippedData(/** @type {Points} */ points, /** @type {Box} */ box, digits = 6) {
   const number = (x) => dataNumber(x, digits);
   let data = "";
   let penX = NaN;
@@ -26,7 +26,7 @@ export function clippedData(points, box, digits = 6) {
  * The part of a segment in a box, [x0, y0, x1, y1], by the algorithm of Liang and Barsky; null if there is
  * none.
  */
-export function segmentInBox(x0, y0, x1, y1, [left, low, right, high]) {
+export function segmentInBox(x0, y0, x1, y1, /** @type {Box} */ [left, low, right, high]) {
   const [dx, dy] = [x1 - x0, y1 - y0];
   if (!Number.isFinite(dx + dy)) return null;
   let [from, to] = [0, 1];

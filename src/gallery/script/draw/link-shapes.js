@@ -53,10 +53,13 @@ export function slotData(x0, y0, x1, y1) {
 }
 
 /**
- * Writes the ends of a slot (mechanism.js) on the screen, [X0, Y0, X1, Y1], to `out`; `scale` is in pixels
- * per unit.
+ * Writes the ends of the slot of a part on the screen, [X0, Y0, X1, Y1], to `out`, and returns the slot;
+ * `scale` is in pixels per unit.
  */
-export function slotEnds({ foot, base: [from, to], near, far }, at, scale, out) {
+export function slotEnds(/** @type {{ shape?: Slot }} */ { shape }, at, scale, out) {
+  if (!shape) throw new Error("there is no slot");
+  const { foot, near, far } = shape;
+  const [from, to] = shape.base;
   const [bx, by] = [at[2 * to] - at[2 * from], at[2 * to + 1] - at[2 * from + 1]];
   const size = Math.hypot(bx, by);
   const [ux, uy] = size > 0 ? [bx / size, by / size] : [1, 0];
@@ -65,7 +68,7 @@ export function slotEnds({ foot, base: [from, to], near, far }, at, scale, out) 
     out[2 * k] = at[2 * foot] + scale * (along * ux + left * uy);
     out[2 * k + 1] = at[2 * foot + 1] + scale * (along * uy - left * ux);
   });
-  return out;
+  return shape;
 }
 
 /** Path data of an arrow from a point along dx, dy. */
@@ -85,4 +88,17 @@ function boxData(x0, y0, x1, y1, half) {
   const [nx, ny] = size > 0 ? [(-half * (y1 - y0)) / size, (half * (x1 - x0)) / size] : [0, half];
   const corner = (x, y, side) => `${pixel(x + side * nx)} ${pixel(y + side * ny)}`;
   return `M${corner(x0, y0, 1)}L${corner(x1, y1, 1)}L${corner(x1, y1, -1)}L${corner(x0, y0, -1)}Z`;
+}
+
+/** Path data of the ground symbol of a pivot at X, Y on the screen, `width` pixels wide. */
+export function groundData(x, y, width = 22) {
+  const STROKES = 4;
+  const top = y + 0.5 * width;
+  const [left, deep, step] = [x - width / 2, 0.24 * width, width / STROKES];
+  let data = `M${pixel(left)} ${pixel(top)}h${pixel(width)}`;
+  for (let k = 1; k <= STROKES; k++)
+    data += `M${pixel(left + k * step)} ${pixel(top)}l${pixel(-deep)} ${pixel(deep)}`;
+  // Two legs from the pivot's rim to the ground.
+  const leg = (side) => `M${pixel(x + 3.2 * side)} ${pixel(y + 5)}L${pixel(x + 6.5 * side)} ${pixel(top)}`;
+  return data + leg(-1) + leg(1);
 }

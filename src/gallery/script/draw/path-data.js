@@ -16,6 +16,7 @@ export function roundingGrid(size) {
  * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`, interrupted at
  * points that are not finite; empty for fewer than two points. Numbers are rounded to 1 / `grid` if it is
  * given, else to `digits`.
+ * @param {Points} points
  */
 export function polylineData(
   points,
@@ -35,6 +36,23 @@ export function polylineData(
     run += 1;
   }
   return data === "" || !data.includes("L") ? "" : `${data}${closed && run > 2 ? "Z" : ""}`;
+}
+
+/**
+ * Path data of an outline on the screen, with a number of decimals; points closer than `grain` to the one before
+ * are left out, except the first and the last.
+ * @param {Points} points @param {boolean} closed @param {Placement} placement
+ */
+export function placedData(points, closed, { scale, x, y }, decimals = 1, grain = 0) {
+  let [lastX, lastY] = [Infinity, Infinity];
+  let data = "";
+  for (let k = 0; k < points.length; k += 2) {
+    const [atX, atY] = [x + scale * points[k], y - scale * points[k + 1]];
+    if (Math.abs(atX - lastX) < grain && Math.abs(atY - lastY) < grain && k + 2 < points.length) continue;
+    data += `${data ? "L" : "M"}${atX.toFixed(decimals)} ${atY.toFixed(decimals)}`;
+    [lastX, lastY] = [atX, atY];
+  }
+  return closed ? `${data}Z` : data;
 }
 
 /** Path data of a circle. */

@@ -1,9 +1,14 @@
 // Maps the plane to the screen by a view: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
 
-/** Extends a box [x0, y0, x1, y1], at first `emptyBox()`, to points in columns x[i], y[i], and returns it. */
-export function widenedBox(box, xs, ys, count = xs.length) {
-  for (let i = 0; i < count; i++) {
-    const [x, y] = [xs[i], ys[i]];
+/** The empty box. */
+export function emptyBox() {
+  return [Infinity, Infinity, -Infinity, -Infinity];
+}
+
+/** Extends a box, at first the empty one, to the finite points of an array, and returns it. */
+export function widenedBox(/** @type {number[]} */ box, /** @type {Points} */ points) {
+  for (let k = 0; k + 1 < points.length; k += 2) {
+    const [x, y] = [points[k], points[k + 1]];
     if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
     if (x < box[0]) box[0] = x;
     if (y < box[1]) box[1] = y;
@@ -13,14 +18,14 @@ export function widenedBox(box, xs, ys, count = xs.length) {
   return box;
 }
 
-/** The empty box. */
-export function emptyBox() {
-  return [Infinity, Infinity, -Infinity, -Infinity];
+/** The bounding box of the finite points of arrays. @param {Points[]} outlines */
+export function boxOfPoints(...outlines) {
+  return outlines.reduce((/** @type {number[]} */ box, points) => widenedBox(box, points), emptyBox());
 }
 
 /**
- * The view { scale, x, y } that fits a box of the plane into the middle of a frame, `margin` pixels from its
- * edges.
+ * The placement that fits a box of the plane into the middle of a frame, `margin` pixels from its edges.
+ * @param {Box} _ @param {Size & { margin?: number }} _1
  */
 export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
   const [w, h] = [Math.max(width - 2 * margin, 1), Math.max(height - 2 * margin, 1)];
@@ -33,11 +38,11 @@ export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
 }
 
 /** A view zoomed by a factor about a point on the screen. */
-export function zoomedView({ scale, x, y }, factor, [atX, atY]) {
+export function zoomedView(/** @type {Placement} */ { scale, x, y }, factor, [atX, atY]) {
   return { scale: scale * factor, x: atX + (x - atX) * factor, y: atY + (y - atY) * factor };
 }
 
-/** The view between two others at a fraction (0 to 1). */
+/** The view between two others at a fraction (0 to 1). @param {Placement} from @param {Placement} to */
 export function interpolatedView(from, to, part) {
   const between = (a, b) => a + (b - a) * part;
   return {
@@ -47,7 +52,7 @@ export function interpolatedView(from, to, part) {
   };
 }
 
-/** The point of the plane at a point on the screen. */
+/** The point of the plane at a point on the screen. @param {Placement} _ @param {Point} _1 */
 export function planePoint({ scale, x, y }, [atX, atY]) {
   return [(atX - x) / scale, (y - atY) / scale];
 }
@@ -57,4 +62,14 @@ export function roundBelow(x) {
   const power = 10 ** Math.floor(Math.log10(x));
   const part = x / power;
   return (part >= 5 ? 5 : part >= 2 ? 2 : 1) * power;
+}
+
+/** The point on the screen of a point of the plane. @returns {Point} */
+export function screenPoint(/** @type {Placement} */ { scale, x, y }, /** @type {Point} */ [px, py]) {
+  return [x + scale * px, y - scale * py];
+}
+
+/** The points of a flat array. @param {Points} points @returns {Point[]} */
+export function pointPairs(points) {
+  return Array.from({ length: points.length / 2 }, (_, k) => [points[2 * k], points[2 * k + 1]]);
 }

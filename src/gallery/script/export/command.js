@@ -3,36 +3,20 @@
 import { curveCountOf, findCurve } from "../data/family.js";
 
 /**
- * The command that exports `count` curves, selected by `words` (shortenCurveNames), from a manifest in the
+ * The command that exports `count` curves, selected by `words` (shortenCurveNames), from the manifest in the
  * atlas's folder.
  */
-export function exportCommand(words, count, manifest = "atlas.toml") {
+export function exportCommand(words, count) {
   const formats = ["svg", "moving-svg", "png", "dxf", "csv", "json", "toml"];
   const chosen = count > 20 ? ["svg", "dxf", "csv", "json", "toml"] : formats;
   const named = words.map(quoteForShell).join(" ");
-  return `coupler-atlas export ${manifest} ${named} --format ${chosen.join(",")} -o curves\n`;
-}
-
-/**
- * Instructions and the command for curves on circuits that the atlas does not contain. `names` are the
- * curves' names; `words` are their names in the manifest fragment (curveNamesInManifest), null where a
- * manifest cannot describe the curve.
- */
-export function extraCircuitsCommand(names, words) {
-  const undescribed = names.filter((_, k) => words[k] === null);
-  const said = words.filter((word) => word !== null);
-  const lines = [
-    `# The atlas does not contain the circuit of ${names.join(", ")}.`,
-    ...undescribed.map((name) => `# A manifest cannot describe the moved point of ${name}.`),
-  ];
-  if (said.length === 0) return `${lines.join("\n")}\n`;
-  lines.push("# The manifest fragment has all circuits: save it below an [atlas] table as circuits.toml.");
-  return `${lines.join("\n")}\n${exportCommand(said, said.length, "circuits.toml")}`;
+  return `coupler-atlas export atlas.toml ${named} --format ${chosen.join(",")} -o curves\n`;
 }
 
 /**
  * The shortest list of words that selects the same curves: a family's id for all its curves, a cell's number
  * for all curves of the cell. `families` maps ids to families.
+ * @param {string[]} names @param {Map<string, Family>} families
  */
 export function shortenCurveNames(names, families) {
   const words = [];
@@ -46,6 +30,7 @@ export function shortenCurveNames(names, families) {
   }
   const shortened = [...plain].flatMap(([id, keys]) => {
     const family = families.get(id);
+    if (!family) return [];
     if (keys.length === family.curves.count) return [id];
     const named = new Map();
     for (const key of keys) {
@@ -54,7 +39,7 @@ export function shortenCurveNames(names, families) {
     }
     const isWhole = ([key, ...others]) =>
       others.length > 0 &&
-      others.length + 1 === curveCountOf(family, family.curves.cell[findCurve(family, key)]);
+      others.length + 1 === curveCountOf(family, family.curves.cell[findCurve(family, key) ?? 0]);
     return [...named].flatMap(([cell, own]) =>
       isWhole(own) ? [`${id}:${cell}`] : own.map((key) => `${id}:${key}`),
     );

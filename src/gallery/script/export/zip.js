@@ -1,7 +1,9 @@
 // Writes a ZIP archive without compression (PKWARE, APPNOTE 6.3, sections 4.3 and 4.4).
 
+import { concatenateArrays } from "../data/packed.js";
+
 /** An archive of files [{ name, bytes }] as bytes. The same files give the same archive. */
-export function zipOfFiles(files) {
+export function zipOfFiles(/** @type {{ name: string; bytes: Uint8Array }[]} */ files) {
   const entries = files.map(({ name, bytes }) => ({
     name: new TextEncoder().encode(name),
     bytes,
@@ -21,32 +23,15 @@ export function zipOfFiles(files) {
   }
   const size = directory.reduce((sum, { length }) => sum + length, 0);
   const count = entries.length;
-  const end = zipRecord(0x06054b50, [
-    [2, 0],
-    [2, 0],
-    [2, count],
-    [2, count],
-    [4, size],
-    [4, offset],
-    [2, 0],
-  ]);
-  return joinedBytes([...parts, ...directory, end]);
+  const counts = [count, count].map((value) => [2, value]);
+  const end = zipRecord(0x06054b50, [[2, 0], [2, 0], ...counts, [4, size], [4, offset], [2, 0]]);
+  return concatenateArrays([...parts, ...directory, end], Uint8Array);
 }
 
 // The fields of both headers of a file: version needed, UTF-8 names, stored, 1 January 1980.
 function zipFacts({ name, bytes, crc }) {
-  return [
-    [2, 20],
-    [2, 0x0800],
-    [2, 0],
-    [2, 0],
-    [2, 0x21],
-    [4, crc],
-    [4, bytes.length],
-    [4, bytes.length],
-    [2, name.length],
-    [2, 0],
-  ];
+  const start = [20, 0x0800, 0, 0, 0x21].map((value) => [2, value]);
+  return [...start, [4, crc], [4, bytes.length], [4, bytes.length], [2, name.length], [2, 0]];
 }
 
 // A signature and fields [bytes, value], little-endian.
@@ -60,16 +45,6 @@ function zipRecord(signature, fields) {
     at += size;
   }
   return new Uint8Array(out.buffer);
-}
-
-function joinedBytes(parts) {
-  const out = new Uint8Array(parts.reduce((sum, { length }) => sum + length, 0));
-  let at = 0;
-  for (const part of parts) {
-    out.set(part, at);
-    at += part.length;
-  }
-  return out;
 }
 
 /** The CRC-32 checksum of bytes, as ZIP and PNG define it. */

@@ -15,8 +15,8 @@ const FIRST_NUMBERS = [
 const LATER_WORDS = ["type", "shortest", "symmetry"];
 
 /**
- * The columns of a table with at least two different values: [{ name, group: "first" | "more" | "parameters",
- * kind: "words" | "numbers", unit, definition }]. Columns in `kept` (their names) are always included.
+ * The columns of a table with at least two different values. Columns in `kept` (their names) are always included.
+ * @param {CurveTable} table @param {Measure[]} measures @returns {Column[]}
  */
 export function filterColumns(table, measures, kept = new Set()) {
   const byName = new Map(measures.map((measure) => [measure.name, measure]));
@@ -43,13 +43,13 @@ export function filterColumns(table, measures, kept = new Set()) {
   return listed.filter((one) => kept.has(one.name) || hasDistinctValues(one));
 }
 
-function hasDistinctWords(table, name) {
+function hasDistinctWords(/** @type {CurveTable} */ table, name) {
   const { codes } = table.words(name);
   const first = codes[0];
   return codes.some((code) => code !== first) && codes.some((code) => code !== NO_WORD);
 }
 
-function hasDistinctNumbers(table, name) {
+function hasDistinctNumbers(/** @type {CurveTable} */ table, name) {
   const values = table.numbers(name);
   let first = NaN;
   for (let row = 0; row < values.length; row += 1) {

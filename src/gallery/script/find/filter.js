@@ -1,18 +1,17 @@
-// Filters the rows of a table.
+// Filters and sorts the rows of a table.
 
-/**
- * Filters of a table by column name: { low, high } for numbers (both optional, inclusive), or a Set of words.
- * A row without a value does not pass.
- */
+import { NO_WORD } from "../data/family.js";
+
+/** Filters of a table by column name. A row without a value does not pass. */
 export class Filters {
-  constructor(table) {
+  constructor(/** @type {CurveTable} */ table) {
     this.table = table;
     this.failing = new Uint16Array(table.count);
     this.fails = new Map();
     this.passing = null;
   }
 
-  /** Sets the filter of a column; null removes it. */
+  /** Sets the filter of a column; null removes it. @param {Filter | null} filter */
   set(name, filter) {
     const before = this.fails.get(name);
     const after = filter && this.failuresOf(name, filter);
@@ -23,7 +22,7 @@ export class Filters {
     this.passing = null;
   }
 
-  failuresOf(name, filter) {
+  failuresOf(name, /** @type {Filter} */ filter) {
     const out = new Uint8Array(this.table.count);
     if (filter instanceof Set) {
       const { values, codes } = this.table.words(name);
@@ -68,4 +67,50 @@ export class Filters {
     }
     return counts.subarray(0, values.length);
   }
+}
+
+/** The sort orders of a table's rows, cached. */
+export class Orders {
+  constructor(/** @type {CurveTable} */ table) {
+    this.table = table;
+    this.cache = new Map();
+  }
+
+  /**
+   * All rows sorted by a column of numbers or words (`kind`), ascending, or descending if `down`. Rows
+   * without a value come last in both cases; ties keep the table's order. Without a name, the table's order.
+   */
+  by(name, kind, down) {
+    const key = `${down ? "-" : ""}${kind} ${name}`;
+    if (!this.cache.has(key)) this.cache.set(key, this.compute(name, kind, down));
+    return this.cache.get(key);
+  }
+
+  compute(name, kind, down) {
+    const rows = Uint32Array.from({ length: this.table.count }, (_, row) => row);
+    if (!name) return rows;
+    const values = kind === "words" ? wordRanks(this.table.words(name)) : this.table.numbers(name);
+    const sign = down ? -1 : 1;
+    return rows.sort((a, b) => {
+      const [u, v] = [values[a], values[b]];
+      if (Number.isNaN(u) || Number.isNaN(v))
+        return Number(Number.isNaN(u)) - Number(Number.isNaN(v)) || a - b;
+      // The difference of equal infinities is NaN.
+      return (u === v ? 0 : sign * (u < v ? -1 : 1)) || a - b;
+    });
+  }
+}
+
+function wordRanks(/** @type {Words} */ { values, codes }) {
+  const sorted = [...values].sort();
+  const ranks = values.map((word) => sorted.indexOf(word));
+  return Float64Array.from(codes, (code) => (code === NO_WORD ? NaN : ranks[code]));
+}
+
+/** The rows of an order that pass. @param {Uint32Array} order @param {Uint16Array} failing */
+export function passingRows(order, failing) {
+  const rows = new Uint32Array(order.length);
+  let count = 0;
+  for (let k = 0; k < order.length; k += 1) if (failing[order[k]] === 0) rows[count++] = order[k];
+  return rows.subarray(0, count);
 }

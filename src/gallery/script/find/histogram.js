@@ -5,11 +5,10 @@ export const BINS = 48;
 const NO_BIN = 255;
 
 /**
- * The histogram of a column: { low, high, isLog, bins u8[count], counts u32[BINS], placeOf(value),
- * valueAt(place) } with places from 0 to 1 between `low` and `high`. Logarithmic if all numbers are positive
- * and the middle 90 % span more than a factor of thirty. Infinity is in the last bin.
+ * The histogram of a column, with places from 0 to 1 between `low` and `high`. Logarithmic if all numbers are
+ * positive and the middle 90 % span more than a factor of thirty. Infinity is in the last bin.
  */
-export function histogramOf(values) {
+export function histogramOf(/** @type {Float64Array} */ values) {
   const sorted = values.filter((value) => Number.isFinite(value)).sort();
   const [low, high] = sorted.length ? [sorted[0], sorted[sorted.length - 1]] : [0, 1];
   const part = (share) => sorted[Math.floor(share * (sorted.length - 1))];
@@ -35,7 +34,7 @@ export function histogramOf(values) {
   return { low, high, isLog, bins, counts, placeOf, valueAt };
 }
 
-/** The number of the given rows in each bin. */
+/** The number of the given rows in each bin. @param {Histogram} _ @param {Uint32Array} rows */
 export function binCounts({ bins }, rows) {
   const counts = new Uint32Array(NO_BIN + 1);
   for (let k = 0; k < rows.length; k += 1) counts[bins[rows[k]]] += 1;

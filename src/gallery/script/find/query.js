@@ -3,11 +3,8 @@
 
 const OTHER_KEYS = new Set(["family", "sort", "show"]);
 
-/**
- * Parses the query of an address: { families: [id] or null for all, filters: Map of column to a Set of words
- * or { low, high }, sort: { name, down }, show: "sheet" | "table" }.
- */
-export function parseFindQuery(query) {
+/** Parses the query of an address. @param {Query} query */
+export function parseFindQuery(/** @type {Query} */ query) {
   const families = query.get("family");
   const sort = query.get("sort") ?? "";
   const filters = new Map();
@@ -31,7 +28,7 @@ function parseFilter(text) {
   return low === undefined && high === undefined ? null : { low, high };
 }
 
-/** The inverse of parseFindQuery, as data/address.js writes it. */
+/** The inverse of parseFindQuery, as data/address.js writes it. @param {FindQuery} _ */
 export function formatFindQuery({ families, filters, sort, show }) {
   const query = new Map();
   if (families) query.set("family", families.join(","));

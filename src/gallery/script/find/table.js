@@ -1,6 +1,7 @@
 // All curves of some families as one table: a row for each curve, a column for each measure and parameter.
 
 import { NO_WORD, curveKey } from "../data/family.js";
+import { renamedWords } from "../data/reader.js";
 
 /** Columns computed from measures, for frequent queries that no single measure answers. */
 export const DERIVED_COLUMNS = {
@@ -36,7 +37,7 @@ const INPUT_WORDS = ["between limits", "full turn"];
  * are indices. Columns are computed on first use.
  */
 export class CurveTable {
-  constructor(families, counts = families.map(({ curves }) => curves.count)) {
+  constructor(/** @type {Family[]} */ families, counts = families.map(({ curves }) => curves.count)) {
     this.families = families;
     this.counts = counts;
     this.count = counts.reduce((sum, count) => sum + count, 0);
@@ -52,10 +53,11 @@ export class CurveTable {
     });
   }
 
-  /** The name of a row's curve, with its family. */
-  nameOf(row) {
+  /** The curve of a row, with its name. */
+  curveOf(row) {
     const family = this.families[this.family[row]];
-    return `${family.id}:${curveKey(family, this.curve[row])}`;
+    const curve = this.curve[row];
+    return { family, curve, name: `${family.id}:${curveKey(family, curve)}` };
   }
 
   /** Whether any of the families has a measure. */
@@ -122,9 +124,7 @@ export class CurveTable {
     let row = 0;
     this.families.forEach(({ curves }, k) => {
       const own = curves.words[name];
-      const renamed = own?.values.map((word) =>
-        values.includes(word) ? values.indexOf(word) : values.push(word) - 1,
-      );
+      const renamed = renamedWords(own?.values ?? [], values);
       for (let curve = 0; curve < this.counts[k]; curve += 1, row += 1) {
         if (own && own.codes[curve] !== NO_WORD) codes[row] = renamed[own.codes[curve]];
       }

@@ -1,5 +1,6 @@
 // Fits a curve of an index to a shape: the whole curve, or a portion of it.
 
+import { boxOfPoints } from "../draw/plane-view.js";
 import { closestFit } from "./fit.js";
 import { INDEX_POINTS, pointsOf } from "./shape-index.js";
 import { withoutDuplicates, mirroredOutline, portion, resampled, reversedOutline } from "./outline.js";
@@ -15,9 +16,10 @@ const PRECISION = {
 const MARGIN = 0.15;
 
 /**
- * Fits a whole curve to a shape, starting from a seed { mirror, reversed, start }: { rms, greatest,
- * similarity, from, to, start }: the similarity maps the curve's plane to the shape's outline; `start` is in
- * the direction of the seed.
+ * Fits a whole curve to a shape, starting from a seed: the similarity maps the curve's plane to the shape's
+ * outline; `start` is in the direction of the seed.
+ * @param {ShapeIndex} index @param {number} curve @param {QueryOutlines} query @param {Seed} seed
+ * @returns {Fit & { start: number }}
  */
 export function wholeFit(index, curve, query, seed, care) {
   const closed = index.closed[curve] === 1;
@@ -46,11 +48,12 @@ export function wholeFit(index, curve, query, seed, care) {
 /**
  * Fits a portion of a curve to a shape; the seed also has a `span`, and `start` is in the curve's own
  * direction.
+ * @param {ShapeIndex} index @param {QueryOutlines} query @param {Seed} seed
  */
 export function partFit(index, curve, query, seed, care) {
   const closed = index.closed[curve] === 1;
   const { piece: count, rounds, reach } = PRECISION[care];
-  const { start, span } = seed;
+  const { start, span = 1 } = seed;
   const margin = MARGIN * span;
   const piece = portion(outlineOf(index, curve, care), closed, start - margin, start + span + margin, count);
   const seen = orientedCurve(piece.points, seed, false);
@@ -70,17 +73,17 @@ export function partFit(index, curve, query, seed, care) {
  * The points of a curve: those stored in the index, in its units, for a rough comparison, and the original
  * ones for an exact one.
  */
-function outlineOf(index, curve, care) {
+function outlineOf(/** @type {ShapeIndex} */ index, curve, care) {
   if (care === "rough") return index.kept.subarray(2 * INDEX_POINTS * curve, 2 * INDEX_POINTS * (curve + 1));
   return withoutDuplicates(pointsOf(index, curve), index.closed[curve] === 1);
 }
 
 /**
- * A curve in the direction and orientation of a seed, centred, with a size of 1: { points, closed, frame };
- * the frame is the similarity from its own plane.
+ * A curve in the direction and orientation of a seed, centred, with a size of 1; the frame is the similarity from
+ * its own plane.
  */
-function orientedCurve(points, { mirror, reversed }, closed) {
-  const [x0, y0, x1, y1] = boxOf(points);
+function orientedCurve(/** @type {Float64Array} */ points, /** @type {Seed} */ { mirror, reversed }, closed) {
+  const [x0, y0, x1, y1] = boxOfPoints(points);
   const scale = 1 / (Math.hypot(x1 - x0, y1 - y0) || 1);
   const [x, y] = [(x0 + x1) / 2, (y0 + y1) / 2];
   const own = Float64Array.from(points, (value, k) => scale * (value - (k % 2 ? y : x)));
@@ -90,15 +93,4 @@ function orientedCurve(points, { mirror, reversed }, closed) {
     closed,
     frame: { mirror, re: scale, im: 0, x: -scale * x, y: mirror ? scale * y : -scale * y },
   };
-}
-
-function boxOf(points) {
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  for (let k = 0; k < points.length; k += 2) {
-    box[0] = Math.min(box[0], points[k]);
-    box[1] = Math.min(box[1], points[k + 1]);
-    box[2] = Math.max(box[2], points[k]);
-    box[3] = Math.max(box[3], points[k + 1]);
-  }
-  return box;
 }

@@ -1,6 +1,7 @@
 // Encodes a drawn shape as a word of an address.
 
-import { lengthsAlong } from "./outline.js";
+import { boxOfPoints } from "../draw/plane-view.js";
+import { lengthOf } from "./outline.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 // Twelve bits of a coordinate: one in 4,096 of the greater side of the shape's box.
@@ -10,12 +11,10 @@ const COORDINATE_MAX = 4095;
  * A shape, simplified to at most `most` points, in letters of base64url: "c" if it is closed or "o", then
  * four letters for each point.
  */
-export function encodeShape(points, closed, most = 48) {
+export function encodeShape(/** @type {Float64Array} */ points, closed, most = 48) {
   const few = simplified(points, closed, most);
-  const xs = few.filter((_, k) => k % 2 === 0);
-  const ys = few.filter((_, k) => k % 2 === 1);
-  const [x0, y0] = [Math.min(...xs), Math.min(...ys)];
-  const side = Math.max(Math.max(...xs) - x0, Math.max(...ys) - y0) || 1;
+  const [x0, y0, x1, y1] = boxOfPoints(few);
+  const side = Math.max(x1 - x0, y1 - y0) || 1;
   let word = closed ? "c" : "o";
   few.forEach((value, k) => {
     const whole = Math.round(((value - (k % 2 ? y0 : x0)) / side) * COORDINATE_MAX);
@@ -39,7 +38,7 @@ export function decodeShape(word) {
  * Simplifies an outline to `most` points: removes, one after another, the point with the smallest triangle
  * with its neighbours (Visvalingam and Whyatt 1993). The ends of an open outline are kept.
  */
-export function simplified(points, closed, most) {
+export function simplified(/** @type {Float64Array} */ points, closed, most) {
   const kept = Array.from({ length: points.length / 2 }, (_, k) => k);
   const area = (a, b, c) =>
     Math.abs(
@@ -61,6 +60,6 @@ export function simplified(points, closed, most) {
 }
 
 /** Whether an outline has a length. */
-export function hasLength(points) {
-  return points.length >= 4 && lengthsAlong(points, false).at(-1) > 0;
+export function hasLength(/** @type {Float64Array} */ points) {
+  return points.length >= 4 && lengthOf(points, false) > 0;
 }

@@ -6,18 +6,16 @@ import { fitted, fittedToLines, transformed } from "./similarity.js";
 const SLIP = 0.02;
 
 /**
- * Fits `curve` to `query`, an outline of the same direction and about the same extent, 1.
+ * Fits `curve` to `query`, an outline of the same direction and about the same extent, 1, both evenly spaced.
+ * `start` and `span` give the positions on `curve`, counted in its points, between which `query` approximately
+ * lies. With `whole`, all of `curve` is compared, not only the part between the ends of `query`. `rounds` is the
+ * number of rounds of pairing and fitting; `reach` is how far from its expected position the nearest point is
+ * searched, by the length of the other outline: far enough for the uneven speed of a drawing hand, and not so far
+ * that one arm of a figure is mistaken for another.
  *
- * Both are { points, closed }, evenly spaced; `start` and `span` give the positions on `curve`, counted in
- * its points, between which `query` approximately lies. With `whole`, all of `curve` is compared, not only
- * the part between the ends of `query`. `rounds` is the number of rounds of pairing and fitting; `reach` is
- * how far from its expected position the nearest point is searched, by the length of the other outline: far
- * enough for the uneven speed of a drawing hand, and not so far that one arm of a figure is mistaken for
- * another.
- *
- * Returns { rms, greatest, similarity, from, to, start }: the deviations of both outlines from each other in
- * the units of `query`, the similarity from `curve` to `query`, the positions of the ends of `query` on
- * `curve`, and its start estimated from all of its points.
+ * Returns the deviations of both outlines from each other in the units of `query`, the similarity from `curve` to
+ * `query`, the positions of the ends of `query` on `curve`, and its start estimated from all of its points.
+ * @param {Outline} query @param {Outline} curve @returns {Fit & { start: number }}
  */
 export function closestFit(query, curve, { start, span, whole, rounds, reach }) {
   const match = new OutlinePairing(query, curve, { start, span, whole, reach });
@@ -40,23 +38,29 @@ export function closestFit(query, curve, { start, span, whole, rounds, reach }) 
 
 /** Pairs the points of each of two outlines with the nearest positions on the other. */
 class OutlinePairing {
-  constructor(query, curve, given) {
-    Object.assign(this, { query, curve }, given);
+  used = 0;
+  // The means and the greatest of the squares of the distances, both ways.
+  forth = 0;
+  back = 0;
+  forthGreatest = 0;
+  backGreatest = 0;
+
+  constructor(/** @type {Outline} */ query, /** @type {Outline} */ curve, { start, span, whole, reach }) {
+    this.query = query;
+    this.curve = curve;
+    this.start = start;
+    this.span = span;
+    this.whole = whole;
+    this.reach = reach;
     this.count = query.points.length / 2;
     this.steps = query.closed ? this.count : this.count - 1;
     this.places = curve.points.length / 2;
-    this.place = Float64Array.from(
-      { length: this.count },
-      (_, n) => given.start + (given.span * n) / this.steps,
-    );
+    this.place = Float64Array.from({ length: this.count }, (_, n) => start + (span * n) / this.steps);
     const capacity = 2 * (this.count + Math.ceil(2 * this.places) + 2);
-    [this.from, this.to, this.along] = [
-      new Float64Array(capacity),
-      new Float64Array(capacity),
-      new Float64Array(capacity),
-    ];
+    this.from = new Float64Array(capacity);
+    this.to = new Float64Array(capacity);
+    this.along = new Float64Array(capacity);
     this.foot = { place: 0, square: 0, x: 0, y: 0, ex: 0, ey: 0 };
-    this.used = 0;
   }
 
   /** The points of the curve at the expected positions of the points of `query`. */
@@ -86,18 +90,11 @@ class OutlinePairing {
     this.used = this.forth = this.back = this.forthGreatest = this.backGreatest = 0;
     const near = Math.max(2, Math.ceil(this.reach * span));
     for (let n = 0; n < this.count; n += 1) {
-      nearestPoint(
-        moved,
-        curve.closed,
-        start + (span * n) / steps,
-        near,
-        query.points[2 * n],
-        query.points[2 * n + 1],
-        foot,
-      );
+      const [x, y] = [query.points[2 * n], query.points[2 * n + 1]];
+      nearestPoint(moved, curve.closed, start + (span * n) / steps, near, x, y, foot);
       this.place[n] = foot.place;
       this.pointAt(foot.place, this.from, this.used);
-      this.keep(query.points[2 * n], query.points[2 * n + 1]);
+      this.keep(x, y);
       this.forth += foot.square / this.count;
       this.forthGreatest = Math.max(this.forthGreatest, foot.square);
     }
@@ -105,15 +102,8 @@ class OutlinePairing {
     const around = Math.max(2, Math.ceil(this.reach * steps));
     for (let m = first; m <= last; m += 1) {
       const k = 2 * (((m % this.places) + this.places) % this.places);
-      nearestPoint(
-        query.points,
-        query.closed,
-        ((m - start) / span) * steps,
-        around,
-        moved[k],
-        moved[k + 1],
-        foot,
-      );
+      const about = ((m - start) / span) * steps;
+      nearestPoint(query.points, query.closed, about, around, moved[k], moved[k + 1], foot);
       this.from[this.used] = curve.points[k];
       this.from[this.used + 1] = curve.points[k + 1];
       this.keep(foot.x, foot.y);
@@ -159,7 +149,7 @@ class OutlinePairing {
  * Writes the nearest position to (x, y) on the segments of an outline within `reach` of a position to `foot`,
  * { place, square: of the distance, x, y, ex, ey: the direction of the segment }.
  */
-function nearestPoint(points, closed, about, reach, x, y, foot) {
+function nearestPoint(/** @type {Float64Array} */ points, closed, about, reach, x, y, foot) {
   const count = points.length / 2;
   let [first, last] = [Math.floor(about) - reach, Math.floor(about) + reach];
   if (!closed) {

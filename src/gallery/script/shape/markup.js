@@ -8,18 +8,18 @@ const ATTRIBUTE = /([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|([^\s"'/>]+))/g;
 const CHARACTERS = { lt: "<", gt: ">", amp: "&", quot: '"', apos: "'" };
 
 /**
- * Parses a text to an element { name, attributes: Map, children, parent } without a name that contains all
- * others: names are in lower case without the prefix of SVG, attributes as written. Unclosed elements end
- * with the text.
+ * Parses a text to an element without a name that contains all others: names are in lower case without the prefix
+ * of SVG, attributes as written. Unclosed elements end with the text.
  */
 export function parseMarkup(text) {
-  const root = { name: "", attributes: new Map(), children: [], parent: null };
+  /** @type {Markup} */ const root = { name: "", attributes: new Map(), children: [], parent: null };
   let within = root;
   for (const [, closes, tag, rest] of text.matchAll(TOKEN)) {
     if (tag === undefined) continue;
     const name = tag.toLowerCase().replace(/^svg:/, "");
     if (closes) within = afterEnd(within, name);
     else {
+      /** @type {Markup} */
       const element = { name, attributes: attributesOfTag(rest), children: [], parent: within };
       within.children.push(element);
       if (!/\/\s*$/.test(rest)) within = element;
@@ -28,18 +28,17 @@ export function parseMarkup(text) {
   return root;
 }
 
-/** The element that continues after an end tag; an unmatched end tag is ignored. */
+/** The element that continues after an end tag; an unmatched end tag is ignored. @param {Markup} within */
 function afterEnd(within, name) {
   for (let up = within; up.parent; up = up.parent) if (up.name === name) return up.parent;
   return within;
 }
 
 function attributesOfTag(text) {
-  const pairs = [...text.matchAll(ATTRIBUTE)].map(([, name, double, single, bare]) => [
-    name,
-    withCharacters(double ?? single ?? bare),
-  ]);
-  return new Map(pairs);
+  /** @type {Query} */ const attributes = new Map();
+  for (const [, name, double, single, bare] of text.matchAll(ATTRIBUTE))
+    attributes.set(name, withCharacters(double ?? single ?? bare));
+  return attributes;
 }
 
 function withCharacters(text) {

@@ -4,7 +4,7 @@
  * The finite points of an outline without repetitions of the point before; of a closed one also without
  * repetitions of the first point at its end.
  */
-export function withoutDuplicates(points, closed) {
+export function withoutDuplicates(/** @type {Points} */ points, closed) {
   const kept = [];
   for (let k = 0; k + 1 < points.length; k += 2) {
     const [x, y] = [points[k], points[k + 1]];
@@ -20,7 +20,7 @@ export function withoutDuplicates(points, closed) {
 }
 
 /** The length of an outline up to each of its points; of a closed one also round to its first. */
-export function lengthsAlong(points, closed) {
+export function lengthsAlong(/** @type {Points} */ points, closed) {
   const count = points.length / 2;
   const along = new Float64Array(count + (closed ? 1 : 0));
   for (let k = 1; k < along.length; k += 1) {
@@ -35,7 +35,7 @@ export function lengthsAlong(points, closed) {
  * `count` points spaced evenly along an outline: of an open one with both ends, of a closed one from its
  * first point round. An outline without length gives the same point throughout.
  */
-export function resampled(points, closed, count) {
+export function resampled(/** @type {Points} */ points, closed, count) {
   const along = lengthsAlong(points, closed);
   const whole = along[along.length - 1];
   const vertices = points.length / 2;
@@ -54,8 +54,14 @@ export function resampled(points, closed, count) {
   return out;
 }
 
+/** The length of an outline. @param {Float64Array} points @param {boolean} closed */
+export function lengthOf(points, closed) {
+  const along = lengthsAlong(points, closed);
+  return along[along.length - 1];
+}
+
 /** The greatest distance between two points of an outline: its extent, which no turning changes. */
-export function extentOf(points) {
+export function extentOf(/** @type {Points} */ points) {
   let greatest = 0;
   // Two hundred points along it miss less than one in ten thousand of the extent of a smooth curve.
   const few = points.length > 400 ? resampled(points, false, 200) : points;
@@ -69,7 +75,7 @@ export function extentOf(points) {
 }
 
 /** An outline in the opposite direction, with the same first point if it is closed. */
-export function reversedOutline(points, closed) {
+export function reversedOutline(/** @type {Points} */ points, closed) {
   const count = points.length / 2;
   const out = new Float64Array(points.length);
   for (let k = 0; k < count; k += 1) {
@@ -81,7 +87,7 @@ export function reversedOutline(points, closed) {
 }
 
 /** An outline's mirror image about the x-axis. */
-export function mirroredOutline(points) {
+export function mirroredOutline(/** @type {Float64Array} */ points) {
   return points.map((value, k) => (k % 2 ? -value : value));
 }
 
@@ -89,16 +95,16 @@ export function mirroredOutline(points) {
  * Whether an outline ends so near to its start, within 12 % of its extent, that it is probably meant to be
  * closed.
  */
-export function looksClosed(points) {
+export function looksClosed(/** @type {Points} */ points) {
   const end = points.length - 2;
   const gap = Math.hypot(points[end] - points[0], points[end + 1] - points[1]);
   return points.length >= 12 && gap <= 0.12 * extentOf(points);
 }
 
 /**
- * The portion of an outline between two fractions of its length as `count` even points; on a closed one it
- * may continue over the first point, on an open one it ends at the ends: { points, from, to }, the actual
- * fractions.
+ * The portion of an outline between two fractions of its length as `count` even points; on a closed one it may
+ * continue over the first point, on an open one it ends at the ends: `from` and `to` are the actual fractions.
+ * @param {Float64Array | Float32Array} points @param {boolean} closed
  */
 export function portion(points, closed, from, to, count) {
   const along = lengthsAlong(points, closed);

@@ -2,7 +2,7 @@
 
 import { svgOutlines } from "./svg-outlines.js";
 import { hasLength } from "./encode.js";
-import { lengthsAlong, looksClosed } from "./outline.js";
+import { lengthOf, looksClosed } from "./outline.js";
 import { subpathsOf } from "./svg-path.js";
 
 /**
@@ -39,8 +39,8 @@ function parsePath(data) {
   return longestShape(outlines);
 }
 
-function longestShape(outlines) {
-  const length = ({ points, closed }) => lengthsAlong(points, closed).at(-1);
+function longestShape(/** @type {Outline[]} */ outlines) {
+  const length = (/** @type {Outline} */ { points, closed }) => lengthOf(points, closed);
   const longest = outlines.reduce((best, outline) => (length(outline) > length(best) ? outline : best));
   const several = outlines.length > 1 ? `, the longest of ${outlines.length} outlines` : "";
   return {

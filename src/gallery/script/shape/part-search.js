@@ -3,17 +3,16 @@
 import { resampledShape } from "./query-shape.js";
 import { CHORDS, SPANS, WINDOW, directionOf, windowAt, windowCount } from "./shape-index.js";
 import { correlation, WindowRefiner } from "./window-refiner.js";
-import { Shortlist } from "./shortlist.js";
 import { normalised } from "./fourier.js";
+import { Shortlist } from "./whole-search.js";
 
 // The number of curves whose best windows are compared more closely.
 const CLOSER = 600;
 
 /**
- * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than
- * `least` of the curve's length: [{ index, curve, value, seeds: [{ mirror, reversed, start, span }] }], as
- * `candidateCurves`, with `start` and `span` by the curve's length in its own direction. The index must have
- * its windows.
+ * Finds, step by step, the `most` curves of an index with a portion most like a shape, none shorter than `least`
+ * of the curve's length, as `candidateCurves`. The index must have its windows.
+ * @param {ShapeIndex} index @param {Shape} shape @returns {Generator<void, Candidate[]>}
  */
 export function* candidateParts(index, shape, { mirror, least, most }) {
   const own = windowOf(shape);
@@ -50,7 +49,7 @@ export function* candidateParts(index, shape, { mirror, least, most }) {
  * A shape as a window of unit energy, in four orientations, and the directions of its chords; null for a
  * point.
  */
-function windowOf(shape) {
+function windowOf(/** @type {Shape} */ shape) {
   const { points } = resampledShape(shape, WINDOW, true);
   const re = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n]);
   const im = Float64Array.from({ length: WINDOW }, (_, n) => points[2 * n + 1]);
@@ -92,7 +91,7 @@ const SEEDS = 4;
 // The difference of one chord, likewise.
 const OTHER_CHORD = 28;
 
-/** Compares the directions of the chords of all windows of a span. */
+/** Compares the directions of the chords of all windows of a span. @param {ShapeIndex} index */
 function* scanSpan(index, s, { chords }, mirror, best) {
   const each = windowCount(SPANS[s]);
   const away = Uint8Array.from({ length: 256 }, (_, k) => Math.min(k, 256 - k));
@@ -112,9 +111,9 @@ function* scanSpan(index, s, { chords }, mirror, best) {
  * must be that of the shape, for the shape as given and for its reversed mirror image; or the opposite, for
  * the two other orientations.
  */
-function scanCurve(index, curve, s, given, best) {
+function scanCurve(/** @type {ShapeIndex} */ index, curve, s, given, best) {
   const { each, away, turn, mirror } = given;
-  const windows = index.windows[s];
+  const windows = index.windows?.[s] ?? new Uint8Array();
   const base = curve * each;
   const beyond = base + each;
   const last = base + (index.closed[curve] ? each : Math.floor((1 - SPANS[s]) * each) + 1);
@@ -191,7 +190,7 @@ function differenceOf(windows, base, w, { each, away, steps, chords }, orientati
  * The best windows of a curve, one for each half and orientation that has one, with their correlations, the
  * best first.
  */
-function seedsOf(index, curve, own, best) {
+function seedsOf(/** @type {ShapeIndex} */ index, curve, own, best) {
   const [re, im] = [new Float64Array(WINDOW), new Float64Array(WINDOW)];
   const seeds = [];
   for (let at = SLOTS * curve; at < SLOTS * (curve + 1); at += 1) {

@@ -15,14 +15,15 @@ const ROUGH_POINTS = 32;
 const EXACT_POINTS = 96;
 
 /**
- * Searches indexes, step by step, for the curves most like a shape. With `part`, portions of curves, no
- * shorter than `least` of them, are searched; with `mirror`, mirror images count as alike; `by` is the
- * deviation to rank by, "rms" or "greatest".
+ * Searches indexes, step by step, for the curves most like a shape, the nearest first. With `part`, portions of
+ * curves, no shorter than `least` of them, are searched; with `mirror`, mirror images count as alike; `by` is the
+ * deviation to rank by.
  *
- * The generator returns [{ name, family, curve, rms, greatest, similarity, from, to }], the nearest first:
- * the deviations by the extent of the shape, the similarity from the curve to the given shape, and the
- * fractions of the curve's length between which it was compared (`to` beyond 1 continues over the first
- * point; 0 and 1 for a whole curve).
+ * Deviations are by the extent of the shape, the similarity is from the curve to the given shape, and `from` and
+ * `to` are the fractions of the curve's length between which it was compared (`to` beyond 1 continues over the
+ * first point; 0 and 1 for a whole curve).
+ * @param {ShapeIndex[]} indexes @param {Shape} shape @param {SearchOptions} [options]
+ * @returns {Generator<void, Match[]>}
  */
 export function* searchByShape(indexes, shape, options = {}) {
   let candidates = [];
@@ -33,6 +34,8 @@ export function* searchByShape(indexes, shape, options = {}) {
 /**
  * Searches one index, step by step: the generator returns the best candidates among those of other indexes
  * and its own. With `isTransient`, the index can be dropped afterwards.
+ * @param {Candidate[]} candidates @param {ShapeIndex} index @param {Shape} shape
+ * @param {SearchOptions} options
  */
 export function* addCandidates(candidates, index, shape, options, isTransient = false) {
   const { part = false, mirror = true, least = 0.15 } = options;
@@ -46,7 +49,10 @@ export function* addCandidates(candidates, index, shape, options, isTransient = 
   );
 }
 
-/** Compares candidates with a shape, step by step; the generator returns what `searchByShape` does. */
+/**
+ * Compares candidates with a shape, step by step; the generator returns what `searchByShape` does.
+ * @param {Candidate[]} candidates @param {Shape} shape @param {SearchOptions} _2
+ */
 export function* rankCandidates(candidates, shape, { part = false, by = "rms" } = {}) {
   const rough = outlinesOf(shape, part, ROUGH_POINTS);
   const chosen = yield* (part ? chooseParts : chooseByRoughFit)(candidates, rough, shape);
@@ -63,7 +69,7 @@ export function* rankCandidates(candidates, shape, { part = false, by = "rms" } 
 /**
  * Chooses the curves with the best rough fits, each with its best seed, starting where the rough fit starts.
  */
-function* chooseByRoughFit(candidates, outlines) {
+function* chooseByRoughFit(/** @type {Candidate[]} */ candidates, /** @type {QueryOutlines} */ outlines) {
   const fits = [];
   for (const { index, curve, seeds } of candidates) {
     for (const seed of seeds) {
@@ -79,6 +85,7 @@ function* chooseByRoughFit(candidates, outlines) {
  * Chooses the best portions, whose ends are already refined better than by a rough fit. The noise of a shape
  * along a curve affects correlations, but not distances from the curve: for a noisy shape, half of the
  * portions are those with the best rough fits.
+ * @param {Candidate[]} candidates @param {QueryOutlines} outlines @param {Shape} _2
  */
 function* chooseParts(candidates, outlines, { isNoisy }) {
   const refined = candidates.map(({ index, curve, seeds: [seed] }) => ({ index, curve, seed }));
@@ -92,13 +99,10 @@ function* chooseParts(candidates, outlines, { isNoisy }) {
   return [...refined.slice(0, EXACT / 2), ...nearestPerCurve(fits, EXACT / 2)];
 }
 
-/** A shape in even points, for comparisons with closed curves and with open ones. */
-function outlinesOf(shape, part, count) {
-  if (part) return { open: resampledShape(shape, count, true) };
-  return {
-    open: resampledShape(shape, count),
-    closed: resampledShape(shape.closed ? shape : thereAndBack(shape), count),
-  };
+/** A shape in even points; portions of curves are compared as open ones. @returns {QueryOutlines} */
+function outlinesOf(/** @type {Shape} */ shape, part, count) {
+  const open = resampledShape(shape, count, part);
+  return { open, closed: part ? open : resampledShape(shape.closed ? shape : thereAndBack(shape), count) };
 }
 
 /** The best fit of each curve, of the `most` curves with the best. */
@@ -114,7 +118,8 @@ function nearestPerCurve(fits, most) {
   return found;
 }
 
-function resultOf(family, curve, shape, { rms, greatest, similarity, from, to }) {
+/** @param {Family} family @param {Shape} shape */
+function resultOf(family, curve, shape, /** @type {Fit} */ { rms, greatest, similarity, from, to }) {
   return {
     name: `${family.id}:${curveKey(family, curve)}`,
     family,

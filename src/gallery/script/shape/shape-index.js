@@ -24,15 +24,12 @@ export function windowCount(span) {
 }
 
 /**
- * Builds the index of `count` curves of a family, from the curve `first` on, step by step; their pieces must
- * be loaded. The generator returns
- *
- * { family, first, count, closed u8[], kept f32[2·INDEX_POINTS·count]: each curve even, centred and 1 in its
- * root of mean squares, re, im f32[SPECTRUM·count]: of closed curves the spectrum, of open ones the points
- * themselves, of unit energy, size f32[SPECTRUM·count]: of the spectrum's numbers, windows null, points null
- * }.
+ * Builds the index of `count` curves of a family, from the curve `first` on, step by step; their pieces must be
+ * loaded. `kept` has each curve even, centred and 1 in its root of mean squares; `re` and `im` of closed curves
+ * the spectrum, of open ones the points themselves, of unit energy; `size` that of the spectrum's numbers.
+ * @param {Family} family @returns {Generator<number, ShapeIndex>}
  */
-export function* buildIndex(family, first = 0, count = family.curves.count) {
+export function* buildIndex(/** @type {Family} */ family, first = 0, count = family.curves.count) {
   const transform = fourier(SPECTRUM);
   const index = {
     family,
@@ -54,7 +51,7 @@ export function* buildIndex(family, first = 0, count = family.curves.count) {
   return index;
 }
 
-function indexCurve(index, curve, transform, re, im) {
+function indexCurve(/** @type {ShapeIndex} */ index, curve, transform, re, im) {
   const closed = index.closed[curve] === 1;
   const outline = withoutDuplicates(pointsOf(index, curve), closed);
   if (outline.length < 4) return;
@@ -76,7 +73,7 @@ function indexCurve(index, curve, transform, re, im) {
   }
 }
 
-/** The points of a curve of an index. */
+/** The points of a curve of an index. @param {ShapeIndex} _ */
 export function pointsOf({ family, first, points }, curve) {
   return points ?? curvePoints(family, first + curve);
 }
@@ -85,7 +82,7 @@ export function pointsOf({ family, first, points }, curve) {
  * An index of one curve of another one, with its points, which needs neither that index nor the curve's
  * piece.
  */
-export function singleCurveIndex(index, curve) {
+export function singleCurveIndex(/** @type {ShapeIndex} */ index, curve) {
   const part = (array, each) => array.slice(each * curve, each * (curve + 1));
   return {
     family: index.family,
@@ -101,7 +98,7 @@ export function singleCurveIndex(index, curve) {
   };
 }
 
-function storePoints(index, curve, even) {
+function storePoints(/** @type {ShapeIndex} */ index, curve, even) {
   let [x, y, square] = [0, 0, 0];
   for (let k = 0; k < even.length; k += 2) {
     x += even[k] / INDEX_POINTS;
@@ -122,7 +119,7 @@ function storePoints(index, curve, even) {
  * curve: windows[k] u8[count × windowCount(SPANS[k])], the direction of the first chord of each window in
  * 256ths of a turn. The other chords are the first ones of later windows.
  */
-export function* addWindows(index, least) {
+export function* addWindows(/** @type {ShapeIndex} */ index, least) {
   index.windows ??= [];
   for (let s = 0; s < SPANS.length && (s === 0 || SPANS[s - 1] > least); s += 1) {
     if (index.windows[s]) continue;
@@ -149,7 +146,7 @@ export function directionOf(x, y) {
  * The points of a window of a curve, `start` and `span` by its length, into re and im; of a closed one on
  * round its end.
  */
-export function windowAt(index, curve, start, span, re, im) {
+export function windowAt(/** @type {ShapeIndex} */ index, curve, start, span, re, im) {
   const base = 2 * INDEX_POINTS * curve;
   const { kept } = index;
   const points = re.length;

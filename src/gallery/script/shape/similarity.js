@@ -1,15 +1,12 @@
 // Similarities of the plane: an optional reflection, then a rotation, a scaling and a translation.
 
-/**
- * The identity. A similarity is { mirror, re, im, x, y }: z -> (re + i·im) z̃ + (x + iy), where z̃ is the
- * conjugate of z if mirrored, else z.
- */
+/** The identity. @returns {Similarity} */
 export function identity() {
   return { mirror: false, re: 1, im: 0, x: 0, y: 0 };
 }
 
-/** A flat array of points transformed by a similarity. */
-export function transformed({ mirror, re, im, x, y }, points) {
+/** A flat array of points transformed by a similarity. @param {Similarity} _ */
+export function transformed({ mirror, re, im, x, y }, /** @type {Points} */ points) {
   const out = new Float64Array(points.length);
   for (let k = 0; k < points.length; k += 2) {
     const [u, v] = [points[k], mirror ? -points[k + 1] : points[k + 1]];
@@ -19,7 +16,7 @@ export function transformed({ mirror, re, im, x, y }, points) {
   return out;
 }
 
-/** The inverse of a similarity. */
+/** The inverse of a similarity. @param {Similarity} _ */
 export function inverted({ mirror, re, im, x, y }) {
   const size = re * re + im * im;
   // w = f z̃ + t gives z = conj((w − t) / f) if mirrored, (w − t) / f if not.
@@ -29,7 +26,7 @@ export function inverted({ mirror, re, im, x, y }) {
 }
 
 /** The composition of two similarities: `first`, then `second`. */
-export function composed(second, first) {
+export function composed(/** @type {Similarity} */ second, /** @type {Similarity} */ first) {
   const [u, v] = [first.re, second.mirror ? -first.im : first.im];
   const [s, t] = [first.x, second.mirror ? -first.y : first.y];
   return {
@@ -42,8 +39,9 @@ export function composed(second, first) {
 }
 
 /**
- * The similarity without reflection that best maps points to others, one by one, by least squares: { mirror:
- * false, re, im, x, y }. Points that all coincide are only translated.
+ * The similarity without reflection that best maps points to others, one by one, by least squares. Points that
+ * all coincide are only translated.
+ * @returns {Similarity}
  */
 export function fitted(from, to) {
   const count = from.length / 2;

@@ -29,11 +29,13 @@ function arcNumbers(text) {
 const PARAMETERS = { m: 2, l: 2, h: 1, v: 1, c: 6, s: 4, q: 4, t: 2, a: 7, z: 0 };
 
 class Pen {
-  constructor() {
-    this.paths = [];
-    [this.x, this.y, this.startX, this.startY] = [0, 0, 0, 0];
-    this.control = null;
-  }
+  /** @type {{ points: number[], closed: boolean }[]} */ paths = [];
+  x = 0;
+  y = 0;
+  startX = 0;
+  startY = 0;
+  /** The last control point, and the kind of its command. @type {{ kind: string, x: number, y: number } | null} */
+  control = null;
 
   outlines() {
     return this.paths
@@ -65,39 +67,35 @@ class Pen {
   }
 
   closePath() {
-    this.paths.at(-1).closed = true;
+    this.paths[this.paths.length - 1].closed = true;
     [this.x, this.y, this.control] = [this.startX, this.startY, null];
     return true;
   }
 
   lineTo(x, y) {
     // After Z a new subpath starts where the last one started.
-    if (this.paths.at(-1).closed) this.paths.push({ points: [this.x, this.y], closed: false });
-    this.paths.at(-1).points.push(x, y);
+    if (this.paths.at(-1)?.closed) this.paths.push({ points: [this.x, this.y], closed: false });
+    this.paths.at(-1)?.points.push(x, y);
     [this.x, this.y] = [x, y];
   }
 
-  drawSegment(kind, given, [ax, ay]) {
-    if (kind === "h") this.line(given[0] + ax, this.y);
-    else if (kind === "v") this.line(this.x, given[0] + ay);
+  drawSegment(kind, given, /** @type {number[]} */ [ax, ay]) {
+    const points = given.map((value, k) => value + (k % 2 ? ay : ax));
+    if (kind === "c") this.bezier(points, "cubic");
+    else if (kind === "s") this.bezier([...this.reflected("cubic"), ...points], "cubic");
+    else if (kind === "q") this.bezier(points, "quadratic");
+    else if (kind === "t") this.bezier([...this.reflected("quadratic"), ...points], "quadratic");
     else {
-      const points = given.map((value, k) => value + (k % 2 ? ay : ax));
-      if (kind === "c") this.bezier(points, "cubic");
-      else if (kind === "s") this.bezier([...this.reflected("cubic"), ...points], "cubic");
-      else if (kind === "q") this.bezier(points, "quadratic");
-      else if (kind === "t") this.bezier([...this.reflected("quadratic"), ...points], "quadratic");
-      else this.line(points[0], points[1]);
+      if (kind === "h") this.lineTo(given[0] + ax, this.y);
+      else if (kind === "v") this.lineTo(this.x, given[0] + ay);
+      else this.lineTo(points[0], points[1]);
+      this.control = null;
     }
-  }
-
-  line(x, y) {
-    this.lineTo(x, y);
-    this.control = null;
   }
 
   /** The last control point reflected at the current point, if the command before was of this kind. */
   reflected(kind) {
-    if (this.control?.kind !== kind) return [this.x, this.y];
+    if (!this.control || this.control.kind !== kind) return [this.x, this.y];
     return [2 * this.x - this.control.x, 2 * this.y - this.control.y];
   }
 
@@ -109,19 +107,10 @@ class Pen {
   }
 
   /** An elliptical arc by its ends (SVG 1.1, appendix F.6). */
-  arc([rx, ry, turn, large, sweep, endX, endY], [ax, ay]) {
+  arc([rx, ry, turn, large, sweep, endX, endY], /** @type {number[]} */ [ax, ay]) {
     const [x, y] = [endX + ax, endY + ay];
-    const { a, b, cx, cy, from, across, cos, sin } = arcCentre(
-      this.x,
-      this.y,
-      x,
-      y,
-      rx,
-      ry,
-      turn,
-      large,
-      sweep,
-    );
+    const arc = arcCentre([this.x, this.y], [x, y], rx, ry, turn, large, sweep);
+    const { a, b, cx, cy, from, across, cos, sin } = arc;
     this.control = null;
     if (!(a > 0 && b > 0)) {
       this.lineTo(x, y);
@@ -136,6 +125,7 @@ class Pen {
   }
 }
 
+/** The point of a Bézier curve by its control points, flat. @returns {[x: number, y: number]} */
 function casteljau(points, t) {
   let now = points;
   while (now.length > 2) {
@@ -143,10 +133,10 @@ function casteljau(points, t) {
     for (let k = 0; k + 2 < now.length; k += 1) next.push(now[k] + t * (now[k + 2] - now[k]));
     now = next;
   }
-  return now;
+  return [now[0], now[1]];
 }
 
-function arcCentre(x0, y0, x1, y1, rx, ry, turn, large, sweep) {
+function arcCentre([x0, y0], [x1, y1], rx, ry, turn, large, sweep) {
   const angle = (turn * Math.PI) / 180;
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   const [dx, dy] = [(x0 - x1) / 2, (y0 - y1) / 2];
@@ -161,14 +151,6 @@ function arcCentre(x0, y0, x1, y1, rx, ry, turn, large, sweep) {
   let across = Math.atan2((-v - q) / b, (-u - p) / a) - from;
   if (sweep && across < 0) across += 2 * Math.PI;
   if (!sweep && across > 0) across -= 2 * Math.PI;
-  return {
-    a,
-    b,
-    cx: cos * p - sin * q + (x0 + x1) / 2,
-    cy: sin * p + cos * q + (y0 + y1) / 2,
-    from,
-    across,
-    cos,
-    sin,
-  };
+  const [cx, cy] = [cos * p - sin * q + (x0 + x1) / 2, sin * p + cos * q + (y0 + y1) / 2];
+  return { a, b, cx, cy, from, across, cos, sin };
 }

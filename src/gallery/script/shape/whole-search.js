@@ -3,7 +3,6 @@
 import { resampledShape, thereAndBack } from "./query-shape.js";
 import { SPECTRUM } from "./shape-index.js";
 import { fourier, normalised } from "./fourier.js";
-import { Shortlist } from "./shortlist.js";
 
 // The orientations of a curve: as given, reversed, and the mirror images of both.
 const ORIENTATIONS = [
@@ -14,11 +13,9 @@ const ORIENTATIONS = [
 ];
 
 /**
- * Finds, step by step, the `most` curves of an index that are most like a shape: the generator returns [{
- * index, curve, value, seeds: [{ mirror, reversed, start }] }], `value` up to 1 for a similar curve, `start`
- * the fraction of the curve's length, in the seed's direction, at which the shape starts.
- *
- * All rotations, scales and starts are tried at once, by the cyclic correlation with the curve.
+ * Finds, step by step, the `most` curves of an index that are most like a shape, `value` up to 1 for a similar
+ * curve. All rotations, scales and starts are tried at once, by the cyclic correlation with the curve.
+ * @param {ShapeIndex} index @param {Shape} shape @returns {Generator<void, Candidate[]>}
  */
 export function* candidateCurves(index, shape, { mirror, most }) {
   const orientations = mirror ? ORIENTATIONS : ORIENTATIONS.slice(0, 2);
@@ -28,6 +25,7 @@ export function* candidateCurves(index, shape, { mirror, most }) {
   return list.best();
 }
 
+/** @param {ShapeIndex} index @param {Shape} shape */
 function* candidatesAmongClosed(index, shape, orientations, list) {
   const transform = fourier(SPECTRUM);
   const own = parts(resampledShape(shape, SPECTRUM).points);
@@ -64,7 +62,7 @@ function* candidatesAmongClosed(index, shape, orientations, list) {
 }
 
 /** Bounds of the correlation: that of the amplitudes, which rotations and starts do not change. */
-function correlationBounds(index, curve, size, straight, turned) {
+function correlationBounds(/** @type {ShapeIndex} */ index, curve, size, straight, turned) {
   const base = SPECTRUM * curve;
   let [along, against] = [0, 0];
   for (let k = 0; k < SPECTRUM; k += 1) {
@@ -75,7 +73,7 @@ function correlationBounds(index, curve, size, straight, turned) {
   turned[curve] = against / SPECTRUM;
 }
 
-/** The two best starts of a curve in one orientation. */
+/** The two best starts of a curve in one orientation. @param {ShapeIndex} index @param {Complex} own */
 function correlationPeaks(index, curve, own, orientation, transform, { re, im, square }) {
   const base = SPECTRUM * curve;
   // Reversing a curve reverses its spectrum; mirroring reverses and conjugates it.
@@ -101,6 +99,7 @@ function correlationPeaks(index, curve, own, orientation, transform, { re, im, s
   return found.sort((a, b) => b.value - a.value).slice(0, 2);
 }
 
+/** @param {ShapeIndex} index @param {Shape} shape */
 function* candidatesAmongOpen(index, shape, orientations, list) {
   const own = parts(resampledShape(shape, SPECTRUM).points);
   if (!normalised(own.re, own.im)) return;
@@ -117,6 +116,7 @@ function* candidatesAmongOpen(index, shape, orientations, list) {
   }
 }
 
+/** @param {ShapeIndex} index @param {Complex} own */
 function openCorrelation(index, curve, own, { mirror, reversed }) {
   const base = SPECTRUM * curve;
   let [x, y] = [0, 0];
@@ -135,4 +135,30 @@ function parts(points) {
     re: Float64Array.from({ length: count }, (_, k) => points[2 * k]),
     im: Float64Array.from({ length: count }, (_, k) => points[2 * k + 1]),
   };
+}
+
+/** The `most` offers with the greatest `value`. */
+export class Shortlist {
+  constructor(most) {
+    this.most = most;
+    this.kept = [];
+  }
+
+  /** The value that an offer must exceed to be kept. */
+  least() {
+    return this.kept.length < this.most ? -Infinity : this.kept[this.kept.length - 1].value;
+  }
+
+  offer(one) {
+    if (!(one.value > this.least())) return;
+    let at = this.kept.length;
+    while (at > 0 && this.kept[at - 1].value < one.value) at -= 1;
+    this.kept.splice(at, 0, one);
+    if (this.kept.length > this.most) this.kept.pop();
+  }
+
+  /** The kept offers, the best first. */
+  best() {
+    return this.kept;
+  }
 }

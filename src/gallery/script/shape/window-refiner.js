@@ -4,22 +4,26 @@ import { WINDOW, windowAt } from "./shape-index.js";
 
 /** Refines windows of the curves of an index. */
 export class WindowRefiner {
-  constructor(index) {
+  w = newWindow();
+  u = newWindow();
+  v = newWindow();
+  left = newWindow();
+  // The last complex product, and the steps of both ends.
+  x = 0;
+  y = 0;
+  first = 0;
+  last = 0;
+
+  constructor(/** @type {ShapeIndex} */ index) {
     this.index = index;
-    [this.w, this.u, this.v, this.left] = [0, 1, 2, 3].map(() => ({
-      re: new Float64Array(WINDOW),
-      im: new Float64Array(WINDOW),
-    }));
-    [this.x, this.y] = [0, 0];
-    [this.first, this.last] = [0, 0];
   }
 
   /**
-   * Moves the ends of a window, { start, span } by the curve's length, by `rounds` of Gauss-Newton steps to
-   * where it is most like a shape of unit energy { re, im }: { start, span, value }, the square of their
-   * correlation, 1 for a similar portion.
+   * Moves the ends of a window by `rounds` of Gauss-Newton steps to where it is most like a shape of unit energy;
+   * `value` is the square of their correlation, 1 for a similar portion.
+   * @param {number} curve @param {Complex} own @param {Seed} _
    */
-  refine(curve, own, { start, span }, least, rounds) {
+  refine(curve, /** @type {Complex} */ own, { start, span = 1 }, least, rounds) {
     let [from, to] = [start, start + Math.min(span, 1)];
     let best = this.valueAt(curve, own, from, to);
     let trust = 1;
@@ -37,7 +41,7 @@ export class WindowRefiner {
     return { start: from, span: to - from, value: best };
   }
 
-  valueAt(curve, own, from, to) {
+  valueAt(curve, /** @type {Complex} */ own, from, to) {
     const { re, im } = this.w;
     windowAt(this.index, curve, from, to - from, re, im);
     return correlation(own, re, im);
@@ -54,7 +58,7 @@ export class WindowRefiner {
   }
 
   /** Computes the steps of both ends, from the derivatives of the window orthogonal to similarities. */
-  step(curve, own, from, to) {
+  step(curve, /** @type {Complex} */ own, from, to) {
     const { w, u, v, left } = this;
     const h = 0.01 * (to - from);
     this.centred(curve, from, to, w);
@@ -80,19 +84,15 @@ export class WindowRefiner {
       this.withoutWindow(moved, energy);
     }
     const uv = realProduct(u, v);
-    const [uu, vv, ur, vr] = [
-      realProduct(u, u),
-      realProduct(v, v),
-      realProduct(u, left),
-      realProduct(v, left),
-    ];
+    const [uu, vv] = [realProduct(u, u), realProduct(v, v)];
+    const [ur, vr] = [realProduct(u, left), realProduct(v, left)];
     const damped = 1e-3 * (uu + vv) + 1e-12;
     const whole = (uu + damped) * (vv + damped) - uv * uv;
     this.first = ((vv + damped) * ur - uv * vr) / whole;
     this.last = ((uu + damped) * vr - uv * ur) / whole;
   }
 
-  centred(curve, from, to, { re, im }) {
+  centred(curve, from, to, /** @type {Complex} */ { re, im }) {
     windowAt(this.index, curve, from, to - from, re, im);
     let [x, y] = [0, 0];
     for (let n = 0; n < WINDOW; n += 1) {
@@ -106,7 +106,7 @@ export class WindowRefiner {
   }
 
   /** Computes the complex product of one with the other's conjugate, by the other's energy, in x and y. */
-  product(one, other, energy) {
+  product(/** @type {Complex} */ one, /** @type {Complex} */ other, energy) {
     let [x, y] = [0, 0];
     for (let n = 0; n < WINDOW; n += 1) {
       x += one.re[n] * other.re[n] + one.im[n] * other.im[n];
@@ -116,7 +116,7 @@ export class WindowRefiner {
     this.y = y / energy;
   }
 
-  /** Subtracts from a vector, in place, its projection on the window. */
+  /** Subtracts from a vector, in place, its projection on the window. @param {Complex} one */
   withoutWindow(one, energy) {
     const { w } = this;
     this.product(one, w, energy);
@@ -127,15 +127,19 @@ export class WindowRefiner {
   }
 }
 
+function newWindow() {
+  return { re: new Float64Array(WINDOW), im: new Float64Array(WINDOW) };
+}
+
 /** The real part of the product of one with the other's conjugate. */
-function realProduct(one, other) {
+function realProduct(/** @type {Complex} */ one, /** @type {Complex} */ other) {
   let sum = 0;
   for (let n = 0; n < WINDOW; n += 1) sum += one.re[n] * other.re[n] + one.im[n] * other.im[n];
   return sum;
 }
 
 /** The square of the correlation of a window, about its own mean, with a shape of unit energy. */
-export function correlation(own, re, im) {
+export function correlation(/** @type {Complex} */ own, re, im) {
   let [x, y, u, v, energy] = [0, 0, 0, 0, 0];
   for (let n = 0; n < WINDOW; n += 1) {
     x += own.re[n] * re[n] + own.im[n] * im[n];

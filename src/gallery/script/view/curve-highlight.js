@@ -1,32 +1,48 @@
 // The highlighted curve of a page and the readings at the pointer; the rest of the page is dimmed.
 
-import { h, fill } from "./dom.js";
-import { solveCurveOrNull } from "./curve-reading.js";
-import { formatNumber } from "./labels.js";
+import { curvePoints } from "../data/family.js";
+import { placedData } from "../draw/path-data.js";
+import { fill, termList } from "./dom.js";
+import { readingRows, solveCurve } from "./curve-reading.js";
 
 // The chord error of the highlighted curve, in pixels.
 const HIGHLIGHT_ERROR = 0.1;
+// The number of curves that are kept solved.
+const MAX_SOLVED = 8;
 
-/**
- * Highlights at most one curve of a page: the one under the pointer or with the focus, otherwise the selected
- * one.
- */
+/** Highlights at most one curve of a page: that under the pointer or with the focus, or the selected one. */
 export class CurveHighlight {
-  constructor(page) {
+  /** @type {number | null} */ selected = null;
+  /** The curve under the pointer or with the focus. @type {number | null} */
+  pointed = null;
+  /** The highlighted curve. @type {number | null} */
+  curve = null;
+  /** The curve in the panel. @type {number | null} */
+  listed = null;
+  /** @type {SolvedCurve | null} */ solved = null;
+  /** @type {Reading | null} */ at = null;
+  /** Where the pointer reads the curve, in millimetres. @type {Point | null} */
+  place = null;
+  fineness = 0;
+  /** Curves that are kept solved, the oldest first. @type {Map<number, SolvedCurve | null>} */
+  solutions = new Map();
+
+  constructor(/** @type {PageView} */ page) {
     this.page = page;
     this.reset();
   }
 
   /** Resets the highlight for another page. */
   reset() {
-    [this.selected, this.pointed, this.curve, this.solved, this.at] = [null, null, null, null, null];
-    this.solutions = new Map();
+    this.selected = this.pointed = this.curve = this.solved = this.at = null;
+    for (const solved of this.solutions.values()) solved?.close();
+    this.solutions.clear();
     this.page.viewport.classList.remove("dimmed");
     this.page.reading.hidden = true;
   }
 
   /** Handles a pointer at a position in millimetres, near the curve `found` or none. */
-  hover(found, place) {
+  hover(/** @type {DrawnCurve | undefined} */ found, /** @type {Point} */ place) {
     if (!found) {
       if (this.pointed !== null) this.leave();
       return;
@@ -42,7 +58,7 @@ export class CurveHighlight {
     this.highlight(curve);
     const { box } = this.drawnOf(curve);
     this.page.zoom.reveal(box);
-    this.readInput(0, this.solved?.passes[0].from);
+    this.readStart();
   }
 
   /** Highlights the curve of a link in the panel; the panel keeps its list. */
@@ -61,7 +77,7 @@ export class CurveHighlight {
     else this.highlight(this.selected);
   }
 
-  /** Selects a curve (null: none) and reads it at a position in millimetres. */
+  /** Selects a curve (null: none) and reads it at a position in millimetres. @param {Point | null} [place] */
   select(curve, place = null) {
     this.selected = curve;
     this.pointed = null;
@@ -71,27 +87,29 @@ export class CurveHighlight {
     }
     this.highlight(curve);
     if (place) this.read(place);
-    else this.readInput(0, this.solved?.passes[0].from);
+    else this.readStart();
   }
 
   drawnOf(curve) {
-    return this.page.drawn.find((candidate) => candidate.curve === curve);
+    const drawn = this.page.drawn.find((candidate) => candidate.curve === curve);
+    if (!drawn) throw new Error("the curve is not on this page");
+    return drawn;
   }
 
   highlight(curve, { updatesPanel = true } = {}) {
-    if (updatesPanel && this.listed !== curve) {
-      this.listed = curve;
-      this.page.showPanel(curve);
-    }
-    if (!updatesPanel) this.listed = null;
-    if (this.curve === curve) return;
+    if (updatesPanel && this.listed !== curve) this.page.showPanel(curve);
+    this.listed = updatesPanel ? curve : null;
+    if (this.curve !== curve) this.#outline(curve);
+  }
+
+  #outline(curve) {
     this.curve = curve;
     this.at = null;
     this.page.reading.hidden = true;
     this.solved = this.solve(curve);
     this.page.viewport.classList.add("dimmed");
-    this.page.overlay.show(this.pathOf(curve));
-    this.page.overlay.point(null);
+    this.page.overlay?.show(this.pathOf(curve));
+    this.page.overlay?.point(null);
   }
 
   clear() {
@@ -102,46 +120,73 @@ export class CurveHighlight {
     this.page.reading.hidden = true;
   }
 
-  /** The curve solved at the accuracy of the current zoom; null if it cannot be solved. */
+  /** The curve solved; null if it cannot be, or while the kernel is loaded. */
   solve(curve) {
-    const { view } = this.drawnOf(curve);
-    const fineness = Math.max(0, Math.round(Math.log2(this.page.zoom.magnification)));
-    const key = `${curve} ${fineness}`;
-    if (!this.solutions.has(key)) {
-      const tolerance = HIGHLIGHT_ERROR / (2 ** fineness * this.page.zoom.fitScale * view.scale);
-      this.solutions.set(key, solveCurveOrNull(this.page.family, curve, tolerance));
+    const { app, family } = this.page;
+    const { kernel } = app.kernel;
+    if (!kernel) {
+      this.#solveWhenLoaded();
+      return null;
     }
-    return this.solutions.get(key);
+    const known = this.solutions.get(curve);
+    if (known !== undefined) return known;
+    if (this.solutions.size >= MAX_SOLVED) {
+      const [[oldest, dropped]] = this.solutions;
+      dropped?.close();
+      this.solutions.delete(oldest);
+    }
+    const solved = solveCurve(kernel, kernel.curve(family, curve));
+    this.solutions.set(curve, solved);
+    return solved;
+  }
+
+  // Outlines and reads again what is highlighted when the kernel is loaded.
+  #solveWhenLoaded() {
+    const again = () => {
+      const { curve, place } = this;
+      if (curve === null || this.solved) return;
+      this.#outline(curve);
+      if (place) this.read(place);
+      else this.readStart();
+    };
+    this.page.app.kernel.load().then(again, () => {});
   }
 
   /** Path data in millimetres of paper. */
   pathOf(curve) {
+    const { view, closed } = this.drawnOf(curve);
     const {
-      view: { origin, scale },
-      points,
-      closed,
-    } = this.drawnOf(curve);
-    const fine = this.solved?.path.points;
-    const places = fine
-      ? fine.map((at, k) => (k % 2 ? origin[1] - scale * at : origin[0] + scale * at))
-      : points;
-    let path = "";
-    for (let k = 0; k < places.length; k += 2)
-      path += `${k ? "L" : "M"}${places[k].toFixed(4)} ${places[k + 1].toFixed(4)}`;
-    return closed ? `${path}Z` : path;
+      origin: [x, y],
+      scale,
+    } = view;
+    this.fineness = this.#zoomLevel();
+    const tolerance = HIGHLIGHT_ERROR / (2 ** this.fineness * this.page.zoom.fitScale * scale);
+    const points = this.solved?.path(tolerance) ?? curvePoints(this.page.family, curve);
+    return placedData(points, closed, { scale, x, y }, 4);
   }
 
-  read([x, y]) {
+  // The power of two of the zoom, by which the outline is refined.
+  #zoomLevel() {
+    return Math.max(0, Math.round(Math.log2(this.page.zoom.magnification)));
+  }
+
+  read(/** @type {Point} */ place) {
+    this.place = place;
     if (!this.solved) return;
-    const {
-      view: { origin, scale },
-    } = this.drawnOf(this.curve);
+    const [x, y] = place;
+    const { origin, scale } = this.drawnOf(this.curve).view;
     this.at = this.solved.nearTo((x - origin[0]) / scale, (origin[1] - y) / scale);
     this.position();
   }
 
+  readStart() {
+    if (this.solved) this.readInput(0, this.solved.passes[0].from);
+    else this.place = null;
+  }
+
   readInput(pass, input) {
-    if (!this.solved || input === undefined) return;
+    this.place = null;
+    if (!this.solved) return;
     this.at = this.solved.atInput(pass, input);
     this.position();
   }
@@ -149,8 +194,7 @@ export class CurveHighlight {
   /** Moves the reading along the curve by an increment of the input, from pass to pass. */
   stepAlong(by) {
     if (!this.solved || !this.at) return;
-    const { passes } = this.solved;
-    const { isLength } = this.solved;
+    const { passes, isLength } = this.solved;
     let { pass, input } = this.at;
     const whole = Math.abs(passes[pass].to - passes[pass].from);
     input += (isLength ? (by / 360) * whole : by) * Math.sign(passes[pass].to - passes[pass].from);
@@ -163,36 +207,26 @@ export class CurveHighlight {
       input = passes[pass].to;
     }
     this.readInput(pass, input);
-    this.page.app.announce(
-      readingRows(this.at, this.solved)
-        .map((row) => row.join(" "))
-        .join(", "),
-    );
+    const rows = readingRows(this.at, this.solved);
+    this.page.app.announce(rows.map((row) => row.join(" ")).join(", "));
   }
 
   /** Refines the curve for a changed zoom and moves the reading to its point. */
   updateZoom() {
     if (this.curve === null) return;
-    const solved = this.solve(this.curve);
-    if (solved !== this.solved) {
-      this.solved = solved;
-      this.page.overlay.show(this.pathOf(this.curve));
-    }
+    if (this.fineness !== this.#zoomLevel()) this.page.overlay?.show(this.pathOf(this.curve));
     this.position();
   }
 
   /** Positions the point and the reading for the current zoom. */
   position() {
     const { page, at } = this;
-    if (!at || this.curve === null || !at.place.every(Number.isFinite)) return;
-    const {
-      view: { origin, scale },
-      box,
-    } = this.drawnOf(this.curve);
+    if (!at || !this.solved || this.curve === null || !at.place.every(Number.isFinite)) return;
+    const { view, box } = this.drawnOf(this.curve);
+    const { origin, scale } = view;
     const [x, y] = [origin[0] + scale * at.place[0], origin[1] - scale * at.place[1]];
-    page.overlay.point([x, y], 4 / page.zoom.scale);
-    const rows = readingRows(at, this.solved).map(([name, text]) => [h("dt", {}, name), h("dd", {}, text)]);
-    fill(page.reading, h("dl", {}, rows));
+    page.overlay?.point([x, y], 4 / page.zoom.scale);
+    fill(page.reading, termList("dl", readingRows(at, this.solved)));
     const { clientWidth, clientHeight } = page.viewport;
     const [across, down] = [page.zoom.x + page.zoom.scale * x, page.zoom.y + page.zoom.scale * y];
     page.reading.hidden = across < 0 || down < 0 || across > clientWidth || down > clientHeight;
@@ -212,21 +246,4 @@ function positionNextTo(at, size, available, isBefore) {
   const [before, after] = [at - 16 - size, at + 16];
   if (isBefore) return before < 0 ? after : before;
   return after + size > available ? before : after;
-}
-
-/** The readings at a point of a curve: [[name, value with unit], …]. */
-function readingRows({ input, speed, mu }, { isLength, passes }) {
-  return [
-    ["input", isLength ? formatNumber(input) : formatInputAngle(input, passes)],
-    ["speed", `${formatNumber(speed, 4)} per ${isLength ? "unit" : "rad"}`],
-    ...(mu === null || !Number.isFinite(mu) ? [] : [["transmission", `${mu.toFixed(1)}°`]]),
-  ];
-}
-
-/** Degrees of input; for a full rotation, the end of the period equals its start. */
-function formatInputAngle(input, passes) {
-  const text = input.toFixed(1);
-  const period = Math.abs(passes[0].to - passes[0].from);
-  if (passes.length === 1 && period % 360 === 0 && text === period.toFixed(1)) return "0.0°";
-  return `${text.replace("-", "−")}°`;
 }

@@ -3,40 +3,107 @@
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
- * Creates an HTML element: `h("button", { class: "quiet", type: "button", onclick: f, "aria-label": "Next" },
- * "→")`.
- *
- * Attributes that are null, undefined or false are omitted; true gives an empty attribute; a function is a
- * listener for the event named after "on". Children may be nodes, strings, numbers, arrays, or nothing.
+ * Creates an HTML element, perhaps with classes: `h("button.quiet", { onclick: f }, "→")`,
+ * `h("p.note", "…")`. Attributes are those of setAttributes; children may be nodes, strings, numbers, arrays, or
+ * nothing.
+ * @template {string} N @param {N} name @param {...any} content @returns {HtmlElementOf<N>}
  */
-export function h(name, attributes = {}, ...children) {
-  return buildElement(document.createElement(name), attributes, children);
+export function h(name, ...content) {
+  return buildElement((tag) => document.createElement(tag), name, content);
 }
 
-/** Creates an SVG element in the same way. */
-export function s(name, attributes = {}, ...children) {
-  return buildElement(document.createElementNS(SVG, name), attributes, children);
+/**
+ * Creates an SVG element in the same way.
+ * @template {string} N @param {N} name @param {...any} content @returns {SvgElementOf<N>}
+ */
+export function s(name, ...content) {
+  return buildElement((tag) => document.createElementNS(SVG, tag), name, content);
 }
 
-function buildElement(element, attributes, children) {
-  for (const [name, value] of Object.entries(attributes)) {
-    if (typeof value === "function") element.addEventListener(name.slice(2), value);
-    else if (value !== null && value !== undefined && value !== false) {
-      element.setAttribute(name, value === true ? "" : String(value));
-    }
+function buildElement(create, name, content) {
+  const [tag, ...classes] = name.split(".");
+  const element = create(tag);
+  if (classes.length) element.setAttribute("class", classes.join(" "));
+  const hasAttributes = content[0]?.constructor === Object;
+  if (hasAttributes) setAttributes(element, content[0]);
+  return fill(element, hasAttributes ? content.slice(1) : content);
+}
+
+/**
+ * Sets attributes from an object: those that are null, undefined or false are removed; true gives an empty
+ * attribute; a function is a listener for the event named after "on".
+ * @param {Element} element @param {Record<string, any>} attributes
+ */
+export function setAttributes(element, attributes) {
+  for (const [key, value] of Object.entries(attributes)) {
+    if (typeof value === "function") element.addEventListener(key.slice(2), value);
+    else if (value === null || value === undefined || value === false) element.removeAttribute(key);
+    else element.setAttribute(key, value === true ? "" : String(value));
   }
-  const some = children
-    .flat(Infinity)
-    .filter((child) => child !== null && child !== undefined && child !== false);
-  element.append(...some.map((child) => (child instanceof Node ? child : String(child))));
-  return element;
 }
 
-/** Replaces the content of an element. */
+/** Replaces the content of an element. @template {Element} E @param {E} element @param {...any} children */
 export function fill(element, ...children) {
   const some = children
     .flat(Infinity)
     .filter((child) => child !== null && child !== undefined && child !== false);
   element.replaceChildren(...some.map((child) => (child instanceof Node ? child : String(child))));
   return element;
+}
+
+/** The first element in another one that matches a selector, which there must be. @returns {HTMLElement} */
+export function elementIn(/** @type {ParentNode} */ parent, /** @type {string} */ selector) {
+  const found = parent.querySelector(selector);
+  if (!(found instanceof HTMLElement)) throw new Error(`there is no ${selector}`);
+  return found;
+}
+
+/** An SVG drawing that screen readers skip, because adjacent text describes it. */
+export function thumbnailFrame(name, /** @type {Size} */ { width, height }, ...content) {
+  const attributes = { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" };
+  return s(`svg.thumbnail${name}`, attributes, ...content);
+}
+
+/** A button; attributes as in `h`. */
+export function buttonOf(/** @type {any} */ label, onclick, attributes = {}) {
+  return h("button", { onclick, ...attributes }, label);
+}
+
+/** A checkbox or a radio button with its label: { input, element }. */
+export function choiceBox(type, attributes, ...label) {
+  const input = h("input", { type, ...attributes });
+  return { input, element: h("label.check", input, ...label) };
+}
+
+/** A select element with options [[value, label], …]. @param {Iterable<any[]>} options */
+export function selectOf(attributes, options, chosen) {
+  const list = [...options].map(([value, label]) =>
+    h("option", { value, selected: value === chosen }, label),
+  );
+  return h("select", attributes, list);
+}
+
+/** A list of terms with their descriptions, [[term, description], …]. */
+export function termList(name, /** @type {Iterable<any[]>} */ rows) {
+  return h(
+    name,
+    [...rows].map(([term, text]) => [h("dt", term), h("dd", text)]),
+  );
+}
+
+/** A table with a caption for screen readers, its headings as cells, and its body. */
+export function figures(name, caption, headings, ...body) {
+  const head = h("thead", h("tr", headings));
+  return h(`table.figures${name}`, h("caption.visually-hidden", caption), head, ...body);
+}
+
+/** Whether a key is pressed with another one that makes it a command of the browser. */
+export function isShortcut(/** @type {KeyboardEvent} */ { ctrlKey, metaKey, altKey }) {
+  return ctrlKey || metaKey || altKey;
+}
+
+/** The element that has the focus. */
+export function focusedElement() {
+  const element = document.activeElement;
+  return element instanceof HTMLElement || element instanceof SVGElement ? element : null;
 }

@@ -3,16 +3,15 @@
 import { address } from "../data/address.js";
 import { curveCaption, curveKey } from "../data/family.js";
 import { isFullyLoaded, isScattered, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
-import { fill, h } from "./dom.js";
+import { elementIn, fill, h } from "./dom.js";
 import { familyCounts, familySource } from "./overview.js";
-import { pageLabel } from "./page-cells.js";
-import { pageField } from "./page-field.js";
-import { formatCaption } from "./labels.js";
+import { formatCaption, formatBytes } from "./labels.js";
 import { notAssembledSummary } from "./not-assembled.js";
 import { TileWindow } from "./tile-window.js";
-import { formatBytes } from "./footer.js";
 import { pageThumbnail } from "./page-thumbnail.js";
 import { thumbnail } from "./thumbnail.js";
+import { pageField } from "./page-bar.js";
+import { pageLabel } from "./page-panel.js";
 
 /**
  * The route of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` scrolls to that
@@ -29,17 +28,17 @@ export const familyRoute = {
     const hasPages = listed.pages > 0 && (listed.page_format !== null || family.pageCount > 0);
     const hasCurves = query.get("show") === "curves" || !hasPages;
     const tiles = hasCurves ? curveTiles(app, family) : pageTiles(app, family, listed);
-    const goal = hasCurves
+    const found = hasCurves
       ? await needCurveWithKey(family, query.get("curve"))
       : Number(query.get("page")) - 1;
-    if (goal >= 0) tiles.element.dataset.goal = goal;
+    const goal = found ?? -1;
+    if (goal >= 0) tiles.element.dataset.goal = String(goal);
     return {
       title: family.title,
       element: h(
-        "div",
-        { class: "view wide family-view" },
+        "div.view.wide.family-view",
         familyHeader(family, listed),
-        familyToolbar(family, listed, { hasCurves, hasPages }),
+        familyToolbar(/** @type {App} */ app, /** @type {Family} */ family, listed, { hasCurves, hasPages }),
         tiles.element,
       ),
       shown: () => {
@@ -51,65 +50,51 @@ export const familyRoute = {
   },
 };
 
-function familyHeader(family, listed) {
+function familyHeader(/** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
+  const { linkage, sampling } = family;
+  const facts = [
+    familyCounts(listed),
+    `linkage ${linkage}`,
+    samplingLabel(sampling),
+    formatBytes(listed.bytes),
+  ];
   return h(
-    "div",
-    { class: "head" },
+    "div.head",
     h(
       "div",
-      {},
-      h("h1", {}, family.title),
-      h("p", { class: "lede" }, familySource(family)),
-      family.legend ? h("p", { class: "lede" }, family.legend) : null,
-      h(
-        "p",
-        { class: "note" },
-        [
-          familyCounts(listed),
-          `linkage ${family.linkage}`,
-          samplingLabel(family.sampling),
-          formatBytes(listed.bytes),
-        ].join(" · "),
-      ),
+      h("h1", family.title),
+      h("p.lede", familySource(family)),
+      family.legend ? h("p.lede", family.legend) : null,
+      h("p.note", facts.join(" · ")),
       notAssembledSummary(family, listed),
     ),
   );
 }
 
-function samplingLabel({ step, samples, spacing }) {
+function samplingLabel(/** @type {Family["sampling"]} */ { step, samples, spacing }) {
   if (step !== undefined) return `a sample every ${step}° of input`;
   return `${samples} samples per circuit${spacing ? `, ${spacing} spacing` : ""}`;
 }
 
-function familyToolbar(family, listed, { hasCurves, hasPages }) {
+/** @param {Family} family @param {ListedFamily} listed */
+function familyToolbar(app, family, listed, { hasCurves, hasPages }) {
   const way = (label, query, isHere) =>
-    h(
-      "a",
-      { class: "button", href: address([family.id], query), "aria-current": isHere ? "true" : null },
-      label,
-    );
+    h("a.button", { href: address([family.id], query), "aria-current": isHere ? "true" : null }, label);
+  const ways = [hasPages ? way("Pages", {}, !hasCurves) : null, way("Curves", { show: "curves" }, hasCurves)];
   return h(
-    "div",
-    { class: "toolbar no-print" },
-    h(
-      "div",
-      { class: "segments", role: "group", "aria-label": "Show" },
-      hasPages ? way("Pages", {}, !hasCurves) : null,
-      way("Curves", { show: "curves" }, hasCurves),
-    ),
-    h("a", { class: "button", href: address(["find"], { family: family.id }) }, "Find curves"),
-    listed.pages > 1 && !hasCurves ? pageJump(family, listed) : null,
+    "div.toolbar.no-print",
+    h("div.segments", { role: "group", "aria-label": "Show" }, ways),
+    h("a.button", { href: address(["find"], { family: family.id }) }, "Find curves"),
+    listed.pages > 1 && !hasCurves ? pageJump(app, family, listed) : null,
   );
 }
 
-function pageJump(family, listed) {
-  const go = (page) => {
-    window.location.hash = address([family.id, page]);
-  };
-  return h("div", { class: "end" }, pageField(listed, "Go to page", go).element);
+function pageJump(/** @type {App} */ app, /** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
+  const go = (page) => app.go(address([family.id, page]));
+  return h("div.end", pageField(listed, "Go to page", go).element);
 }
 
-function pageTiles(app, family, listed) {
+function pageTiles(/** @type {App} */ app, /** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
   const { width, height } = family.paper;
   return new TileWindow({
     count: listed.pages,
@@ -118,38 +103,30 @@ function pageTiles(app, family, listed) {
     aspect: height / width,
     below: 44,
     label: "Pages",
-    tile: (k) =>
-      h(
-        "li",
-        {},
-        h(
-          "a",
-          { href: address([family.id, k + 1]) },
-          h("span", { class: "tile-picture" }),
-          h(
-            "span",
-            { class: "label" },
-            h("span", { class: "visually-hidden" }, "Page "),
-            h("b", {}, `${k + 1}`),
-            " ",
-            h("span", { class: "page-caption" }),
-          ),
-        ),
-      ),
+    tile: (k) => {
+      const words = [h("span.visually-hidden", "Page "), h("b", `${k + 1}`), " ", h("span.page-caption")];
+      const link = h(
+        "a",
+        { href: address([family.id, k + 1]) },
+        h("span.tile-picture"),
+        h("span.label", words),
+      );
+      return h("li", link);
+    },
     need: (k) => (isScattered(family) ? null : needPage(family, k + 1)),
     isLoaded: () => isFullyLoaded(family),
     fillTile: (element, k) => {
       if (!isScattered(family))
-        fill(element.querySelector(".page-caption"), formatCaption(pageLabel(family, k + 1)));
+        fill(elementIn(element, ".page-caption"), formatCaption(pageLabel(family, k + 1)));
     },
     draw: (element, k) => {
-      element.querySelector(".tile-picture").append(pageThumbnail(app.atlas, family, k + 1) ?? "");
+      elementIn(element, ".tile-picture").append(pageThumbnail(app.atlas, family, k + 1) ?? "");
     },
     failed: (message) => app.announce(message),
   });
 }
 
-function curveTiles(app, family) {
+function curveTiles(/** @type {App} */ app, /** @type {Family} */ family) {
   const { count } = family.curves;
   const tiles = new TileWindow({
     count,
@@ -158,30 +135,23 @@ function curveTiles(app, family) {
     aspect: 0.75,
     below: 40,
     label: "Curves",
-    tile: () =>
-      h(
-        "li",
-        {},
-        // A link without an address cannot have the focus.
-        h(
-          "a",
-          { tabindex: "0" },
-          h("span", { class: "tile-picture" }),
-          h("span", { class: "label" }, h("span", { class: "visually-hidden" }, "Loading")),
-        ),
-      ),
+    tile: () => {
+      const label = h("span.label", h("span.visually-hidden", "Loading"));
+      // A link without an address cannot have the focus.
+      return h("li", h("a", { tabindex: "0" }, h("span.tile-picture"), label));
+    },
     need: (k) => needCurves(family, [k]),
     isLoaded: () => isFullyLoaded(family),
     fillTile: (element, k) => {
-      const link = element.querySelector("a");
+      const link = elementIn(element, "a");
       link.setAttribute("href", address([family.id, "curve", curveKey(family, k)]));
       link.removeAttribute("tabindex");
       const caption = formatCaption(curveCaption(family, k));
-      fill(element.querySelector(".label"), h("b", {}, curveKey(family, k)), " ", caption);
+      fill(elementIn(element, ".label"), h("b", curveKey(family, k)), " ", caption);
     },
     failed: (message) => app.announce(message),
     draw: (element, k) => {
-      const picture = element.querySelector(".tile-picture");
+      const picture = elementIn(element, ".tile-picture");
       picture.append(thumbnail(family, [k], tiles.sizeOfPicture(picture)));
     },
   });

@@ -1,32 +1,22 @@
-// Labels and formatted values of measures, with their units.
+// Labels and formatted values, with their units.
 
 import { measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 
+// The labels of measures other than their names in words.
 const MEASURE_LABELS = {
-  class: "class",
-  type: "type",
   shortest: "shortest link",
   input_min_deg: "least input",
   input_max_deg: "greatest input",
-  output_swing_deg: "output swing",
   mu_min_deg: "least transmission angle",
   mu_max_deg: "greatest transmission angle",
-  time_ratio: "time ratio",
   length: "path length",
-  area: "area",
   bbox_x_min: "least x",
   bbox_x_max: "greatest x",
   bbox_y_min: "least y",
   bbox_y_max: "greatest y",
-  cusps: "cusps",
-  crunodes: "crunodes",
-  inflections: "inflections",
-  symmetry: "symmetry",
   symmetry_deg: "direction of the symmetry axis",
-  symmetry_residual: "symmetry residual",
   curvature_max: "greatest curvature",
-  speed_ratio: "speed ratio",
   straight_length: "length of the straight portion",
   straight_deviation: "its deviation from the line",
   straight_start_deg: "its start input",
@@ -73,15 +63,17 @@ export function formatNumber(number, digits = 4) {
 }
 
 /** The value of a measure with its unit; undefined if it does not apply. */
-export function measureText(family, curve, { name, unit }) {
+export function measureText(/** @type {Family} */ family, curve, { name, unit }) {
   const value = measureValue(family, curve, name);
   if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
   return isInDegrees(family, { name, unit }) ? `${formatNumber(value)}°` : formatNumber(value);
 }
 
-/** Whether a measure of a family is in degrees: if the input is a length, inputs are not. */
-export function isInDegrees({ template }, { name, unit }) {
-  const isLength = template.joints.some((joint) => joint.piston !== undefined);
+/**
+ * Whether a measure of a family is in degrees: if the input is a length, inputs are not.
+ * @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1
+ */
+export function isInDegrees({ is_length: isLength }, { name, unit }) {
   return unit === "deg" && !(isLength && /^(straight|dwell|input)_/.test(name));
 }
 
@@ -89,10 +81,62 @@ export function isInDegrees({ template }, { name, unit }) {
 export function formatCaption(caption) {
   return caption
     .split(/([A-Za-z][\w]*(?= = ))/)
-    .map((part, k) => (k % 2 ? h("i", {}, part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
+    .map((part, k) => (k % 2 ? h("i", part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
 }
 
 /** Changed parameters, a Map of names to numbers, as a caption: "with p = 3.5, k = 2". */
-export function formatChanges(changes) {
+export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
+}
+
+const COLUMN_LABELS = {
+  mu_worst_deg: "worst transmission angle",
+  straight_tolerance: "deviation of the straight portion, by its length",
+  straight_share: "length of the straight portion, by the extent",
+  symmetric: "symmetry",
+  turn: "input",
+  symmetry: "kind of symmetry",
+};
+
+/** The label of a column. */
+export function columnLabel(name) {
+  if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
+  return COLUMN_LABELS[name] ?? standaloneMeasureLabel(name);
+}
+
+/** The value of a row of a table in a column, formatted. */
+export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ column, row) {
+  if (column.kind === "words") {
+    const { values, codes } = table.words(column.name);
+    return values[codes[row]] ?? "–";
+  }
+  const value = table.numbers(column.name)[row];
+  if (Number.isNaN(value)) return "–";
+  return isInDegrees(table.curveOf(row).family, column) ? `${formatNumber(value)}°` : formatNumber(value);
+}
+
+/** A length or speed in four significant digits, with a true minus sign. */
+export function formatLength(value) {
+  if (!Number.isFinite(value)) return "∞";
+  if (value === 0) return "0";
+  const exponent = Math.floor(Math.log10(Math.abs(value)));
+  if (exponent < -5 || exponent > 6) return value.toExponential(3).replaceAll("-", "−");
+  return formatDecimals(value, Math.max(0, 3 - exponent));
+}
+
+/** A number with a fixed number of decimals and a true minus sign. */
+export function formatDecimals(value, decimals) {
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
+}
+
+/** A count with its noun: "1 page", "7,800 curves". */
+export function formatCount(number, one, many = `${one}s`) {
+  return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
+}
+
+/** A number of bytes in decimal units: "380 kB", "6.4 MB". */
+export function formatBytes(bytes) {
+  if (bytes < 1e6) return `${Math.round(bytes / 1000)} kB`;
+  return `${(bytes / 1e6).toFixed(1)} MB`;
 }

@@ -3,7 +3,7 @@
 import { cellCaption, cellText } from "../data/family.js";
 import { isFullyLoaded } from "../data/needs.js";
 import { h } from "./dom.js";
-import { formatCount } from "./footer.js";
+import { formatCount } from "./labels.js";
 
 // The number of linkages named for each reason.
 const MAX_NAMES_PER_REASON = 12;
@@ -12,10 +12,9 @@ const MAX_NAMES_PER_REASON = 12;
  * A collapsed list of the linkages of a family that could not be assembled, or only partially, by reason;
  * null if there are none. Only their number if not all of the family's data are loaded.
  */
-export function notAssembledSummary(family, listed) {
+export function notAssembledSummary(/** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
   const { status, number, count } = family.cells;
-  if (!isFullyLoaded(family))
-    return listed.not_assembled ? h("p", { class: "note" }, notAssembledNote(listed)) : null;
+  if (!isFullyLoaded(family)) return listed.not_assembled ? h("p.note", notAssembledNote(listed)) : null;
   const reasons = new Map();
   for (let cell = 0; cell < count; cell += 1) {
     if (status[cell] === 0) continue;
@@ -27,34 +26,23 @@ export function notAssembledSummary(family, listed) {
   const none = status.filter((code) => code === 2).length;
   const part = status.filter((code) => code === 1).length;
   const sums = [
-    none ? `${formatCount(none, "linkage", "linkages")} could not be assembled` : null,
-    part ? `${formatCount(part, "linkage", "linkages")} assembled only in part` : null,
+    none ? `${formatCount(none, "linkage")} could not be assembled` : null,
+    part ? `${formatCount(part, "linkage")} assembled only in part` : null,
   ];
   const named = (cells) =>
     cells
       .slice(0, MAX_NAMES_PER_REASON)
       .map((cell) => cellCaption(family, cell) || `linkage ${number[cell]}`)
       .join("; ");
-  return h(
-    "details",
-    { class: "not-assembled note" },
-    h("summary", {}, sums.filter(Boolean).join(", ")),
-    h(
-      "ul",
-      {},
-      [...reasons].map(([sentence, cells]) =>
-        h(
-          "li",
-          {},
-          h("b", {}, `${sentence} (${cells.length.toLocaleString("en")})`),
-          ` ${named(cells)}${cells.length > MAX_NAMES_PER_REASON ? " …" : ""}`,
-        ),
-      ),
-    ),
-  );
+  const item = ([sentence, cells]) => {
+    const more = cells.length > MAX_NAMES_PER_REASON ? " …" : "";
+    return h("li", h("b", `${sentence} (${cells.length.toLocaleString("en")})`), ` ${named(cells)}${more}`);
+  };
+  const summary = h("summary", sums.filter(Boolean).join(", "));
+  return h("details.not-assembled.note", summary, h("ul", [...reasons].map(item)));
 }
 
-/** The number of linkages of a family that could not be assembled. */
+/** The number of linkages of a family that could not be assembled. @param {ListedFamily} _ */
 export function notAssembledNote({ not_assembled: none, kept }) {
-  return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage", "linkages")} could not be assembled`;
+  return `${none.toLocaleString("en")} of ${formatCount(kept, "linkage")} could not be assembled`;
 }

@@ -1,11 +1,10 @@
 // All families of the atlas, each with its first page.
 
 import { address } from "../data/address.js";
-import { fill, h } from "./dom.js";
-import { formatCount } from "./footer.js";
+import { elementIn, fill, h } from "./dom.js";
 import { notAssembledNote } from "./not-assembled.js";
-import { onceVisible } from "./once-visible.js";
 import { pageThumbnail } from "./page-thumbnail.js";
+import { formatCount } from "./labels.js";
 
 // From this many families on, there is a search field.
 const MANY_FAMILIES = 8;
@@ -22,21 +21,15 @@ export const overviewRoute = {
     const { families, title } = app.atlas;
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
     const sight = onceVisible((tile) => showFirstPage(app, tiles.get(tile), tile));
-    const list = h("ul", { class: families.length < FEW_FAMILIES ? "families few" : "families" }, [
-      ...tiles.keys(),
-    ]);
+    const list = h(families.length < FEW_FAMILIES ? "ul.families.few" : "ul.families", [...tiles.keys()]);
+    const hasSearch = families.length >= MANY_FAMILIES;
+    const heading = h("div", h("h1", title), h("p.lede", atlasSummary(families)));
     return {
       title: "",
       element: h(
-        "div",
-        { class: "view overview" },
-        h(
-          "div",
-          { class: "head" },
-          h("div", {}, h("h1", {}, title), h("p", { class: "lede" }, atlasSummary(families))),
-          families.length >= MANY_FAMILIES ? familySearch(app, tiles, query.get("q") ?? "") : null,
-        ),
-        families.length ? list : h("p", { class: "empty" }, "There are no families in this atlas."),
+        "div.view.overview",
+        h("div.head", heading, hasSearch ? familySearch(app, tiles, query.get("q") ?? "") : null),
+        families.length ? list : h("p.empty", "There are no families in this atlas."),
       ),
       shown: () => [...tiles.keys()].forEach((tile) => sight.watch(tile)),
       leave: () => sight.end(),
@@ -44,71 +37,52 @@ export const overviewRoute = {
   },
 };
 
-function atlasSummary(families) {
-  const sum = (of) => families.reduce((total, family) => total + of(family), 0);
-  return `${formatCount(
-    sum((f) => f.curves),
-    "curve",
-    "curves",
-  )} of ${formatCount(
-    sum((f) => f.kept),
-    "linkage",
-    "linkages",
-  )} on ${formatCount(
-    sum((f) => f.pages),
-    "page",
-    "pages",
-  )}`;
+function atlasSummary(/** @type {ListedFamily[]} */ families) {
+  const sum = (/** @type {(family: ListedFamily) => number} */ of) =>
+    families.reduce((total, family) => total + of(family), 0);
+  const [curves, kept, pages] = [sum((f) => f.curves), sum((f) => f.kept), sum((f) => f.pages)];
+  return `${formatCount(curves, "curve")} of ${formatCount(kept, "linkage")} on ${formatCount(pages, "page")}`;
 }
 
-function familyTile(family) {
+function familyTile(/** @type {ListedFamily} */ family) {
   return h(
-    "li",
-    { class: "tile" },
-    h(
-      "a",
-      { href: address([family.id]) },
-      h("span", { class: "tile-picture" }),
-      h("span", { class: "name" }, family.title),
-    ),
-    h("p", { class: "source note" }),
-    h("p", { class: "note" }, familyCounts(family)),
-    family.not_assembled ? h("p", { class: "note" }, notAssembledNote(family)) : null,
+    "li.tile",
+    h("a", { href: address([family.id]) }, h("span.tile-picture"), h("span.name", family.title)),
+    h("p.source.note"),
+    h("p.note", familyCounts(family)),
+    family.not_assembled ? h("p.note", notAssembledNote(family)) : null,
   );
 }
 
 /** The counts of a family: curves, pages, and linkages if their number differs from that of the curves. */
-export function familyCounts(family) {
-  return [
-    formatCount(family.curves, "curve", "curves"),
-    formatCount(family.pages, "page", "pages"),
-    family.kept === family.curves ? null : formatCount(family.kept, "linkage", "linkages"),
-  ]
-    .filter(Boolean)
-    .join(" · ");
+export function familyCounts(/** @type {ListedFamily} */ family) {
+  const counts = [formatCount(family.curves, "curve"), formatCount(family.pages, "page")];
+  if (family.kept !== family.curves) counts.push(formatCount(family.kept, "linkage"));
+  return counts.join(" · ");
 }
 
-/** The source of a family, without the legend that its pages append to it. */
+/** The source of a family, without the legend that its pages append to it. @param {Family} _ */
 export function familySource({ source, legend }) {
   const ending = ` · ${legend}`;
   return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
 }
 
-async function showFirstPage(app, { id }, tile) {
-  const picture = tile.querySelector(".tile-picture");
+async function showFirstPage(/** @type {App} */ app, /** @type {ListedFamily} */ { id }, tile) {
+  const picture = elementIn(tile, ".tile-picture");
   try {
     const family = await app.atlas.family(id);
     picture.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
     fill(picture, pageThumbnail(app.atlas, family, 1) ?? "");
-    fill(tile.querySelector(".source"), familySource(family));
+    fill(elementIn(tile, ".source"), familySource(family));
   } catch (error) {
-    fill(tile.querySelector(".source"), h("span", { class: "error" }, error.message));
+    fill(elementIn(tile, ".source"), h("span.error", error.message));
   }
 }
 
 /**
  * A field that shows only the families whose title, linkage or id contains all its words; the address
  * contains them.
+ * @param {App} app @param {Map<HTMLElement, ListedFamily>} tiles @param {string} query
  */
 function familySearch(app, tiles, query) {
   const total = tiles.size;
@@ -127,15 +101,24 @@ function familySearch(app, tiles, query) {
     app.replace(address([], { q: event.target.value.trim() }));
   };
   leave(query);
-  return h(
-    "div",
-    { class: "field" },
-    h("input", {
-      type: "search",
-      value: query,
-      "aria-label": "Search families by name",
-      placeholder: `Search ${total} families`,
-      oninput: seek,
-    }),
+  const attributes = { type: "search", value: query, "aria-label": "Search families by name", oninput: seek };
+  return h("div.field", h("input", { ...attributes, placeholder: `Search ${total} families` }));
+}
+
+/**
+ * Calls `seen(element)` once for each watched element when it comes within half a window height of the
+ * window. Returns { watch(element), end() }.
+ */
+export function onceVisible(seen) {
+  const observer = new IntersectionObserver(
+    (entries) => {
+      for (const { target, isIntersecting } of entries) {
+        if (!isIntersecting) continue;
+        observer.unobserve(target);
+        seen(target);
+      }
+    },
+    { rootMargin: "50% 0px" },
   );
+  return { watch: (element) => observer.observe(element), end: () => observer.disconnect() };
 }

@@ -1,23 +1,22 @@
 // The toolbar of a page: page number and zoom.
 
 import { address } from "../data/address.js";
-import { h } from "./dom.js";
-import { pageField } from "./page-field.js";
+import { curveKey } from "../data/family.js";
+import { buttonOf, h } from "./dom.js";
 import { printedColorsButton } from "./settings.js";
 
 /**
- * The toolbar { element, update({ page, magnification, isFit }) }: links to the previous and next page, a
- * field for the page number, and zoom buttons. `listed` is the family's entry in the atlas, `go(page)` opens
- * a page, `zoom()` returns the Zoom.
+ * The toolbar: links to the previous and next page, a field for the page number, and zoom buttons. `go(page)`
+ * opens a page, `zoom()` returns the Zoom.
  */
-export function pageBar(listed, { go, zoom }) {
-  const contents = h("a", { class: "button contents" }, "All pages");
+export function pageBar(/** @type {ListedFamily} */ listed, { go, zoom }) {
+  const contents = h("a.button.contents", "All pages");
   const [before, after] = [stepLink("Previous page", "←", "prev"), stepLink("Next page", "→", "next")];
   const number = pageField(listed, "page", go);
   const controls = zoomControls(zoom);
-  const steps = h("div", { class: "segments" }, before, after);
+  const steps = h("div.segments", before, after);
   const parts = [contents, steps, number.element, printedColorsButton(), controls.element];
-  const element = h("div", { class: "toolbar page-bar" }, parts);
+  const element = h("div.toolbar.page-bar", parts);
   const update = ({ page, magnification, isFit }) => {
     contents.setAttribute("href", address([listed.id], { page }));
     setStepTarget(before, listed, page - 1);
@@ -32,11 +31,11 @@ export function pageBar(listed, { go, zoom }) {
 }
 
 function stepLink(label, sign, rel) {
-  return h("a", { class: "button", rel, "aria-label": label, title: label, role: "link" }, sign);
+  return h("a.button", { rel, "aria-label": label, title: label, role: "link" }, sign);
 }
 
 /** Points a link at a page, or disables it if there is no such page. */
-function setStepTarget(link, { id, pages }, page) {
+function setStepTarget(link, /** @type {ListedFamily} */ { id, pages }, page) {
   const isThere = page >= 1 && page <= pages;
   if (isThere) link.setAttribute("href", address([id, page]));
   else link.removeAttribute("href");
@@ -44,27 +43,40 @@ function setStepTarget(link, { id, pages }, page) {
 }
 
 function zoomControls(zoom) {
-  const level = h("span", { class: "zoom-level" });
+  const level = h("span.zoom-level");
   const button = (label, sign, factor) =>
-    h(
-      "button",
-      { type: "button", "aria-label": label, title: label, onclick: () => zoom().zoomBy(factor) },
-      sign,
-    );
-  const whole = h("button", { type: "button", onclick: () => zoom().fit() }, "Fit");
-  const segments = h(
-    "div",
-    { class: "segments" },
-    button("Zoom out", "−", 1 / 1.5),
-    whole,
-    button("Zoom in", "+", 1.5),
-  );
+    buttonOf(sign, () => zoom().zoomBy(factor), { "aria-label": label, title: label });
+  const whole = buttonOf("Fit", () => zoom().fit());
+  const segments = h("div.segments", button("Zoom out", "−", 1 / 1.5), whole, button("Zoom in", "+", 1.5));
   const update = (magnification, isFit) => {
     level.textContent = `${Math.round(magnification * 100)} %`;
     whole.setAttribute("aria-pressed", String(isFit));
   };
-  return {
-    element: h("div", { class: "toolbar end", role: "group", "aria-label": "Zoom" }, level, segments),
-    update,
+  const attributes = { role: "group", "aria-label": "Zoom" };
+  return { element: h("div.toolbar.end", attributes, level, segments), update };
+}
+
+/** The address of a page's view: its selected curve, and what is enlarged. @param {PageView} _ */
+export function pageAddress({ family, page, highlight, zoom }) {
+  const { isFit, magnification, middle } = zoom;
+  return address([family.id, page], {
+    curve: highlight.selected === null ? null : curveKey(family, highlight.selected),
+    zoom: isFit ? null : magnification.toFixed(2),
+    at: isFit ? null : middle.map((mm) => mm.toFixed(1)).join(","),
+  });
+}
+
+/** A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number. */
+export function pageField(/** @type {ListedFamily} */ { pages }, label, go) {
+  const field = h("input", { type: "number", min: 1, max: pages, step: 1, "aria-label": "Page" });
+  const submit = (event) => {
+    event.preventDefault();
+    const page = Math.round(Number(field.value));
+    if (page >= 1 && page <= pages) go(page);
+    else field.setAttribute("aria-invalid", "true");
   };
+  const words = h("span", label);
+  const total = h("span", `of ${pages.toLocaleString("en")}`);
+  const form = { class: "field row page-field", novalidate: true, onsubmit: submit };
+  return { element: h("form", form, words, field, total), field };
 }

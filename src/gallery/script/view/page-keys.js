@@ -1,14 +1,22 @@
 // The keyboard commands of a page.
 
-import { h } from "./dom.js";
+import { h, isShortcut } from "./dom.js";
 
-/** The action of a key on a page: a function, or null if there is none. */
-export function keyAction(event, view) {
-  if (event.ctrlKey || event.metaKey || event.altKey) return null;
+/** Handles a key on a page. @param {PageView} view */
+export function handlePageKey(event, view) {
+  const act = keyAction(event, view);
+  if (!act) return;
+  event.preventDefault();
+  act();
+}
+
+/** The action of a key on a page: a function, or null if there is none. @param {PageView} view */
+function keyAction(event, view) {
+  if (isShortcut(event)) return null;
   return curveKeyAction(event, view) ?? pageKeyAction(event.key, view);
 }
 
-function pageKeyAction(key, view) {
+function pageKeyAction(key, /** @type {PageView} */ view) {
   const { zoom, page, listed } = view;
   const [dx, dy] = [view.viewport.clientWidth / 8, view.viewport.clientHeight / 8];
   const acts = {
@@ -23,11 +31,7 @@ function pageKeyAction(key, view) {
     PageUp: () => view.go(page - 1),
     Home: () => view.go(1),
     End: () => view.go(listed.pages),
-    Escape: () => {
-      view.highlight.select(null);
-      view.showPanel();
-      view.remember();
-    },
+    Escape: () => view.deselect(),
   };
   // When the whole page is visible, the arrow keys scroll the window.
   const ways = { ArrowLeft: [dx, 0], ArrowRight: [-dx, 0], ArrowUp: [0, dy], ArrowDown: [0, -dy] };
@@ -36,10 +40,10 @@ function pageKeyAction(key, view) {
 }
 
 /** On a curve, arrow keys move to the next curve, and with Shift along the curve. */
-function curveKeyAction({ key, shiftKey, target }, view) {
+function curveKeyAction({ key, shiftKey, target }, /** @type {PageView} */ view) {
   const link = target.closest?.("a[data-curve]");
   if (!link) return null;
-  const links = [...view.overlay.links.values()];
+  const links = [...(view.overlay?.links.values() ?? [])];
   const at = links.indexOf(link);
   const to = (k) => () => {
     links.forEach((other) => other.setAttribute("tabindex", "-1"));
@@ -53,30 +57,17 @@ function curveKeyAction({ key, shiftKey, target }, view) {
   }
   const acts = { ArrowRight: to(at + 1), ArrowDown: to(at + 1), ArrowLeft: to(at - 1), ArrowUp: to(at - 1) };
   const ends = { Home: to(0), End: to(links.length - 1) };
-  const away = () => {
-    view.highlight.select(null);
-    view.showPanel();
-    view.viewport.focus({ preventScroll: true });
-  };
+  const away = () => view.showAll();
   return acts[key] ?? ends[key] ?? (key === "Escape" ? away : null);
 }
 
 /** The help for wheel, keyboard and touch, as the element "page-keys". */
 export function keyHelp() {
-  return h(
-    "p",
-    { class: "note no-print page-keys", id: "page-keys" },
-    h(
-      "span",
-      { class: "by-keys" },
-      "Wheel, pinch, + and −: zoom; 0: fit the page; arrow keys: pan; ",
-      "n and p: next and previous page. ",
-      "Tab: select a curve; arrow keys: next curve, with Shift along the curve; Enter: open its plate.",
-    ),
-    h(
-      "span",
-      { class: "by-touch" },
-      "Pinch to zoom. Tap a curve to highlight it, and again to open its plate.",
-    ),
+  const keys = h(
+    "span.by-keys",
+    "Wheel, pinch, + and −: zoom; 0: fit the page; arrow keys: pan; n and p: next and previous page. ",
+    "Tab: select a curve; arrow keys: next curve, with Shift along the curve; Enter: open its plate.",
   );
+  const touch = "Pinch to zoom. Tap a curve to highlight it, and again to open its plate.";
+  return h("p.note.no-print.page-keys", { id: "page-keys" }, keys, h("span.by-touch", touch));
 }

@@ -1,30 +1,29 @@
 // The panel next to a page: its list of curves, or the highlighted curve.
 
 import { address } from "../data/address.js";
-import { cellCaption, cellText, curveCaption, curveKey, measureValue } from "../data/family.js";
-import { h } from "./dom.js";
-import { cellsOnPage } from "./page-cells.js";
-import { formatCaption, formatNumber, measureLabel, measureText } from "./labels.js";
-import { pinButton } from "./pin-button.js";
+import { cellCaption, cellText, curveKey, measureValue, pageViews } from "../data/family.js";
+import { buttonOf, h, termList } from "./dom.js";
+import { formatCaption, formatNumber, measureLabel, measureText, formatCount } from "./labels.js";
 import { thumbnail } from "./thumbnail.js";
+import { panelCells } from "../data/needs.js";
+import { pinButton } from "./pins.js";
 
-/** The curves of a page as links, and the linkages that could not be assembled. */
+/**
+ * The curves of a page as links, and the linkages that could not be assembled.
+ * @param {Family} family @param {DrawnCurve[]} drawn
+ */
 export function curveListPanel(family, page, drawn, { onenter, onleave }) {
   // If all curves are of one linkage, each row shows only its point.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
-  const links = new Map(
-    drawn.map(({ curve }) => [curve, curveRow(family, curve, { one, onenter, onleave })]),
-  );
+  const links = drawn.map(({ curve }) => curveRow(family, curve, { one, onenter, onleave }));
   const short = cellsOnPage(family, page).filter((cell) => family.cells.status[cell] === 2);
   return h(
-    "div",
-    { class: "panel" },
-    one ? h("h2", {}, captionOfCurve(family, drawn[0].curve)) : null,
+    "div.panel",
+    one ? h("h2", formatCaption(cellLabel(family, drawn[0].view.cell, "Linkage"))) : null,
     drawn.length ? curveCount(drawn.length, one) : noCurvesNote(family),
     h(
-      "ol",
-      { class: "page-curves" },
-      [...links.values()].map((link) => h("li", {}, link)),
+      "ol.page-curves",
+      links.map((link) => h("li", link)),
     ),
     short.length ? notAssembledList(family, short) : null,
   );
@@ -32,43 +31,28 @@ export function curveListPanel(family, page, drawn, { onenter, onleave }) {
 
 function curveCount(count, isBelowHeading) {
   const sum = `${count} ${count === 1 ? "curve" : "curves"} on this page`;
-  return isBelowHeading ? h("p", { class: "note" }, sum) : h("h2", {}, sum);
+  return isBelowHeading ? h("p.note", sum) : h("h2", sum);
 }
 
-function noCurvesNote(family) {
-  const [heading, sentence] =
-    family.layout === "chart"
-      ? ["A chart", chartCurvesNote(family)]
-      : ["No curves", "No curves are drawn on this page."];
-  return [h("h2", {}, heading), h("p", { class: "note" }, sentence)];
+function noCurvesNote(/** @type {Family} */ family) {
+  if (family.layout !== "chart")
+    return [h("h2", "No curves"), h("p.note", "No curves are drawn on this page.")];
+  const href = address([family.id], { show: "curves" });
+  const link = h("a", { href }, formatCount(family.curves.count, "curve"));
+  return [h("h2", "A chart"), h("p.note", "Computed from ", link, ", which are not drawn on it.")];
 }
 
-function chartCurvesNote(family) {
-  return [
-    "Computed from ",
-    h(
-      "a",
-      { href: address([family.id], { show: "curves" }) },
-      `${family.curves.count.toLocaleString("en")} curves`,
-    ),
-    ", which are not drawn on it.",
-  ];
+/** The caption of a cell, or its number after a word. */
+function cellLabel(/** @type {Family} */ family, cell, word) {
+  return cellCaption(family, cell) || `${word} ${family.cells.number[cell]}`;
 }
 
-function captionOfCurve(family, curve) {
-  const cell = family.curves.cell[curve];
-  return formatCaption(cellCaption(family, cell) || `Linkage ${family.cells.number[cell]}`);
-}
-
-function curveRow(family, curve, { one, onenter, onleave }) {
+function curveRow(/** @type {Family} */ family, curve, { one, onenter, onleave }) {
   const { cell, circuit } = family.curves;
-  const caption = one ? null : curveCaption(family, curve) || `linkage ${family.cells.number[cell[curve]]}`;
-  const words = [
-    caption,
-    pointLabel(family, curve),
-    circuit[curve] > 1 || one ? `circuit ${circuit[curve]}` : null,
-  ];
-  if (one && pointLabel(family, curve) && circuit[curve] === 1) words.pop();
+  const caption = one ? null : cellLabel(family, cell[curve], "linkage");
+  const point = pointLabel(family, curve);
+  const hasCircuit = circuit[curve] > 1 || (one && !point);
+  const words = [caption, point, hasCircuit ? `circuit ${circuit[curve]}` : null];
   return h(
     "a",
     {
@@ -79,108 +63,107 @@ function curveRow(family, curve, { one, onenter, onleave }) {
       onblur: onleave,
     },
     thumbnail(family, [curve], { width: 44, height: 30 }),
-    h("span", {}, formatCaption(words.filter(Boolean).join(" · "))),
+    h("span", formatCaption(words.filter(Boolean).join(" · "))),
   );
 }
 
-/** The label of the traced point of a curve, if the linkage has several. */
+/** The label of the traced point of a curve, if the linkage has several. @param {Family} family */
 export function pointLabel(family, curve) {
   return family.traces > 1 ? `point ${family.curves.trace[curve]}` : "";
 }
 
-/** The linkages that could not be assembled, each with the reason. */
+/** The linkages that could not be assembled, each with the reason. @param {Family} family */
 function notAssembledList(family, cells) {
-  return h(
-    "section",
-    { class: "not-assembled" },
-    h("h3", {}, "Could not be assembled"),
-    h(
-      "ul",
-      {},
-      cells.map((cell) =>
-        h(
-          "li",
-          {},
-          h("b", {}, formatCaption(cellCaption(family, cell) || `linkage ${family.cells.number[cell]}`)),
-          h("span", { class: "note" }, ` ${cellText(family, cell, "reason")}`),
-        ),
-      ),
-    ),
-  );
+  const item = (cell) => {
+    const reason = h("span.note", ` ${cellText(family, cell, "reason")}`);
+    return h("li", h("b", formatCaption(cellLabel(family, cell, "linkage"))), reason);
+  };
+  return h("section.not-assembled", h("h3", "Could not be assembled"), h("ul", cells.map(item)));
 }
 
 /** The data of a curve: caption, class, parameters, measures and actions. */
-export function curvePanel(app, family, curve, { onall }) {
+export function curvePanel(/** @type {App} */ app, /** @type {Family} */ family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
   const key = curveKey(family, curve);
   const note = cellText(family, at, "note");
   const words = ["class", "type"].map((name) => measureValue(family, curve, name)).filter(Boolean);
   return h(
-    "div",
-    { class: "panel" },
-    h("h2", {}, formatCaption(cellCaption(family, at) || `Linkage ${family.cells.number[at]}`)),
+    "div.panel",
+    h("h2", formatCaption(cellLabel(family, at, "Linkage"))),
     h(
-      "p",
-      { class: "tags" },
+      "p.tags",
       [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"]
         .filter(Boolean)
-        .map((word) => [h("span", { class: "tag" }, word), " "]),
+        .map((word) => [h("span.tag", word), " "]),
     ),
-    note ? h("p", { class: "note" }, note) : null,
-    family.cells.status[at] === 1
-      ? h("p", { class: "note" }, `Partial: ${cellText(family, at, "reason")}`)
-      : null,
+    note ? h("p.note", note) : null,
+    family.cells.status[at] === 1 ? h("p.note", `Partial: ${cellText(family, at, "reason")}`) : null,
     h(
-      "div",
-      { class: "toolbar no-print" },
-      h("a", { class: "button", href: address([family.id, "curve", key]) }, "Open plate"),
+      "div.toolbar.no-print",
+      h("a.button", { href: address([family.id, "curve", key]) }, "Open plate"),
       pinButton(app, `${family.id}:${key}`),
-      h("button", { type: "button", class: "quiet", onclick: onall }, "All curves"),
+      buttonOf("All curves", onall, { class: "quiet" }),
     ),
     parameterFacts(family, at),
     measureFacts(app.atlas, family, curve),
   );
 }
 
-function parameterFacts(family, cell) {
+function parameterFacts(/** @type {Family} */ family, cell) {
   const width = family.names.length;
   const rows = family.names.map((name, k) => [name, family.cells.values[cell * width + k]]);
   const shown = rows.filter(([, value]) => Number.isFinite(value));
   if (shown.length === 0) return null;
   return [
-    h("h3", {}, "Parameters"),
-    h(
-      "dl",
-      { class: "facts page-parameters" },
-      shown.map(([name, value]) => [h("dt", {}, h("i", {}, name)), h("dd", {}, formatNumber(value, 6))]),
+    h("h3", "Parameters"),
+    termList(
+      "dl.facts.page-parameters",
+      shown.map(([name, value]) => [h("i", name), formatNumber(value, 6)]),
     ),
   ];
 }
 
 /** The measures of a curve with tooltips, and all definitions in a collapsed list. */
-function measureFacts(atlas, family, curve) {
-  const rows = atlas.measures.map((measure) => [measure, measureText(family, curve, measure)]);
-  const shown = rows.filter(([{ name }, text]) => text !== undefined && !["class", "type"].includes(name));
+function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, curve) {
+  const rows = atlas.measures.map((measure) => ({ ...measure, text: measureText(family, curve, measure) }));
+  const shown = rows.filter(({ name, text }) => text !== undefined && !["class", "type"].includes(name));
+  const definitions = shown.map(({ name, definition }) => [measureLabel(name), definition]);
+  const terms = shown.map(({ name, definition, text }) => [
+    h("dt", { title: definition }, measureLabel(name)),
+    h("dd", text),
+  ]);
   return [
-    h("h3", {}, "Measures"),
-    h(
-      "dl",
-      { class: "facts page-measures" },
-      shown.map(([{ name, definition }, text]) => [
-        h("dt", { title: definition }, measureLabel(name)),
-        h("dd", {}, text),
-      ]),
-    ),
-    h(
-      "details",
-      { class: "definitions note" },
-      h("summary", {}, "Definitions"),
-      h(
-        "dl",
-        {},
-        shown.map(([{ name, definition }]) => [h("dt", {}, measureLabel(name)), h("dd", {}, definition)]),
-      ),
-    ),
+    h("h3", "Measures"),
+    h("dl.facts.page-measures", terms),
+    h("details.definitions.note", h("summary", "Definitions"), termList("dl", definitions)),
   ];
+}
+
+/**
+ * The cells on a page, numbered from 1, in order. Drawn cells are listed in the data; the position of a cell
+ * that is not drawn follows from the number of panels per page, or of pages per linkage.
+ */
+export function cellsOnPage(/** @type {Family} */ family, page) {
+  if (family.layout === "chart") return [];
+  const drawn = new Set(pageViews(family, page).map(({ cell }) => cell));
+  const [first, last] = panelCells(family, page);
+  for (let cell = first; cell < last; cell += 1) drawn.add(cell);
+  const { count } = family.cells;
+  const pages = family.pageCount;
+  if (family.layout === "coupler-grid" && pages % count === 0)
+    drawn.add(Math.floor(((page - 1) * count) / pages));
+  return [...drawn].sort((a, b) => a - b);
+}
+
+/** The label of a page: the caption of its only linkage, or the numbers of its linkages. */
+export function pageLabel(/** @type {Family} */ family, page) {
+  const cells = cellsOnPage(family, page);
+  if (cells.length === 0) return family.layout === "chart" ? "chart" : "";
+  const numbers = cells.map((cell) => family.cells.number[cell]);
+  if (cells.length > 1) return `linkages ${numbers[0]}–${numbers.at(-1)}`;
+  const caption = cellLabel(family, cells[0], "linkage");
+  const traces = pageViews(family, page).flatMap((view) => view.curves.map((c) => family.curves.trace[c]));
+  if (traces.length < 2) return caption;
+  return `${caption} · points ${Math.min(...traces)}–${Math.max(...traces)}`;
 }

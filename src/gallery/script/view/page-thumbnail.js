@@ -3,8 +3,7 @@
 import { pageFile } from "../data/atlas.js";
 import { pageViews } from "../data/family.js";
 import { isScattered } from "../data/needs.js";
-import { h, s } from "./dom.js";
-import { paperTone } from "./paper-tone.js";
+import { h, s, thumbnailFrame } from "./dom.js";
 import { curvePath } from "./thumbnail.js";
 
 // Points closer than this, in millimetres of paper, are merged in a thumbnail.
@@ -14,27 +13,26 @@ const PAPER_GRAIN = 1;
  * The thumbnail of a page: its curves drawn from the data if they are loaded (needs.js), or its file. Null if
  * there is neither. The curves of a scattered page are not drawn.
  */
-export function pageThumbnail(atlas, family, page) {
+export function pageThumbnail(/** @type {Atlas} */ atlas, /** @type {Family} */ family, page) {
   const views = isScattered(family) ? [] : pageViews(family, page);
-  if (views.length) return drawPage(family, views, "page-thumbnail thumbnail", PAPER_GRAIN);
+  if (views.length) return drawPage(family, views, ".page-thumbnail", PAPER_GRAIN);
   const file = pageFile(atlas, family.id, page);
   if (!file) return null;
-  return h("img", {
-    class: "page-thumbnail printed",
+  const attributes = {
     src: file,
     alt: "",
     loading: "lazy",
     decoding: "async",
     "data-paper": paperTone(family),
-  });
+  };
+  return h("img.page-thumbnail.printed", attributes);
 }
 
 /**
  * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect
  * ratio.
  */
-export function drawPage(family, views, name, grain) {
-  const { width, height } = family.paper;
+export function drawPage(/** @type {Family} */ family, /** @type {PageDrawing[]} */ views, name, grain) {
   const paths = views.flatMap((view) =>
     view.curves.map((curve, k) =>
       s("path", {
@@ -44,9 +42,21 @@ export function drawPage(family, views, name, grain) {
       }),
     ),
   );
-  return s(
-    "svg",
-    { class: name, viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" },
-    paths,
-  );
+  return thumbnailFrame(name, family.paper, paths);
+}
+
+// Paper of lower relative luminance has light ink: this value has equal WCAG contrast to black and white.
+const DARK_LUMINANCE = 0.18;
+
+/** The `data-paper` attribute of a family's pictures: "dark" for dark paper, otherwise null. */
+export function paperTone(/** @type {Family} */ { paper }) {
+  const digits = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(paper.color ?? "");
+  if (!digits) return null;
+  const [red, green, blue] = digits.slice(1).map((pair) => linearLight(parseInt(pair, 16) / 255));
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue < DARK_LUMINANCE ? "dark" : null;
+}
+
+/** The linear light of an sRGB level, both from 0 to 1. */
+function linearLight(level) {
+  return level <= 0.04045 ? level / 12.92 : ((level + 0.055) / 1.055) ** 2.4;
 }

@@ -1,18 +1,16 @@
 // The view of a page, with zoom and the curve under the pointer highlighted.
 
 import { address } from "../data/address.js";
-import { pageFile } from "../data/atlas.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
 import { loadPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
-import { curvesOnPaper, nearestCurve } from "./page-curves.js";
 import { CurveHighlight } from "./curve-highlight.js";
-import { pageBar } from "./page-bar.js";
-import { keyAction, keyHelp } from "./page-keys.js";
+import { pageAddress, pageBar } from "./page-bar.js";
+import { handlePageKey, keyHelp } from "./page-keys.js";
 import { curvePanel, curveListPanel } from "./page-panel.js";
-import { pageOverlay, pagePicture } from "./page-picture.js";
-import { watchPins } from "./pin-button.js";
+import { pageOverlay, pagePicture, prefetchPages, curvesOnPaper, nearestCurve } from "./page-picture.js";
 import { Zoom } from "./zoom.js";
+import { watchPins } from "./pins.js";
 
 /** The route of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
 export const pageRoute = {
@@ -31,60 +29,61 @@ export const pageRoute = {
 };
 
 /** The view of a page. */
-class PageView {
-  constructor(app, family, listed) {
-    Object.assign(this, { app, family, listed });
-    this.viewport = h("div", {
-      class: "viewport",
+export class PageView {
+  /** The number of the page. */
+  page = 0;
+  title = "";
+  /** @type {Query} */ query = new Map();
+  /** @type {DrawnCurve[]} */ drawn = [];
+  /** @type {ReturnType<typeof pageOverlay> | null} */ overlay = null;
+  hasLeft = false;
+  hasPosition = false;
+  /** @type {string | null} */ announcedPercent = null;
+  remembering = 0;
+  /** Releases the data of the page. */ release = () => {};
+
+  constructor(/** @type {App} */ app, /** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
+    this.app = app;
+    this.family = family;
+    this.listed = listed;
+    this.viewport = h("div.viewport", {
       tabindex: "0",
       role: "group",
       "aria-describedby": "page-keys",
-      onkeydown: (event) => this.handleKey(event),
+      onkeydown: (event) => handlePageKey(event, this),
       onpointermove: (event) => this.hovered(event),
       onpointerleave: () => this.highlight.leave(),
     });
-    this.sheet = h("div", { class: "page-sheet" });
-    this.reading = h("div", { class: "reading", hidden: true });
+    this.sheet = h("div.page-sheet");
+    this.reading = h("div.reading", { hidden: true });
     this.viewport.append(this.sheet, this.reading);
-    this.panel = h("aside", { class: "page-panel", "aria-label": "Curves of this page" });
+    this.panel = h("aside.page-panel", { "aria-label": "Curves of this page" });
     this.bar = pageBar(listed, { go: (page) => this.go(page), zoom: () => this.zoom });
     const { width, height } = family.paper;
     this.viewport.style.aspectRatio = `${width} / ${height}`;
-    this.zoom = new Zoom(this.viewport, this.sheet, {
-      width,
-      height,
-      onchange: () => this.zoomed(),
-      ontap: (event) => this.tapped(event),
-    });
+    const act = { onchange: () => this.zoomed(), ontap: (event) => this.tapped(event) };
+    this.zoom = new Zoom(this.viewport, this.sheet, { width, height, ...act });
     this.highlight = new CurveHighlight(this);
-    this.element = this.layOut();
+    this.legend = h("p.note");
+    const heading = h("h1", h("a", { href: address([family.id]) }, family.title));
+    this.element = h(
+      "div.view.wide.page-view",
+      { onclick: (event) => this.followed(event) },
+      h("div.head", h("div.page-title", heading, this.legend), this.bar.element),
+      h("div.split", h("div.page-main", this.viewport, keyHelp()), this.panel),
+    );
     this.unwatch = watchPins(app, this.element);
   }
 
-  layOut() {
-    const heading = h("h1", {}, h("a", { href: address([this.family.id]) }, this.family.title));
-    this.legend = h("p", { class: "note" });
-    return h(
-      "div",
-      { class: "view wide page-view", onclick: (event) => this.followed(event) },
-      h("div", { class: "head" }, h("div", { class: "page-title" }, heading, this.legend), this.bar.element),
-      h("div", { class: "split" }, h("div", { class: "page-main" }, this.viewport, keyHelp()), this.panel),
-    );
-  }
-
-  /** Shows the page of an address; returns false for another family. */
+  /** Shows the page of an address; returns false for another family. @param {Target} target */
   update(target) {
-    if (
-      !pageRoute.matches(target) ||
-      target.path[0] !== this.family.id ||
-      Number(target.path[1]) > this.listed.pages
-    )
-      return false;
+    const [id, page] = target.path;
+    if (!pageRoute.matches(target) || id !== this.family.id || Number(page) > this.listed.pages) return false;
     this.open(target);
     return true;
   }
 
-  async open({ path, query }) {
+  async open(/** @type {Target} */ { path, query }) {
     const page = Number(path[1]);
     const isOther = page !== this.page;
     this.page = page;
@@ -97,7 +96,7 @@ class PageView {
         release();
         return;
       }
-      this.release?.();
+      this.release();
       this.release = release;
       this.setPicture(picture);
       this.app.announce(this.title);
@@ -129,16 +128,17 @@ class PageView {
     this.overlay.links.values().next().value?.setAttribute("tabindex", "0");
     if (hadFocus) this.viewport.focus({ preventScroll: true });
     this.showPanel();
-    this.prefetch();
+    prefetchPages(this.app, this.family, this.page);
   }
 
-  /** Applies the rest of the address: a curve, and the zoom position. */
+  /** Applies the rest of the address: a curve, and the zoom position. @param {Query} query */
   applyQuery(query) {
-    const [near, at] = [Number(query.get("zoom")), (query.get("at") ?? "").split(",").map(Number)];
-    if (near > 1 && at.length === 2 && at.every(Number.isFinite)) this.zoom.showAt(near, at);
-    else if (this.hasPosition === undefined) this.zoom.fit();
+    const near = Number(query.get("zoom"));
+    const [x, y, ...more] = (query.get("at") ?? "").split(",").map(Number);
+    if (near > 1 && Number.isFinite(x) && Number.isFinite(y) && !more.length) this.zoom.showAt(near, [x, y]);
+    else if (!this.hasPosition) this.zoom.fit();
     this.hasPosition = true;
-    const curve = query.has("curve") ? findCurve(this.family, query.get("curve")) : undefined;
+    const curve = findCurve(this.family, query.get("curve"));
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.highlight.select(curve);
     else {
       this.highlight.select(null);
@@ -149,35 +149,36 @@ class PageView {
   }
 
   /** Shows the list of curves, or one curve, in the panel. */
-  showPanel(curve = null) {
-    const all = () => {
-      this.highlight.select(null);
-      this.showPanel();
-      this.viewport.focus({ preventScroll: true });
-    };
+  showPanel(/** @type {number | null} */ curve = null) {
+    const all = () => this.showAll();
     const listeners = {
       onenter: (other) => this.highlight.preview(other),
       onleave: () => this.highlight.leave(),
     };
-    fill(
-      this.panel,
+    const { app, family, page, drawn } = this;
+    const panel =
       curve === null
-        ? curveListPanel(this.family, this.page, this.drawn, listeners)
-        : curvePanel(this.app, this.family, curve, { onall: all }),
-    );
+        ? curveListPanel(family, page, drawn, listeners)
+        : curvePanel(app, family, curve, { onall: all });
+    fill(this.panel, panel);
     fill(this.legend, this.family.legend ?? "");
   }
 
-  /** Prefetches the previous and the next page. */
-  prefetch() {
-    for (const page of [this.page + 1, this.page - 1]) {
-      const file = page >= 1 && pageFile(this.app.atlas, this.family.id, page);
-      if (file) new Image().src = file;
-    }
+  /** Shows the list of curves instead of one curve. */
+  showAll() {
+    this.highlight.select(null);
+    this.showPanel();
+    this.viewport.focus({ preventScroll: true });
+  }
+
+  deselect() {
+    this.highlight.select(null);
+    this.showPanel();
+    this.remember();
   }
 
   hovered(event) {
-    if (event.pointerType === "touch" || this.zoom.isDragging || !this.drawn) return;
+    if (event.pointerType === "touch" || this.zoom.isDragging) return;
     const place = this.zoom.placeOf(event);
     this.highlight.hover(nearestCurve(this.drawn, place, this.reach(8)), place);
   }
@@ -185,17 +186,11 @@ class PageView {
   tapped(event) {
     const place = this.zoom.placeOf(event);
     const found = nearestCurve(this.drawn, place, this.reach(event.pointerType === "touch" ? 20 : 8));
-    if (!found) {
-      this.highlight.select(null);
-      this.showPanel();
-    } else if (event.pointerType !== "touch" || this.highlight.selected === found.curve) {
+    if (!found) this.deselect();
+    else if (event.pointerType !== "touch" || this.highlight.selected === found.curve) {
       this.choose(found.curve);
       this.app.go(address([this.family.id, "curve", curveKey(this.family, found.curve)]));
-      return;
-    } else {
-      this.highlight.select(found.curve, place);
-    }
-    this.remember();
+    } else this.choose(found.curve, place);
   }
 
   /** Selects the curve of a link that is followed, so that it is highlighted on return. */
@@ -205,8 +200,8 @@ class PageView {
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.choose(curve);
   }
 
-  choose(curve) {
-    this.highlight.select(curve);
+  choose(curve, /** @type {Point | null} */ place = null) {
+    this.highlight.select(curve, place);
     this.remember();
   }
 
@@ -215,20 +210,14 @@ class PageView {
     return Math.max(pixels, Math.min(3 * this.zoom.scale, 2 * pixels)) / this.zoom.scale;
   }
 
-  handleKey(event) {
-    const act = keyAction(event, this);
-    if (!act) return;
-    event.preventDefault();
-    act();
-  }
-
   go(page) {
     if (page >= 1 && page <= this.listed.pages && page !== this.page)
       this.app.go(address([this.family.id, page]));
   }
 
   zoomed() {
-    this.updateBar();
+    const { magnification, isFit } = this.zoom;
+    this.bar.update({ page: this.page, magnification, isFit });
     this.highlight.updateZoom();
     window.clearTimeout(this.remembering);
     this.remembering = window.setTimeout(() => this.settled(), 400);
@@ -237,33 +226,23 @@ class PageView {
   /** Handles the end of a zoom. */
   settled() {
     const percent = `${Math.round(this.zoom.magnification * 100)} %`;
-    if (this.announcedPercent !== undefined && percent !== this.announcedPercent)
+    if (this.announcedPercent !== null && percent !== this.announcedPercent)
       this.app.announce(`Zoom ${percent}`);
     this.announcedPercent = percent;
     this.remember();
   }
 
-  updateBar() {
-    this.bar.update({ page: this.page, magnification: this.zoom.magnification, isFit: this.zoom.isFit });
-  }
-
   /** Writes the current state to the address. */
   remember() {
-    if (this.hasLeft || this.page === undefined) return;
-    const { isFit, magnification, middle } = this.zoom;
-    this.app.replace(
-      address([this.family.id, this.page], {
-        curve: this.highlight.selected === null ? null : curveKey(this.family, this.highlight.selected),
-        zoom: isFit ? null : magnification.toFixed(2),
-        at: isFit ? null : middle.map((mm) => mm.toFixed(1)).join(","),
-      }),
-    );
+    if (this.hasLeft || this.page === 0) return;
+    this.app.replace(pageAddress(this));
   }
 
   leave() {
     this.hasLeft = true;
     this.unwatch();
-    this.release?.();
+    this.highlight.reset();
+    this.release();
     window.clearTimeout(this.remembering);
     this.zoom.end();
   }

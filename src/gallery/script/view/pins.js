@@ -1,4 +1,6 @@
-// The pinned curves, which are compared and exported together.
+// The pinned curves, which are compared and exported together, and the buttons that pin them.
+
+import { h, isShortcut } from "./dom.js";
 
 /** The names of pinned curves, "family:cell.trace.circuit", in the order in which they were pinned. */
 export class Pins {
@@ -16,14 +18,14 @@ export class Pins {
     this.set(this.has(name) ? this.names.filter((known) => known !== name) : [...this.names, name]);
   }
 
-  /** Replaces all pins. */
+  /** Replaces all pins. @param {string[]} names */
   set(names) {
     this.names = [...new Set(names)];
     this.listeners.forEach((listener) => listener(this.names));
   }
 
   /** Calls `listener` with the names whenever they change; returns a function that stops it. */
-  watch(listener) {
+  watch(/** @type {(names: string[]) => void} */ listener) {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   }
@@ -47,4 +49,52 @@ export function tabPins(window) {
     }
   });
   return pins;
+}
+
+/**
+ * A button that pins or unpins the curve with a name, "family:cell.trace.circuit". Without children, its
+ * label says whether the curve is pinned.
+ */
+export function pinButton(/** @type {App} */ app, name, attributes = {}, ...children) {
+  const act = () => {
+    const { pin } = button.dataset;
+    app.pins.toggle(pin);
+    markPin(app, button);
+    app.announce(app.pins.has(pin) ? `${pin} pinned` : `${pin} unpinned`);
+  };
+  const button = h("button", { "data-pin": name, onclick: act, ...attributes }, ...children);
+  markPin(app, button);
+  return button;
+}
+
+/** Sets the curve that a button pins. @param {App} app */
+export function setPinName(app, button, name) {
+  button.dataset.pin = name;
+  markPin(app, button);
+}
+
+/** Keeps the pin buttons in an element up to date; returns a function that stops it. @param {App} app */
+export function watchPins(app, element) {
+  const buttons = () => element.querySelectorAll("[data-pin]");
+  return app.pins.watch(() => buttons().forEach((button) => markPin(app, button)));
+}
+
+function markPin(/** @type {App} */ app, button) {
+  const isPinned = app.pins.has(button.dataset.pin);
+  button.setAttribute("aria-pressed", String(isPinned));
+  if (!button.firstElementChild) button.textContent = isPinned ? "Pinned" : "Pin";
+}
+
+/** A button next to the link of a curve that pins the curve. The link's `data-name` is the curve's name. */
+export function curvePinButton(/** @type {App} */ app, name) {
+  const sign = h("span", { "aria-hidden": "true" }, "⚲");
+  const attributes = { class: "pin quiet", tabindex: "-1", title: "Pin (p)" };
+  return pinButton(app, name, attributes, sign, h("span.visually-hidden", `Pin ${name}`));
+}
+
+/** Handles the key p on the link of a curve: presses the pin button next to it. */
+export function pinOnKey(event) {
+  const { name } = event.target.dataset;
+  if (event.key !== "p" || !name || isShortcut(event)) return;
+  event.target.parentElement.querySelector(".pin").click();
 }

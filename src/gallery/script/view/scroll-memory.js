@@ -1,5 +1,7 @@
 // Restores the scroll position and the focus when a view is visited again through the history.
 
+import { elementIn, focusedElement } from "./dom.js";
+
 /**
  * The scroll memory of a window: `leave()` records the position of the current history entry, `arrive()`
  * restores that of the new one, or scrolls to the top, unless the view has its own target (`data-goal`).
@@ -19,7 +21,7 @@ export function scrollMemory() {
   return {
     leave: () => {
       settle();
-      const link = document.activeElement?.closest("main a")?.getAttribute("href");
+      const link = focusedElement()?.closest("main a")?.getAttribute("href");
       if (present !== null) left.set(present, { depth: window.scrollY, link });
       present = entry();
     },
@@ -49,7 +51,7 @@ function restoreScroll({ depth, link }) {
     restoreFocus(link);
   };
   moves.forEach((name) => window.addEventListener(name, end));
-  growth.observe(document.querySelector("main"));
+  growth.observe(elementIn(document, "main"));
   goThere();
   return end;
 }
@@ -59,10 +61,9 @@ function restoreFocus(href) {
   if (!href) return;
   requestAnimationFrame(() =>
     requestAnimationFrame(() => {
-      const links = [...document.querySelectorAll("main a")];
-      links
-        .find((link) => link.getAttribute("href") === href && link.tabIndex >= 0)
-        ?.focus({ preventScroll: true });
+      /** @type {NodeListOf<HTMLAnchorElement>} */ const links = document.querySelectorAll("main a");
+      const link = [...links].find((one) => one.getAttribute("href") === href && one.tabIndex >= 0);
+      link?.focus({ preventScroll: true });
     }),
   );
 }

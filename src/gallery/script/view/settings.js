@@ -1,10 +1,11 @@
 // The theme: system, light or dark, remembered between visits if the browser allows storage.
 
-import { h } from "./dom.js";
+import { buttonOf, selectOf } from "./dom.js";
 
 const THEME_KEY = "coupler-atlas-theme";
 const PAGES_KEY = "coupler-atlas-pages";
 
+/** @type {[string, string][]} */
 const THEME_CHOICES = [
   ["system", "Theme: system"],
   ["light", "Theme: light"],
@@ -31,10 +32,7 @@ export function themeSelect() {
     storeChoice(THEME_KEY, choice);
     apply();
   };
-  const options = THEME_CHOICES.map(([value, label]) =>
-    h("option", { value, selected: value === choice }, label),
-  );
-  return h("select", { class: "theme quiet", "aria-label": "Theme", onchange: choose }, options);
+  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange: choose }, THEME_CHOICES, choice);
 }
 
 /**
@@ -52,14 +50,15 @@ export function printedColorsButton() {
     apply(root.dataset.pages !== "printed");
     storeChoice(PAGES_KEY, root.dataset.pages ?? "turned");
   };
-  const button = h("button", { type: "button", class: "as-printed", onclick: act }, "Printed colours");
+  const button = buttonOf("Printed colours", act, { class: "as-printed" });
   apply(storedChoice(PAGES_KEY) === "printed");
   return button;
 }
 
+/** @returns {string} */
 function storedTheme() {
   const theme = storedChoice(THEME_KEY);
-  return THEME_CHOICES.some(([value]) => value === theme) ? theme : "system";
+  return THEME_CHOICES.find(([value]) => value === theme)?.[0] ?? "system";
 }
 
 function storedChoice(name) {

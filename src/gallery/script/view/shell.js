@@ -1,96 +1,99 @@
 // The frame of the gallery: header, navigation, the current view and footer.
 
 import { address, parseAddress } from "../data/address.js";
-import { fill, h } from "./dom.js";
+import { fill, h, setAttributes } from "./dom.js";
 import { themeSelect } from "./settings.js";
 import { scrollMemory } from "./scroll-memory.js";
-import { footer } from "./footer.js";
+import { formatBytes, formatCount } from "./labels.js";
 
 // The time in milliseconds after which opening a view is announced.
 const BUSY_DELAY = 250;
 
 /**
- * Opens the gallery in an element. `routes` are [{ name, label, href(app), parent, matches(target, app),
- * open(app, target) }]: the first whose `matches` is true for an address opens it. A route with a label is in
- * the navigation, with the link `href`; one without belongs to its `parent`. `open` returns a view, or a
- * promise of one: { element, title, update(target), shown(), leave() }. The optional `update` is called with
- * further addresses of the same route and returns whether it handles them; `shown` is called when the element
- * is in the document; `leave` releases resources.
+ * Opens the gallery in an element. The first route that matches an address opens it.
+ * @param {Pick<App, "atlas" | "kernel" | "pins">} parts @param {Route[]} routes @param {HTMLElement} root
  */
-export function openShell(app, routes, root) {
+export function openShell(parts, routes, root) {
   const main = h("main", { id: "content", tabindex: "-1" });
-  const status = h("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
+  const status = h("p.visually-hidden", { role: "status", "aria-live": "polite" });
+  /** @type {App} */ const app = {
+    ...parts,
+    announce: (text) => {
+      status.textContent = text;
+    },
+    go: (fragment) => {
+      window.location.hash = fragment;
+    },
+    replace: (fragment) => {
+      // A link that was just followed takes precedence over a view's update: its event is pending.
+      if (window.location.hash !== router.fragment) return;
+      window.history.replaceState(window.history.state, "", fragment);
+      router.fragment = window.location.hash;
+    },
+  };
   const nav = navigation(app, routes);
-  app.announce = (text) => {
-    status.textContent = text;
-  };
-  app.go = (fragment) => {
-    window.location.hash = fragment;
-  };
   const skip = (event) => {
     event.preventDefault();
     main.focus();
   };
+  const { atlas } = app;
+  const title = h("a.title", { href: address([]) }, atlas.title);
   fill(
     root,
-    h("a", { class: "skip", href: "#content", onclick: skip }, "Skip to content"),
-    h(
-      "header",
-      { class: "masthead" },
-      h("a", { class: "title", href: address([]) }, app.atlas.title),
-      nav.element,
-      themeSelect(),
-    ),
+    h("a.skip", { href: "#content", onclick: skip }, "Skip to content"),
+    h("header.masthead", title, nav.element, themeSelect()),
     main,
-    footer(app.atlas),
+    footer(atlas),
     status,
   );
   const router = new Router(app, routes, { main, nav, scroll: scrollMemory() });
-  app.replace = (fragment) => {
-    // A link that was just followed takes precedence over a view's update: its event is pending.
-    if (window.location.hash !== router.fragment) return;
-    window.history.replaceState(window.history.state, "", fragment);
-    router.fragment = window.location.hash;
-  };
   window.addEventListener("hashchange", () => router.navigate());
   return router.navigate();
 }
 
 /** The navigation, { element, mark(route) }, with the number of pins. */
-function navigation(app, routes) {
-  const count = h("span", { class: "count" });
-  const links = new Map(
-    routes
-      .filter(({ label }) => label)
-      .map(({ name, label, href }) => [
-        name,
-        h("a", { href: href(app) }, label, name === "compare" ? count : null),
-      ]),
-  );
-  const showCount = (names) =>
-    fill(count, names.length ? ` ${names.length}` : "", names.length ? pinned() : null);
-  const pinned = () => h("span", { class: "visually-hidden" }, " pinned");
-  app.pins.watch(showCount);
-  showCount(app.pins.names);
-  const mark = (route) => {
-    for (const [name, link] of links) {
-      link.setAttribute("href", routes.find((candidate) => candidate.name === name).href(app));
-      if (name === (route?.parent ?? route?.name)) link.setAttribute("aria-current", "page");
-      else link.removeAttribute("aria-current");
-    }
-  };
-  app.pins.watch(() => {
-    const compare = routes.find(({ name }) => name === "compare");
-    links.get("compare").setAttribute("href", compare.href(app));
+function navigation(/** @type {App} */ app, /** @type {Route[]} */ routes) {
+  const count = h("span.count");
+  const links = routes.flatMap((route) => {
+    const { name, label, href } = route;
+    if (!label || !href) return [];
+    const link = h("a", { href: href(app) }, label, name === "compare" ? count : null);
+    return [{ name, link, update: () => setAttributes(link, { href: href(app) }) }];
   });
-  return { element: h("nav", { class: "site-nav", "aria-label": "Gallery" }, [...links.values()]), mark };
+  const update = () => {
+    const { length } = app.pins.names;
+    fill(count, length ? [` ${length}`, h("span.visually-hidden", " pinned")] : null);
+    links.forEach((link) => link.update());
+  };
+  app.pins.watch(update);
+  update();
+  const mark = (/** @type {Route | undefined} */ route) => {
+    update();
+    for (const { name, link } of links)
+      setAttributes(link, { "aria-current": name === (route?.parent ?? route?.name) ? "page" : null });
+  };
+  return {
+    element: h(
+      "nav.site-nav",
+      { "aria-label": "Gallery" },
+      links.map(({ link }) => link),
+    ),
+    mark,
+  };
 }
 
 /** Opens the view of the current address. */
 class Router {
-  constructor(app, routes, { main, nav, scroll }) {
-    Object.assign(this, { app, routes, main, nav, scroll });
-    [this.shown, this.turn, this.fragment] = [null, 0, null];
+  /** @type {{ route: Route, view: View } | null} */ shown = null;
+  turn = 0;
+  fragment = "";
+
+  constructor(/** @type {App} */ app, /** @type {Route[]} */ routes, { main, nav, scroll }) {
+    this.app = app;
+    this.routes = routes;
+    this.main = main;
+    this.nav = nav;
+    this.scroll = scroll;
   }
 
   /** Shows the address in the current view if it handles it, otherwise in a new one. */
@@ -128,7 +131,7 @@ class Router {
     this.app.announce("Loading");
   }
 
-  showView(route, view) {
+  showView(/** @type {Route} */ route, /** @type {View} */ view) {
     this.shown = { route, view };
     this.setTitle(view.title);
     fill(this.main, view.element);
@@ -141,17 +144,44 @@ class Router {
   }
 
   /** Shows what is wrong with an address, with links to continue. */
-  showError(message, { path: [id] }) {
+  showError(message, /** @type {Target} */ { path: [id] }) {
     const sentence = `${message[0].toUpperCase()}${message.slice(1)}`.replace(/[^.]$/, "$&.");
     this.setTitle("Not found");
     this.app.announce(sentence);
     const family = this.app.atlas.families.find((candidate) => candidate.id === id);
     const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
     const all = h("a", { href: address([]) }, "All families");
-    fill(this.main, h("p", { class: "error", role: "alert" }, sentence, " ", own, all));
+    fill(this.main, h("p.error", { role: "alert" }, sentence, " ", own, all));
   }
 
   setTitle(title) {
     document.title = title ? `${title} · ${this.app.atlas.title}` : this.app.atlas.title;
   }
+}
+
+/** The footer of the gallery. @param {Atlas} atlas */
+function footer(atlas) {
+  const sum = (of) => atlas.families.reduce((total, family) => total + of(family), 0);
+  const facts = [
+    formatCount(atlas.families.length, "family", "families"),
+    formatCount(
+      sum((family) => family.pages),
+      "page",
+    ),
+    formatCount(
+      sum((family) => family.curves),
+      "curve",
+    ),
+    `${formatBytes(sum((family) => family.bytes))} of data, loaded by family`,
+  ];
+  const books = atlas.book.map((file) => h("a", { href: file }, `Book: ${file}`));
+  return h(
+    "footer.footer",
+    h("p", facts.join(" · ")),
+    h(
+      "p",
+      books.map((book) => [book, " · "]),
+      `Generated by ${atlas.program}`,
+    ),
+  );
 }

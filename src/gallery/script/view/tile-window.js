@@ -1,43 +1,46 @@
 // A grid of any number of tiles, of which only those near the window are in the document.
 
 import { whenLoaded } from "../data/needs.js";
-import { h } from "./dom.js";
-import { MAX_HEIGHT, scrollScale } from "./long-scroll.js";
-import { printedCountNote, onPrint } from "./printing.js";
+import { h, setAttributes, isShortcut } from "./dom.js";
+import { MAX_HEIGHT, scrollScale, printedCountNote, onPrint } from "./long-list.js";
 
 // The time per frame, in milliseconds, for drawing tiles that have become visible.
 const DRAWING_TIME = 8;
 // The fraction of the window's height above and below it that is kept ready.
 const TILES_AHEAD = 0.75;
-// While the list is scrolled further than this at a time, in window heights, as by its scroll bar, nothing is
-// loaded until it has rested for as many milliseconds.
+// While the list is scrolled further than this, in window heights, nothing is loaded until it has rested.
 const LONG_JUMP = 4;
 const JUMP_DELAY = 100;
 // The maximum number of tiles printed.
 const PRINTED_TILES = 400;
 
-/**
- * A list of `count` tiles in columns of at least `least` pixels, `gap` apart, with pictures of aspect ratio
- * `aspect` (height to width) and `below` pixels for text. `tile(k)` creates a tile, an element with a link in
- * it. `need(k)` loads what a tile shows: null if it is there, else a promise (data/needs.js); then
- * `fillTile(element, k)` adds its text, and `draw(element, k)` what takes longer, when there is time.
- * `failed(message)` is called if something cannot be loaded. `label` names the list.
- */
+/** A grid of tiles; `count` may change before `measure()`. */
 export class TileWindow {
-  constructor(options) {
-    Object.assign(this, options);
-    this.element = h("ul", {
-      class: "window",
-      "aria-label": this.label,
-      onkeydown: (event) => this.typed(event),
-    });
-    this.element.style.setProperty("--shape", `1 / ${this.aspect}`);
-    this.element.style.setProperty("--least", `${this.least}px`);
-    this.there = new Map();
-    this.queue = [];
-    this.pending = 0;
-    this.drawing = 0;
-    [this.scale, this.shifted] = [1, 0];
+  /** The tiles in the document, by their index. @type {Map<number, HTMLElement>} */
+  there = new Map();
+  /** The tiles to be drawn. @type {number[]} */
+  queue = [];
+  pending = 0;
+  drawing = 0;
+  postponed = 0;
+  scale = 1;
+  /** The height by which tiles are moved up. */
+  shifted = 0;
+  columns = 1;
+  /** The size of a tile, in pixels, and that of its picture at a width. */
+  wide = 0;
+  high = 0;
+  sizedAt = 0;
+  pictureSize = { width: 40, height: 40 };
+  filledAt = window.scrollY;
+  /** @type {ReturnType<typeof onPrint> | null} */ paper = null;
+
+  constructor(/** @type {TileOptions} */ options) {
+    this.count = options.count;
+    this.options = options;
+    this.element = h("ul.window", { "aria-label": options.label, onkeydown: (event) => this.typed(event) });
+    this.element.style.setProperty("--shape", `1 / ${options.aspect}`);
+    this.element.style.setProperty("--least", `${options.least}px`);
     this.sizes = new ResizeObserver(() => this.measure());
     const later = () => this.later();
     this.listeners = { scroll: later, resize: later };
@@ -77,12 +80,12 @@ export class TileWindow {
     const ahead = Math.max(row - (window.innerHeight - this.high) / 2, -top - window.scrollY);
     if (!isSeen) window.scrollTo(0, top + window.scrollY + ahead / (ahead > 0 ? this.scale : 1));
     this.fill();
-    this.there.get(k)?.querySelector("a").focus({ preventScroll: true });
+    this.there.get(k)?.querySelector("a")?.focus({ preventScroll: true });
   }
 
   /** The vertical distance of rows, in pixels. */
   get pitch() {
-    return this.high + this.gap;
+    return this.high + this.options.gap;
   }
 
   /** The height by which tiles are moved up when the list is scrolled by `top` pixels, if it is too high. */
@@ -91,11 +94,12 @@ export class TileWindow {
   }
 
   measure() {
-    const { gap, count } = this;
+    const { count } = this;
+    const { gap, least, aspect, below } = this.options;
     const width = this.element.clientWidth;
-    this.columns = Math.max(1, Math.floor((width + gap) / (Math.min(this.least, width) + gap)));
+    this.columns = Math.max(1, Math.floor((width + gap) / (Math.min(least, width) + gap)));
     this.wide = (width - gap * (this.columns - 1)) / this.columns;
-    this.high = Math.round(this.wide * this.aspect) + this.below;
+    this.high = Math.round(this.wide * aspect) + below;
     const height = Math.ceil(count / this.columns) * this.pitch - gap;
     this.scale = scrollScale(height, window.innerHeight);
     this.element.style.height = `${Math.min(height, MAX_HEIGHT)}px`;
@@ -115,10 +119,10 @@ export class TileWindow {
     return this.pictureSize;
   }
 
-  lay({ style }, k) {
+  lay(/** @type {HTMLElement} */ { style }, k) {
     style.width = `${this.wide}px`;
     style.height = `${this.high}px`;
-    const x = (k % this.columns) * (this.wide + this.gap);
+    const x = (k % this.columns) * (this.wide + this.options.gap);
     const y = Math.floor(k / this.columns) * this.pitch - this.shifted;
     style.transform = `translate(${x}px, ${y}px)`;
   }
@@ -126,8 +130,8 @@ export class TileWindow {
   /** Fills the list in the next frame; after a long jump, which is often one of many, when it is over. */
   later() {
     window.clearTimeout(this.postponed);
-    const jump = Math.abs(window.scrollY - (this.filledAt ?? window.scrollY));
-    if (jump > LONG_JUMP * window.innerHeight && !this.isLoaded())
+    const jump = Math.abs(window.scrollY - this.filledAt);
+    if (jump > LONG_JUMP * window.innerHeight && !this.options.isLoaded())
       this.postponed = window.setTimeout(() => this.soon(), JUMP_DELAY);
     else this.soon();
   }
@@ -163,9 +167,8 @@ export class TileWindow {
 
   add(k) {
     if (this.there.has(k)) return;
-    const element = this.tile(k);
-    element.setAttribute("aria-setsize", this.count);
-    element.setAttribute("aria-posinset", k + 1);
+    const element = this.options.tile(k);
+    setAttributes(element, { "aria-setsize": this.count, "aria-posinset": k + 1 });
     this.lay(element, k);
     // In tile order, for keyboard navigation.
     const after = Math.min(...[...this.there.keys()].filter((other) => other > k));
@@ -174,33 +177,17 @@ export class TileWindow {
     this.prepare(element, k);
   }
 
-  /** What a tile shows is there, unless an option says otherwise. */
-  need() {
-    return null;
-  }
-
-  /** Whether no tile needs anything to be loaded. */
-  isLoaded() {
-    return true;
-  }
-
-  fillTile() {}
-
-  failed() {}
-
   /** Fills a tile and queues it to be drawn: at once, or when what it shows has been loaded. */
   prepare(element, k) {
     const act = () => {
       if (this.there.get(k) !== element) return;
       // What was loaded first may have been dropped while the rest was loaded.
-      if (this.need(k) !== null) return;
-      this.fillTile(element, k);
+      if (this.options.need(k) !== null) return;
+      this.options.fillTile(element, k);
       this.queue.push(k);
       this.drawSoon();
     };
-    const need = this.need(k);
-    if (need === null) act();
-    else whenLoaded(need, act, (message) => this.failed(message));
+    whenLoaded(this.options.need(k), act, this.options.failed);
   }
 
   drawSoon() {
@@ -214,10 +201,12 @@ export class TileWindow {
     const end = performance.now() + time;
     this.queue = this.queue.filter((k) => this.there.has(k));
     while (this.queue.length && performance.now() < end) {
-      const k = this.queue.shift();
+      const k = this.queue.shift() ?? 0;
+      const element = this.there.get(k);
+      if (!element) continue;
       // The points may have been dropped since the tile was queued.
-      if (this.need(k) === null) this.draw(this.there.get(k), k);
-      else this.prepare(this.there.get(k), k);
+      if (this.options.need(k) === null) this.options.draw(element, k);
+      else this.prepare(element, k);
     }
     if (this.queue.length) this.drawSoon();
   }
@@ -234,25 +223,17 @@ export class TileWindow {
     for (const [k, element] of this.there) this.lay(element, k);
     for (let k = 0; k < last; k += 1) this.add(k);
     this.drawSome(Infinity);
-    return printedCountNote(last, this.count, this.label.toLowerCase());
+    return printedCountNote(last, this.count, this.options.label.toLowerCase());
   }
 
   typed(event) {
     const at = [...this.there].find(([, element]) => element.contains(event.target))?.[0];
-    if (at === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (at === undefined || isShortcut(event)) return;
     const screen = Math.max(1, Math.floor(window.innerHeight / this.pitch)) * this.columns;
-    const to = {
-      ArrowRight: at + 1,
-      ArrowLeft: at - 1,
-      ArrowDown: at + this.columns,
-      ArrowUp: at - this.columns,
-      PageDown: at + screen,
-      PageUp: at - screen,
-      Home: 0,
-      End: this.count - 1,
-    }[event.key];
-    if (to === undefined) return;
+    const down = { ArrowDown: this.columns, ArrowUp: -this.columns, PageDown: screen, PageUp: -screen };
+    const by = { ArrowRight: 1, ArrowLeft: -1, Home: -this.count, End: this.count, ...down }[event.key];
+    if (by === undefined) return;
     event.preventDefault();
-    this.show(Math.min(Math.max(to, 0), this.count - 1));
+    this.show(Math.min(Math.max(at + by, 0), this.count - 1));
   }
 }

@@ -11,14 +11,27 @@ const TAP_SLACK = 5;
 
 /**
  * The position of a page of `width` × `height` millimetres in a viewport: `scale` in pixels per millimetre,
- * and the page's corner at `x`, `y` pixels. Calls `onchange(this)` when it has moved, at most once per frame.
+ * and the page's corner at `x`, `y` pixels. Calls `onchange()` when it has moved, at most once per frame.
  */
 export class Zoom {
+  scale = 1;
+  x = 0;
+  y = 0;
+  isFit = true;
+  isTap = false;
+  pending = 0;
+  /** The pointers that are down, where they are and were first. @type {Map<number, Record<string, number>>} */
+  pointers = new Map();
+  constrainedTo = { width: 0, height: 0 };
+
+  /** @param {HTMLElement} viewport @param {HTMLElement} sheet */
   constructor(viewport, sheet, { width, height, onchange, ontap }) {
-    Object.assign(this, { viewport, sheet, width, height, onchange, ontap });
-    [this.scale, this.x, this.y, this.isFit] = [1, 0, 0, true];
-    this.pointers = new Map();
-    this.pending = 0;
+    this.viewport = viewport;
+    this.sheet = sheet;
+    this.width = width;
+    this.height = height;
+    this.onchange = onchange;
+    this.ontap = ontap;
     this.resizes = new ResizeObserver(() => this.resized());
     this.resizes.observe(viewport);
     viewport.addEventListener("wheel", (event) => this.wheeled(event), { passive: false });
@@ -38,11 +51,8 @@ export class Zoom {
   /** The pixels per millimetre at which the whole page is visible. */
   get fitScale() {
     const { clientWidth, clientHeight } = this.viewport;
-    const fit = Math.min(
-      (clientWidth - 2 * FIT_MARGIN) / this.width,
-      (clientHeight - 2 * FIT_MARGIN) / this.height,
-    );
-    return Math.max(fit, 0.05);
+    const [width, height] = [clientWidth - 2 * FIT_MARGIN, clientHeight - 2 * FIT_MARGIN];
+    return Math.max(Math.min(width / this.width, height / this.height), 0.05);
   }
 
   /** The scale relative to the scale that fits. */
@@ -55,7 +65,7 @@ export class Zoom {
     return this.placeAt(this.viewport.clientWidth / 2, this.viewport.clientHeight / 2);
   }
 
-  /** The position on the page, in millimetres, at pixels of the viewport. */
+  /** The position on the page, in millimetres, at pixels of the viewport. @returns {Point} */
   placeAt(x, y) {
     return [(x - this.x) / this.scale, (y - this.y) / this.scale];
   }
@@ -65,7 +75,7 @@ export class Zoom {
     return this.placeAt(...this.pixelOf(event.clientX, event.clientY));
   }
 
-  /** The pixels of the viewport, inside its border, at pixels of the window. */
+  /** The pixels of the viewport, inside its border, at pixels of the window. @returns {Point} */
   pixelOf(x, y) {
     const { left, top } = this.viewport.getBoundingClientRect();
     return [x - left - this.viewport.clientLeft, y - top - this.viewport.clientTop];
@@ -98,8 +108,10 @@ export class Zoom {
       return;
     }
     const [atX, atY] = this.placeAt(x, y);
-    [this.isFit, this.scale] = [false, scale];
-    [this.x, this.y] = [x - scale * atX, y - scale * atY];
+    this.isFit = false;
+    this.scale = scale;
+    this.x = x - scale * atX;
+    this.y = y - scale * atY;
     this.constrain();
   }
 
@@ -112,14 +124,11 @@ export class Zoom {
   }
 
   /** Moves the page so that a box, [x0, y0, x1, y1] in millimetres, is visible. */
-  reveal([x0, y0, x1, y1]) {
+  reveal(/** @type {Box} */ [x0, y0, x1, y1]) {
     const [left, top] = this.placeAt(0, 0);
     const [right, bottom] = this.placeAt(this.viewport.clientWidth, this.viewport.clientHeight);
     if (x0 >= left && x1 <= right && y0 >= top && y1 <= bottom) return;
-    this.pan(
-      this.scale * ((left + right) / 2 - (x0 + x1) / 2),
-      this.scale * ((top + bottom) / 2 - (y0 + y1) / 2),
-    );
+    this.pan((this.scale * (left + right - x0 - x1)) / 2, (this.scale * (top + bottom - y0 - y1)) / 2);
   }
 
   /** Keeps the centre of the viewport when it is resized, within the zoom limits. */
@@ -153,7 +162,7 @@ export class Zoom {
     style.height = `${this.scale * this.height}px`;
     style.transform = `translate(${this.x}px, ${this.y}px)`;
     this.viewport.classList.toggle("near", !this.isFit);
-    this.onchange(this);
+    this.onchange();
   }
 
   wheeled(event) {
@@ -166,20 +175,14 @@ export class Zoom {
     }
     // A pinch on a touchpad is reported as a wheel event with the control key, in small steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
-    this.zoomBy(
-      Math.exp(-rate * Math.min(Math.max(dy, -300), 300)),
-      ...this.pixelOf(event.clientX, event.clientY),
-    );
+    const factor = Math.exp(-rate * Math.min(Math.max(dy, -300), 300));
+    this.zoomBy(factor, ...this.pixelOf(event.clientX, event.clientY));
   }
 
   pressed(event) {
     if (event.pointerType === "mouse" && event.button !== 0) return;
-    this.pointers.set(event.pointerId, {
-      x: event.clientX,
-      y: event.clientY,
-      startX: event.clientX,
-      startY: event.clientY,
-    });
+    const { clientX: x, clientY: y } = event;
+    this.pointers.set(event.pointerId, { x, y, startX: x, startY: y });
     this.isTap = this.pointers.size === 1;
   }
 
@@ -200,10 +203,8 @@ export class Zoom {
   /** One finger stays, the other moves from `before` to `after`. */
   pinched(still, before, after) {
     const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
-    this.zoomBy(
-      spread(after) / spread(before),
-      ...this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2),
-    );
+    const middle = this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2);
+    this.zoomBy(spread(after) / spread(before), ...middle);
     this.pan((after.x - before.x) / 2, (after.y - before.y) / 2);
   }
 

@@ -1,18 +1,50 @@
 // Aligns curves with the first of them.
 
 import { curvePoints } from "../../data/family.js";
+import { boxOfPoints } from "../../draw/plane-view.js";
 import { queryShape } from "../../shape/query-shape.js";
 import { buildIndex } from "../../shape/shape-index.js";
 import { deviationBetween } from "../../shape/deviation.js";
 import { searchByShape } from "../../shape/search.js";
 import { identity, transformed } from "../../shape/similarity.js";
 
+/** The maximum number of curves compared. */
+export const MAX_COMPARED = 12;
+/** How curves are aligned: { name: label }. */
+export const ALIGNMENTS = {
+  none: "none",
+  place: "centred",
+  size: "centred and scaled",
+  similar: "best fit",
+  mirrored: "best fit with mirroring",
+};
+
+/** Parses a query: { names or null, view: "side" | "over", align }. @param {Query} query */
+export function parseComparisonQuery(query) {
+  const names = query.get("c");
+  const align = query.get("align") ?? "";
+  return {
+    names: names ? names.split(",").filter((name) => name.includes(":")) : null,
+    view: query.get("view") === "over" ? "over" : "side",
+    align: align in ALIGNMENTS ? align : "similar",
+  };
+}
+
+/** The inverse of parseComparisonQuery. */
+export function formatComparisonQuery(/** @type {ComparisonQuery} */ { view, align }, names) {
+  return {
+    c: names.join(","),
+    view: view === "over" ? "over" : null,
+    align: align === "similar" ? null : align,
+  };
+}
+
 /**
- * Aligns a curve, { family, curve }, with the first: { points, closed, similarity, rms, greatest };
- * deviations are relative to the extent of the first. `align` is a key of ALIGNMENTS; the best fit is that of
- * the search by shape.
+ * Aligns a curve with the first; deviations are relative to the extent of the first. `align` is a key of
+ * ALIGNMENTS; the best fit is that of the search by shape.
+ * @param {CurveOfFamily} first @param {CurveOfFamily} one
  */
-export function alignCurve(first, one, align) {
+export function alignCurve(/** @type {CurveOfFamily} */ first, /** @type {CurveOfFamily} */ one, align) {
   const closed = one.family.curves.closed[one.curve] === 1;
   const own = curvePoints(one.family, one.curve);
   const base = curvePoints(first.family, first.curve);
@@ -31,7 +63,10 @@ export function alignCurve(first, one, align) {
   return { points, closed, similarity, ...deviation };
 }
 
-/** Compares one curve with a shape, as the search by shape does. */
+/**
+ * Compares one curve with a shape, as the search by shape does.
+ * @param {Shape} shape @param {CurveOfFamily} _1
+ */
 function compareWithShape(shape, { family, curve }, mirror) {
   const index = runToEnd(buildIndex(family, curve, 1));
   return runToEnd(searchByShape([index], shape, { mirror }))[0];
@@ -52,11 +87,7 @@ function boxAlignment(base, own, align) {
   return { mirror: false, re: scale, im: 0, x: a.x - scale * b.x, y: a.y - scale * b.y };
 }
 
-function middleAndSize(points) {
-  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
-  for (let k = 0; k < points.length; k += 2) {
-    [x0, x1] = [Math.min(x0, points[k]), Math.max(x1, points[k])];
-    [y0, y1] = [Math.min(y0, points[k + 1]), Math.max(y1, points[k + 1])];
-  }
+function middleAndSize(/** @type {Points} */ points) {
+  const [x0, y0, x1, y1] = boxOfPoints(points);
   return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, size: Math.hypot(x1 - x0, y1 - y0) };
 }

@@ -1,17 +1,20 @@
 // The view that compares pinned curves.
 
-import { address } from "../../data/address.js";
+import { address, matchesRoute, routeAddress } from "../../data/address.js";
 import { curveCaption } from "../../data/family.js";
-import { fill, h } from "../dom.js";
+import { buttonOf, fill, h, selectOf } from "../dom.js";
 import { formatCaption, formatChanges } from "../labels.js";
-import { matchesRoute, routeAddress } from "../route-address.js";
 import { exportMenu } from "../export/menu.js";
-import { alignCurve } from "./align.js";
-import { ALIGNMENTS, parseComparisonQuery, formatComparisonQuery, MAX_COMPARED } from "./query.js";
+import {
+  alignCurve,
+  ALIGNMENTS,
+  parseComparisonQuery,
+  formatComparisonQuery,
+  MAX_COMPARED,
+} from "./align.js";
 import { loadComparedCurve } from "./load-curve.js";
 import { factsTable } from "./facts.js";
-import { refinePicture } from "./refine.js";
-import { letterOf, overlaidPicture, sideBySidePictures, strokeSample } from "./picture.js";
+import { letterOf, overlaidPicture, sideBySidePictures, strokeSample, refinePicture } from "./picture.js";
 
 /** The route `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`; opening it pins its curves. */
 export const compareRoute = {
@@ -22,15 +25,7 @@ export const compareRoute = {
   open: async (app, { query }) => {
     const view = new CompareView(app);
     await view.setQuery(parseComparisonQuery(query));
-    return {
-      title: "Compare",
-      element: view.element,
-      update: (target) => {
-        view.setQuery(parseComparisonQuery(target.query));
-        return true;
-      },
-      leave: () => view.leave(),
-    };
+    return view;
   },
 };
 
@@ -51,24 +46,28 @@ function keepFocus(element) {
 }
 
 class CompareView {
-  constructor(app) {
+  title = "Compare";
+  /** @type {ComparisonQuery} */ query;
+  /** The curves by their names. @type {Map<string, Awaited<ReturnType<typeof loadComparedCurve>>>} */
+  loaded = new Map();
+  stop = () => {};
+
+  constructor(/** @type {App} */ app) {
     this.app = app;
-    this.loaded = new Map();
-    this.body = h("div", { class: "comparison" });
-    this.tools = h("div", { class: "toolbar" });
-    this.exportSlot = h("div", {});
-    this.count = h("p", { class: "lede" });
+    this.body = h("div.comparison");
+    this.tools = h("div.toolbar");
+    this.exportSlot = h("div");
+    this.count = h("p.lede");
     this.element = h(
-      "div",
-      { class: "view wide compare-view" },
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, "Compare"), this.count), this.exportSlot),
+      "div.view.wide.compare-view",
+      h("div.head", h("div", h("h1", "Compare"), this.count), this.exportSlot),
       this.tools,
       this.body,
     );
     this.unwatch = app.pins.watch(() => this.refresh());
   }
 
-  async setQuery(query) {
+  async setQuery(/** @type {ComparisonQuery} */ query) {
     this.query = query;
     if (query.names && String(query.names) !== String(this.app.pins.names)) this.app.pins.set(query.names);
     else await this.refresh();
@@ -80,153 +79,93 @@ class CompareView {
     const names = [...app.pins.names];
     app.replace(routeAddress("compare", formatComparisonQuery(query, names), app));
     for (const name of names) {
-      if (!this.loaded.has(name)) this.loaded.set(name, await loadComparedCurve(app.atlas, name));
+      if (!this.loaded.has(name)) this.loaded.set(name, await loadComparedCurve(app, name));
     }
     // The pins may have changed meanwhile.
     if (String(names) !== String(app.pins.names)) return;
     const found = names.map((name) => this.loaded.get(name));
-    this.show(
-      found.filter(({ family }) => family),
-      found.filter(({ family }) => !family),
-    );
-  }
-
-  show(all, missing) {
+    const there = found.filter((one) => one !== undefined && "family" in one);
+    const missing = found.filter((one) => one !== undefined && "reason" in one);
     const focused = keepFocus(this.element);
-    this.render(all, missing);
+    this.render(there, missing);
     focused();
   }
 
-  render(all, missing) {
+  update(/** @type {Target} */ { query }) {
+    this.setQuery(parseComparisonQuery(query));
+    return true;
+  }
+
+  choose(/** @type {"view" | "align"} */ name, value) {
+    this.query[name] = value;
+    this.refresh();
+  }
+
+  render(/** @type {ComparedCurve[]} */ all, missing) {
     const curves = all.slice(0, MAX_COMPARED);
     const { query, app } = this;
     const beyond = all.length - curves.length;
+    const none = "No curves are pinned. Pin curves in Find (p), By shape, on a page or on a plate.";
+    const words = [all.length ? `${all.length} pinned` : none];
+    if (beyond) words.push(`the first ${MAX_COMPARED} are compared`);
     fill(
       this.count,
-      all.length
-        ? `${all.length} pinned`
-        : "No curves are pinned. Pin curves in Find (p), By shape, on a page or on a plate.",
-      beyond ? `; the first ${MAX_COMPARED} are compared` : "",
-      missing.map(({ name, reason }) => `; skipped ${name}: ${reason}`),
+      [...words, ...missing.map(({ name, reason }) => `skipped ${name}: ${reason}`)].join("; "),
     );
     fill(this.exportSlot, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
     const aligned = curves.map((one, k) => alignCurve(curves[0], one, k > 0 ? query.align : "none"));
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
-    this.stop?.();
+    this.stop();
     const isOver = query.view === "over" && curves.length > 1;
     const picture = isOver
       ? overlaidPicture(aligned, `${labels.join(", ")}; alignment: ${ALIGNMENTS[query.align]}`)
       : sideBySidePictures(aligned);
-    this.stop = refinePicture(picture, curves, aligned);
-    fill(
-      this.body,
-      picture.element,
-      h(
-        "ol",
-        { class: isOver ? "pinned-list" : "pinned-tiles" },
-        curves.map((one, k) =>
-          this.entry(one, k, curves, {
-            deviation: aligned[k],
-            picture: isOver ? strokeSample(k) : h("div", { class: "tile-picture" }, picture.elements[k]),
-          }),
-        ),
-      ),
-      curves.length ? factsTable(curves, app.atlas.measures, labels) : null,
-    );
+    this.stop = refinePicture(app, picture, curves, aligned);
+    const entries = curves.map((one, k) => {
+      const drawn = isOver ? strokeSample(k) : h("div.tile-picture", picture.elements[k]);
+      return this.entry(one, k, curves.length, aligned[k], drawn);
+    });
+    const list = h(isOver ? "ol.pinned-list" : "ol.pinned-tiles", entries);
+    const facts = curves.length ? factsTable(curves, app.atlas.measures, labels) : null;
+    fill(this.body, picture.element, list, facts);
   }
 
   controls() {
     const { query, app } = this;
     const view = (name, label) =>
-      h(
-        "button",
-        {
-          type: "button",
-          "aria-pressed": String(query.view === name),
-          onclick: () => {
-            query.view = name;
-            this.refresh();
-          },
-        },
-        label,
-      );
-    const align = h(
-      "select",
-      {
-        id: "compare-align",
-        onchange: (event) => {
-          query.align = event.target.value;
-          this.refresh();
-        },
-      },
-      Object.entries(ALIGNMENTS).map(([value, label]) => h("option", { value }, label)),
-    );
-    align.value = query.align;
+      buttonOf(label, () => this.choose("view", name), { "aria-pressed": String(query.view === name) });
+    const attributes = { id: "compare-align", onchange: () => this.choose("align", align.value) };
+    const align = selectOf(attributes, Object.entries(ALIGNMENTS), query.align);
+    const views = [view("side", "Side by side"), view("over", "Overlay")];
     return [
-      h(
-        "div",
-        { class: "segments", role: "group", "aria-label": "Show" },
-        view("side", "Side by side"),
-        view("over", "Overlay"),
-      ),
-      h("span", { class: "field row" }, h("label", { for: "compare-align" }, "Alignment"), align),
-      h("button", { type: "button", class: "quiet end", onclick: () => app.pins.set([]) }, "Unpin all"),
+      h("div.segments", { role: "group", "aria-label": "Show" }, views),
+      h("span.field.row", h("label", { for: "compare-align" }, "Alignment"), align),
+      buttonOf("Unpin all", () => app.pins.set([]), { class: "quiet end" }),
     ];
   }
 
-  entry({ name, family, curve, key, changes }, k, curves, { deviation, picture }) {
+  entry(/** @type {ComparedCurve} */ { name, family, curve, key, changes }, k, count, deviation, picture) {
     const { app } = this;
-    const move = (by, label, sign) =>
-      h(
-        "button",
-        {
-          type: "button",
-          class: "quiet",
-          disabled: k + by < 0 || k + by >= curves.length,
-          "aria-label": `Move ${letterOf(k)} ${label}`,
-          onclick: () => this.move(k, by),
-        },
-        sign,
-      );
+    const letter = letterOf(k);
+    const act = (label, words, onclick, disabled = false) =>
+      buttonOf(label, onclick, { class: "quiet", "aria-label": words, disabled });
     const percent = (value) => `${(100 * value).toFixed(2)} %`;
-    return h(
-      "li",
-      {},
-      picture,
-      h(
-        "div",
-        { class: "named" },
-        h("b", {}, letterOf(k)),
-        " ",
-        h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
-        h("p", { class: "caption" }, formatCaption(curveCaption(family, curve))),
-        changes.size ? h("p", { class: "tag" }, formatCaption(formatChanges(changes))) : null,
-        k > 0
-          ? h(
-              "p",
-              { class: "deviation" },
-              `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} maximum`,
-            )
-          : null,
-      ),
-      h(
-        "div",
-        { class: "acts" },
-        move(-1, "forward", "←"),
-        move(1, "back", "→"),
-        h(
-          "button",
-          {
-            type: "button",
-            class: "quiet",
-            onclick: () => app.pins.toggle(name),
-            "aria-label": `Unpin ${letterOf(k)}`,
-          },
-          "Unpin",
-        ),
-      ),
-    );
+    const away = `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} maximum`;
+    const named = [
+      h("b", letter),
+      " ",
+      h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
+      h("p.caption", formatCaption(curveCaption(family, curve))),
+      changes.size ? h("p.tag", formatCaption(formatChanges(changes))) : null,
+      k > 0 ? h("p.deviation", away) : null,
+    ];
+    const acts = [
+      act("←", `Move ${letter} forward`, () => this.move(k, -1), k === 0),
+      act("→", `Move ${letter} back`, () => this.move(k, 1), k + 1 === count),
+      act("Unpin", `Unpin ${letter}`, () => app.pins.toggle(name)),
+    ];
+    return h("li", picture, h("div.named", named), h("div.acts", acts));
   }
 
   move(k, by) {
@@ -238,7 +177,7 @@ class CompareView {
 
   leave() {
     this.unwatch();
-    this.stop?.();
-    for (const { release } of this.loaded.values()) release?.();
+    this.stop();
+    for (const one of this.loaded.values()) if ("release" in one) one.release();
   }
 }

@@ -5,59 +5,42 @@ import { h } from "../dom.js";
 import { formatNumber, standaloneMeasureLabel, measureText } from "../labels.js";
 
 /**
- * A table of parameters and measures of curves, [{ family, curve, name }]: a column for each, differing rows
- * first.
+ * A table of parameters and measures of curves: a column for each, differing rows first.
+ * @param {CurveOfFamily[]} curves @param {Measure[]} measures @param {string[]} labels
  */
 export function factsTable(curves, measures, labels) {
-  const rows = [...parameterRows(curves), ...measureRows(curves, measures)].filter(({ texts }) =>
-    texts.some((text) => text !== "–"),
-  );
-  for (const row of rows) row.differs = row.texts.some((text) => text !== row.texts[0]);
-  const line = ({ label, texts, differs }) =>
-    h(
-      "tr",
-      { class: differs ? "differs" : "same" },
-      h("th", { scope: "row" }, label),
-      texts.map((text, k) =>
-        h("td", { class: differs && text !== texts[0] ? "other" : null, "data-column": k + 1 }, text),
-      ),
+  const rows = [...parameterRows(curves), ...measureRows(curves, measures)]
+    .filter(({ texts }) => texts.some((text) => text !== "–"))
+    .map((row) => ({ ...row, differs: row.texts.some((text) => text !== row.texts[0]) }));
+  const line = ({ label, texts, differs }) => {
+    const cells = texts.map((text, k) =>
+      h("td", { class: differs && text !== texts[0] ? "other" : null, "data-column": k + 1 }, text),
     );
+    return h(differs ? "tr.differs" : "tr.same", h("th", { scope: "row" }, label), cells);
+  };
+  const identical = h("th.note", { scope: "rowgroup", colspan: curves.length + 1 }, "Identical");
   const same = rows.filter(({ differs }) => !differs);
   return h(
-    "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": "Comparison of parameters and measures" },
+    "div.scroll",
+    { tabindex: "0", role: "region", "aria-label": "Comparison of parameters and measures" },
     h(
-      "table",
-      { class: "figures compared-facts" },
-      h("caption", { class: "note" }, "Differences from the first curve are in bold."),
+      "table.figures.compared-facts",
+      h("caption.note", "Differences from the first curve are in bold."),
       h(
         "thead",
-        {},
         h(
           "tr",
-          {},
-          h("td", {}),
+          h("td"),
           labels.map((label) => h("th", { scope: "col" }, label)),
         ),
       ),
-      h("tbody", {}, rows.filter(({ differs }) => differs).map(line)),
-      same.length
-        ? h(
-            "tbody",
-            { class: "alike" },
-            h(
-              "tr",
-              {},
-              h("th", { scope: "rowgroup", colspan: curves.length + 1, class: "note" }, "Identical"),
-            ),
-            same.map(line),
-          )
-        : null,
+      h("tbody", rows.filter(({ differs }) => differs).map(line)),
+      same.length ? h("tbody.alike", h("tr", identical), same.map(line)) : null,
     ),
   );
 }
 
-function parameterRows(curves) {
+function parameterRows(/** @type {CurveOfFamily[]} */ curves) {
   const names = [...new Set(curves.flatMap(({ family }) => family.names))];
   const value = ({ family, curve }, name) => {
     const at = family.names.indexOf(name);
@@ -67,7 +50,7 @@ function parameterRows(curves) {
   return [family, ...names.map((name) => ({ label: name, texts: curves.map((one) => value(one, name)) }))];
 }
 
-function measureRows(curves, measures) {
+function measureRows(/** @type {CurveOfFamily[]} */ curves, /** @type {Measure[]} */ measures) {
   return measures.map((measure) => ({
     label: standaloneMeasureLabel(measure.name),
     texts: curves.map(({ family, curve }) =>

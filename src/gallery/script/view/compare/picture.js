@@ -1,7 +1,11 @@
 // Overlaid curves, distinguished by colour, dash pattern and letter.
 
+import { placedData } from "../../draw/path-data.js";
+import { boxOfPoints, screenPoint } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
-import { viewOfOutlines, outlineData } from "../shape/match-picture.js";
+import { viewOfOutlines } from "../shape/match-item.js";
+import { transformed } from "../../shape/similarity.js";
+import { solveCurve } from "../curve-reading.js";
 
 const OVER_WIDE = 720;
 const OVER_LOW = 240;
@@ -27,56 +31,56 @@ function strokeClass(k) {
 }
 
 /**
- * A picture of overlaid outlines, [{ points, closed }], each with its letter: { element, scale, redraw(k,
- * points) }. `scale` is in picture pixels per unit of length; `redraw` replaces the points of an outline by
- * finer ones.
+ * A picture of overlaid outlines, each with its letter. `scale` is in picture pixels per unit of length;
+ * `redraw(k, points)` replaces the points of an outline by finer ones.
+ * @param {Outline[]} outlines
  */
-export function overlaidPicture(outlines, label) {
+export function overlaidPicture(/** @type {Outline[]} */ outlines, label) {
   const all = outlines.map(({ points }) => points);
   const high = heightFor(all);
   const view = viewOfOutlines(all, OVER_WIDE, high, OVER_INSET);
   const paths = outlines.map(({ points, closed }, k) =>
-    s("path", { class: strokeClass(k), d: outlineData(points, closed, view) }),
+    s("path", { class: strokeClass(k), d: placedData(points, closed, view) }),
   );
   const element = s(
-    "svg",
-    { class: "thumbnail over", viewBox: `0 0 ${OVER_WIDE} ${high}`, role: "img", "aria-label": label },
+    "svg.thumbnail.over",
+    { viewBox: `0 0 ${OVER_WIDE} ${high}`, role: "img", "aria-label": label },
     paths,
     outlines.map((outline, k) => letterLabel(outline, k, outlines.length, view)),
   );
   const redraw = (k, points) =>
-    paths[k].setAttribute("d", outlineData(points, outlines[k].closed, view, FINE_DECIMALS));
+    paths[k].setAttribute("d", placedData(points, outlines[k].closed, view, FINE_DECIMALS));
   return { element, scale: view.scale, redraw };
 }
 
 /**
- * Pictures of outlines, [{ points, closed }], side by side. All frames show the same part of the plane, so
- * that aligned curves appear at the same position and size. { elements, scale, redraw } as for
- * overlaidPicture.
+ * Pictures of outlines side by side. All frames show the same part of the plane, so that aligned curves appear at
+ * the same position and size.
+ * @param {Outline[]} outlines
  */
-export function sideBySidePictures(outlines) {
+export function sideBySidePictures(/** @type {Outline[]} */ outlines) {
   const all = outlines.map(({ points }) => points);
   const view = viewOfOutlines(all, SIDE_WIDE, SIDE_HIGH, SIDE_INSET);
-  const paths = outlines.map(({ points, closed }) => s("path", { d: outlineData(points, closed, view) }));
+  const paths = outlines.map(({ points, closed }) => s("path", { d: placedData(points, closed, view) }));
   const elements = paths.map((path) =>
-    s("svg", { class: "thumbnail", viewBox: `0 0 ${SIDE_WIDE} ${SIDE_HIGH}`, "aria-hidden": "true" }, path),
+    s("svg.thumbnail", { viewBox: `0 0 ${SIDE_WIDE} ${SIDE_HIGH}`, "aria-hidden": "true" }, path),
   );
   const redraw = (k, points) =>
-    paths[k].setAttribute("d", outlineData(points, outlines[k].closed, view, FINE_DECIMALS));
+    paths[k].setAttribute("d", placedData(points, outlines[k].closed, view, FINE_DECIMALS));
   return { elements, scale: view.scale, redraw };
 }
 
 /**
  * The letter of the k-th of `count` outlines, next to its line, on the side away from the outline's centre.
  */
-function letterLabel({ points, closed }, k, count, view) {
+function letterLabel(/** @type {Outline} */ { points, closed }, k, count, /** @type {Placement} */ view) {
   const places = points.length / 2;
   // Letters are spread along overlaid curves, and away from the ends of open ones.
   const part = (k + 0.5) / count;
   const at = Math.floor((closed ? part : 0.1 + 0.8 * part) * places);
   const seen = (index) => {
     const place = 2 * Math.min(Math.max(index, 0), places - 1);
-    return [view.x + view.scale * points[place], view.y - view.scale * points[place + 1]];
+    return screenPoint(view, [points[place], points[place + 1]]);
   };
   const [[x, y], [x0, y0], [x1, y1]] = [seen(at), seen(at - 1), seen(at + 1)];
   const length = Math.hypot(x1 - x0, y1 - y0);
@@ -87,33 +91,58 @@ function letterLabel({ points, closed }, k, count, view) {
   return s("text", { class: `letter ink-${(k % 5) + 1}`, ...place, dy: "0.35em" }, letterOf(k));
 }
 
-function meanPixel(points, { scale, x, y }) {
-  const mean = (part) => {
-    let sum = 0;
-    for (let k = part; k < points.length; k += 2) sum += points[k];
-    return sum / (points.length / 2);
-  };
-  return [x + scale * mean(0), y - scale * mean(1)];
+function meanPixel(/** @type {Points} */ points, /** @type {Placement} */ view) {
+  const mean = [0, 0];
+  for (let k = 0; k < points.length; k += 1) mean[k % 2] += (2 * points[k]) / points.length;
+  return screenPoint(view, [mean[0], mean[1]]);
 }
 
 /** The height that the outlines need at full width, within bounds. */
-function heightFor(outlines) {
-  const side = (part) => {
-    const values = outlines.flatMap((points) => Array.from(points).filter((_, k) => k % 2 === part));
-    return (
-      values.reduce((most, value) => Math.max(most, value), -Infinity) -
-      values.reduce((least, value) => Math.min(least, value), Infinity)
-    );
-  };
-  const height = ((OVER_WIDE - 2 * OVER_INSET) * side(1)) / (side(0) || 1) + 2 * OVER_INSET;
+function heightFor(/** @type {Points[]} */ outlines) {
+  const [x0, y0, x1, y1] = boxOfPoints(...outlines);
+  const height = ((OVER_WIDE - 2 * OVER_INSET) * (y1 - y0)) / (x1 - x0 || 1) + 2 * OVER_INSET;
   return Math.round(Math.min(Math.max(height, OVER_LOW), OVER_HIGH));
 }
 
 /** A short sample of the k-th curve's line. */
 export function strokeSample(k) {
   return s(
-    "svg",
-    { class: "thumbnail sample", width: 44, height: 12, "aria-hidden": "true" },
+    "svg.thumbnail.sample",
+    { width: 44, height: 12, "aria-hidden": "true" },
     s("path", { class: strokeClass(k), d: "M2 6H42" }),
   );
+}
+
+// The chord error of a curve, in picture pixels.
+const REFINED_ERROR = 0.05;
+
+/**
+ * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking
+ * the page. `curves` are those of loadComparedCurve(), `aligned` the results of alignCurve(). Returns a function
+ * that stops it.
+ * @param {App} app @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned
+ */
+export function refinePicture(app, picture, curves, aligned) {
+  let waiting = 0;
+  let isStopped = false;
+  const next = (kernel, k) => {
+    if (isStopped) return;
+    const { similarity } = aligned[k];
+    const enlarged = picture.scale * Math.hypot(similarity.re, similarity.im);
+    const { family, curve, requested, shown } = curves[k];
+    const solved = solveCurve(kernel, requested ?? kernel.curve(family, curve), shown);
+    const points = solved?.path(REFINED_ERROR / enlarged);
+    solved?.close();
+    if (points) picture.redraw(k, transformed(similarity, points));
+    if (k + 1 < curves.length) waiting = window.setTimeout(() => next(kernel, k + 1));
+  };
+  // Without the kernel, the stored points remain.
+  const start = (kernel) => {
+    waiting = window.setTimeout(() => next(kernel, 0));
+  };
+  if (curves.length) app.kernel.load().then(start, () => {});
+  return () => {
+    isStopped = true;
+    window.clearTimeout(waiting);
+  };
 }

@@ -1,64 +1,19 @@
 // Exports curves by name to files.
 
+import { parseCurveName } from "../../data/address.js";
 import { findCurve } from "../../data/family.js";
 import { needCurveWithKey } from "../../data/needs.js";
-import { extraCircuitsCommand, exportCommand, shortenCurveNames } from "../../export/command.js";
-import { csvOfCurve } from "../../export/csv.js";
-import { dxfOfCurve } from "../../export/dxf.js";
-import { jsonOfCurve } from "../../export/json.js";
-import { manifestOfCurves, curveNamesInManifest } from "../../export/manifest.js";
-import { movingSvgOfCurve } from "../../export/moving-svg.js";
-import { pngOfCurve } from "../../export/png.js";
-import { svgOfCurve } from "../../export/svg.js";
-import { fileStem, manifestCase, parseCurveName, solveNamedCurve } from "../../export/curve.js";
+import { exportCommand, shortenCurveNames } from "../../export/command.js";
 import { zipOfFiles } from "../../export/zip.js";
 
-/**
- * The export formats: { label, note, ending, type, render(app, exported) -> text or bytes, or a promise }.
- */
+/** The export formats. @type {ExportFormat[]} */
 export const EXPORT_FORMATS = [
-  {
-    label: "SVG",
-    note: "static",
-    ending: ".svg",
-    type: "image/svg+xml",
-    render: (app, exported) => svgOfCurve(exported),
-  },
-  {
-    label: "Animated SVG",
-    note: ".svg",
-    ending: "-moving.svg",
-    type: "image/svg+xml",
-    render: (app, exported) => movingSvgOfCurve(exported),
-  },
-  {
-    label: "PNG",
-    note: "300 dpi",
-    ending: ".png",
-    type: "image/png",
-    render: (app, exported) => pngOfCurve(exported),
-  },
-  {
-    label: "DXF",
-    note: "CAD, AutoCAD R12",
-    ending: ".dxf",
-    type: "image/vnd.dxf",
-    render: (app, exported) => dxfOfCurve(exported, app.atlas.program),
-  },
-  {
-    label: "CSV",
-    note: "points",
-    ending: ".csv",
-    type: "text/csv",
-    render: (app, exported) => csvOfCurve(exported),
-  },
-  {
-    label: "JSON",
-    note: "all data",
-    ending: ".json",
-    type: "application/json",
-    render: (app, exported) => jsonOfCurve(exported, measureNames(app)),
-  },
+  { label: "SVG", note: "static", type: "image/svg+xml", kernel: "svg" },
+  { label: "Animated SVG", note: ".svg", type: "image/svg+xml", kernel: "moving-svg" },
+  { label: "PNG", note: "300 dpi", type: "image/png", kernel: "svg", ending: ".png", convert: pngOfSvg },
+  { label: "DXF", note: "CAD, AutoCAD R12", type: "image/vnd.dxf", kernel: "dxf" },
+  { label: "CSV", note: "points", type: "text/csv", kernel: "csv" },
+  { label: "JSON", note: "all data", type: "application/json", kernel: "json" },
 ];
 
 // The time in milliseconds after which an export of many curves yields to the page.
@@ -66,32 +21,25 @@ const EXPORT_SLICE = 40;
 // The maximum number of curves exported by the page.
 const MAX_EXPORTED = 1000;
 
-function measureNames({ atlas }) {
-  return atlas.measures.map(({ name }) => name);
-}
-
 /**
  * Exports curves by name as one file { name, type, bytes }, an archive if there are several; calls
  * `onProgress` with the number of finished curves.
+ * @param {App} app @param {string[]} names @param {ExportFormat} format
  */
-export async function exportFile(app, names, format, onProgress = () => {}) {
+export async function exportFile(app, names, format, onProgress = (/** @type {number} */ _) => {}) {
   if (names.length === 0) throw new Error("There is no curve to export");
   if (names.length > MAX_EXPORTED) {
     const limit = `Cannot export more than ${MAX_EXPORTED} curves here`;
     throw new Error(`${limit}; use the command line for all ${names.length}`);
   }
+  const kernel = await app.kernel.load();
   const files = [];
   let yieldedAt = performance.now();
   for (const name of names) {
-    const exported = solveNamedCurve(await loadFamilyOfName(app, name), name);
-    const content = await format.render(app, exported);
-    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
-    files.push({ name: `${fileStem(exported)}${format.ending}`, type: format.type, bytes });
+    files.push(await fileOfCurve(kernel, await curveOfName(app, kernel, name), name, format));
     if (performance.now() - yieldedAt > EXPORT_SLICE) {
       onProgress(files.length);
-      await new Promise((done) => {
-        setTimeout(done);
-      });
+      await new Promise((done) => setTimeout(done));
       yieldedAt = performance.now();
     }
   }
@@ -100,39 +48,72 @@ export async function exportFile(app, names, format, onProgress = () => {}) {
     : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
 }
 
-async function loadFamilyOfName(app, name) {
+/** @param {Kernel} kernel @param {KernelCurve} curve @param {string} name @param {ExportFormat} _ */
+async function fileOfCurve(kernel, curve, name, { kernel: format, type, ending, convert }) {
+  const file = errorsNaming(name, () => kernel.export(curve, format));
+  const bytes = convert ? await convert(file.text) : new TextEncoder().encode(file.text);
+  return { name: ending ? file.name.replace(/\.[^.]+$/, ending) : file.name, type, bytes };
+}
+
+/** Runs `work`; its error says which curve it is of. */
+function errorsNaming(name, work) {
+  try {
+    return work();
+  } catch (error) {
+    throw new Error(`${name}: ${error.message}`, { cause: error });
+  }
+}
+
+async function parsedName(/** @type {App} */ app, /** @type {string} */ name) {
   const parsed = parseCurveName(name);
   if (!parsed) throw new Error(`“${name}” is not the name of a curve`);
   const family = await app.atlas.family(parsed.family);
-  if (findCurve(family, parsed.key) === undefined) await needCurveWithKey(family, parsed.key);
-  return family;
+  const curve = findCurve(family, parsed.key) ?? (await needCurveWithKey(family, parsed.key));
+  return { family, curve, changes: parsed.changes };
 }
 
-/** The manifest fragment of curves by name. */
+/** The curve with a name, for the kernel. */
+async function curveOfName(/** @type {App} */ app, /** @type {Kernel} */ kernel, name) {
+  const { family, curve, changes } = await parsedName(app, name);
+  if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
+  return kernel.curve(family, curve, changes);
+}
+
+/** The manifest fragment of curves by name. @param {App} app @param {string[]} names */
 export async function exportManifest(app, names) {
+  const kernel = await app.kernel.load();
   const curves = [];
-  for (const name of names) curves.push(manifestCase(await loadFamilyOfName(app, name), name));
-  return manifestOfCurves(curves);
+  for (const name of names) curves.push(await curveOfName(app, kernel, name));
+  return kernel.fragment(curves);
 }
 
-/** The command line that exports curves by name. */
+/** The command line that exports curves by name. @param {App} app @param {string[]} names */
 export async function exportCommandLine(app, names) {
   const families = new Map();
-  const extra = [];
   for (const name of names) {
-    const family = await loadFamilyOfName(app, name);
+    const { family } = await parsedName(app, name);
     families.set(family.id, family);
-    const curve = manifestCase(family, name);
-    if (curve.extraCircuit !== null) extra.push({ ...curve, requested: name });
   }
-  const plain = names.filter((name) => !extra.some(({ requested }) => requested === name));
-  const command = plain.length ? exportCommand(shortenCurveNames(plain, families), plain.length) : "";
-  if (extra.length === 0) return command;
-  return (
-    command +
-    extraCircuitsCommand(
-      extra.map(({ name }) => name),
-      curveNamesInManifest(extra),
-    )
+  return exportCommand(shortenCurveNames(names, families), names.length);
+}
+
+/** The resolution of PNG plates, in pixels per inch. */
+const PLATE_DPI = 300;
+
+/** A plate in SVG, whose size is in millimetres, as the bytes of a PNG image. */
+export async function pngOfSvg(svg) {
+  const [width, height] = ["width", "height"].map((side) =>
+    Number(new RegExp(`^<svg[^>]* ${side}="([0-9.]+)mm"`).exec(svg)?.[1]),
   );
+  const image = new Image();
+  // A data URL does not taint the canvas.
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.round((width / 25.4) * PLATE_DPI);
+  canvas.height = Math.round((height / 25.4) * PLATE_DPI);
+  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  /** @type {Blob | null} */ const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
+  if (!blob) throw new Error("the browser cannot create an image of this size");
+  return new Uint8Array(await blob.arrayBuffer());
 }

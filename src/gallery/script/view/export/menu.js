@@ -1,22 +1,22 @@
 // The export menu.
 
-import { fill, h } from "../dom.js";
-import { copyText } from "./copy.js";
+import { buttonOf, fill, h, isShortcut } from "../dom.js";
 import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from "./files.js";
-import { saveFile } from "./save.js";
+import { saveFile, copyText } from "./save.js";
 
 /**
  * A button with a menu of all export formats. `names` are "family:cell.trace.circuit", with changed
  * parameters after "?", as an array or as a function called at the time of the export.
  */
-export function exportMenu(app, names) {
+export function exportMenu(/** @type {App} */ app, names) {
   const currentNames = () => (typeof names === "function" ? names() : names);
-  const status = h("span", { class: "export-status", "aria-live": "polite" });
+  const status = h("span.export-status", { "aria-live": "polite" });
   const report = (sentence) => fill(status, sentence);
   const task = (work) => () => {
     report("Exporting");
     return work(currentNames()).then(report, (error) => report(error.message));
   };
+  const copy = (what, textOf) => task(async (list) => copyToClipboard(what, await textOf(app, list)));
   const entries = [
     ...EXPORT_FORMATS.map((format) => [
       format.label,
@@ -24,27 +24,20 @@ export function exportMenu(app, names) {
       task((list) => saveCurves(app, list, format, report)),
     ]),
     ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
-    [
-      "Copy manifest fragment",
-      "",
-      task(async (list) => copyToClipboard("the manifest fragment", await exportManifest(app, list))),
-    ],
-    [
-      "Copy command line",
-      "",
-      task(async (list) => copyToClipboard("the command line", await exportCommandLine(app, list))),
-    ],
+    ["Copy manifest fragment", "", copy("the manifest fragment", exportManifest)],
+    ["Copy command line", "", copy("the command line", exportCommandLine)],
   ];
-  return h("div", { class: "export" }, menuButton("Export", entries), status);
+  return h("div.export", menuButton("Export", entries), status);
 }
 
+/** @param {App} app @param {string[]} names @param {ExportFormat} format */
 async function saveCurves(app, names, format, report) {
   const file = await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`));
   saveFile(file);
   return `Saved as ${file.name}`;
 }
 
-async function saveManifest(app, names) {
+async function saveManifest(/** @type {App} */ app, names) {
   const text = await exportManifest(app, names);
   saveFile({ name: "curves.toml", type: "application/toml", bytes: new TextEncoder().encode(text) });
   return "Saved as curves.toml";
@@ -59,29 +52,17 @@ async function copyToClipboard(what, text) {
  * entries, a letter moves to the next entry that starts with it; Escape or a click elsewhere closes the menu.
  */
 function menuButton(label, entries) {
-  const button = h(
-    "button",
-    { type: "button", class: "export-button", "aria-haspopup": "menu", "aria-expanded": "false" },
-    label,
-  );
-  const items = entries.map(([word, note, action]) =>
-    h(
-      "button",
-      {
-        type: "button",
-        role: "menuitem",
-        tabindex: "-1",
-        onclick: () => {
-          close(true);
-          action();
-        },
-      },
-      h("span", {}, word),
-      note ? h("span", { class: "note" }, note) : null,
-    ),
-  );
-  const menu = h("div", { class: "export-menu", role: "menu", "aria-label": label, hidden: true }, items);
-  const element = h("div", { class: "export-dropdown" }, button, menu);
+  const button = h("button.export-button", { "aria-haspopup": "menu", "aria-expanded": "false" }, label);
+  const items = entries.map(([word, note, action]) => {
+    const act = () => {
+      close(true);
+      action();
+    };
+    const words = [h("span", word), note ? h("span.note", note) : null];
+    return buttonOf(words, act, { role: "menuitem", tabindex: "-1" });
+  });
+  const menu = h("div.export-menu", { role: "menu", "aria-label": label, hidden: true }, items);
+  const element = h("div.export-dropdown", button, menu);
   const closeOutside = (event) => {
     if (!element.contains(event.target)) close(false);
   };
@@ -107,7 +88,7 @@ function menuButton(label, entries) {
   });
   menu.addEventListener("keydown", (event) => handleMenuKey(event, items, close));
   element.addEventListener("focusout", ({ relatedTarget }) => {
-    if (!menu.hidden && relatedTarget && !element.contains(relatedTarget)) close(false);
+    if (!menu.hidden && relatedTarget instanceof Node && !element.contains(relatedTarget)) close(false);
   });
   return element;
 }
@@ -115,17 +96,11 @@ function menuButton(label, entries) {
 function handleMenuKey(event, items, close) {
   const at = items.indexOf(document.activeElement);
   const count = items.length;
-  const letter =
-    event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey
-      ? event.key.toLowerCase()
-      : null;
+  const letter = event.key.length === 1 && !isShortcut(event) ? event.key.toLowerCase() : null;
   const begins = (item) => item.textContent.toLowerCase().startsWith(letter);
-  const next = {
-    ArrowDown: (at + 1) % count,
-    ArrowUp: (at + count - 1) % count,
-    Home: 0,
-    End: count - 1,
-  }[event.key];
+  const next = { ArrowDown: (at + 1) % count, ArrowUp: (at + count - 1) % count, Home: 0, End: count - 1 }[
+    event.key
+  ];
   // Keys of the view do not apply while a menu is open.
   if (event.key !== "Tab") event.stopPropagation();
   if (event.key === "Escape") close(true);

@@ -1,21 +1,18 @@
 // The view that finds curves by their measures.
 
 import { filterColumns } from "../../find/columns.js";
-import { Filters } from "../../find/filter.js";
-import { Orders, passingRows } from "../../find/order.js";
+import { Filters, Orders, passingRows } from "../../find/filter.js";
 import { formatFindQuery, parseFindQuery } from "../../find/query.js";
 import { CurveTable } from "../../find/table.js";
-import { fill, h } from "../dom.js";
-import { matchesRoute, routeAddress } from "../route-address.js";
-import { exportMenu } from "../export/menu.js";
-import { columnLabel, columnValueText } from "./column-label.js";
-import { familyChooser } from "./families.js";
-import { loadAllLine } from "./load-all.js";
-import { MAX_AUTOLOAD_BYTES, loadedCurves, loadTables, requestedFamilies } from "./loading.js";
-import { noResults } from "./no-results.js";
+import { buttonOf, fill, h } from "../dom.js";
+import { MAX_AUTOLOAD_BYTES, familyChooser, loadAllLine } from "./loading.js";
+import { loadTables, loadedCurves, requestedFamilies } from "./loading.js";
+import { findLayout, noResults } from "./layout.js";
 import { FilterPanel } from "./panel.js";
 import { ResultRows } from "./rows.js";
 import { ResultTiles } from "./tiles.js";
+import { columnLabel, rowText } from "../labels.js";
+import { matchesRoute, routeAddress } from "../../data/address.js";
 
 const ADDRESS_DELAY = 250;
 
@@ -25,118 +22,75 @@ export const findRoute = {
   label: "Find",
   href: (app) => routeAddress("find", {}, app),
   matches: (target, app) => matchesRoute("find", target, app),
-  open: (app, { query }) => {
-    const view = new FindView(app, parseFindQuery(query));
-    return {
-      title: "Find",
-      element: view.element,
-      shown: () => view.shown(),
-      update: (target) => view.update(parseFindQuery(target.query)),
-      leave: () => view.leave(),
-    };
-  },
+  open: (app, { query }) => new FindView(app, parseFindQuery(query)),
 };
 
-class FindView {
-  constructor(app, query) {
-    Object.assign(this, { app, query });
+export class FindView {
+  title = "Find";
+  /** @type {CurveTable} */ table = new CurveTable([]);
+  orders = new Orders(this.table);
+  filters = new Filters(this.table);
+  /** @type {Column[]} */ columns = [];
+  /** The rows that pass. @type {Uint32Array} */
+  rows = new Uint32Array();
+  /** What is said while tables are loaded, and whether not all are. */
+  loading = "";
+  isPartial = true;
+  isLoaded = false;
+  laying = 0;
+  saying = 0;
+  writing = 0;
+  stop = () => {};
+
+  constructor(/** @type {App} */ app, /** @type {FindQuery} */ query) {
+    this.app = app;
+    this.query = query;
     this.panel = new FilterPanel((name, filter) => this.setFilter(name, filter));
     this.tiles = new ResultTiles(app);
-    this.list = new ResultRows(app, (name) =>
-      this.sortBy(name, this.query.sort.name === name ? !this.query.sort.down : false),
-    );
-    this.countLabel = h("p", { class: "counted" }, "Loading");
+    this.list = new ResultRows(app, (name) => {
+      const { sort } = this.query;
+      this.sortBy(name, sort.name === name && !sort.down);
+    });
+    this.countLabel = h("p.counted", "Loading");
     this.loadAll = loadAllLine(() => {
       this.limit = Infinity;
       this.load();
       this.results.focus({ preventScroll: true });
     });
     this.limit = MAX_AUTOLOAD_BYTES;
-    this.message = h("p", { class: "note", hidden: true });
-    this.results = h("div", { class: "found", tabindex: "-1" });
+    this.message = h("p.note", { hidden: true });
+    this.results = h("div.found", { tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
       onchange: (event) => this.sortBy(event.target.value, this.query.sort.down),
     });
-    this.direction = h("button", {
-      type: "button",
-      onclick: () => this.sortBy(this.query.sort.name, !this.query.sort.down),
-    });
-    this.families = h("div", { class: "family-choice" });
-    this.element = this.buildElement();
+    this.direction = buttonOf("", () => this.sortBy(this.query.sort.name, !this.query.sort.down));
+    this.families = h("div.family-choice");
+    const { element, displayButtons, clear } = findLayout(this);
+    this.element = element;
+    this.displayButtons = displayButtons;
+    this.clear = clear;
     this.load();
-  }
-
-  buildElement() {
-    const show = (name, label) =>
-      h("button", { type: "button", "data-show": name, onclick: () => this.showAs(name) }, label);
-    this.displayButtons = [show("sheet", "Grid"), show("table", "Table")];
-    const clearAll = () => this.setFilters(new Map());
-    this.clear = h("button", { type: "button", class: "quiet", onclick: clearAll }, "Clear all filters");
-    const wide = window.matchMedia("(min-width: 60rem)").matches;
-    return h(
-      "div",
-      { class: "view wide find-view" },
-      h(
-        "div",
-        { class: "head" },
-        h("div", {}, h("h1", {}, "Find"), this.countLabel, this.loadAll.element, this.message),
-        exportMenu(this.app, () => this.names()),
-      ),
-      h(
-        "div",
-        { class: "find-split" },
-        h(
-          "details",
-          { class: "find-panel", open: wide },
-          h("summary", {}, "Filters"),
-          this.families,
-          this.panel.element,
-        ),
-        h(
-          "div",
-          {},
-          h(
-            "div",
-            { class: "toolbar" },
-            h("span", { class: "field row" }, h("label", { for: "find-sort" }, "Sort by"), this.sorter),
-            this.direction,
-            this.clear,
-            h("div", { class: "segments end", role: "group", "aria-label": "Show as" }, this.displayButtons),
-          ),
-          this.results,
-        ),
-      ),
-    );
   }
 
   /** Loads the tables of the requested families, up to the limit, and applies the query as they arrive. */
   load() {
     const { app, query } = this;
-    this.stop?.();
+    this.stop();
     const listed = requestedFamilies(app.atlas, query.families);
-    fill(
-      this.families,
-      familyChooser(app.atlas, listed, (families) => this.setQuery({ ...this.query, families })),
-    );
+    const choose = (ids) => this.setQuery({ ...this.query, families: ids });
+    fill(this.families, familyChooser(app.atlas, listed, choose));
     this.loadAll.show(null);
-    this.stop = loadTables(
-      app.atlas,
-      listed,
-      this.limit,
-      (families, state) => this.setFamilies(families, state),
-      (sentence) => this.showMessage(sentence),
-    );
+    const onLoad = (families, state) => this.setFamilies(families, state);
+    this.stop = loadTables(app.atlas, listed, this.limit, onLoad, (sentence) => this.showMessage(sentence));
   }
 
-  setFamilies(families, state) {
+  setFamilies(/** @type {Family[]} */ families, /** @type {LoadState} */ state) {
+    this.isLoaded = true;
     this.table = new CurveTable(families, families.map(loadedCurves));
     this.orders = new Orders(this.table);
-    this.columns = filterColumns(
-      this.table,
-      this.app.atlas.measures,
-      new Set([...this.query.filters.keys(), this.query.sort.name]),
-    );
+    const kept = new Set([...this.query.filters.keys(), this.query.sort.name]);
+    this.columns = filterColumns(this.table, this.app.atlas.measures, kept);
     const [loaded, total] = [state.curves, state.total].map((number) => number.toLocaleString("en"));
     this.loading = state.done ? "" : ` · ${loaded} of ${total} loaded`;
     this.isPartial = state.curves < state.total;
@@ -157,7 +111,7 @@ class FindView {
     this.show();
   }
 
-  setFilter(name, filter) {
+  setFilter(name, /** @type {Filter | null} */ filter) {
     if (filter) this.query.filters.set(name, filter);
     else this.query.filters.delete(name);
     const began = performance.now();
@@ -179,19 +133,16 @@ class FindView {
     this.writeAddress();
   }
 
-  setQuery(query) {
+  setQuery(/** @type {FindQuery} */ query) {
     const isOther = String(query.families) !== String(this.query.families);
     this.query = query;
     if (isOther) this.load();
-    else if (this.table) this.applyQuery();
+    else if (this.isLoaded) this.applyQuery();
     this.writeAddress();
   }
 
-  /**
-   * Replaces all filters and moves the focus to the results, since the button that was pressed may be
-   * removed.
-   */
-  setFilters(filters) {
+  /** Replaces all filters; the focus moves to the results, since the button that was pressed may be removed. */
+  setFilters(/** @type {Map<string, Filter>} */ filters) {
     this.setQuery({ ...this.query, filters });
     this.results.focus({ preventScroll: true });
   }
@@ -199,7 +150,7 @@ class FindView {
   /** Shows the curves that pass the filters. */
   show() {
     const { sort, show } = this.query;
-    const column = this.columns.find(({ name }) => name === sort.name);
+    const column = this.sortColumn;
     this.rows = passingRows(this.orders.by(column?.name, column?.kind, sort.down), this.filters.failing);
     this.panel.show(this.filters);
     this.sorter.value = column?.name ?? "";
@@ -210,13 +161,17 @@ class FindView {
       button.setAttribute("aria-pressed", String(button.dataset.show === show));
     this.count();
     // While a bound is dragged, the results are laid out once per frame.
-    this.laying ??= requestAnimationFrame(() => this.layOut());
+    this.laying ||= requestAnimationFrame(() => this.layOut());
+  }
+
+  get sortColumn() {
+    return this.columns.find(({ name }) => name === this.query.sort.name);
   }
 
   layOut() {
-    this.laying = null;
+    this.laying = 0;
     const { sort, show } = this.query;
-    const column = this.columns.find(({ name }) => name === sort.name);
+    const column = this.sortColumn;
     if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
       const without = (name) =>
         this.setFilters(new Map([...this.query.filters].filter(([other]) => other !== name)));
@@ -226,10 +181,10 @@ class FindView {
     const list = show === "table" ? this.list : this.tiles;
     if (list.element.parentElement !== this.results) fill(this.results, list.element);
     if (show === "table") this.list.setRows(this.table, this.rows, this.shownColumns(column), sort);
-    else this.tiles.setRows(this.table, this.rows, (row) => (column ? this.valueText(column, row) : null));
+    else this.tiles.setRows(this.table, this.rows, (row) => column && rowText(this.table, column, row));
   }
 
-  /** Sorted and filtered columns come first, so that they are visible. */
+  /** Sorted and filtered columns come first, so that they are visible. @param {Column | undefined} column */
   shownColumns(column) {
     const isNamed = ({ name }) => name === column?.name || this.query.filters.has(name);
     const isFirst = ({ group }) => group === "first";
@@ -237,21 +192,10 @@ class FindView {
     return [...named, ...this.columns.filter(isFirst)];
   }
 
-  valueText(column, row) {
-    const family = this.table.families[this.table.family[row]];
-    if (column.kind === "numbers")
-      return columnValueText(column, family, this.table.numbers(column.name)[row]);
-    const { values, codes } = this.table.words(column.name);
-    return values[codes[row]] ?? "–";
-  }
-
   count() {
-    const [left, all] = [this.rows.length, this.table.count];
-    const sentence =
-      all === 0
-        ? "No curves are loaded; select families"
-        : `${left.toLocaleString("en")} of ${all.toLocaleString("en")} curves`;
-    fill(this.countLabel, h("b", {}, sentence), this.loading);
+    const [left, all] = [this.rows.length, this.table.count].map((number) => number.toLocaleString("en"));
+    const sentence = this.table.count ? `${left} of ${all} curves` : "No curves are loaded; select families";
+    fill(this.countLabel, h("b", sentence), this.loading);
     window.clearTimeout(this.saying);
     this.saying = window.setTimeout(() => this.app.announce(sentence), 2 * ADDRESS_DELAY);
   }
@@ -262,31 +206,28 @@ class FindView {
   }
 
   names() {
-    return Array.from(this.rows ?? [], (row) => this.table.nameOf(row));
+    return Array.from(this.rows ?? [], (row) => this.table.curveOf(row).name);
   }
 
   writeAddress() {
     window.clearTimeout(this.writing);
-    this.writing = window.setTimeout(
-      () => this.app.replace(routeAddress("find", formatFindQuery(this.query), this.app)),
-      ADDRESS_DELAY,
-    );
+    const write = () => this.app.replace(routeAddress("find", formatFindQuery(this.query), this.app));
+    this.writing = window.setTimeout(write, ADDRESS_DELAY);
   }
 
   /** Handles another address of this route. */
-  update(query) {
-    this.setQuery(query);
+  update(/** @type {Target} */ { query }) {
+    this.setQuery(parseFindQuery(query));
     return true;
   }
 
   shown() {
-    this.isShown = true;
     this.tiles.shown();
     this.list.fill();
   }
 
   leave() {
-    this.stop?.();
+    this.stop();
     cancelAnimationFrame(this.laying);
     this.tiles.end();
     this.list.end();
@@ -294,6 +235,14 @@ class FindView {
     window.clearTimeout(this.saying);
     // A browser may keep form controls that were removed, and with them this view: its data are released.
     this.panel.release();
-    [this.table, this.orders, this.filters, this.columns, this.rows] = [null, null, null, [], null];
+    this.release();
+  }
+
+  release() {
+    this.table = new CurveTable([]);
+    this.orders = new Orders(this.table);
+    this.filters = new Filters(this.table);
+    this.columns = [];
+    this.rows = new Uint32Array();
   }
 }

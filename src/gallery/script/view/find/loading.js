@@ -1,22 +1,24 @@
-// Loads the tables of families without blocking the page.
+// Selects the families to search, and loads their tables without blocking the page.
 
 import { needPieces } from "../../data/needs.js";
+import { buttonOf, choiceBox, fill, h } from "../dom.js";
+import { formatBytes, formatCount } from "../labels.js";
 
 // Data up to this size, in bytes, are loaded without a request.
 export const MAX_AUTOLOAD_BYTES = 48e6;
 
 /** The families that a query needs: those it names, or all that have curves. */
-export function requestedFamilies(atlas, ids) {
+export function requestedFamilies(/** @type {Atlas} */ atlas, /** @type {string[] | null} */ ids) {
   const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
   return ids ? withCurves.filter(({ id }) => ids.includes(id)) : withCurves;
 }
 
 /**
- * Loads the tables of families, `listed` in the atlas, piece after piece, up to `limit` bytes and at least
- * one piece. Calls `onLoad(families, state)` with the families loaded so far, at least in part, occasionally
- * and at the end; `state` is { done, curves, total, bytes }: whether loading has ended, the number of curves
- * loaded, of all, and the size of their tables. Calls `onError` with the message for data that cannot be
- * read, which are skipped. Returns a function that stops loading.
+ * Loads the tables of families, piece after piece, up to `limit` bytes and at least one piece. Calls `onLoad` with
+ * the families loaded so far, at least in part, occasionally and at the end; `onError` with the message for data
+ * that cannot be read, which are skipped. Returns a function that stops loading.
+ * @param {Atlas} atlas @param {ListedFamily[]} listed @param {number} limit
+ * @param {(families: Family[], state: LoadState) => void} onLoad @param {(message: string) => void} onError
  */
 export function loadTables(atlas, listed, limit, onLoad, onError) {
   let stopped = false;
@@ -29,9 +31,7 @@ export function loadTables(atlas, listed, limit, onLoad, onError) {
     const curves = there.reduce((sum, family) => sum + loadedCurves(family), 0);
     onLoad([...there], { done, curves, total, bytes: size });
     // Lets the page handle input meanwhile.
-    await new Promise((resume) => {
-      setTimeout(resume, 0);
-    });
+    await new Promise((resume) => setTimeout(resume));
     reportedAt = performance.now();
     pause = Math.max(400, 4 * (reportedAt - began));
   };
@@ -70,7 +70,57 @@ export function loadTables(atlas, listed, limit, onLoad, onError) {
   };
 }
 
-/** The number of curves of a family, from the first, whose table is loaded. */
+/** The number of curves of a family, from the first, whose table is loaded. @param {Family} _ */
 export function loadedCurves({ table, curves: { count } }) {
   return table.pieces[table.loadedPieces]?.firstCurve ?? count;
+}
+
+/**
+ * A line below the count of a search: how many curves are not loaded, and a button that calls `load()`. Empty
+ * while loading goes on, or if all are loaded.
+ */
+export function loadAllLine(load) {
+  const element = h("p.load-all.toolbar", { hidden: true });
+  const text = ({ curves, total }) => `${formatCount(total - curves, "curve is", "curves are")} not loaded`;
+  const show = (state) => {
+    element.hidden = !state?.done || state.curves >= state.total;
+    if (element.hidden) return fill(element);
+    const { total, bytes } = state;
+    const words = `Load all ${formatCount(total, "curve")} (${formatBytes(bytes)})`;
+    return fill(element, h("span.note", text(state)), " ", buttonOf(words, load));
+  };
+  return { element, show, text };
+}
+
+/**
+ * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if
+ * there is only one family.
+ */
+export function familyChooser(/** @type {Atlas} */ atlas, /** @type {ListedFamily[]} */ loaded, changed) {
+  const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
+  if (withCurves.length < 2) return null;
+  const chosen = new Set(loaded.map(({ id }) => id));
+  const bytes = withCurves.reduce((sum, family) => sum + (family.bytes ?? 0), 0);
+  const tick = (id) => {
+    if (!chosen.delete(id)) chosen.add(id);
+    const ids = withCurves.map((family) => family.id).filter((one) => chosen.has(one));
+    changed(ids.length === withCurves.length ? null : ids);
+  };
+  const box = (/** @type {ListedFamily} */ { id, title, curves }) => {
+    const attributes = { checked: chosen.has(id), onchange: () => tick(id) };
+    const label = [h("span", title), h("span.count", curves.toLocaleString("en"))];
+    return choiceBox("checkbox", attributes, label).element;
+  };
+  const choose = (label, ids) => buttonOf(label, () => changed(ids), { class: "quiet" });
+  const all = choose(
+    `All (${formatBytes(bytes)})`,
+    withCurves.map(({ id }) => id),
+  );
+  return h(
+    "details.more-filters",
+    { open: chosen.size === 0 },
+    h("summary", "Families", h("span.note", ` ${chosen.size} of ${withCurves.length}`)),
+    h("div.toolbar", all, choose("None", [])),
+    h("fieldset.words", h("legend.visually-hidden", "Families"), withCurves.map(box)),
+  );
 }

@@ -1,38 +1,41 @@
 // The panel of filters, the most useful first.
 
-import { fill, h } from "../dom.js";
+import { fill, h, choiceBox } from "../dom.js";
 import { RangeFilter } from "./range-filter.js";
-import { WordFilter } from "./word-filter.js";
+import { columnLabel } from "../labels.js";
 
 /** Calls `changed(name, filter)` when a filter is changed; null removes it. */
 export class FilterPanel {
   constructor(changed) {
     this.changed = changed;
     this.filters = new Map();
-    this.element = h("div", { class: "filters" });
+    this.element = h("div.filters");
     this.opened = new Set();
   }
 
-  /** Creates the filters for the columns of a table, set as in a query. */
+  /**
+   * Creates the filters for the columns of a table, set as in a query.
+   * @param {Column[]} columns @param {CurveTable} table @param {FindQuery} query
+   */
   setColumns(columns, table, query) {
     this.filters.clear();
-    const groups = { first: [], more: [], parameters: [] };
+    /** @type {Record<Column["group"], Element[]>} */ const groups = { first: [], more: [], parameters: [] };
     for (const column of columns)
       groups[column.group].push(this.createFilter(column, table, query.filters.get(column.name)));
     const isFiltered = (group) =>
       columns.some((column) => column.group === group && query.filters.has(column.name));
-    fill(
-      this.element,
-      groups.first,
-      this.group("parameters", "Parameters", groups.parameters, isFiltered("parameters")),
-      this.group("more", "More measures", groups.more, isFiltered("more")),
-    );
+    const parameters = this.group("parameters", "Parameters", groups.parameters, isFiltered("parameters"));
+    const more = this.group("more", "More measures", groups.more, isFiltered("more"));
+    fill(this.element, groups.first, parameters, more);
   }
 
+  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
   createFilter(column, table, filter) {
     const changed = (next) => this.changed(column.name, next);
-    const kind = column.kind === "words" ? WordFilter : RangeFilter;
-    const one = new kind(column, table, filter, changed);
+    const isRange = column.kind === "numbers";
+    const one = isRange
+      ? new RangeFilter(column, table, filter, changed)
+      : new WordFilter(column, table, filter, changed);
     this.filters.set(column.name, one);
     return one.element;
   }
@@ -45,12 +48,8 @@ export class FilterPanel {
       else this.opened.delete(group);
       if (this.shown) this.show(this.shown);
     };
-    return h(
-      "details",
-      { class: "more-filters", open: this.opened.has(group), ontoggle: toggled },
-      h("summary", {}, label, h("span", { class: "note" }, ` ${elements.length}`)),
-      elements,
-    );
+    const summary = h("summary", label, h("span.note", ` ${elements.length}`));
+    return h("details.more-filters", { open: this.opened.has(group), ontoggle: toggled }, summary, elements);
   }
 
   /** Removes the filters, and with them what they know of the table. */
@@ -60,7 +59,7 @@ export class FilterPanel {
     fill(this.element);
   }
 
-  /** Shows the counts of the remaining rows, in groups that are open. */
+  /** Shows the counts of the remaining rows, in groups that are open. @param {Filters} filters */
   show(filters) {
     this.shown = filters;
     const rows = filters.rows();
@@ -68,5 +67,38 @@ export class FilterPanel {
       if (one.column.group !== "first" && !this.opened.has(one.column.group)) continue;
       one.show(one instanceof WordFilter ? filters.wordCounts(name) : rows);
     }
+  }
+}
+
+/** Calls `changed(filter)` with a Set of words, or null for all. */
+export class WordFilter {
+  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
+  constructor(column, table, filter, changed) {
+    this.column = column;
+    this.changed = changed;
+    this.chosen = new Set(filter instanceof Set ? filter : []);
+    this.values = table.words(column.name).values;
+    this.counts = this.values.map(() => h("span.count"));
+    const box = (word, k) => {
+      const attributes = { checked: this.chosen.has(word), onchange: () => this.ticked(word) };
+      return choiceBox("checkbox", attributes, h("span", word), this.counts[k]).element;
+    };
+    this.element = h(
+      "fieldset.words",
+      h("legend", { title: `${column.name}: ${column.definition}` }, columnLabel(column.name)),
+      this.values.map(box),
+    );
+  }
+
+  ticked(word) {
+    if (!this.chosen.delete(word)) this.chosen.add(word);
+    this.changed(this.chosen.size ? new Set(this.chosen) : null);
+  }
+
+  /** Shows how many rows pass with each word. @param {Uint32Array} counts */
+  show(counts) {
+    counts.forEach((count, k) => {
+      this.counts[k].textContent = count.toLocaleString("en");
+    });
   }
 }

@@ -1,74 +1,42 @@
 // A filter for numbers: a histogram with two handles to drag, and fields for their values.
 
 import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
-import { h, s } from "../dom.js";
-import { columnLabel } from "./column-label.js";
+import { buttonOf, h, s, setAttributes } from "../dom.js";
+import { columnLabel } from "../labels.js";
 
 /** Calls `changed(filter)` with { low, high } or null when a bound is changed. */
 export class RangeFilter {
+  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
   constructor(column, table, filter, changed) {
-    Object.assign(this, { column, changed });
+    this.column = column;
+    this.changed = changed;
     this.scale = histogramOf(table.numbers(column.name));
-    this.filter = { low: filter?.low, high: filter?.high };
+    /** @type {Bounds} */ this.filter = filter instanceof Set ? {} : { ...filter };
     const words = columnLabel(column.name);
-    this.behind = s("path", { class: "behind", d: histogramBars(this.scale.counts, this.highest()) });
-    this.front = s("path", { class: "front" });
+    this.behind = s("path.behind", { d: histogramBars(this.scale, this.scale.counts) });
+    this.front = s("path.front");
     const picture = s(
-      "svg",
-      {
-        class: "bars",
-        viewBox: `0 0 ${BINS} 1`,
-        preserveAspectRatio: "none",
-        "aria-hidden": "true",
-        focusable: "false",
-      },
+      "svg.bars",
+      { viewBox: `0 0 ${BINS} 1`, preserveAspectRatio: "none", "aria-hidden": "true", focusable: "false" },
       this.behind,
       this.front,
     );
     this.ends = ["low", "high"].map((end) => this.createHandle(end, words));
     this.inputs = ["low", "high"].map((end) => this.createInput(end, words));
-    this.track = h(
-      "div",
-      { class: "track", onpointerdown: (event) => this.startDrag(event) },
-      picture,
-      this.ends,
-    );
-    this.clear = h(
-      "button",
-      {
-        type: "button",
-        class: "quiet clear",
-        hidden: true,
-        "aria-label": `Clear ${words}`,
-        onclick: () => this.setFilter({}),
-      },
-      "×",
-    );
+    this.track = h("div.track", { onpointerdown: (event) => this.startDrag(event) }, picture, this.ends);
+    const attributes = { class: "quiet clear", hidden: true, "aria-label": `Clear ${words}` };
+    this.clear = buttonOf("×", () => this.setFilter({}), attributes);
+    const log = this.scale.isLog ? h("span.note", " log") : null;
+    const title = `${column.name}: ${column.definition}`;
+    const [low, high] = this.inputs;
     this.element = h(
-      "fieldset",
-      { class: "range" },
-      h(
-        "legend",
-        { title: `${column.name}: ${column.definition}` },
-        words,
-        column.unit ? " °" : "",
-        this.scale.isLog ? h("span", { class: "note" }, " log") : null,
-      ),
+      "fieldset.range",
+      h("legend", { title }, words, column.unit ? " °" : "", log),
       this.clear,
       this.track,
-      h(
-        "div",
-        { class: "bounds" },
-        this.inputs[0],
-        h("span", { "aria-hidden": "true" }, "–"),
-        this.inputs[1],
-      ),
+      h("div.bounds", low, h("span", { "aria-hidden": "true" }, "–"), high),
     );
     this.render();
-  }
-
-  highest() {
-    return Math.max(...this.scale.counts, 1);
   }
 
   createHandle(end, words) {
@@ -96,7 +64,7 @@ export class RangeFilter {
     });
   }
 
-  /** Sets the filter, positions the handles and reports the change. */
+  /** Sets the filter, positions the handles and reports the change. @param {Bounds} _ */
   setFilter({ low, high }) {
     this.filter = { low, high };
     this.render();
@@ -112,31 +80,26 @@ export class RangeFilter {
     ["low", "high"].forEach((end, k) => {
       const value = filter[end] ?? scale[end];
       ends[k].style.left = `${100 * places[k]}%`;
-      ends[k].setAttribute("aria-valuemin", formatBound(scale.low));
-      ends[k].setAttribute("aria-valuemax", formatBound(scale.high));
-      ends[k].setAttribute("aria-valuenow", formatBound(value));
+      const [min, max, now] = [scale.low, scale.high, value].map(formatBound);
+      setAttributes(ends[k], { "aria-valuemin": min, "aria-valuemax": max, "aria-valuenow": now });
       if (document.activeElement !== inputs[k])
         inputs[k].value = filter[end] === undefined ? "" : String(filter[end]);
     });
-    this.track.style.setProperty("--from", places[0]);
-    this.track.style.setProperty("--to", places[1]);
+    this.track.style.setProperty("--from", String(places[0]));
+    this.track.style.setProperty("--to", String(places[1]));
     this.clear.hidden = filter.low === undefined && filter.high === undefined;
     this.element.classList.toggle("set", !this.clear.hidden);
   }
 
-  /** Draws the number of remaining rows in each bin. */
+  /** Draws the number of remaining rows in each bin. @param {Uint32Array} rows */
   show(rows) {
-    this.front.setAttribute("d", histogramBars(binCounts(this.scale, rows), this.highest()));
+    this.front.setAttribute("d", histogramBars(this.scale, binCounts(this.scale, rows)));
   }
 
   moveEnd(place, end) {
     const other = end === "low" ? this.filter.high : this.filter.low;
-    let value =
-      place <= 0 && end === "low"
-        ? undefined
-        : place >= 1 && end === "high"
-          ? undefined
-          : Number(formatBound(this.scale.valueAt(place)));
+    const isOpen = end === "low" ? place <= 0 : place >= 1;
+    let value = isOpen ? undefined : Number(formatBound(this.scale.valueAt(place)));
     if (value !== undefined && other !== undefined)
       value = end === "low" ? Math.min(value, other) : Math.max(value, other);
     this.setFilter({ ...this.filter, [end]: value });
@@ -146,8 +109,8 @@ export class RangeFilter {
     const { left, width } = this.track.getBoundingClientRect();
     const placeOf = ({ clientX }) => Math.min(Math.max((clientX - left) / width, 0), 1);
     const at = placeOf(event);
-    const place = (end, k) => Math.abs(at - parseFloat(this.ends[k].style.left) / 100);
-    const [low, high] = [place("low", 0), place("high", 1)];
+    const distance = (k) => Math.abs(at - parseFloat(this.ends[k].style.left) / 100);
+    const [low, high] = [distance(0), distance(1)];
     const end = low < high || (low === high && at < 0.5) ? "low" : "high";
     event.preventDefault();
     this.ends[end === "low" ? 0 : 1].focus();
@@ -161,8 +124,8 @@ export class RangeFilter {
   }
 
   handleKey(event, end) {
-    const now =
-      this.filter[end] === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(this.filter[end]);
+    const bound = this.filter[end];
+    const now = bound === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(bound);
     const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -8, PageUp: 8 };
     const to = event.key === "Home" ? 0 : event.key === "End" ? 1 : now + steps[event.key] / 100;
     if (Number.isNaN(to)) return;
@@ -172,7 +135,8 @@ export class RangeFilter {
 }
 
 /** Bars of counts in a box of BINS × 1; small bars have a minimum height. */
-function histogramBars(counts, highest) {
+function histogramBars(/** @type {Histogram} */ scale, counts) {
+  const highest = Math.max(...scale.counts, 1);
   let path = "";
   counts.forEach((count, k) => {
     if (count) path += `M${k + 0.08} 1v${-(0.03 + 0.97 * (count / highest)).toFixed(4)}h.84V1z`;

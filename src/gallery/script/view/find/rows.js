@@ -1,13 +1,11 @@
 // The results as a table; only the rows near the window are in the document.
 
 import { address } from "../../data/address.js";
-import { curveKey, NO_WORD } from "../../data/family.js";
-import { fill, h } from "../dom.js";
-import { printedCountNote, onPrint } from "../printing.js";
-import { MAX_HEIGHT, scrollScale } from "../long-scroll.js";
-import { watchPins } from "../pin-button.js";
-import { columnLabel, columnValueText } from "./column-label.js";
-import { pinOnKey, curvePinButton } from "./curve-pin.js";
+import { curveKey } from "../../data/family.js";
+import { buttonOf, fill, h, setAttributes } from "../dom.js";
+import { MAX_HEIGHT, scrollScale, printedCountNote, onPrint } from "../long-list.js";
+import { columnLabel, rowText } from "../labels.js";
+import { watchPins, pinOnKey, curvePinButton } from "../pins.js";
 
 const ROW_HEIGHT = 34;
 const ROWS_AHEAD = 12;
@@ -16,30 +14,24 @@ const PRINTED_ROWS = 1000;
 
 /** A table of rows; calls `sorted(name)` when a column heading is pressed. */
 export class ResultRows {
-  constructor(app, sorted) {
-    Object.assign(this, { app, sorted });
-    this.rows = [];
-    this.head = h("thead", {});
-    this.body = h("tbody", {});
+  /** @type {CurveTable | null} */ table = null;
+  /** @type {Uint32Array | number[]} */ rows = [];
+  /** @type {Column[]} */ columns = [];
+
+  constructor(/** @type {App} */ app, sorted) {
+    this.app = app;
+    this.sorted = sorted;
+    this.head = h("thead");
+    this.body = h("tbody");
     this.figures = h(
-      "table",
-      { class: "figures results-table" },
-      h("caption", { class: "visually-hidden" }, "Curves"),
+      "table.figures.results-table",
+      h("caption.visually-hidden", "Curves"),
       this.head,
       this.body,
     );
-    this.element = h(
-      "div",
-      {
-        class: "scroll",
-        tabindex: "0",
-        role: "region",
-        "aria-label": "Table of curves",
-        onscroll: () => this.fill(),
-        onkeydown: pinOnKey,
-      },
-      this.figures,
-    );
+    const events = { onscroll: () => this.fill(), onkeydown: pinOnKey };
+    const attributes = { tabindex: "0", role: "region", "aria-label": "Table of curves", ...events };
+    this.element = h("div.scroll", attributes, this.figures);
     this.unwatch = watchPins(app, this.element);
     this.paper = onPrint(
       this.element,
@@ -51,30 +43,35 @@ export class ResultRows {
   end() {
     this.unwatch();
     this.paper.end();
-    [this.rows, this.table] = [[], null];
+    this.rows = [];
+    this.table = null;
   }
 
+  /** @param {CurveTable} table @param {Uint32Array} rows @param {Column[]} columns */
   setRows(table, rows, columns, sort) {
-    Object.assign(this, { table, rows, columns });
-    this.figures.setAttribute("aria-rowcount", rows.length + 1);
-    const heading = ({ name, kind }) =>
-      h(
+    this.table = table;
+    this.rows = rows;
+    this.columns = columns;
+    setAttributes(this.figures, { "aria-rowcount": rows.length + 1 });
+    const heading = (/** @type {Column} */ { name, kind }) => {
+      const isSorted = sort.name === name;
+      const [order, sign] = sort.down ? ["descending", " ↓"] : ["ascending", " ↑"];
+      const attributes = {
+        class: kind === "words" ? "text" : null,
+        scope: "col",
+        "aria-sort": isSorted && order,
+      };
+      return h(
         "th",
-        {
-          class: kind === "words" ? "text" : null,
-          scope: "col",
-          "aria-sort": sort.name === name ? (sort.down ? "descending" : "ascending") : null,
-        },
-        h(
-          "button",
-          { type: "button", onclick: () => this.sorted(name) },
-          columnLabel(name),
-          sort.name === name ? (sort.down ? " ↓" : " ↑") : "",
-        ),
+        attributes,
+        buttonOf([columnLabel(name), isSorted ? sign : ""], () => this.sorted(name)),
       );
+    };
     // A heading that was pressed keeps the focus when it is replaced.
-    const focused = [...this.head.querySelectorAll("button")].indexOf(document.activeElement);
-    fill(this.head, h("tr", {}, h("th", { scope: "col" }, "curve"), columns.map(heading)));
+    const focused = [...this.head.querySelectorAll("button")].findIndex(
+      (one) => one === document.activeElement,
+    );
+    fill(this.head, h("tr", h("th", { scope: "col" }, "curve"), columns.map(heading)));
     if (focused >= 0) this.head.querySelectorAll("button")[focused]?.focus();
     this.fill();
   }
@@ -87,7 +84,7 @@ export class ResultRows {
     const first = Math.max(Math.floor(top / ROW_HEIGHT) - ROWS_AHEAD, 0);
     const last = Math.min(first + Math.ceil(clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD, this.rows.length);
     const space = (pixels) => {
-      const cell = h("td", { colspan: this.columns.length + 1, class: "space" });
+      const cell = h("td.space", { colspan: this.columns.length + 1 });
       cell.style.height = `${pixels}px`;
       return pixels > 0 ? h("tr", { "aria-hidden": "true" }, cell) : null;
     };
@@ -101,34 +98,21 @@ export class ResultRows {
   /** Puts the first rows into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.rows.length, PRINTED_ROWS);
-    fill(
-      this.body,
-      Array.from({ length: last }, (_, k) => this.line(k)),
-    );
+    const lines = Array.from({ length: last }, (_, k) => this.line(k));
+    fill(this.body, lines);
     return printedCountNote(last, this.rows.length, "curves");
   }
 
   line(k) {
     const { table } = this;
+    if (!table) return null;
     const row = this.rows[k];
-    const family = table.families[table.family[row]];
-    const name = table.nameOf(row);
-    const href = address([family.id, "curve", curveKey(family, table.curve[row])]);
-    const text = (column) => {
-      if (column.kind === "numbers") return columnValueText(column, family, table.numbers(column.name)[row]);
-      const { values, codes } = table.words(column.name);
-      return codes[row] === NO_WORD ? "–" : values[codes[row]];
-    };
-    return h(
-      "tr",
-      { "aria-rowindex": k + 2 },
-      h(
-        "th",
-        { scope: "row", class: "text" },
-        h("a", { href, "data-name": name }, name),
-        curvePinButton(this.app, name),
-      ),
-      this.columns.map((column) => h("td", { class: column.kind === "words" ? "text" : null }, text(column))),
-    );
+    const { family, curve, name } = table.curveOf(row);
+    const href = address([family.id, "curve", curveKey(family, curve)]);
+    const link = h("a", { href, "data-name": name }, name);
+    const cell = (/** @type {Column} */ column) =>
+      h("td", { class: column.kind === "words" ? "text" : null }, rowText(table, column, row));
+    const head = h("th.text", { scope: "row" }, link, curvePinButton(this.app, name));
+    return h("tr", { "aria-rowindex": k + 2 }, head, this.columns.map(cell));
   }
 }

@@ -3,22 +3,38 @@
 import { address } from "../../data/address.js";
 import { curveCaption, curveKey } from "../../data/family.js";
 import { isFullyLoaded, needCurves } from "../../data/needs.js";
-import { fill, h } from "../dom.js";
+import { elementIn, fill, h } from "../dom.js";
 import { formatCaption } from "../labels.js";
 import { pointLabel } from "../page-panel.js";
-import { watchPins } from "../pin-button.js";
 import { TileWindow } from "../tile-window.js";
 import { thumbnail } from "../thumbnail.js";
-import { pinOnKey, curvePinButton } from "./curve-pin.js";
+import { watchPins, pinOnKey, curvePinButton } from "../pins.js";
 
 /**
  * Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or
  * null.
  */
 export class ResultTiles extends TileWindow {
-  constructor(app) {
-    super({ count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" });
-    Object.assign(this, { app, rows: [], table: null, valueOf: () => null });
+  /** @type {Uint32Array | number[]} */ rows = [];
+  /** @type {CurveTable | null} */ table = null;
+  /** @type {(row: number) => string | null | undefined} */ valueOf = () => null;
+
+  constructor(/** @type {App} */ app) {
+    const size = { count: 0, least: 150, gap: 12, aspect: 0.8, below: 58, label: "Curves" };
+    super({
+      ...size,
+      tile: (k) => this.tile(k),
+      need: (k) => needCurves(this.curveOf(k).family, [this.curveOf(k).curve]),
+      isLoaded: () => !this.table || this.table.families.every(isFullyLoaded),
+      fillTile: (element, k) => this.fillTile(element, k),
+      draw: (element, k) => {
+        const { family, curve } = this.curveOf(k);
+        const picture = elementIn(element, ".tile-picture");
+        picture.replaceChildren(thumbnail(family, [curve], this.sizeOfPicture(picture)));
+      },
+      failed: (message) => app.announce(message),
+    });
+    this.app = app;
     this.element.classList.add("results");
     this.element.addEventListener("keydown", pinOnKey);
     this.unwatch = watchPins(app, this.element);
@@ -27,12 +43,19 @@ export class ResultTiles extends TileWindow {
   end() {
     super.end();
     this.unwatch();
-    [this.rows, this.table, this.valueOf] = [[], null, () => null];
+    this.rows = [];
+    this.table = null;
   }
 
-  /** Replaces the rows shown. */
+  /**
+   * Replaces the rows shown.
+   * @param {CurveTable} table @param {Uint32Array} rows @param {(row: number) => string | null | undefined} valueOf
+   */
   setRows(table, rows, valueOf) {
-    Object.assign(this, { table, rows, valueOf, count: rows.length });
+    this.table = table;
+    this.rows = rows;
+    this.valueOf = valueOf;
+    this.count = rows.length;
     for (const element of this.there.values()) element.remove();
     this.there.clear();
     this.queue = [];
@@ -40,60 +63,35 @@ export class ResultTiles extends TileWindow {
   }
 
   tile(k) {
-    const { app, table } = this;
-    const row = this.rows[k];
-    const family = table.families[table.family[row]];
-    const curve = table.curve[row];
-    const name = table.nameOf(row);
+    const { family, curve, name } = this.curveOf(k);
     return h(
       "li",
-      {},
       h(
         "a",
         { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
-        h("span", { class: "tile-picture" }),
-        h("span", { class: "label" }),
+        h("span.tile-picture"),
+        h("span.label"),
       ),
-      curvePinButton(app, name),
+      curvePinButton(this.app, name),
     );
   }
 
-  need(k) {
-    const [family, curve] = this.curveOf(k);
-    return needCurves(family, [curve]);
-  }
-
-  isLoaded() {
-    return !this.table || this.table.families.every(isFullyLoaded);
-  }
-
-  fillTile(element, k) {
-    const [family, curve] = this.curveOf(k);
+  fillTile(/** @type {Element} */ element, k) {
+    const { family, curve, name } = this.curveOf(k);
     const value = this.valueOf(this.rows[k]);
-    const caption = curveCaption(family, curve) || this.table.nameOf(this.rows[k]);
+    const caption = curveCaption(family, curve) || name;
     const circuit = family.curves.circuit[curve];
     const which = [pointLabel(family, curve), circuit > 1 ? `circuit ${circuit}` : ""];
     fill(
-      element.querySelector(".label"),
-      value ? [h("b", {}, value), " "] : null,
+      elementIn(element, ".label"),
+      value ? [h("b", value), " "] : null,
       formatCaption([...which, caption].filter(Boolean).join(" · ")),
     );
   }
 
-  failed(message) {
-    this.app.announce(message);
-  }
-
-  /** The family and the index of the curve of a tile. */
+  /** The curve of a tile, with its name. */
   curveOf(k) {
-    const { table } = this;
-    const row = this.rows[k];
-    return [table.families[table.family[row]], table.curve[row]];
-  }
-
-  draw(element, k) {
-    const [family, curve] = this.curveOf(k);
-    const picture = element.querySelector(".tile-picture");
-    picture.replaceChildren(thumbnail(family, [curve], this.sizeOfPicture(picture)));
+    if (!this.table) throw new Error("there are no results");
+    return this.table.curveOf(this.rows[k]);
   }
 }

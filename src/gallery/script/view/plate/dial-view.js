@@ -1,9 +1,8 @@
 // The dial of the transmission angle.
 
-import { dialArc, dialField, dialStroke } from "../../draw/dial.js";
 import { h, s } from "../dom.js";
-import { transmissionAt } from "../../kinematics/four-bar.js";
-import { formatDecimals } from "./study.js";
+import { pixel } from "../../draw/path-data.js";
+import { formatDecimals } from "../labels.js";
 
 const DIAL_CENTRE = [100, 98];
 const DIAL_RADIUS = 78;
@@ -11,83 +10,63 @@ const DIAL_RADIUS = 78;
 const GOOD_TRANSMISSION_DEG = 40;
 
 /**
- * The dial: `show(study)` sets its range, `pose(pose)` its needle. Hidden if the linkage is not a four-bar.
+ * The dial: `show(study)` sets its range, `pose(mu)` its needle. Hidden if the linkage is not a four-bar.
  */
 export class DialView {
   constructor() {
-    this.range = s("path", { class: "dial-range" });
-    this.needle = s("path", {
-      class: "dial-needle",
-      d: `M${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]}h${DIAL_RADIUS - 6}`,
-    });
-    this.now = h("span", { class: "dial-now" });
-    this.least = h("span", {});
-    this.most = h("span", {});
+    this.range = s("path.dial-range");
+    this.needle = s("path.dial-needle", { d: `M${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]}h${DIAL_RADIUS - 6}` });
+    this.now = h("span.dial-now");
+    this.least = h("span");
+    this.most = h("span");
     const ticks = Array.from({ length: 19 }, (_, k) =>
       dialStroke(DIAL_CENTRE, DIAL_RADIUS - (k % 3 === 0 ? 7 : 4), DIAL_RADIUS, 10 * k),
     ).join("");
     const bounds = [GOOD_TRANSMISSION_DEG, 180 - GOOD_TRANSMISSION_DEG]
       .map((deg) => dialStroke(DIAL_CENTRE, 14, DIAL_RADIUS + 9, deg))
       .join("");
-    const words = [
+    const angles = [
       [0, 190, 98],
       [90, 100, 12],
       [180, 10, 98],
       [40, 170, 38],
       [140, 30, 38],
-    ].map(([deg, x, y]) =>
+    ];
+    const numbers = angles.map(([deg, x, y]) =>
       s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg),
     );
     this.drawing = s(
-      "svg",
-      { class: "dial", viewBox: "0 0 200 112", role: "img", "aria-label": "Dial of the transmission angle" },
-      s("path", { class: "dial-rim", d: dialArc(DIAL_CENTRE, DIAL_RADIUS, 0, 180) + ticks }),
+      "svg.dial",
+      { viewBox: "0 0 200 112", role: "img", "aria-label": "Dial of the transmission angle" },
+      s("path.dial-rim", { d: dialArc(DIAL_CENTRE, DIAL_RADIUS, 0, 180) + ticks }),
       this.range,
-      s("path", { class: "dial-bounds", d: bounds }),
-      words,
+      s("path.dial-bounds", { d: bounds }),
+      numbers,
       this.needle,
-      s("circle", { class: "dial-hub", cx: DIAL_CENTRE[0], cy: DIAL_CENTRE[1], r: 3 }),
+      s("circle.dial-hub", { cx: DIAL_CENTRE[0], cy: DIAL_CENTRE[1], r: 3 }),
     );
-    this.element = h(
-      "section",
-      { class: "gauge dial-gauge" },
-      h("h3", {}, "Transmission angle ", this.now),
-      this.drawing,
-      h(
-        "p",
-        { class: "note" },
-        "least ",
-        this.least,
-        ", greatest ",
-        this.most,
-        " over the circuit; the hairlines are at 40° and 140°",
-      ),
-    );
-    this.study = null;
+    const words = ["least ", this.least, ", greatest ", this.most];
+    const note = h("p.note", words, " over the circuit; the hairlines are at 40° and 140°");
+    const heading = h("h3", "Transmission angle ", this.now);
+    this.element = h("section.gauge.dial-gauge", heading, this.drawing, note);
     this.shown = NaN;
   }
 
-  show(study) {
-    this.study = study.fourBar ? study : null;
-    this.element.hidden = !this.study;
-    if (!this.study) return;
-    const [least, most] = dialRange(study);
+  show(/** @type {Study} */ study) {
+    const angles = study.four_bar?.transmission_range ?? null;
+    this.element.hidden = angles === null;
+    if (angles === null) return;
+    const [least, most] = angles;
     this.least.textContent = `${formatDecimals(least, 1)}°`;
     this.most.textContent = `${formatDecimals(most, 1)}°`;
-    this.range.setAttribute(
-      "d",
-      dialField(DIAL_CENTRE, DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3)),
-    );
-    this.drawing.setAttribute(
-      "aria-label",
-      `Dial of the transmission angle: from ${this.least.textContent} to ${this.most.textContent} ` +
-        "over the circuit",
-    );
+    const field = dialField(DIAL_CENTRE, DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3));
+    this.range.setAttribute("d", field);
+    const range = `from ${this.least.textContent} to ${this.most.textContent} over the circuit`;
+    this.drawing.setAttribute("aria-label", `Dial of the transmission angle: ${range}`);
   }
 
-  pose(pose) {
-    if (!this.study) return;
-    const { mu } = transmissionAt(this.study.linkage, this.study.fourBar, pose);
+  /** The transmission angle of a pose, in degrees. */
+  pose(mu) {
     if (!Number.isFinite(mu) || mu === this.shown) return;
     this.shown = mu;
     this.needle.setAttribute("transform", `rotate(${-mu} ${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]})`);
@@ -96,17 +75,30 @@ export class DialView {
   }
 }
 
-// The least and greatest angle over the samples of a circuit, which include its limits.
-function dialRange({ linkage, fourBar, circuit }) {
-  const pose = new Float64Array(2 * linkage.joints.length);
-  let [least, most] = [180, 0];
-  for (let i = 0; i < circuit.count; i++) {
-    for (const joint of Object.values(fourBar.joints))
-      pose.set([circuit.x[joint][i], circuit.y[joint][i]], 2 * joint);
-    const { mu } = transmissionAt(linkage, fourBar, pose);
-    if (!Number.isFinite(mu)) continue;
-    least = Math.min(least, mu);
-    most = Math.max(most, mu);
-  }
-  return [least, most];
+/** The position of an angle in degrees at a radius about the dial's centre, [X, Y], y down. */
+function dialPlace([cx, cy], radius, deg) {
+  const angle = (deg * Math.PI) / 180;
+  return [cx + radius * Math.cos(angle), cy - radius * Math.sin(angle)];
+}
+
+/** Path data of the arc from one angle to a greater one. */
+export function dialArc(centre, radius, from, to) {
+  const [x0, y0] = dialPlace(centre, radius, from).map(pixel);
+  const [x1, y1] = dialPlace(centre, radius, to).map(pixel);
+  return `M${x0} ${y0}A${radius} ${radius} 0 ${to - from > 180 ? 1 : 0} 0 ${x1} ${y1}`;
+}
+
+/** Path data of a line along a radius. */
+export function dialStroke(centre, inner, outer, deg) {
+  const [x0, y0] = dialPlace(centre, inner, deg).map(pixel);
+  const [x1, y1] = dialPlace(centre, outer, deg).map(pixel);
+  return `M${x0} ${y0}L${x1} ${y1}`;
+}
+
+/** Path data of the sector between two angles and two radii. */
+export function dialField(centre, inner, outer, from, to) {
+  const [x1, y1] = dialPlace(centre, inner, to).map(pixel);
+  const [x0, y0] = dialPlace(centre, inner, from).map(pixel);
+  const large = to - from > 180 ? 1 : 0;
+  return `${dialArc(centre, outer, from, to)}L${x1} ${y1}A${inner} ${inner} 0 ${large} 1 ${x0} ${y0}Z`;
 }

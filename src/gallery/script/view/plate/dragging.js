@@ -1,10 +1,8 @@
 // Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the
 // picture.
 
-import { singlePointLinkage } from "../../kinematics/linkage.js";
 import { planePoint } from "../../draw/plane-view.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";
-import { PoseSolver } from "./pose-solver.js";
 
 // How far the pointer drags the crank beyond a limit before it returns on the other branch, in degrees.
 const LIMIT_SLACK = 3;
@@ -13,11 +11,12 @@ const LIMIT_SLACK = 3;
  * Handles pointers on a stage. `plate` has study, pose, reason (why nothing can be dragged, or null) and
  * drive. Returns a function that removes the listeners.
  */
-export function enableDragging(stage, plate) {
+export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ plate) {
   const { picture } = stage;
-  const pointers = new Map();
+  /** @type {Map<number, Point>} */ const pointers = new Map();
   let drag = null;
   let dragPointer = null;
+  /** @returns {Point} */
   const pointOf = (event) => {
     const box = picture.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -30,7 +29,7 @@ export function enableDragging(stage, plate) {
     if (joint !== undefined && pointers.size === 1) {
       plate.drive.pause();
       dragPointer = event.pointerId;
-      drag = startDrag(plate, stage, Number(joint), planePoint(stage.view, at));
+      drag = startDrag(plate, plate.study, Number(joint), planePoint(stage.view, at));
       stage.element.classList.add("dragging");
     }
     if (joint !== undefined || event.pointerType === "mouse") {
@@ -66,19 +65,14 @@ export function enableDragging(stage, plate) {
     event.preventDefault();
     stage.zoom(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0015)), pointOf(event));
   };
-  const listeners = [
-    ["pointerdown", down],
-    ["pointermove", moved],
-    ["pointerup", up],
-    ["pointercancel", up],
-    ["wheel", wheel],
-  ];
-  for (const [name, listener] of listeners) picture.addEventListener(name, listener, { passive: false });
+  const listeners = { pointerdown: down, pointermove: moved, pointerup: up, pointercancel: up, wheel };
+  for (const [name, listener] of Object.entries(listeners))
+    picture.addEventListener(name, listener, { passive: false });
   window.addEventListener("scroll", scroll, { passive: true });
   return () => window.removeEventListener("scroll", scroll);
 }
 
-function pinch(stage, pointers, id, at) {
+function pinch(/** @type {Stage} */ stage, pointers, id, at) {
   const [other] = [...pointers].find(([key]) => key !== id)?.slice(1) ?? [];
   if (!other) return;
   const before = pointers.get(id);
@@ -89,23 +83,23 @@ function pinch(stage, pointers, id, at) {
 }
 
 // Starts a drag; returns a function that takes the pointer's positions in the plane.
-function startDrag(plate, stage, joint, pointer) {
-  const { step } = plate.study.linkage.joints[joint];
-  const isCrank = step.kind === "crank" && !plate.study.linkage.seenFrom;
-  return isCrank ? dragCrank(plate, step.pivot, joint, pointer) : dragJoint(plate, joint, pointer);
+function startDrag(/** @type {Plate} */ plate, /** @type {Study} */ { crank }, joint, pointer) {
+  if (crank && crank.pin === joint && crank.can_turn) return dragCrank(plate, crank.pivot, joint, pointer);
+  return dragJoint(plate, joint, pointer);
 }
 
 // The crank follows the direction of the pointer about its pivot, over several turns and over limits.
-function dragCrank(plate, pivot, pin, pointer) {
-  const { study, pose, drive } = plate;
+function dragCrank(/** @type {Plate} */ plate, pivot, pin, pointer) {
+  const { drive } = plate;
+  const pose = plate.pose.joints;
   const { place } = drive;
-  const sense = study.linkage.placement.mirror ? -1 : 1;
+  const sense = plate.study?.is_mirrored ? -1 : 1;
   const directionOf = ([x, y]) => (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
   const turned = (from, to) => sense * (((((to - from + 180) % 360) + 360) % 360) - 180);
   let direction = directionOf(pointer);
   let wanted = place.input + turned(directionOf([pose[2 * pin], pose[2 * pin + 1]]), direction);
   const follow = () => {
-    wanted = followInput(plate.study.timeline, place, wanted, LIMIT_SLACK);
+    wanted = followInput(drive.timeline, place, wanted, LIMIT_SLACK);
     drive.move();
   };
   follow();
@@ -118,18 +112,17 @@ function dragCrank(plate, pivot, pin, pointer) {
 }
 
 // Any other joint moves along its path to the point nearest to the pointer.
-function dragJoint(plate, joint, pointer) {
-  const alone = singlePointLinkage(plate.study.linkage, joint);
-  const poser = new PoseSolver(alone.linkage);
-  const { pose } = plate;
+function dragJoint(/** @type {Plate} */ plate, joint, pointer) {
+  const pose = plate.pose.joints;
   const [offX, offY] = [pose[2 * joint] - pointer[0], pose[2 * joint + 1] - pointer[1]];
-  const spot = {};
+  /** @type {Place} */ const spot = { pass: 0, input: 0 };
   return ([x, y]) => {
-    const { timeline } = plate.study;
+    if (!plate.study) return;
+    const { timeline, kernel } = plate.study;
     const distance = (part) => {
       placeAtPart(timeline, part, spot);
-      const at = poser.solve(timeline.passes[spot.pass], spot.input);
-      const far = Math.hypot(at[2 * alone.joint] - x - offX, at[2 * alone.joint + 1] - y - offY);
+      const [atX, atY] = kernel.jointPosition(joint, spot.pass, spot.input);
+      const far = Math.hypot(atX - x - offX, atY - y - offY);
       return Number.isFinite(far) ? far : Infinity;
     };
     plate.drive.seek(nearestPart(timeline, plate.drive.part, distance));

@@ -1,31 +1,30 @@
 // Moves a linkage along its circuit: by time, slider, keys or dragging.
 
 import { clampPart, partOfInput, placeAtPart, turningParts } from "./timeline.js";
-import { Player } from "./player.js";
 
 // A shorter range, in degrees, takes as long as this one, so that it is not played too fast.
 const SHORTEST_RANGE = 150;
 
-/**
- * A position on the timeline of a study: `part`, and `place` { pass, input }. `on` has moved(),
- * playing(isPlaying), and rate(), in degrees of input per second. `isHalted` while there is nothing to move.
- */
+/** A position on the timeline of the study of a plate, `part` and `place`. */
 export class Drive {
-  constructor(on) {
-    this.on = on;
-    this.place = { pass: 0, input: 0, isBeyond: false };
-    this.part = 0;
-    this.heading = 1;
-    this.timeline = null;
-    this.isHalted = true;
+  /** @type {Place} */ place = { pass: 0, input: 0, isBeyond: false };
+  part = 0;
+  heading = 1;
+  /** @type {Timeline} */ timeline;
+  isLength = false;
+  /** While there is nothing to move. */
+  isHalted = true;
+
+  constructor(/** @type {PlateFigure} */ plate) {
+    this.plate = plate;
     this.player = new Player((seconds) => this.#advance(seconds));
   }
 
-  /** Sets the study; keeps the input, or the nearest one possible. */
-  setStudy({ timeline, linkage }) {
-    const isFirst = this.timeline === null;
+  /** Sets the study; keeps the input, or the nearest one possible. @param {Study} _ */
+  setStudy({ timeline, is_length: isLength }) {
+    const isFirst = this.timeline === undefined;
     this.timeline = timeline;
-    this.isLength = linkage.input.isLength;
+    this.isLength = isLength;
     this.isHalted = false;
     if (isFirst) {
       this.begin();
@@ -53,7 +52,7 @@ export class Drive {
   toggle(isPlaying = !this.player.isPlaying) {
     if (isPlaying && !this.isHalted) this.player.play();
     else this.player.pause();
-    this.on.playing(this.player.isPlaying);
+    this.plate.transport.playing(this.player.isPlaying);
   }
 
   /** Pauses for input by the user. */
@@ -64,14 +63,14 @@ export class Drive {
   /** Reports a change of `place`. */
   move() {
     this.part = partOfInput(this.timeline, this.place.pass, this.place.input);
-    this.on.moved();
+    this.plate.draw();
   }
 
   /** Moves to a part of the timeline. */
   seek(part) {
     this.part = part;
     placeAtPart(this.timeline, part, this.place);
-    this.on.moved();
+    this.plate.draw();
   }
 
   /** Pauses and moves to a part of the timeline. */
@@ -115,7 +114,7 @@ export class Drive {
   #advance(seconds) {
     if (this.isHalted) return;
     const { closed, whole } = this.timeline;
-    const rate = this.on.rate();
+    const rate = this.plate.transport.speed;
     // A stroke takes as long as a rotation.
     const range = this.isLength ? 360 : Math.max(whole, SHORTEST_RANGE);
     let part = this.part + (this.heading * seconds * rate) / range;
@@ -124,5 +123,35 @@ export class Drive {
       part = part > 1 ? 2 - part : -part;
     }
     this.seek(clampPart(this.timeline, part));
+  }
+}
+
+/** A frame clock. A late frame, for example after a switch of tabs, counts as a twentieth of a second. */
+export class Player {
+  constructor(advance) {
+    this.advance = advance;
+    this.request = 0;
+    this.before = 0;
+    this.frame = (time) => {
+      this.request = window.requestAnimationFrame(this.frame);
+      const passed = Math.min((time - this.before) / 1000, 0.05);
+      this.before = time;
+      if (passed > 0) this.advance(passed);
+    };
+  }
+
+  get isPlaying() {
+    return this.request !== 0;
+  }
+
+  play() {
+    if (this.isPlaying) return;
+    this.before = performance.now();
+    this.request = window.requestAnimationFrame(this.frame);
+  }
+
+  pause() {
+    window.cancelAnimationFrame(this.request);
+    this.request = 0;
   }
 }

@@ -3,45 +3,29 @@
 import { address } from "../../data/address.js";
 import { cellText, curveKey, measureValue, pageOfCurve } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
-import { fill, h } from "../dom.js";
+import { figures, fill, h, termList } from "../dom.js";
 import { familySource } from "../overview.js";
-import { measureLabel } from "../labels.js";
-import { formatLength } from "./speed-view.js";
+import { measureLabel, formatLength } from "../labels.js";
 
-/** The caption and the note of a cell. */
-export function cellHeading(family, cell) {
-  return { caption: cellText(family, cell, "caption"), note: cellText(family, cell, "note") };
-}
-
-/** The list of a curve's origin. */
+/** The list of a curve's origin. @param {App} app @param {Family} family */
 export function curveOrigin(app, family, curve) {
   const cell = family.curves.cell[curve];
   const page = pageOfCurve(family, curve);
+  const key = curveKey(family, curve);
   const rows = [
     ["Family", h("a", { href: address([family.id]) }, family.title)],
     ["Linkage", family.linkage],
-    ["Cell, trace, circuit", curveKey(family, curve).replaceAll(".", ", ")],
+    ["Cell, trace, circuit", key.replaceAll(".", ", ")],
     ["Caption", cellText(family, cell, "caption")],
     ["Note", cellText(family, cell, "note")],
     ["Status", family.cells.status[cell] === 1 ? `partial: ${cellText(family, cell, "reason")}` : ""],
-    [
-      "Page",
-      page > 0
-        ? h(
-            "a",
-            { href: address([family.id, String(page)], { curve: curveKey(family, curve) }) },
-            `page ${page}`,
-          )
-        : "",
-    ],
+    ["Page", page > 0 ? h("a", { href: address([family.id, page], { curve: key }) }, `page ${page}`) : ""],
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
     ["Source", familySource(family)],
   ];
-  const shown = rows.filter(([, value]) => value);
-  return h(
-    "dl",
-    { class: "facts origin" },
-    shown.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]),
+  return termList(
+    "dl.facts.origin",
+    rows.filter(([, value]) => value),
   );
 }
 
@@ -50,45 +34,25 @@ export function curveOrigin(app, family, curve) {
  * them.
  */
 export class MeasureTable {
-  constructor(app, family, curve, isLength) {
+  constructor(/** @type {App} */ app, /** @type {Family} */ family, curve) {
     this.rows = app.atlas.measures.map((measure) =>
-      measureRow(measureLabel(measure.name), measure, measureValue(family, curve, measure.name), isLength),
+      measureRow(measure, measureValue(family, curve, measure.name), family.is_length),
     );
-    this.body = h(
+    const body = h(
       "tbody",
-      {},
       this.rows.map(({ element }) => element),
     );
-    this.note = h("p", { class: "note" });
-    this.table = h(
-      "table",
-      { class: "figures measures" },
-      h("caption", { class: "visually-hidden" }, "Measures of the curve"),
-      h(
-        "thead",
-        {},
-        h(
-          "tr",
-          {},
-          ["Measure", "Atlas", "Current", "Change"].map((word, k) =>
-            h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
-          ),
-        ),
-      ),
-      this.body,
+    const headings = ["Measure", "Atlas", "Current", "Change"].map((word, k) =>
+      h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
     );
-    this.element = h(
-      "section",
-      { class: "measures-section" },
-      h("h2", {}, "Measures"),
-      this.note,
-      h("div", { class: "scroll" }, this.table),
-    );
+    this.note = h("p.note");
+    this.table = figures(".measures", "Measures of the curve", headings, body);
+    this.element = h("section.measures-section", h("h2", "Measures"), this.note, h("div.scroll", this.table));
     this.show(null);
   }
 
   /** `now` is { name: number or word } for changed parameters, or null if nothing is changed. */
-  show(now) {
+  show(/** @type {Measured | null} */ now) {
     this.table.classList.toggle("with-changes", now !== null);
     fill(
       this.note,
@@ -104,22 +68,22 @@ export class MeasureTable {
   }
 }
 
-function measureRow(name, measure, recorded, isLength) {
-  const now = h("td", { class: "now" });
-  const change = h("td", { class: "now" });
+function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
+  const now = h("td.now");
+  const change = h("td.now");
   const title = h(
-    "th",
-    { scope: "row", class: "text" },
-    h("span", { class: "measure-name" }, name),
-    h("span", { class: "definition" }, measure.definition),
+    "th.text",
+    { scope: "row" },
+    h("span.measure-name", measureLabel(measure.name)),
+    h("span.definition", measure.definition),
   );
   const ofLength = isLength && /^(input_m|straight_(start|input)|dwell_(start|input))/.test(measure.name);
-  const element = h("tr", {}, title, h("td", {}, formatMeasure(measure, recorded, ofLength)), now, change);
+  const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };
 }
 
 /** The value of a measure with its unit, in four or five digits; empty if it does not apply. */
-function formatMeasure({ word, unit }, value, isLength = false) {
+function formatMeasure(/** @type {Measure} */ { word, unit }, value, isLength = false) {
   if (value === undefined || value === null || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
   if (value === Infinity) return "∞";
@@ -128,7 +92,7 @@ function formatMeasure({ word, unit }, value, isLength = false) {
   return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : formatLength(value);
 }
 
-function formatMeasureChange({ word, unit }, before, after) {
+function formatMeasureChange(/** @type {Measure} */ { word, unit }, before, after) {
   const isThere = (value) => value !== undefined && value !== null && !Number.isNaN(value);
   if (before === after || (!isThere(before) && !isThere(after))) return "";
   if (!isThere(before)) return "new";

@@ -1,18 +1,19 @@
 // Joint names, placed away from the links.
 
 import { pixel } from "../../draw/path-data.js";
-import { s } from "../dom.js";
+import { s, setAttributes } from "../dom.js";
 
 const NAME_DISTANCE = 15;
 
 /** The names of a linkage's joints, in `element`. */
 export class JointNames {
   constructor() {
-    this.element = s("g", { class: "joint-names" });
+    this.element = s("g.joint-names");
     this.names = [];
   }
 
-  show({ linkage, mechanism, joint: traced }) {
+  show(/** @type {Study} */ study) {
+    const { mechanism, joint: traced } = study;
     const { bars, plates, frame, pins, fixed } = mechanism;
     const links = [...bars, ...plates, frame];
     const named = [...new Set([...fixed, ...pins, traced])];
@@ -20,24 +21,14 @@ export class JointNames {
       const element = s(
         "text",
         { class: joint === traced ? "name traced" : "name" },
-        nameOfJoint(linkage, joint),
+        nameOfJoint(study, joint),
       );
-      const near = [...new Set(links.filter((link) => link.includes(joint)).flat())].filter(
-        (other) => other !== joint,
-      );
-      // A point of a grid is attached to its base joints.
-      const arms = near.length ? near : (linkage.joints[joint].step.base ?? []);
+      const neighbours = new Set(links.filter((link) => link.includes(joint)).flat());
+      neighbours.delete(joint);
       // Names are centred; a long one is shifted so that it does not cover the joint.
       const over = Math.max(0, 3.6 * element.textContent.length - 4);
-      return {
-        element,
-        joint,
-        near: arms,
-        over,
-        isFixed: fixed.includes(joint),
-        angle: -Math.PI / 2,
-        angles: [],
-      };
+      const isFixed = fixed.includes(joint);
+      return { element, joint, near: [...neighbours], over, isFixed, angle: -Math.PI / 2, angles: [] };
     });
     this.element.replaceChildren(...this.names.map(({ element }) => element));
   }
@@ -47,16 +38,19 @@ export class JointNames {
       const [x, y] = [at[2 * name.joint], at[2 * name.joint + 1]];
       if (!Number.isFinite(x + y)) continue;
       name.angle = widestGap(anglesOfLinks(name, at), name.angle);
-      name.element.setAttribute("x", pixel(x + (NAME_DISTANCE + name.over) * Math.cos(name.angle)));
-      name.element.setAttribute("y", pixel(y + NAME_DISTANCE * Math.sin(name.angle) + 4));
+      const [cos, sin] = [Math.cos(name.angle), Math.sin(name.angle)];
+      setAttributes(name.element, {
+        x: pixel(x + (NAME_DISTANCE + name.over) * cos),
+        y: pixel(y + NAME_DISTANCE * sin + 4),
+      });
     }
   }
 }
 
 // The points of a grid share one name, followed by the number of the curve.
-function nameOfJoint({ joints, traced }, joint) {
-  const { name } = joints[joint];
-  const isGrid = joints.filter((other) => other.name === name).length > 1;
+function nameOfJoint(/** @type {Study} */ { joints, traced }, joint) {
+  const name = joints[joint];
+  const isGrid = joints.filter((other) => other === name).length > 1;
   return isGrid ? `${name} ${traced.indexOf(joint) + 1}` : name;
 }
 

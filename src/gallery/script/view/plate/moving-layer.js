@@ -2,62 +2,51 @@
 
 import { arrowData, blockData, cylinderData, linkData, slotData, slotEnds } from "../../draw/link-shapes.js";
 import { pixel, definedData } from "../../draw/path-data.js";
-import { s } from "../dom.js";
+import { s, setAttributes } from "../dom.js";
 import { JointNames } from "./joint-names.js";
 
 const PIN_RADIUS = 4.5;
 
 /** The upper layer of a stage. */
 export class MovingLayer {
+  /** @type {Study} */ study;
+  /** The handles of joints and of the crank. @type {{ element: Element, joint: number }[]} */
+  grips = [];
+  /** @type {{ element: Element, joints: number[] }[]} */ crankGrips = [];
+  parts = /** @type {MovingPart[]} */ ([]);
+  circles = /** @type {{ element: Element, joint: number }[]} */ ([]);
+  /** @type {Float64Array | null} */ poseNow = null;
+  /** @type {Placement} */ view = { scale: 1, x: 0, y: 0 };
+  /** The velocity of the traced point in pixels. @type {number[] | null} */
+  arrow = null;
+
   constructor() {
-    this.links = s("g", {});
-    this.overlays = s("g", {});
-    this.pins = s("g", {});
+    this.links = s("g");
+    this.overlays = s("g");
+    this.pins = s("g");
     this.names = new JointNames();
-    this.others = s("path", { class: "other-points" });
-    this.velocity = s("path", { class: "velocity" });
-    this.tracer = s("circle", { class: "tracer", r: PIN_RADIUS });
-    this.handles = s("g", { class: "handles" });
-    this.element = s(
-      "svg",
-      { class: "sheet moving", "aria-hidden": "true" },
-      this.links,
-      this.overlays,
-      this.others,
-      this.pins,
-      this.velocity,
-      this.tracer,
-      this.names.element,
-      this.handles,
-    );
-    this.study = null;
+    this.others = s("path.other-points");
+    this.velocity = s("path.velocity");
+    this.tracer = s("circle.tracer", { r: PIN_RADIUS });
+    this.handles = s("g.handles");
+    const below = [this.links, this.overlays, this.others, this.pins];
+    const above = [this.velocity, this.tracer, this.names.element, this.handles];
+    this.element = s("svg.sheet.moving", { "aria-hidden": "true" }, below, above);
     this.at = new Float64Array(0);
     this.ends = new Float64Array(4);
-    this.parts = [];
-    this.circles = [];
-    this.poseNow = null;
-    this.view = { scale: 1, x: 0, y: 0 };
-    this.arrow = null;
   }
 
   /** Creates the elements of a study's linkage; reuses them for a linkage of the same structure. */
-  show(study) {
+  show(/** @type {Study} */ study) {
     this.study = study;
-    const { mechanism, linkage, joint } = study;
-    const likeness = JSON.stringify([
-      mechanism.bars,
-      mechanism.plates,
-      mechanism.fixed,
-      mechanism.pins,
-      mechanism.slots.map(({ foot }) => foot),
-      joint,
-    ]);
-    this.at =
-      this.at.length === 2 * linkage.joints.length ? this.at : new Float64Array(2 * linkage.joints.length);
+    const { mechanism, joints, joint } = study;
+    const { bars, plates, fixed, pins, slots } = mechanism;
+    const likeness = JSON.stringify([bars, plates, fixed, pins, slots.map(({ foot }) => foot), joint]);
+    if (this.at.length !== 2 * joints.length) this.at = new Float64Array(2 * joints.length);
     if (likeness === this.likeness) {
       // The ends of slots depend on the study.
       this.parts.forEach((part) => {
-        if (part.slot !== undefined) part.shape = mechanism.slots[part.slot];
+        if (part.slot !== undefined) part.shape = slots[part.slot];
       });
       return;
     }
@@ -70,13 +59,13 @@ export class MovingLayer {
     this.names.show(study);
   }
 
-  /** Sets the view of the plane and redraws the pose. */
+  /** Sets the view of the plane and redraws the pose. @param {Placement} view */
   place(view) {
     this.view = view;
     if (this.poseNow) this.pose(this.poseNow, view);
   }
 
-  pose(pose, view) {
+  pose(/** @type {Float64Array} */ pose, /** @type {Placement} */ view) {
     this.poseNow = pose;
     this.view = view;
     const { at } = this;
@@ -106,16 +95,14 @@ export class MovingLayer {
   #arrow() {
     const { at, arrow, velocity, study } = this;
     const k = 2 * study.joint;
-    velocity.setAttribute(
-      "d",
-      arrow && Number.isFinite(arrow[0] + arrow[1]) ? arrowData(at[k], at[k + 1], arrow[0], arrow[1]) : "",
-    );
+    const isFinite = arrow && Number.isFinite(arrow[0] + arrow[1]);
+    setAttributes(velocity, { d: isFinite ? arrowData(at[k], at[k + 1], arrow[0], arrow[1]) : "" });
   }
 
   #otherPoints() {
     const { others } = this.study;
     let data = "";
-    for (const joint of others) {
+    for (const { joint } of others) {
       const [x, y] = [this.at[2 * joint], this.at[2 * joint + 1]];
       if (Number.isFinite(x + y)) data += `M${pixel(x)} ${pixel(y)}h0`;
     }
@@ -123,15 +110,14 @@ export class MovingLayer {
   }
 }
 
-function putCircle(element, at, joint) {
+function putCircle(/** @type {Element} */ element, at, joint) {
   const [x, y] = [at[2 * joint], at[2 * joint + 1]];
   if (!Number.isFinite(x + y)) return;
-  element.setAttribute("cx", pixel(x));
-  element.setAttribute("cy", pixel(y));
+  setAttributes(element, { cx: pixel(x), cy: pixel(y) });
 }
 
-// Paths, each with its data as a function of the joint positions.
-function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
+/** Paths, each with its data as a function of the joint positions. @returns {MovingPart[]} */
+function partsOfMechanism(/** @type {Mechanism} */ { bars, plates, blocks, slots, actuators }) {
   const path = (name) => s("path", { class: name });
   const link = (joints, isPlate) => ({
     element: path(isPlate ? "link plate" : "link"),
@@ -147,8 +133,7 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
     shape,
     slot,
     data: (at, scale, ends, part) => {
-      slotEnds(part.shape, at, scale, ends);
-      const { foot } = part.shape;
+      const { foot } = slotEnds(part, at, scale, ends);
       const [x0, y0, x1, y1] = ends;
       return linkData([0, 1, 2], [at[2 * foot], at[2 * foot + 1], x0, y0, x1, y1], false);
     },
@@ -158,7 +143,7 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
     shape,
     slot,
     data: (at, scale, ends, part) => {
-      slotEnds(part.shape, at, scale, ends);
+      slotEnds(part, at, scale, ends);
       return slotData(ends[0], ends[1], ends[2], ends[3]);
     },
   });
@@ -179,7 +164,7 @@ function partsOfMechanism({ bars, plates, blocks, slots, actuators }) {
 }
 
 // Double circles for fixed pivots, single ones for pins.
-function circlesOfMechanism({ mechanism, joint: traced }) {
+function circlesOfMechanism(/** @type {Study} */ { mechanism, joint: traced }) {
   const circle = (name, r, joint) => ({ element: s("circle", { class: name, r }), joint });
   const pins = mechanism.pins.filter((joint) => joint !== traced);
   return [
@@ -192,21 +177,15 @@ function circlesOfMechanism({ mechanism, joint: traced }) {
 }
 
 // The drag handles: the crank along its length, and every moving joint.
-function handlesOfStudy({ linkage, mechanism, joint: traced }, sheet) {
+/** @param {Study} _ @param {MovingLayer} sheet */
+function handlesOfStudy({ crank, mechanism, joint: traced }, sheet) {
   const joints = [...new Set([...mechanism.pins, traced, ...mechanism.slots.map(({ through }) => through)])];
-  const cranks = linkage.joints.map(({ step }, id) =>
-    step.kind === "crank" && mechanism.fixed.includes(step.pivot) ? [step.pivot, id] : null,
-  );
-  sheet.crankGrips = cranks
-    .filter(Boolean)
-    .slice(0, 1)
-    .map((pair) => ({
-      element: s("path", { class: "grip crank-grip", "data-joint": pair[1] }),
-      joints: pair,
-    }));
-  sheet.grips = joints.map((joint) => ({
-    element: s("circle", { class: "grip", r: 15, "data-joint": joint }),
-    joint,
+  const cranks = crank && mechanism.fixed.includes(crank.pivot) ? [[crank.pivot, crank.pin]] : [];
+  sheet.crankGrips = cranks.map((pair) => ({
+    element: s("path.grip.crank-grip", { "data-joint": pair[1] }),
+    joints: pair,
   }));
+  const grip = (joint) => s("circle.grip", { r: 15, "data-joint": joint });
+  sheet.grips = joints.map((joint) => ({ element: grip(joint), joint }));
   return [...sheet.crankGrips, ...sheet.grips].map(({ element }) => element);
 }

@@ -1,14 +1,11 @@
 // Overlays of a linkage: its cognates, the centrodes of the link that traces the curve, the inflection
 // circle, the velocity of the point, names, the straight portion, and the curves of other points.
 
-import { cognatePins, cognatesOf } from "../../kinematics/cognates.js";
-import { fixedCentrode, movingCentrode, poleAt } from "../../kinematics/instantaneous-motion.js";
-import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
 import { clippedData } from "../../draw/clipping.js";
 import { linkData } from "../../draw/link-shapes.js";
 import { circleData, pixel, definedData } from "../../draw/path-data.js";
-import { emptyBox, widenedBox } from "../../draw/plane-view.js";
-import { s } from "../dom.js";
+import { screenPoint, widenedBox } from "../../draw/plane-view.js";
+import { s, setAttributes } from "../dom.js";
 
 /** The overlays, { name, label, isOn (the default), there(study) }. */
 export const OVERLAYS = [
@@ -16,47 +13,47 @@ export const OVERLAYS = [
   { name: "straight", label: "Straight portion", isOn: true, there: () => true },
   { name: "others", label: "Curves of other points", isOn: true, there: ({ others }) => others.length > 0 },
   { name: "velocity", label: "Velocity", isOn: false, there: () => true },
-  { name: "cognates", label: "Cognates", isOn: false, there: (study) => cognatesOfStudy(study) !== null },
-  { name: "centrodes", label: "Centrodes and instant centre", isOn: false, there: hasPole },
-  { name: "inflection", label: "Inflection circle", isOn: false, there: hasPole },
+  { name: "cognates", label: "Cognates", isOn: false, there: (study) => study.has_cognates },
+  { name: "centrodes", label: "Centrodes and instant centre", isOn: false, there: (study) => study.has_pole },
+  { name: "inflection", label: "Inflection circle", isOn: false, there: (study) => study.has_pole },
 ];
 
-/** The cognates of a study's curve (kinematics/cognates.js), or null; the first is the linkage itself. */
-export function cognatesOfStudy(study) {
-  return study.isCouplerPoint ? cognatesOf(study.linkage, study.joint) : null;
-}
+// The numbers of samples of centrodes.
+const ROUGH_CENTRODES = 240;
+const FINE_CENTRODES = 1440;
 
-/** Whether the link with the traced joint rotates anywhere on the circuit. */
-function hasPole({ linkage, circuit, joint }) {
-  return [0.2, 0.45, 0.7].some((part) => {
-    const i = Math.floor(part * circuit.count);
-    return poleAt(linkage, circuit.passes[circuit.pass[i]], circuit.input[i], joint) !== null;
-  });
+/** The cognates of a study's curve (KernelStudy.cognates), or null. @param {Study} study */
+export function cognatesOfStudy(study) {
+  return study.has_cognates ? study.kernel.cognates() : null;
 }
 
 /** The moving overlays, drawn on a stage. */
 export class Overlays {
-  constructor(stage) {
+  /** @type {Study} */ study;
+  /** @type {Set<string>} */ on = new Set();
+  /** @type {Cognates | null} */ pair = null;
+  /** The joints that give the frame of the moving centrode. @type {[number, number] | null} */
+  arm = null;
+
+  constructor(/** @type {Stage} */ stage) {
     this.stage = stage;
     const path = (name) => s("path", { class: name });
     this.cognates = [path("cognate first"), path("cognate second")];
     this.cognatePins = path("cognate pins");
-    this.rolling = s("path", { class: "centrode moving", "vector-effect": "non-scaling-stroke" });
+    this.rolling = s("path.centrode.moving", { "vector-effect": "non-scaling-stroke" });
     this.pole = path("pole");
     this.circle = path("inflection");
     stage.moving.overlays.append(...this.cognates, this.cognatePins, this.rolling, this.circle, this.pole);
-    this.on = new Set();
-    this.study = null;
   }
 
-  /** Shows the selected overlays for a study; `isRough` while lengths are changing. */
-  show(study, on, isRough) {
+  /** Shows the selected overlays for a study; `isRough` while lengths are changing. @param {Study} study */
+  show(study, /** @type {Set<string>} */ on, isRough) {
     this.study = study;
     this.on = on;
     const { classList } = this.stage.element;
     for (const { name } of OVERLAYS) classList.toggle(`with-${name}`, on.has(name));
     this.pair = on.has("cognates") ? cognatesOfStudy(study) : null;
-    this.stage.frame(this.pair ? boxWithCognates(study, this.pair) : study.box);
+    this.stage.frame(this.pair ? boxWithCognates(study.box, this.pair) : study.box);
     if (!this.pair) [...this.cognates, this.cognatePins].forEach((element) => element.setAttribute("d", ""));
     this.#centrodes(isRough);
     if (!on.has("inflection")) this.circle.setAttribute("d", "");
@@ -69,72 +66,56 @@ export class Overlays {
     this.pole.setAttribute("d", "");
     this.stage.still.centrode("");
     if (!this.on.has("centrodes")) return;
-    const { linkage, joint, size } = study;
-    const circuit = isRough
-      ? study.circuit
-      : sampleCircuit(linkage, newSampler({ samples: 1440, spacing: "smooth" }), study.circuit);
-    const moving = movingCentrode(linkage, circuit, joint);
-    if (!moving.frame) return;
+    const centrodes = study.kernel.centrodes(isRough ? ROUGH_CENTRODES : FINE_CENTRODES);
+    if (!centrodes) return;
     const [x0, y0, x1, y1] = study.box;
     // Centrodes can be unbounded: they are clipped some distance beyond the frame.
-    const reach = 6 * size;
+    const reach = 6 * study.size;
     const box = [x0 - reach, y0 - reach, x1 + reach, y1 + reach];
-    this.stage.still.centrode(
-      clippedData(ringOf(fixedCentrode(linkage, circuit, joint), circuit.closed), box),
-    );
-    this.rolling.setAttribute(
-      "d",
-      clippedData(ringOf(moving.points, circuit.closed), [-reach, -reach, reach, reach]),
-    );
-    this.arm = moving.frame;
+    const { closed } = study.circuits[study.shown];
+    this.stage.still.centrode(clippedData(ringOf(centrodes.fixed, closed), box));
+    const around = [-reach, -reach, reach, reach];
+    setAttributes(this.rolling, { d: clippedData(ringOf(centrodes.moving, closed), around) });
+    this.arm = centrodes.frame;
   }
 
-  /** Moves the overlays with the linkage: its pose, in the plane, at an input of a pass. */
-  pose(pose, view, pass, input) {
-    if (this.pair) this.#poseCognates(pose, view);
-    if (this.arm) this.#rollCentrode(pose, view);
+  /** Moves the overlays with the linkage. @param {Float64Array} pose @param {Placement} view @param {Pose["instant"]} _ */
+  pose(pose, view, { pole, inflection, pins }) {
+    if (this.pair) this.#poseCognates(this.pair, pose, view, pins);
+    if (this.arm) this.#rollCentrode(this.arm, pose, view);
     if (!this.arm && !this.on.has("inflection")) return;
-    const { linkage, joint } = this.study;
-    const instant = poleAt(linkage, pass, input, joint);
-    const { x, y, scale } = view;
-    const place = ([px, py]) => [x + scale * px, y - scale * py];
-    const isFar =
-      !instant ||
-      Math.hypot(...instant.pole) > 1e3 * this.study.size + Math.hypot(this.study.box[0], this.study.box[1]);
-    if (this.arm) this.pole.setAttribute("d", isFar ? "" : crossData(...place(instant.pole)));
+    const { box, size } = this.study;
+    const place = (/** @type {Float64Array} */ [px, py]) => screenPoint(view, [px, py]);
+    // A link that translates has no pole.
+    const isFar = !(Math.hypot(...pole) <= 1e3 * size + Math.hypot(box[0], box[1]));
+    if (this.arm) this.pole.setAttribute("d", isFar ? "" : crossData(place(pole)));
     if (this.on.has("inflection"))
-      this.circle.setAttribute(
-        "d",
-        isFar ? "" : inflectionData(place(instant.pole), place(instant.inflection)),
-      );
+      this.circle.setAttribute("d", isFar ? "" : inflectionData(place(pole), place(inflection)));
   }
 
-  #poseCognates(pose, { x, y, scale }) {
-    const { study, pair } = this;
+  #poseCognates(/** @type {Cognates} */ pair, pose, /** @type {Placement} */ { x, y, scale }, pins) {
+    const { study } = this;
     const point = [pose[2 * study.joint], pose[2 * study.joint + 1]];
-    let pins = "";
-    pair.cognates.slice(1).forEach((cognate, k) => {
-      const [ax, ay, bx, by] = cognatePins(study.linkage, cognate, pose);
-      const [o, c] = cognate.pivots;
-      const at = [o, [ax, ay], [bx, by], c, point].flatMap(([px, py]) => [x + scale * px, y - scale * py]);
-      this.cognates[k].setAttribute(
-        "d",
-        definedData(`${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`),
-      );
-      for (const joint of [1, 2]) pins += circleData(at[2 * joint], at[2 * joint + 1], 3.5, 6);
-      for (const joint of [0, 3]) pins += circleData(at[2 * joint], at[2 * joint + 1], 5, 6);
+    let circles = "";
+    pair.pivots.forEach(([ox, oy, cx, cy], k) => {
+      const [ax, ay, bx, by] = pins.slice(4 * k, 4 * k + 4);
+      const places = [ox, oy, ax, ay, bx, by, cx, cy, ...point];
+      const at = places.map((place, i) => (i % 2 ? y - scale * place : x + scale * place));
+      const data = `${linkData([0, 1], at)}${linkData([1, 2, 4], at, true)}${linkData([2, 3], at)}`;
+      this.cognates[k].setAttribute("d", definedData(data));
+      for (const joint of [1, 2]) circles += circleData(at[2 * joint], at[2 * joint + 1], 3.5, 6);
+      for (const joint of [0, 3]) circles += circleData(at[2 * joint], at[2 * joint + 1], 5, 6);
     });
-    this.cognatePins.setAttribute("d", definedData(pins));
+    this.cognatePins.setAttribute("d", definedData(circles));
   }
 
   // The moving centrode is drawn in the frame of its link and moved by a transform.
-  #rollCentrode(pose, { x, y, scale }) {
-    const [a, b] = this.arm;
+  #rollCentrode([a, b], pose, /** @type {Placement} */ view) {
     const [dx, dy] = [pose[2 * b] - pose[2 * a], pose[2 * b + 1] - pose[2 * a + 1]];
     const size = Math.hypot(dx, dy);
     if (!(size > 0)) return;
-    const [ux, uy] = [(scale * dx) / size, (scale * dy) / size];
-    const [ox, oy] = [x + scale * pose[2 * a], y - scale * pose[2 * a + 1]];
+    const [ux, uy] = [(view.scale * dx) / size, (view.scale * dy) / size];
+    const [ox, oy] = screenPoint(view, [pose[2 * a], pose[2 * a + 1]]);
     this.rolling.setAttribute("transform", `matrix(${ux} ${-uy} ${-uy} ${-ux} ${pixel(ox)} ${pixel(oy)})`);
   }
 }
@@ -143,7 +124,7 @@ function ringOf(points, closed) {
   return closed ? Float64Array.from([...points, points[0], points[1]]) : points;
 }
 
-function crossData(x, y) {
+function crossData([x, y]) {
   const [px, py] = [pixel(x), pixel(y)];
   return `M${px - 6} ${py}h12M${px} ${py - 6}v12`;
 }
@@ -154,18 +135,6 @@ function inflectionData([px, py], [qx, qy]) {
   return circleData((px + qx) / 2, (py + qy) / 2, radius, 6);
 }
 
-function boxWithCognates({ linkage, circuit, box }, { thirdPivot, cognates }) {
-  const wide = [...box];
-  widenedBox(wide, [thirdPivot[0]], [thirdPivot[1]]);
-  const pose = new Float64Array(2 * linkage.joints.length);
-  const own = emptyBox();
-  for (let i = 0; i < circuit.count; i += 8) {
-    linkage.joints.forEach((_, joint) => pose.set([circuit.x[joint][i], circuit.y[joint][i]], 2 * joint));
-    for (const cognate of cognates.slice(1)) {
-      const [ax, ay, bx, by] = cognatePins(linkage, cognate, pose);
-      widenedBox(own, [ax, bx], [ay, by]);
-    }
-  }
-  if (!Number.isFinite(own[0])) return wide;
-  return widenedBox(wide, [own[0], own[2]], [own[1], own[3]]);
+function boxWithCognates(/** @type {Box} */ box, /** @type {Cognates} */ { reached }) {
+  return widenedBox([...box], reached);
 }

@@ -1,83 +1,63 @@
-// The parameters of a linkage that can be changed on its plate, as in kinematics/parameter-changes.js.
+// The parameters of a linkage that can be changed on its plate: parameters and helpers by their names, and the
+// position of the traced point on its link as "M.along" and "M.across".
 
-import { changedValues, tracedPoint } from "../../kinematics/parameter-changes.js";
 import { roundBelow } from "../../draw/plane-view.js";
 
 /**
- * The parameters that can be changed: [{ name, kind, value, recorded, low, high, grain, min, max }]. `kind`
- * is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an expression gives
- * it, and "unlinked" if a derived one has been changed. `low` to `high` is the range of the slider, `grain`
- * its step.
+ * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is
+ * constant, "derived" if an expression gives it, and "unlinked" if a derived one has been changed. `low` to `high`
+ * is the range of the slider, `grain` its step. `recorded` and `current` are the values of the curve as the atlas
+ * has it and with the changes.
+ * @param {Family} family @param {FamilyDescription["names"]} names @param {CurveValues} recorded
+ * @param {CurveValues} current @param {Map<string, number>} changes
  */
-export function changeableParameters(family, cell, trace, changes) {
-  const width = family.names.length;
-  const recorded = family.cells.values.subarray(cell * width, (cell + 1) * width);
-  const values = changedValues(family, cell, changes);
-  const size = Math.max(...recorded.filter(Number.isFinite).map(Math.abs), 0) || 1;
-  const whole = wholeSlots(family.template);
-  const derived = new Map(family.derived);
-  const offered = family.names.map((name, slot) => {
-    const bounds = family.template.parameters[slot] ?? {};
-    const isDerived = derived.has(slot) && typeof derived.get(slot) !== "number";
-    const kind = family.free.includes(slot)
-      ? "free"
-      : !isDerived
-        ? "fixed"
-        : changes.has(name)
-          ? "unlinked"
-          : "derived";
-    const range = sliderRange(recorded[slot], family.ranges[slot], bounds, size, whole.has(slot));
-    return {
-      name,
-      kind,
-      value: values[slot],
-      recorded: recorded[slot],
-      min: bounds.min ?? null,
-      max: bounds.max ?? null,
-      ...range,
-    };
+export function changeableParameters(family, names, recorded, current, changes) {
+  const values = Object.values(recorded.values).filter(Number.isFinite);
+  const size = Math.max(...values.map(Math.abs), 0) || 1;
+  const offered = names.map(({ name, min, max, is_whole: isWhole, is_derived: isDerived }, slot) => {
+    const kind = family.free.includes(slot) ? "free" : kindOfLocked(isDerived, changes.has(name));
+    const own = recorded.values[name];
+    const range = sliderRange(own, family.ranges[slot], { min, max }, size, isWhole);
+    const value = changes.get(name) ?? current.values[name];
+    return { name, kind, value, recorded: own, min, max, ...range };
   });
-  return [...offered, ...changeableCoordinates(family, recorded, values, trace, changes, size)];
+  return [...offered, ...changeableCoordinates(recorded.point, current.point, changes, size)];
 }
 
-function changeableCoordinates({ template }, recorded, values, trace, changes, size) {
-  const point = tracedPoint(template, trace);
-  if (!point) return [];
-  return ["along", "across"]
-    .filter((way) => !point[way].isParameter)
+function kindOfLocked(isDerived, isChanged) {
+  if (!isDerived) return "fixed";
+  return isChanged ? "unlinked" : "derived";
+}
+
+/**
+ * @param {MovablePoint | null} recorded @param {MovablePoint | null} current
+ * @param {Map<string, number>} changes
+ */
+function changeableCoordinates(recorded, current, changes, size) {
+  if (!recorded || !current) return [];
+  /** @type {("along" | "across")[]} */ const ways = ["along", "across"];
+  return ways
+    .filter((way) => !recorded[way].is_parameter)
     .map((way) => {
-      const name = `${point.name}.${way}`;
-      const [recordedValue, isDerived] = [point[way].at(recorded), !point[way].isKept];
-      const kind = !isDerived ? "fixed" : changes.has(name) ? "unlinked" : "derived";
-      const value = changes.get(name) ?? point[way].at(values);
-      return {
-        name,
-        kind,
-        value,
-        recorded: recordedValue,
-        min: null,
-        max: null,
-        ...sliderRange(recordedValue, [recordedValue, recordedValue], {}, size, false),
-      };
+      const name = `${recorded.name}.${way}`;
+      const { value: own, is_constant: isConstant } = recorded[way];
+      const kind = kindOfLocked(!isConstant, changes.has(name));
+      const value = changes.get(name) ?? current[way].value;
+      const free = { min: null, max: null };
+      return { name, kind, value, recorded: own, ...free, ...sliderRange(own, [own, own], free, size) };
     });
 }
 
-// The slots that must be integers: the numbers of teeth of gears.
-function wholeSlots({ joints }) {
-  const ratios = joints.flatMap((joint) => ("gear" in joint ? joint.ratio : []));
-  return new Set(ratios.filter((part) => Array.isArray(part) && part.length === 1).map(([[slot]]) => slot));
-}
-
-function sliderRange(recorded, [least, most], { min, max }, size, isWhole) {
+function sliderRange(recorded, [least, most], { min, max }, size, isWhole = false) {
   if (isWhole) return { low: Math.min(least, -6), high: Math.max(most, 6), grain: 1 };
   const reach = Math.max(most - least, 0.6 * Math.abs(recorded)) || size;
   let low = Math.min(least, recorded - 0.5 * reach);
   let high = Math.max(most, recorded + 0.5 * reach);
   // A bound of 0 is exclusive.
   if (min === 0 && low <= 0) low = 0.1 * Math.min(least, recorded);
-  else if (min !== null && min !== undefined) low = Math.max(low, min);
+  else if (min !== null) low = Math.max(low, min);
   if (max === 0 && high >= 0) high = 0.1 * Math.max(most, recorded);
-  else if (max !== null && max !== undefined) high = Math.min(high, max);
+  else if (max !== null) high = Math.min(high, max);
   return { low, high, grain: roundBelow((high - low) / 400) || 0.01 };
 }
 
@@ -87,9 +67,12 @@ export function roundedToGrain(value, grain) {
   return Number((Math.round(value / grain) * grain).toFixed(Math.min(decimals, 12)));
 }
 
-/** The changes in a query (a Map of words); names that cannot be changed are ignored. */
-export function parseChanges(family, trace, query) {
-  const point = tracedPoint(family.template, trace);
+/**
+ * The changes in a query (a Map of words) of a curve with a movable traced point or null; names that cannot be
+ * changed are ignored.
+ * @param {Family} family @param {MovablePoint | null} point @param {Query} query
+ */
+export function parseChanges(family, point, query) {
   const known = new Set([...family.names, ...(point ? [`${point.name}.along`, `${point.name}.across`] : [])]);
   const changes = new Map();
   for (const [name, word] of query) {

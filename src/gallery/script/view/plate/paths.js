@@ -1,73 +1,65 @@
 // The curves of a study as path data in the plane.
 
 import { measureValue } from "../../data/family.js";
-import { circuitPortion } from "../../draw/circuit-portion.js";
-import { dashData, dashPattern } from "../../draw/dashes.js";
 import { roundingGrid, polylineData } from "../../draw/path-data.js";
-import { roundBelow } from "../../draw/plane-view.js";
-import { formatLength } from "./speed-view.js";
-import { formatDecimals } from "./study.js";
+import { formatDecimals, formatLength } from "../labels.js";
 
 // With more other points than this, fewer of their samples are drawn.
 const MANY_POINTS = 12;
 
 /**
- * The input covered by a dash and its gap: the family's, or, for a length, a round fraction of the longest
- * pass.
+ * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected
+ * overlays.
+ * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion
  */
-function dashPeriod(family, { linkage, circuit }) {
-  if (!linkage.input.isLength) return family.dash_deg;
-  return roundBelow(Math.max(...circuit.passes.map(({ from, to }) => Math.abs(to - from))) / 20);
-}
-
-/**
- * Path data { dashes, lead, others, band } of a study's curve, from its path and its straight portion. `on`
- * has the names of the selected overlays.
- */
-export function pathsOfStudy(family, study, path, portion, { on, isRough }) {
-  const { circuit, others } = study;
+export function pathsOfStudy(study, path, portion, { on, isRough }) {
+  const { others } = study;
+  const { closed } = study.circuits[study.shown];
   const grid = roundingGrid(study.size);
   const shown = on.has("others") ? others : [];
   const stride = others.length > MANY_POINTS ? (isRough ? 4 : 2) : 1;
   return {
-    dashes: dashData(path, dashPattern(dashPeriod(family, study))),
-    lead: polylineData(path.points),
-    others: shown.map((joint) => sampledPathData(circuit, joint, stride, grid)).join(""),
+    dashes: dashesData(path),
+    lead: polylineData(path.lead),
+    others: shown.map(({ points }) => polylineData(everyNth(points, stride, closed), { grid })).join(""),
     band: portion ? polylineData(portion.points) : "",
   };
 }
 
-function sampledPathData({ x, y, count, closed }, joint, stride, grid) {
-  const points = [];
-  for (let i = 0; i < count; i += stride) points.push(x[joint][i], y[joint][i]);
-  if (closed) points.push(x[joint][0], y[joint][0]);
-  return polylineData(points, { grid });
+function dashesData(/** @type {CurvePath} */ { dashes, starts }) {
+  const dash = (first, k) => polylineData(dashes, { first, last: starts[k + 1] ?? dashes.length / 2 });
+  return Array.from(starts, dash).join("");
+}
+
+// Every n-th point, and again the first of a closed curve.
+function everyNth(points, stride, closed) {
+  const chosen = [];
+  for (let k = 0; k < points.length; k += 2 * stride) chosen.push(points[k], points[k + 1]);
+  if (closed) chosen.push(points[0], points[1]);
+  return chosen;
 }
 
 /**
  * The description of a curve's straight portion: its length, its deviation from the line, and its range of
- * input.
+ * input, from computed measures { name: value }, or, if null, those of the atlas.
+ * @param {Study} _ @param {Family} family @param {Measured | null} measures
  */
-export function straightSummary({ linkage }, family, curve, measures) {
+export function straightSummary({ is_length: isLength }, family, curve, measures) {
   const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
     (name) => (measures ? measures[name] : measureValue(family, curve, name)),
   );
   // A family may be measured only in part.
   if (![length, deviation, span].every(Number.isFinite)) return "";
-  const over = linkage.input.isLength ? formatLength(span) : `${formatDecimals(span, 1)}°`;
+  const over = isLength ? formatLength(span) : `${formatDecimals(span, 1)}°`;
   const within = `within ${formatLength(deviation)} of its line`;
   return `Straight portion: ${formatLength(length)} long, ${within}, over ${over} of input`;
 }
 
 /**
- * The straight portion of a study's curve (draw/circuit-portion.js), from the computed measures { name: value
- * }, or, if null, those of the atlas. Null if there is none, or if it is too short to be visible.
+ * The straight portion of a study's curve (KernelStudy.measures); null if it is too short to be visible.
+ * @param {Study} _ @param {ComputedMeasures} _1
  */
-export function visibleStraightPortion(study, family, curve, measures) {
-  const { linkage, circuit, joint, curveBox } = study;
-  const of = (name) => (measures ? measures[name] : measureValue(family, curve, name));
-  const [start, span, length] = ["straight_start_deg", "straight_input_deg", "straight_length"].map(of);
-  const extent = Math.max(curveBox[2] - curveBox[0], curveBox[3] - curveBox[1]);
-  if (![start, span, length].every(Number.isFinite) || length < 0.02 * extent) return null;
-  return circuitPortion(linkage, circuit, joint, { start, span, length });
+export function visibleStraightPortion({ curve_box: [x0, y0, x1, y1] }, { straight, values }) {
+  const isVisible = Number(values.straight_length) >= 0.02 * Math.max(x1 - x0, y1 - y0);
+  return straight && isVisible ? straight : null;
 }

@@ -6,25 +6,26 @@ import { OVERLAYS } from "./overlays.js";
 import { parseChanges } from "./parameters.js";
 
 /**
- * Parses a query: { changes: Map, requestedCircuit: the index of a circuit among all, or null, on: Set of
- * names of overlays }.
+ * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
+ * among all, or null, `on` are the names of overlays.
+ * @param {Family} family @param {MovablePoint | null} point @param {Query} query
  */
-export function readPlateQuery(family, trace, query) {
+export function readPlateQuery(family, point, query) {
   const circuit = Number(query.get("circuit"));
   const shown = query.get("show");
   const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
   return {
-    changes: parseChanges(family, trace, query),
+    changes: parseChanges(family, point, query),
     requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
   };
 }
 
-/** The shortest address of a plate; defaults are left out. */
+/** The shortest address of a plate; defaults are left out. @param {Plate} _ */
 export function plateAddress({ family, curve, changes, requestedCircuit, on, study }) {
-  const query = new Map(changes);
+  const query = new Map([...changes].map(([name, value]) => [name, String(value)]));
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
-    query.set("circuit", requestedCircuit + 1);
+    query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
   return address([family.id, "curve", curveKey(family, curve)], query);
@@ -34,27 +35,28 @@ export function plateAddress({ family, curve, changes, requestedCircuit, on, stu
  * The name of the curve on the shown circuit, with its family and changes. A circuit that the atlas does not
  * contain is given by its number among all: "evans:1.1.1?circuit=2".
  */
-export function plateCurveName({ family, curve, changes, study }) {
-  const { key, extraCircuit } = keyOfShownCircuit(family, curve, study);
+export function plateCurveName(/** @type {Plate} */ plate) {
+  const { family, changes } = plate;
+  const { key, extraCircuit } = keyOfShownCircuit(plate);
   const words = [...changes].map(([name, value]) => `${encodeURIComponent(name)}=${value}`);
   if (extraCircuit) words.push(`circuit=${extraCircuit}`);
   return `${family.id}:${key}${words.length ? `?${words.join("&")}` : ""}`;
 }
 
-/** Whether a plate shows a circuit that the atlas does not contain. */
-export function isExtraCircuit({ family, curve, study }) {
-  return keyOfShownCircuit(family, curve, study).extraCircuit !== null;
+/** Whether a plate shows a circuit that the atlas does not contain. @param {Plate} plate */
+export function isExtraCircuit(plate) {
+  return keyOfShownCircuit(plate).extraCircuit !== null;
 }
 
 /**
  * The key of the curve on the shown circuit; if the atlas does not contain it, the curve's own key and the
  * circuit's number.
  */
-function keyOfShownCircuit(family, curve, study) {
+function keyOfShownCircuit(/** @type {Plate} */ { family, curve, study, description }) {
   const own = curveKey(family, curve);
   if (!study || study.shown === study.home) return { key: own, extraCircuit: null };
   // The atlas numbers circuits as a plate does only if it contains all circuits.
-  const key = family.template.circuits === "all" ? own.replace(/\d+$/, study.shown + 1) : null;
+  const key = description.has_all_circuits ? own.replace(/\d+$/, String(study.shown + 1)) : null;
   return key !== null && findCurve(family, key) !== undefined
     ? { key, extraCircuit: null }
     : { key: own, extraCircuit: study.shown + 1 };

@@ -1,6 +1,7 @@
 // The route of a curve's plate.
 
 import { holdPieces, needCurveWithKey, piecesOfCurves } from "../../data/needs.js";
+import { stillPlateLayout } from "./layout.js";
 import { Plate } from "./plate.js";
 
 /** The route `#/evans/curve/12.1.1?p=2.5`: the linkage of a curve in motion. */
@@ -10,11 +11,13 @@ export const plateRoute = {
   matches: ({ path }) => path.length === 3 && path[1] === "curve",
   open: async (app, target) => {
     const [id, , key] = target.path;
+    // The kernel is loaded meanwhile.
+    app.kernel.load().catch(() => {});
     const family = await app.atlas.family(id);
     const curve = await needCurveWithKey(family, key);
     if (curve === undefined) throw new Error(`There is no curve “${key}” in “${family.title}”.`);
     const release = holdPieces(piecesOfCurves(family, [curve]));
-    const plate = new Plate(app, family, curve, target.query);
+    const plate = await openPlate(app, family, curve, target.query);
     return {
       title: `${family.title}, ${key}`,
       element: plate.element,
@@ -27,3 +30,16 @@ export const plateRoute = {
     };
   },
 };
+
+/**
+ * The plate of a curve; without the kernel, one that stands still and says so.
+ * @param {App} app @param {Family} family @param {Query} query
+ */
+async function openPlate(app, family, curve, query) {
+  try {
+    return new Plate(app, await app.kernel.load(), family, curve, query);
+  } catch (error) {
+    const still = stillPlateLayout(app, family, curve, error.message);
+    return { ...still, shown: () => {}, setQuery: () => true };
+  }
+}

@@ -1,6 +1,6 @@
 // The parameters of a linkage, each with a slider and a number field.
 
-import { fill, h } from "../dom.js";
+import { buttonOf, fill, h, isShortcut } from "../dom.js";
 import { roundedToGrain } from "./parameters.js";
 
 const PARAMETER_KINDS = {
@@ -16,30 +16,18 @@ const PARAMETER_KINDS = {
  * the values; rows are reused while the names are the same.
  */
 export class Sliders {
-  constructor(legend, on) {
+  constructor(/** @type {string | null} */ legend, /** @type {Plate} */ on) {
     this.on = on;
     this.rows = new Map();
-    this.free = h("div", { class: "parameters" });
-    this.locked = h("div", { class: "parameters" });
-    this.more = h(
-      "details",
-      { class: "locked-parameters" },
-      h("summary", {}, "Locked parameters"),
-      this.locked,
-    );
-    this.reset = h("button", { type: "button", class: "reset", onclick: on.reset }, "Reset all");
-    this.element = h(
-      "section",
-      { class: "gauge sliders" },
-      h("h3", {}, "Parameters"),
-      legend ? h("p", { class: "note" }, legend) : null,
-      this.free,
-      this.more,
-      this.reset,
-    );
+    this.free = h("div.parameters");
+    this.locked = h("div.parameters");
+    this.more = h("details.locked-parameters", h("summary", "Locked parameters"), this.locked);
+    this.reset = buttonOf("Reset all", () => on.reset(), { class: "reset" });
+    const words = [h("h3", "Parameters"), legend ? h("p.note", legend) : null];
+    this.element = h("section.gauge.sliders", words, this.free, this.more, this.reset);
   }
 
-  show(parameters) {
+  show(/** @type {Parameter[]} */ parameters) {
     const names = parameters.map(({ name }) => name).join(" ");
     if (names !== this.names) this.#build(parameters);
     this.names = names;
@@ -47,7 +35,7 @@ export class Sliders {
     this.reset.disabled = !parameters.some((parameter) => isChangedParameter(parameter));
   }
 
-  /** Updates a row and marks a value that is out of bounds. */
+  /** Updates a row and marks a value that is out of bounds. @param {Parameter} parameter */
   #refresh(parameter) {
     const row = this.rows.get(parameter.name);
     const { value, recorded, kind, low, high } = parameter;
@@ -68,41 +56,30 @@ export class Sliders {
     const isDependent = kind === "derived" || kind === "unlinked";
     const label = kind === "derived" ? "Unlink" : kind === "unlinked" ? "Relink" : "Reset";
     row.button.textContent = label;
-    row.button.setAttribute(
-      "aria-label",
-      `${label}: ${parameter.name}${isDependent ? "" : ` to ${formatInputNumber(recorded)}`}`,
-    );
-    row.button.classList.toggle("unneeded", !isDependent && !isChangedParameter(parameter));
+    const to = isDependent ? "" : ` to ${formatInputNumber(recorded)}`;
+    row.button.setAttribute("aria-label", `${label}: ${parameter.name}${to}`);
     row.button.disabled = !isDependent && !isChangedParameter(parameter);
+    row.button.classList.toggle("unneeded", row.button.disabled);
   }
 
-  #build(parameters) {
+  #build(/** @type {Parameter[]} */ parameters) {
     this.rows.clear();
-    const rows = parameters.map((parameter) => [parameter, this.#row(parameter)]);
-    const isFree = ([{ kind }]) => kind === "free";
-    fill(
-      this.free,
-      rows.filter(isFree).map(([, { element }]) => element),
-    );
-    const locked = rows.filter((row) => !isFree(row));
-    fill(
-      this.locked,
-      locked.map(([, { element }]) => element),
-    );
+    /** @type {Element[][]} */ const [free, locked] = [[], []];
+    for (const parameter of parameters)
+      (parameter.kind === "free" ? free : locked).push(this.#row(parameter).element);
+    fill(this.free, free);
+    fill(this.locked, locked);
     this.more.hidden = locked.length === 0;
-    this.more.open = rows.length <= 6 || rows.length === locked.length;
+    this.more.open = parameters.length <= 6 || free.length === 0;
   }
 
-  #row(parameter) {
+  #row(/** @type {Parameter} */ parameter) {
     const { name } = parameter;
     const { on } = this;
     const row = { parameter };
     row.range = h("input", {
       type: "range",
       step: "any",
-      min: parameter.low,
-      max: parameter.high,
-      value: parameter.value,
       "aria-label": `${name}, ${PARAMETER_KINDS[parameter.kind]}`,
       oninput: () => on.change(name, roundedToGrain(Number(row.range.value), row.parameter.grain)),
       onchange: () => on.settle(),
@@ -121,41 +98,30 @@ export class Sliders {
         row.field.value = formatInputNumber(row.parameter.value);
       },
     });
-    row.button = h("button", {
-      type: "button",
-      class: "quiet tie",
-      onclick: () => toggleLink(row.parameter, on),
-    });
-    row.element = h(
-      "div",
-      { class: "parameter" },
-      h("span", { class: "parameter-name" }, name),
-      row.range,
-      row.field,
-      row.button,
-    );
+    row.button = buttonOf("", () => toggleLink(row.parameter, on), { class: "quiet tie" });
+    row.element = h("div.parameter", h("span.parameter-name", name), row.range, row.field, row.button);
     this.rows.set(name, row);
     return row;
   }
 }
 
 // Steps of the slider by keys: one grain, with Shift ten.
-function stepSlider(event, row, on) {
+function stepSlider(event, row, /** @type {Plate} */ on) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
-  if (!(event.key in ways) || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (!(event.key in ways) || isShortcut(event)) return;
   event.preventDefault();
   const { name, value, grain } = row.parameter;
   const by = ways[event.key] * (event.shiftKey ? 10 : 1) * grain;
   on.change(name, roundedToGrain(value + by, grain));
 }
 
-function toggleLink({ name, kind, value }, on) {
+function toggleLink(/** @type {Parameter} */ { name, kind, value }, /** @type {Plate} */ on) {
   if (kind === "derived") on.change(name, value);
   else on.clear(name);
   on.settle();
 }
 
-function isChangedParameter({ kind, value, recorded }) {
+function isChangedParameter(/** @type {Parameter} */ { kind, value, recorded }) {
   return kind === "unlinked" || (kind !== "derived" && value !== recorded);
 }
 

@@ -20,22 +20,18 @@ export class Stage {
     this.study = null;
     this.still = new StaticLayer();
     this.moving = new MovingLayer();
-    this.summary = h("p", { class: "visually-hidden", id: "plate-summary" });
-    this.reason = h("p", { class: "reason error", hidden: true });
-    this.picture = h(
-      "div",
-      {
-        class: "scene",
-        role: "img",
-        "aria-describedby": "plate-summary",
-        "aria-label": "The linkage on its curve",
-      },
-      this.still.element,
-      this.moving.element,
-    );
-    this.element = h("div", { class: "stage" }, this.picture, this.reason, this.summary);
+    this.summary = h("p.visually-hidden", { id: "plate-summary" });
+    this.reason = h("p.reason.error", { hidden: true });
+    const attributes = {
+      role: "img",
+      "aria-describedby": "plate-summary",
+      "aria-label": "The linkage on its curve",
+    };
+    this.picture = h("div.scene", attributes, this.still.element, this.moving.element);
+    this.element = h("div.stage", this.picture, this.reason, this.summary);
     this.observer = new ResizeObserver(() => this.#measured());
     this.onview = () => {};
+    this.aim = this.view;
     this.gliding = 0;
   }
 
@@ -50,7 +46,7 @@ export class Stage {
   }
 
   /** Shows a study and the path data of its curve, { dashes, lead, others, band }, in the plane. */
-  show(study, paths) {
+  show(/** @type {Study} */ study, paths) {
     const isFirst = !this.study;
     this.study = study;
     this.still.show(study, paths);
@@ -60,19 +56,19 @@ export class Stage {
     else this.#place();
   }
 
-  /** The box for fitting: the area swept by the linkage, extended by overlays. */
+  /** The box for fitting: the area swept by the linkage, extended by overlays. @param {Box} box */
   frame(box) {
     this.box = box;
   }
 
-  /** Shows why a linkage cannot be assembled; the previous linkage stays visible, dimmed. */
-  impossible(reason) {
+  /** Shows why a linkage cannot be assembled, or moved; the previous linkage stays visible, dimmed. */
+  impossible(reason, what = "Cannot be assembled") {
     this.element.classList.toggle("impossible", reason !== null);
     this.reason.hidden = reason === null;
-    fill(this.reason, reason === null ? [] : `Cannot be assembled: ${reason.replace(/`([^`]*)`/g, "“$1”")}`);
+    fill(this.reason, reason === null ? [] : `${what}: ${reason.replace(/\x60([^\x60]*)\x60/g, "“$1”")}`);
   }
 
-  /** Moves the linkage into a pose [x0, y0, …] of the plane. */
+  /** Moves the linkage into a pose [x0, y0, …] of the plane. @param {Float64Array} pose */
   pose(pose) {
     this.moving.pose(pose, this.view);
   }
@@ -100,7 +96,7 @@ export class Stage {
     if (!isInside || scale < 0.55 * fitted.scale) this.#glideTo(fitted);
   }
 
-  zoom(factor, at = [this.size.width / 2, this.size.height / 2]) {
+  zoom(factor, /** @type {Point} */ at = [this.size.width / 2, this.size.height / 2]) {
     if (!this.box) return;
     this.#stay();
     const least = fittedView(this.box, { ...this.size, margin: this.#margin() }).scale;
@@ -118,7 +114,7 @@ export class Stage {
   }
 
   // Animated, so that the eye can follow, unless reduced motion is preferred.
-  #glideTo(view) {
+  #glideTo(/** @type {Placement} */ view) {
     if (window.matchMedia("(prefers-reduced-motion: reduce)").matches) {
       this.view = view;
       this.#place();

@@ -1,11 +1,10 @@
 // The static parts of a plate: the dashed curve, other curves, guides, wheels, the straight portion, the
 // fixed centrode, the ground, and a scale bar.
 
-import { groundData } from "../../draw/ground.js";
 import { circleData, pixel, polylineData } from "../../draw/path-data.js";
-import { roundBelow } from "../../draw/plane-view.js";
-import { s } from "../dom.js";
-import { turningParts } from "./timeline.js";
+import { pointPairs, roundBelow, screenPoint } from "../../draw/plane-view.js";
+import { s, setAttributes } from "../dom.js";
+import { groundData } from "../../draw/link-shapes.js";
 
 /** The lower layer of a stage. */
 export class StaticLayer {
@@ -13,7 +12,7 @@ export class StaticLayer {
     const path = (name) => s("path", { class: name, "vector-effect": "non-scaling-stroke" });
     // In the plane: one transform positions everything, and line widths are constant.
     this.plane = {};
-    for (const name of [
+    const names = [
       "frame-line",
       "wheels",
       "guides",
@@ -23,49 +22,32 @@ export class StaticLayer {
       "band",
       "lead",
       "dashes",
-    ]) {
-      this.plane[name.split(" ")[0]] = path(name);
-    }
-    this.group = s("g", {}, Object.values(this.plane));
-    this.ground = s("path", { class: "ground" });
-    this.limitMarks = s("path", { class: "limit-marks" });
-    this.bar = s("path", { class: "scale-bar" });
-    this.barLabel = s("text", { class: "scale-label" });
-    this.element = s(
-      "svg",
-      { class: "sheet still", "aria-hidden": "true" },
-      this.ground,
-      this.group,
-      this.limitMarks,
-      this.bar,
-      this.barLabel,
-    );
-    this.pivots = [];
-    this.limits = [];
+    ];
+    for (const name of names) this.plane[name.split(" ")[0]] = path(name);
+    this.group = s("g", Object.values(this.plane));
+    this.ground = s("path.ground");
+    this.limitMarks = s("path.limit-marks");
+    this.bar = s("path.scale-bar");
+    this.barLabel = s("text.scale-label");
+    const parts = [this.ground, this.group, this.limitMarks, this.bar, this.barLabel];
+    this.element = s("svg.sheet.still", { "aria-hidden": "true" }, parts);
+    /** @type {Point[]} */ this.pivots = [];
+    /** @type {number[][]} */ this.limits = [];
   }
 
-  show({ linkage, circuit, timeline, mechanism }, { dashes, lead, others, band }) {
-    const { fixed, frame, guides, wheels } = mechanism;
-    const at = (joint) => [circuit.x[joint][0], circuit.y[joint][0]];
-    this.pivots = fixed.map(at);
-    this.#data(
-      "frame-line",
-      frame.length > 1 ? polylineData(frame.flatMap(at), { closed: frame.length > 2 }) : "",
-    );
-    this.#data("wheels", wheels.map(({ joint, radius }) => circleData(...at(joint), radius)).join(""));
-    this.#data("guides", guides.map(([x0, y0, x1, y1]) => polylineData([x0, y0, x1, y1])).join(""));
-    const { arc, limits } = crankRange(linkage, circuit, timeline, fixed);
-    this.limits = limits;
-    this.#data("crank-range", arc);
+  show(/** @type {Study} */ { mechanism, crank }, { dashes, lead, others, band }) {
+    const { fixed_at: fixed, frame_at: frame, guides, wheels } = mechanism;
+    this.pivots = pointPairs(fixed);
+    this.#data("frame-line", polylineData(frame, { closed: frame.length > 4 }));
+    this.#data("wheels", wheels.map(([x, y, radius]) => circleData(x, y, radius)).join(""));
+    this.#data("guides", guides.map((ends) => polylineData(ends)).join(""));
+    const pivot = crank && this.pivots[mechanism.fixed.indexOf(crank.pivot)];
+    this.limits = pivot ? pointPairs(crank.limits).map((limit) => [...limit, ...pivot]) : [];
+    this.#data("crank-range", pivot ? polylineData(crank.arc) : "");
     this.#data("others", others);
     this.#data("band", band);
     this.#data("lead", lead);
     this.#data("dashes", dashes);
-  }
-
-  /** Sets the band of the straight portion, as path data in the plane, or "". */
-  band(data) {
-    this.#data("band", data);
   }
 
   /** Sets the fixed centrode, as path data in the plane. */
@@ -73,19 +55,16 @@ export class StaticLayer {
     this.#data("centrode", data);
   }
 
-  place(view, { width, height }) {
+  place(/** @type {Placement} */ view, /** @type {Size} */ { width, height }) {
     const { scale, x, y } = view;
     this.group.setAttribute("transform", `matrix(${scale} 0 0 ${-scale} ${x} ${y})`);
-    this.ground.setAttribute(
-      "d",
-      this.pivots.map(([px, py]) => groundData(x + scale * px, y - scale * py)).join(""),
-    );
+    const ground = this.pivots.map((pivot) => groundData(...screenPoint(view, pivot)));
+    this.ground.setAttribute("d", ground.join(""));
     this.limitMarks.setAttribute("d", this.limits.map((limit) => limitData(limit, view)).join(""));
     const length = roundBelow(Math.min(0.22 * width, 160) / scale);
     const [left, foot] = [14, height - 14];
     this.bar.setAttribute("d", `M${left} ${foot - 3}v6M${left} ${foot}h${pixel(scale * length)}m0 -3v6`);
-    this.barLabel.setAttribute("x", pixel(left + scale * length + 6));
-    this.barLabel.setAttribute("y", foot + 4);
+    setAttributes(this.barLabel, { x: pixel(left + scale * length + 6), y: foot + 4 });
     const decimals = Math.max(0, -Math.floor(Math.log10(length) + 1e-9));
     this.barLabel.textContent = decimals > 6 ? String(length) : length.toFixed(decimals);
   }
@@ -95,30 +74,10 @@ export class StaticLayer {
   }
 }
 
-// The arc of the crank pin as path data, and its positions at the limits of the input, each with the pivot,
-// [x, y, ox, oy]; for a crank on a fixed pivot that has limits.
-function crankRange({ joints }, { x, y, count, input }, timeline, fixed) {
-  const pin = joints.findIndex(({ step }) => step.kind === "crank" && fixed.includes(step.pivot));
-  if (pin < 0 || turningParts(timeline).length === 0) return { arc: "", limits: [] };
-  const { pivot } = joints[pin].step;
-  let [least, most] = [0, 0];
-  for (let i = 0; i < count; i++) {
-    if (input[i] < input[least]) least = i;
-    if (input[i] > input[most]) most = i;
-  }
-  // From one limit to the other, on one pass.
-  const arc = [];
-  for (let i = Math.min(least, most); i <= Math.max(least, most); i++) arc.push(x[pin][i], y[pin][i]);
-  return {
-    arc: polylineData(arc),
-    limits: [least, most].map((i) => [x[pin][i], y[pin][i], x[pivot][0], y[pivot][0]]),
-  };
-}
-
-// A mark across the arc of the crank pin, of constant length at any zoom.
-function limitData([px, py, ox, oy], { scale, x, y }) {
+// A mark across the arc of the crank pin, at a limit [x, y, pivot x, pivot y], of constant length at any zoom.
+function limitData(/** @type {number[]} */ [px, py, ox, oy], /** @type {Placement} */ view) {
   const [dx, dy] = [px - ox, oy - py];
   const by = 9 / Math.hypot(dx, dy);
-  const [X, Y] = [x + scale * px, y - scale * py];
+  const [X, Y] = screenPoint(view, [px, py]);
   return `M${pixel(X - by * dx)} ${pixel(Y - by * dy)}L${pixel(X + by * dx)} ${pixel(Y + by * dy)}`;
 }

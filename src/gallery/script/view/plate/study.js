@@ -1,129 +1,105 @@
 // The study of a linkage: the assembled linkage, all its circuits, and the one shown.
 
-import { changedValues, templateWithChanges } from "../../kinematics/parameter-changes.js";
-import { findCircuits } from "../../kinematics/circuit.js";
-import { LinkageError } from "../../kinematics/linkage-builder.js";
-import { fourBarOf, isOnCoupler } from "../../kinematics/four-bar.js";
-import { linkageOf } from "../../kinematics/template.js";
-import { finePath } from "../../kinematics/path.js";
-import { sampleCircuit, newSampler } from "../../kinematics/sampling.js";
-import { sideOf } from "../../kinematics/assembly-mode.js";
-import { mechanismOf, sweptBox } from "../../draw/mechanism.js";
-import { emptyBox, widenedBox } from "../../draw/plane-view.js";
+import { KernelFailure, POSE_HEADER } from "../../kernel/instance.js";
 import { timelineOf } from "./timeline.js";
-
-// The number of samples of a circuit for other points and for rough updates.
-const STUDY_SAMPLES = 240;
+import { measureValue } from "../../data/family.js";
+import { formatLength, formatDecimals } from "../labels.js";
 
 /**
- * The study of a curve of a family with changes (kinematics/parameter-changes.js): { values, reason } if it
- * cannot be assembled, with `reason` a sentence; otherwise { values, linkage, routes, home, shown, shortfall,
- * circuit, joint, others, timeline, mechanism, box, size, fourBar, isCouplerPoint, template }.
- *
- * `routes` are all circuits { passes, closed }; `home` is the index of the one that the address names,
- * `shown` of the one that is shown, which is `requested` if it exists; -1 if there is none. `circuit` is the
- * shown circuit, sampled; `joint` is the traced joint, `others` are further traced joints. `box` is the area
- * swept by the linkage. A rough study without a requested circuit has no other circuits.
+ * The study of a curve with changes, as a plate shows it, on the circuit `requested` if it exists. A rough study
+ * without a requested circuit has no other circuits.
+ * @param {Kernel} kernel @param {KernelCurve} curve @param {number | null} requested
+ * @returns {Study | MissingCurve}
  */
-export function studyOf(family, curve, changes, requested = null, isRough = false) {
-  const { cell, trace, circuit } = family.curves;
-  const values = changedValues(family, cell[curve], changes);
-  const changed = templateWithChanges(family.template, trace[curve], values, changes);
-  let linkage = null;
+export function studyOf(kernel, curve, requested = null, isRough = false) {
   try {
-    linkage = linkageOf(changed.template, values);
+    return studyInKernel(kernel.study(curve, { shown: requested, isRough }));
   } catch (error) {
-    if (!(error instanceof LinkageError)) throw error;
-    return { values, reason: error.message };
+    if (!(error instanceof KernelFailure)) throw error;
+    return { reason: error.message, circuits: [] };
   }
-  const recorded = findCircuits(linkage);
-  const all =
-    isRough && requested === null
-      ? recorded
-      : findCircuits({ ...linkage, travel: { ...linkage.travel, circuits: "all" } });
-  const { routes } = all;
-  if (routes.length === 0) return { values, reason: all.shortfall ?? "no input allows assembly" };
-  const home = indexOfRoute(routes, recorded.routes[circuit[curve] - 1]);
-  const shown = routes[requested] ? requested : home;
-  if (shown < 0) {
-    const reason =
-      recorded.shortfall ??
-      "the circuit of this curve no longer exists: it has merged with another, or split";
-    return { values, linkage, routes, home, shown, reason };
-  }
-  const study = {
-    values,
-    linkage,
-    routes,
-    home,
-    shown,
-    shortfall: recorded.shortfall,
-    template: changed.template,
-  };
-  return { ...study, ...studyShownCircuit(study, changed.trace ?? linkage.traced.length) };
 }
 
-function studyShownCircuit({ linkage, routes, shown }, trace) {
-  const circuit = sampleCircuit(
-    linkage,
-    newSampler({ samples: STUDY_SAMPLES, spacing: "smooth" }),
-    routes[shown],
-  );
-  const joint = linkage.traced[trace - 1];
-  const mechanism = mechanismOf(linkage, circuit, joint);
-  const others = linkage.traced.filter((other) => other !== joint);
-  const box = boxWithOthers(sweptBox(mechanism, circuit, [joint]), circuit, others);
-  const curveBox = widenedBox(emptyBox(), circuit.x[joint], circuit.y[joint], circuit.count);
-  const size = Math.hypot(box[2] - box[0], box[3] - box[1]);
-  if (!(size > 0) || !Number.isFinite(size))
-    return { reason: "its lengths differ too much to be drawn" };
-  const fourBar = fourBarOf(linkage);
-  const isCouplerPoint = fourBar !== null && isOnCoupler(linkage, fourBar, joint);
+/** @returns {Study | MissingCurve} */
+function studyInKernel(/** @type {KernelStudy} */ study) {
+  const { answer } = study;
+  if (answer.study === undefined) return { ...answer, reason: plainReason(answer.reason) };
+  const box = boxWithOthers(answer.box, answer.others_box);
   return {
-    circuit,
-    joint,
-    others,
-    timeline: timelineOf(routes[shown]),
-    mechanism,
+    ...answer,
+    kernel: study,
+    timeline: timelineOf(answer.circuits[answer.shown]),
     box,
-    curveBox,
-    size,
-    fourBar,
-    isCouplerPoint,
+    size: Math.hypot(box[2] - box[0], box[3] - box[1]),
   };
+}
+
+// The kernel says which cell of which family it is, which the plate's title says too.
+function plainReason(reason) {
+  return reason.replace(/^[^\s:]+:(\d+:)? /gm, "").replaceAll("\n", "; ");
 }
 
 // The frame includes the curves of other points unless the linkage would become small in it.
-function boxWithOthers(box, circuit, others) {
-  const wide = [...box];
-  for (const other of others) widenedBox(wide, circuit.x[other], circuit.y[other], circuit.count);
-  const extent = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
+function boxWithOthers(/** @type {Box} */ box, /** @type {Box} */ wide) {
+  const extent = (/** @type {Box} */ [x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
   return extent(wide) <= 1.6 * extent(box) ? wide : box;
 }
 
-/** The path of a study's traced joint, accurate to a fraction of its size. */
-export function pathOfStudy({ linkage, circuit, joint, size }, part) {
-  return finePath(linkage, circuit, joint, part * size);
+/** The values of a family's names and the traced point of a curve, { values, point }, without changes. */
+export function recordedValues(/** @type {Kernel} */ kernel, /** @type {Family} */ family, curve) {
+  const study = kernel.study(kernel.curve(family, curve), { isRough: true });
+  const { values = {}, point = null } = study.answer;
+  study.close();
+  return { values, point };
 }
 
-function indexOfRoute(routes, route) {
-  if (!route) return -1;
-  const [first] = route.passes;
-  const isOn = ({ passes }) =>
-    passes.some(
-      (pass) =>
-        pass.signs === first.signs &&
-        Math.abs(Math.min(pass.from, pass.to) - Math.min(first.from, first.to)) < 1e-9,
-    );
-  return routes.findIndex(isOn);
+/** The pose of a study, in the same arrays for all frames. */
+export class Pose {
+  constructor() {
+    this.header = new Float64Array(POSE_HEADER);
+    /** The positions of the joints in the plane, [x0, y0, x1, y1, …]. */
+    this.joints = new Float64Array();
+    this.velocity = this.header.subarray(1, 3);
+    this.instant = {
+      pole: this.header.subarray(3, 5),
+      inflection: this.header.subarray(5, 7),
+      pins: this.header.subarray(7, 15),
+    };
+  }
+
+  /** Moves to an input of a pass of a study. @param {Study} study */
+  move(study, pass, input) {
+    const numbers = study.kernel.pose(pass, input);
+    const count = numbers.length - POSE_HEADER;
+    if (this.joints.length !== count) this.joints = new Float64Array(count);
+    this.header.set(numbers.subarray(0, POSE_HEADER));
+    this.joints.set(numbers.subarray(POSE_HEADER));
+  }
+
+  /** The transmission angle, in degrees. */
+  get transmission() {
+    return this.header[0];
+  }
+}
+
+/**
+ * The arrow of a velocity, per radian of input or unit of length, in pixels, y down: a fifth of the frame at the
+ * speed `top`, at most one and a half times that, reversed where the input decreases. Null if infinite.
+ */
+export function velocityArrow(/** @type {Float64Array} */ [vx, vy], { top, size, heading }) {
+  const speed = Math.hypot(vx, vy);
+  if (!Number.isFinite(speed)) return null;
+  const longest = Math.min(size.width, size.height) / 5;
+  const by = (heading * longest * Math.min(1, (1.5 * top) / speed)) / top;
+  return [by * vx, -by * vy];
 }
 
 /** The title of a circuit: "a full turn, branch 1", "−75.5° to 75.5°, branch 1 and −1". */
-export function circuitTitle(linkage, { passes, closed }) {
-  const formatInput = (at) => (linkage.input.isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
+export function circuitTitle(isLength, /** @type {Circuit} */ { passes, closed }) {
+  const formatInput = (at) => (isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
-  const branches = [...new Set(passes.map(({ signs }) => branchLabel(linkage, signs)))].filter(Boolean);
+  const branches = [...new Set(passes.map(({ sides }) => branchLabel(sides)))].filter(Boolean);
   const turns =
     passes.every((pass) => Math.sign(pass.to - pass.from) === Math.sign(passes[0].to - passes[0].from)) &&
     closed;
@@ -141,12 +117,34 @@ function turnsLabel(degrees) {
 }
 
 // The sides of all two-valued joints: 1 left, −1 right.
-function branchLabel({ dyads }, signs) {
-  return Array.from({ length: dyads }, (_, k) => (sideOf(signs, k) > 0 ? "1" : "−1")).join("/");
+function branchLabel(sides) {
+  return sides.map((side) => (side > 0 ? "1" : "−1")).join("/");
 }
 
-/** A number with a fixed number of decimals and a true minus sign. */
-export function formatDecimals(value, decimals) {
-  const text = value.toFixed(decimals);
-  return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
+/** A few sentences that describe the drawing. @param {Family} family @param {Study} study */
+export function summaryOfStudy(family, curve, study, isRecorded) {
+  const { circuits, shown, mechanism, joint, joints, four_bar: fourBar } = study;
+  const words = [];
+  const moving = mechanism.bars.length + mechanism.plates.length;
+  const kind = fourBar ? `A four-bar, ${fourBar.class}` : `A linkage of ${moving} moving links`;
+  words.push(`${kind}, ${mechanism.fixed.length} fixed pivots, tracing point ${joints[joint]}.`);
+  words.push(`Its circuit: ${circuitTitle(study.is_length, circuits[shown])}.`);
+  const box = study.curve_box;
+  words.push(`The curve is ${formatLength(box[2] - box[0])} wide and ${formatLength(box[3] - box[1])} high.`);
+  const of = (name) => (isRecorded ? measureValue(family, curve, name) : undefined);
+  // A family may be measured only in part.
+  if (of("straight_length") && of("straight_deviation") !== undefined) {
+    words.push(
+      `Its straightest portion is ${formatLength(of("straight_length"))} long, ` +
+        `within ${formatLength(of("straight_deviation"))}.`,
+    );
+  }
+  if (of("mu_min_deg") !== undefined && of("mu_max_deg") !== undefined) {
+    words.push(
+      `Transmission angle from ${formatDecimals(of("mu_min_deg"), 1)} ` +
+        `to ${formatDecimals(of("mu_max_deg"), 1)} degrees.`,
+    );
+  }
+  if (!isRecorded) words.push("Its parameters or its circuit differ from the atlas.");
+  return words.join(" ");
 }

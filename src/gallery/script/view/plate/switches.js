@@ -1,126 +1,83 @@
 // Checkboxes for the overlays, and the choice of the circuit.
 
-import { fill, h } from "../dom.js";
+import { choiceBox, figures, fill, h } from "../dom.js";
 import { cognatesOfStudy, OVERLAYS } from "./overlays.js";
 import { circuitTitle } from "./study.js";
-import { formatLength } from "./speed-view.js";
+import { formatLength } from "../labels.js";
 
 /** Checkboxes and circuits. `on` has overlay(name, isOn) and circuit(k). */
 export class Switches {
-  constructor(on) {
+  constructor(/** @type {Plate} */ on) {
     this.on = on;
-    this.boxes = new Map(
-      OVERLAYS.map(({ name, label }) => {
-        const box = h("input", {
-          type: "checkbox",
-          name: `show-${name}`,
-          onchange: () => on.overlay(name, box.checked),
-        });
-        return [name, { box, row: h("label", { class: "check" }, box, label) }];
-      }),
-    );
-    this.lengths = h("div", { class: "cognate-lengths" });
-    this.circuits = h("div", { class: "circuits", role: "radiogroup", "aria-label": "Circuits" });
-    this.aside = h(
-      "p",
-      { class: "note", hidden: true },
-      "The atlas does not contain this circuit. Files are exported from this page’s solution; no command " +
-        "line names the circuit yet, and the manifest fragment selects all circuits.",
-    );
-    this.circuitSection = h(
-      "section",
-      { class: "gauge circuits-gauge" },
-      h("h3", {}, "Circuits"),
-      this.circuits,
-      this.aside,
-    );
+    this.boxes = OVERLAYS.map(({ name, label, there }) => {
+      const onchange = ({ target }) => on.overlay(name, target.checked);
+      return { name, there, ...choiceBox("checkbox", { name: `show-${name}`, onchange }, label) };
+    });
+    this.lengths = h("div.cognate-lengths");
+    this.circuits = h("div.circuits", { role: "radiogroup", "aria-label": "Circuits" });
+    this.aside = h("p.note", { hidden: true }, "The atlas does not contain this circuit.");
+    this.circuitSection = h("section.gauge.circuits-gauge", h("h3", "Circuits"), this.circuits, this.aside);
     this.element = h(
-      "section",
-      { class: "gauge switches" },
-      h("h3", {}, "Overlays"),
+      "section.gauge.switches",
+      h("h3", "Overlays"),
       h(
-        "div",
-        { class: "checks" },
-        [...this.boxes.values()].map(({ row }) => row),
+        "div.checks",
+        this.boxes.map(({ element }) => element),
       ),
       this.lengths,
     );
   }
 
   /**
-   * `candidates` has the linkage and routes of the current parameters, `study` is what is drawn, `isExtra`
+   * `candidates` has the circuits of the current parameters, `study` is what is drawn, `isExtra`
    * says whether the atlas lacks its circuit.
    */
-  show(candidates, study, on, isExtra) {
-    for (const { name, there } of OVERLAYS) {
-      const { box, row } = this.boxes.get(name);
-      row.hidden = !study || !there(study);
-      box.checked = on.has(name);
+  show(/** @type {Candidates} */ candidates, /** @type {Study | null} */ study, on, isExtra) {
+    for (const { name, there, input, element } of this.boxes) {
+      element.hidden = !study || !there(study);
+      input.checked = on.has(name);
     }
     this.#cognates(study, on);
-    const routes = candidates?.routes ?? [];
+    const circuits = candidates?.circuits ?? [];
     fill(
       this.circuits,
-      routes.map((route, k) => this.#circuit(candidates, route, k)),
+      circuits.map((circuit, k) => this.#circuit(candidates, circuit, k)),
     );
-    this.circuitSection.hidden = routes.length < 2;
+    this.circuitSection.hidden = circuits.length < 2;
     this.aside.hidden = !isExtra;
   }
 
-  #circuit({ linkage, home, shown }, route, k) {
-    const radio = h("input", {
-      type: "radio",
+  /** @param {Candidates} _ @param {Circuit} circuit */
+  #circuit(
+    /** @type {Candidates} */ { is_length: isLength, home, shown },
+    /** @type {Circuit} */ circuit,
+    k,
+  ) {
+    const attributes = {
       name: "circuit",
       value: k + 1,
       checked: k === shown,
       onchange: () => this.on.circuit(k),
-    });
-    const words = `${k + 1}: ${circuitTitle(linkage, route)}`;
-    return h(
-      "label",
-      { class: "check" },
-      radio,
-      h("span", {}, words, k === home ? h("span", { class: "note" }, " · this curve") : null),
-    );
+    };
+    const words = `${k + 1}: ${circuitTitle(isLength, circuit)}`;
+    const label = h("span", words, k === home ? h("span.note", " · this curve") : null);
+    return choiceBox("radio", attributes, label).element;
   }
 
-  #cognates(study, on) {
+  #cognates(/** @type {Study | null} */ study, /** @type {Set<string>} */ on) {
     const pair = study && on.has("cognates") ? cognatesOfStudy(study) : null;
     this.lengths.hidden = !pair;
     if (!pair) return;
-    const head = ["", "original", "first", "second"];
-    const rows = ["frame", "crank", "coupler", "rocker", "along", "across"].map((name, k) => [
-      name,
-      pair.cognates.map(({ lengths, point }) => lengths[name] ?? point[k - 4]),
-    ]);
-    const row = ([name, values]) =>
-      h(
-        "tr",
-        {},
-        h("th", { scope: "row", class: "text" }, name),
-        values.map((x) => h("td", {}, formatLength(x))),
-      );
-    fill(
-      this.lengths,
-      h(
-        "div",
-        { class: "scroll" },
-        h(
-          "table",
-          { class: "figures" },
-          h("caption", { class: "visually-hidden" }, "The three four-bars that trace this curve"),
-          h(
-            "thead",
-            {},
-            h(
-              "tr",
-              {},
-              head.map((word) => h("th", { scope: "col" }, word)),
-            ),
-          ),
-          h("tbody", {}, rows.map(row)),
-        ),
-      ),
+    const head = ["", "original", "first", "second"].map((word) => h("th", { scope: "col" }, word));
+    /** @type {(keyof Lengths)[]} */ const names = ["frame", "crank", "coupler", "rocker", "along", "across"];
+    const row = (/** @type {keyof Lengths} */ name) => [
+      h("th.text", { scope: "row" }, name),
+      pair.lengths.map((lengths) => h("td", formatLength(lengths[name]))),
+    ];
+    const body = h(
+      "tbody",
+      names.map((name) => h("tr", row(name))),
     );
+    fill(this.lengths, h("div.scroll", figures("", "The three four-bars that trace this curve", head, body)));
   }
 }

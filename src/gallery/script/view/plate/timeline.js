@@ -4,13 +4,11 @@
 // Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
 // there.
 
-import { easedInput } from "../../kinematics/spacing.js";
-
 /**
- * The timeline of a circuit { passes, closed }: { passes, closed, starts, whole }, where `starts` has the
- * part at which each pass starts and `whole` is the total input travel.
+ * The timeline of a circuit: `starts` has the part at which each pass starts, `whole` is the total input travel.
+ * @param {Circuit} _
  */
-export function timelineOf({ passes, closed }) {
+export function timelineOf(/** @type {Circuit} */ { passes, closed }) {
   const lengths = passes.map(({ from, to }) => Math.abs(to - from));
   const whole = lengths.reduce((sum, length) => sum + length, 0);
   const starts = new Float64Array(passes.length + 1);
@@ -22,7 +20,7 @@ export function timelineOf({ passes, closed }) {
 }
 
 /** Sets `place` to the pass index and the input at a part of a timeline. */
-export function placeAtPart({ passes, starts }, part, place) {
+export function placeAtPart(/** @type {Timeline} */ { passes, starts }, part, /** @type {Place} */ place) {
   let k = 0;
   while (k < passes.length - 1 && part >= starts[k + 1]) k += 1;
   const share = (part - starts[k]) / (starts[k + 1] - starts[k]);
@@ -33,11 +31,22 @@ export function placeAtPart({ passes, starts }, part, place) {
   return place;
 }
 
-/** The part of a timeline at which a pass has an input. */
+/**
+ * The input at a part of a pass, dense towards the ends where two links are in line: there a joint's place goes
+ * with the root of the input, and this makes it go evenly.
+ */
+function easedInput(/** @type {Pass} */ { from, to, from_is_flat: fromFlat, to_is_flat: toFlat }, part) {
+  let eased = part;
+  if (fromFlat && toFlat) eased = (1 - Math.cos(Math.PI * part)) / 2;
+  else if (fromFlat) eased = 1 - Math.cos((Math.PI / 2) * part);
+  else if (toFlat) eased = Math.sin((Math.PI / 2) * part);
+  return from + (to - from) * eased;
+}
+
+/** The part of a timeline at which a pass has an input. @param {Timeline} _ */
 export function partOfInput({ passes, starts }, k, input) {
-  const { from, to, begin, end } = passes[k];
+  const { from, to, from_is_flat: fromFlat, to_is_flat: toFlat } = passes[k];
   const eased = to === from ? 0 : Math.min(Math.max((input - from) / (to - from), 0), 1);
-  const [fromFlat, toFlat] = [begin.flat !== 0, end.flat !== 0];
   let share = eased;
   if (fromFlat && toFlat) share = Math.acos(1 - 2 * eased) / Math.PI;
   else if (fromFlat) share = Math.acos(1 - eased) / (Math.PI / 2);
@@ -48,7 +57,7 @@ export function partOfInput({ passes, starts }, k, input) {
 /**
  * The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation.
  */
-export function turningParts({ passes, closed, starts }) {
+export function turningParts(/** @type {Timeline} */ { passes, closed, starts }) {
   const parts = [];
   passes.forEach((pass, k) => {
     const before = passes[k - 1] ?? (closed ? passes[passes.length - 1] : null);
@@ -59,7 +68,7 @@ export function turningParts({ passes, closed, starts }) {
   return parts;
 }
 
-/** Wraps a part onto a closed timeline, or clamps it to the ends of an open one. */
+/** Wraps a part onto a closed timeline, or clamps it to the ends of an open one. @param {Timeline} _ */
 export function clampPart({ closed }, part) {
   return closed ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1);
 }
@@ -70,7 +79,7 @@ export function clampPart({ closed }, part) {
  * the input reverses, it stays at the limit; a drag more than `slack` beyond returns on the other branch,
  * which `place.isBeyond` records.
  */
-export function followInput(timeline, place, wanted, slack) {
+export function followInput(/** @type {Timeline} */ timeline, /** @type {Place} */ place, wanted, slack) {
   const { passes, closed } = timeline;
   let target = wanted;
   for (let guard = 0; guard <= passes.length + 1; guard++) {
@@ -106,7 +115,7 @@ export function followInput(timeline, place, wanted, slack) {
   return target;
 }
 
-function adjacentPass(passes, k, forward, closed) {
+function adjacentPass(/** @type {Pass[]} */ passes, k, forward, closed) {
   const next = k + (forward ? 1 : -1);
   if (next >= 0 && next < passes.length) return next;
   return closed ? (next + passes.length) % passes.length : null;
@@ -116,7 +125,7 @@ function adjacentPass(passes, k, forward, closed) {
  * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged
  * joint follows its path with it.
  */
-export function nearestPart(timeline, from, distance, reach = 0.15) {
+export function nearestPart(/** @type {Timeline} */ timeline, from, distance, reach = 0.15) {
   const STEPS = 24;
   const at = (part) => distance(clampPart(timeline, part));
   const [low, high] = timeline.closed

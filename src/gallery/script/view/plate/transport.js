@@ -1,7 +1,7 @@
 // The playback controls: play and pause, speed, the slider over the circuit, steps, and limits.
 
-import { h } from "../dom.js";
-import { formatDecimals } from "./study.js";
+import { buttonOf, h, isShortcut, selectOf } from "../dom.js";
+import { formatDecimals } from "../labels.js";
 
 /** Playback rates, in degrees of input per second, and their labels. */
 const PLAY_RATES = [
@@ -17,16 +17,10 @@ const PLAY_RATES = [
  * and `playing(isPlaying)` update them.
  */
 export class Transport {
-  constructor(drive, stage) {
-    this.play = h("button", {
-      type: "button",
-      class: "play",
-      onclick: () => drive.toggle(),
-      "aria-keyshortcuts": "Space",
-    });
-    this.scrub = h("input", {
+  constructor(/** @type {Drive} */ drive, /** @type {Stage} */ stage) {
+    this.play = buttonOf("", () => drive.toggle(), { class: "play", "aria-keyshortcuts": "Space" });
+    this.scrub = h("input.scrub", {
       type: "range",
-      class: "scrub",
       min: "0",
       max: "1",
       step: "any",
@@ -35,41 +29,28 @@ export class Transport {
       oninput: () => drive.seekAndPause(Number(this.scrub.value)),
       onkeydown: (event) => stepByKey(event, drive),
     });
-    this.input = h("span", { class: "input-now" });
-    this.ends = h("p", { class: "note ends" });
-    this.straight = h("p", { class: "note straight-note" });
-    this.rate = h(
-      "select",
-      { "aria-label": "Playback speed", class: "rate" },
-      PLAY_RATES.map(([rate, label]) => h("option", { value: rate, selected: rate === 60 }, `${label} ×`)),
-    );
+    this.input = h("span.input-now");
+    this.ends = h("p.note.ends");
+    this.straight = h("p.note.straight-note");
+    const rates = PLAY_RATES.map(([rate, label]) => [rate, `${label} ×`]);
+    this.rate = selectOf({ class: "rate", "aria-label": "Playback speed" }, rates, 60);
     const button = (label, title, onclick, keys) =>
-      h(
-        "button",
-        { type: "button", class: "step", title, "aria-label": title, "aria-keyshortcuts": keys, onclick },
-        label,
-      );
+      buttonOf(label, onclick, { class: "step", title, "aria-label": title, "aria-keyshortcuts": keys });
     this.toLimits = [
       button("⇤", "Previous limit or start", () => drive.toLimit(-1), "Home"),
       button("⇥", "Next limit or end", () => drive.toLimit(1), "End"),
     ];
+    const zooms = [
+      button("−", "Zoom out", () => stage.zoom(1 / 1.3), "-"),
+      button("+", "Zoom in", () => stage.zoom(1.3), "+"),
+      button("Fit", "Fit to frame", () => stage.fit(), "0"),
+    ];
+    const notes = h("div.motion-notes", this.ends, this.straight);
     this.element = h(
-      "div",
-      { class: "transport", role: "group", "aria-label": "Motion" },
-      h("div", { class: "drive" }, this.play, this.toLimits[0], this.scrub, this.toLimits[1], this.input),
-      h(
-        "div",
-        { class: "toolbar" },
-        h("div", { class: "motion-notes" }, this.ends, this.straight),
-        h(
-          "span",
-          { class: "end zooms" },
-          this.rate,
-          button("−", "Zoom out", () => stage.zoom(1 / 1.3), "-"),
-          button("+", "Zoom in", () => stage.zoom(1.3), "+"),
-          button("Fit", "Fit to frame", () => stage.fit(), "0"),
-        ),
-      ),
+      "div.transport",
+      { role: "group", "aria-label": "Motion" },
+      h("div.drive", this.play, this.toLimits[0], this.scrub, this.toLimits[1], this.input),
+      h("div.toolbar", notes, h("span.end.zooms", this.rate, zooms)),
     );
     this.announced = 0;
     this.playing(false);
@@ -80,8 +61,8 @@ export class Transport {
     return Number(this.rate.value);
   }
 
-  show({ linkage, timeline, shortfall }, title) {
-    this.isLength = linkage.input.isLength;
+  show(/** @type {Study} */ { is_length: isLength, timeline, shortfall }, title) {
+    this.isLength = isLength;
     this.timeline = timeline;
     this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
     this.#enable(true);
@@ -123,10 +104,10 @@ export class Transport {
 }
 
 /** Arrow keys step by a degree, or a fraction of a stroke, with Shift by ten; Home and End move to limits. */
-export function stepByKey(event, drive) {
+export function stepByKey(event, /** @type {Drive} */ drive) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
   const limits = { Home: -1, End: 1 };
-  if (event.ctrlKey || event.metaKey || event.altKey) return false;
+  if (isShortcut(event)) return false;
   if (event.key in ways)
     drive.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
   else if (event.key in limits) drive.toLimit(limits[event.key]);

@@ -1,34 +1,61 @@
-// A result of the search by shape.
+// A result of the search by shape: a curve with the best fit of the shape overlaid.
 
+import { curvePoints, curveCaption, curveKey } from "../../data/family.js";
+import { inverted, transformed } from "../../shape/similarity.js";
+import { portion } from "../../shape/outline.js";
+import { placedData } from "../../draw/path-data.js";
+import { boxOfPoints, fittedView } from "../../draw/plane-view.js";
+import { h, s, setAttributes, thumbnailFrame } from "../dom.js";
 import { address } from "../../data/address.js";
-import { curveCaption, curveKey } from "../../data/family.js";
-import { h } from "../dom.js";
 import { formatCaption } from "../labels.js";
-import { pinButton } from "../pin-button.js";
-import { matchPicture } from "./match-picture.js";
+import { pinButton } from "../pins.js";
 
-/** The list item of a result of `searchByShape` for a shape with the options of a query (query.js). */
-export function matchItem(app, one, shape, { by, part }) {
+/**
+ * The list item of a result of `searchByShape` for a shape with the options of a query (query.js).
+ * @param {App} app @param {Match} one @param {Shape} shape
+ */
+export function matchItem(app, one, shape, /** @type {ShapeQuery} */ { by, part }) {
   const { family, curve, name } = one;
   const caption = curveCaption(family, curve);
   const other = by === "rms" ? "greatest" : "rms";
   const percent = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
   const share = part ? `, ${Math.round(100 * (one.to - one.from))} % of the curve` : "";
-  return h(
-    "li",
-    {},
-    h(
-      "a",
-      { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
-      matchPicture(one, shape, { width: 220, height: 170 }),
-      h("span", { class: "label" }, h("b", {}, percent(by)), ` ${percent(other)}${share}`),
-      h("span", { class: "label" }, formatCaption(caption || name)),
-    ),
-    h(
-      "span",
-      { class: "acts" },
-      h("a", { href: address(["shape"], { like: name }) }, "Find similar"),
-      pinButton(app, name, { class: "quiet" }, "Pin", h("span", { class: "visually-hidden" }, ` ${name}`)),
-    ),
+  const href = address([family.id, "curve", curveKey(family, curve)]);
+  const picture = matchPicture(one, shape, { width: 220, height: 170 });
+  const deviations = h("span.label", h("b", percent(by)), ` ${percent(other)}${share}`);
+  const label = h("span.label", formatCaption(caption || name));
+  const words = ["Pin", h("span.visually-hidden", ` ${name}`)];
+  const pin = pinButton(app, name, { class: "quiet" }, ...words);
+  const similar = h("a", { href: address(["shape"], { like: name }) }, "Find similar");
+  const link = h("a", { href, "data-name": name }, picture, deviations, label);
+  return h("li", link, h("span.acts", similar, pin));
+}
+
+const MATCH_INSET = 6;
+
+/**
+ * The picture of a result of `searchByShape` with the shape overlaid, `width` × `height` pixels.
+ * @param {Match} _ @param {Shape} shape @param {Size} _2
+ */
+export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
+  const points = curvePoints(family, curve);
+  const closed = family.curves.closed[curve] === 1;
+  const fitted = transformed(inverted(similarity), shape.points);
+  const view = viewOfOutlines([points, fitted], width, height);
+  const isPart = from !== 0 || to !== 1;
+  const part = isPart ? portion(points, closed, from, to, 96).points : points;
+  const frame = thumbnailFrame(
+    ".match-picture",
+    { width, height },
+    s("path", { class: isPart ? "rest" : "curve", d: placedData(points, closed, view) }),
+    isPart ? s("path.curve", { d: placedData(part, false, view) }) : null,
+    s("path.query-shape", { d: placedData(fitted, shape.closed, view) }),
   );
+  setAttributes(frame, { width, height });
+  return frame;
+}
+
+/** The placement that fits outlines into a frame, `inset` pixels from its edges. @param {Points[]} outlines */
+export function viewOfOutlines(/** @type {Points[]} */ outlines, width, height, inset = MATCH_INSET) {
+  return fittedView(boxOfPoints(...outlines), { width, height, margin: inset });
 }

@@ -2,7 +2,8 @@
 
 import { simplified } from "../../shape/encode.js";
 import { looksClosed } from "../../shape/outline.js";
-import { fill, h, s } from "../dom.js";
+import { boxOfPoints, fittedView, pointPairs, screenPoint } from "../../draw/plane-view.js";
+import { fill, h, s, isShortcut } from "../dom.js";
 
 const PAD_WIDTH = 400;
 const PAD_HEIGHT = 300;
@@ -11,17 +12,22 @@ const PEN_STEP = 5;
 
 /** A pad of 400 × 300; calls `ondrawn(points, closed)` with a finished shape, y up. */
 export class DrawingPad {
+  /** @type {Point[]} */ points = [];
+  /** @type {Point} */ pen = [PAD_WIDTH / 2, PAD_HEIGHT / 2];
+  closed = false;
+  /** Whether the points were set by keys. */
+  isByKeys = false;
+
+  /** @param {(points: Float64Array, closed: boolean) => void} ondrawn @param {App["announce"]} announce */
   constructor(ondrawn, announce) {
-    Object.assign(this, { ondrawn, announce });
-    this.points = [];
-    this.pen = [PAD_WIDTH / 2, PAD_HEIGHT / 2];
-    this.line = s("path", { class: "drawn" });
-    this.dots = s("g", { class: "dots" });
-    this.cross = s("path", { class: "pen", d: "M-7 0h14M0-7v14" });
+    this.ondrawn = ondrawn;
+    this.announce = announce;
+    this.line = s("path.drawn");
+    this.dots = s("g.dots");
+    this.cross = s("path.pen", { d: "M-7 0h14M0-7v14" });
     this.element = s(
-      "svg",
+      "svg.pad",
       {
-        class: "pad",
         viewBox: `0 0 ${PAD_WIDTH} ${PAD_HEIGHT}`,
         tabindex: "0",
         role: "application",
@@ -30,29 +36,22 @@ export class DrawingPad {
         onpointerdown: (event) => this.startStroke(event),
         onkeydown: (event) => this.handleKey(event),
       },
-      s("path", { class: "grid", d: gridLines() }),
+      s("path.grid", { d: gridLines() }),
       this.line,
       this.dots,
       this.cross,
     );
-    this.help = h(
-      "p",
-      { class: "note", id: "pad-help" },
-      "Draw in one stroke. Keys: arrows move the pen (Shift: further), Enter adds a point, ",
-      "Backspace removes the last point, C closes the curve, Escape clears it.",
-    );
+    const keys =
+      "Draw in one stroke. Keys: arrows move the pen (Shift: further), Enter adds a point, " +
+      "Backspace removes the last point, C closes the curve, Escape clears it.";
+    this.help = h("p.note", { id: "pad-help" }, keys);
   }
 
   /** Shows a shape, fitted into the pad. */
-  show(points, closed) {
-    const [xs, ys] = [0, 1].map((part) => Array.from(points).filter((_, k) => k % 2 === part));
-    const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    const scale = Math.min((PAD_WIDTH - 40) / (x1 - x0 || 1), (PAD_HEIGHT - 40) / (y1 - y0 || 1));
-    const place = (k) => [
-      PAD_WIDTH / 2 + scale * (points[k] - (x0 + x1) / 2),
-      PAD_HEIGHT / 2 - scale * (points[k + 1] - (y0 + y1) / 2),
-    ];
-    this.points = xs.map((_, k) => place(2 * k));
+  show(/** @type {Points} */ points, closed) {
+    const size = { width: PAD_WIDTH, height: PAD_HEIGHT, margin: 20 };
+    const view = fittedView(boxOfPoints(points), size);
+    this.points = pointPairs(points).map((point) => screenPoint(view, point));
     this.closed = closed;
     this.isByKeys = false;
     this.render();
@@ -70,6 +69,7 @@ export class DrawingPad {
     this.cross.setAttribute("transform", `translate(${this.pen[0]} ${this.pen[1]})`);
   }
 
+  /** @returns {Point} */
   placeOf({ clientX, clientY }) {
     const box = this.element.getBoundingClientRect();
     const scale = Math.min(box.width / PAD_WIDTH, box.height / PAD_HEIGHT);
@@ -84,7 +84,8 @@ export class DrawingPad {
     event.preventDefault();
     this.element.focus({ preventScroll: true });
     this.element.setPointerCapture(event.pointerId);
-    [this.points, this.closed, this.isByKeys] = [[this.placeOf(event)], false, false];
+    this.points = [this.placeOf(event)];
+    this.closed = this.isByKeys = false;
     this.render();
     this.element.onpointermove = (moved) => {
       const seen = moved.getCoalescedEvents?.() ?? [];
@@ -101,7 +102,7 @@ export class DrawingPad {
     return Float64Array.from(this.points.flatMap(([x, y]) => [x, PAD_HEIGHT - y]));
   }
 
-  finish(closed = null) {
+  finish(/** @type {boolean | null} */ closed = null) {
     if (this.points.length < 2) return;
     const flat = this.flat();
     this.closed = closed ?? looksClosed(flat);
@@ -121,7 +122,7 @@ export class DrawingPad {
       Escape: () => this.clear(),
       c: () => this.finish(true),
     };
-    if (event.ctrlKey || event.metaKey || event.altKey || (!move && !acts[event.key])) return;
+    if (isShortcut(event) || (!move && !acts[event.key])) return;
     event.preventDefault();
     if (!move) return void acts[event.key]();
     this.pen = [

@@ -6,25 +6,18 @@ import { queryShape } from "../../shape/query-shape.js";
 import { decodeShape, encodeShape } from "../../shape/encode.js";
 import { addCandidates, rankCandidates } from "../../shape/search.js";
 import { fill, h } from "../dom.js";
-import { familyChooser } from "../find/families.js";
-import { loadAllLine } from "../find/load-all.js";
-import { MAX_AUTOLOAD_BYTES, requestedFamilies } from "../find/loading.js";
-import { watchPins } from "../pin-button.js";
-import { matchesRoute, routeAddress } from "../route-address.js";
-import { needPart, releaseIndexes, searchedParts, shapeIndex } from "./indexes.js";
+import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
+import { needPart, releaseIndexes, searchedParts, shapeIndex, runInSlices } from "./indexes.js";
+import { shapeLayout } from "./layout.js";
 import { matchItem } from "./match-item.js";
-import { shapeOptions } from "./options.js";
 import { DrawingPad } from "./pad.js";
-import { pasteField } from "./paste.js";
-import { formatShapeQuery, parseShapeQuery } from "./query.js";
-import { runInSlices } from "./slices.js";
+import { formatShapeQuery, parseShapeQuery, shapeOptions } from "./query.js";
+import { matchesRoute, routeAddress } from "../../data/address.js";
+import { watchPins } from "../pins.js";
 
 const MAX_RESULTS = 36;
 
-/**
- * The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`,
- * `family`.
- */
+/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`. */
 export const shapeRoute = {
   name: "shape",
   label: "By shape",
@@ -33,72 +26,39 @@ export const shapeRoute = {
   open: async (app, { query }) => {
     const view = new ShapeView(app, query);
     await view.start();
-    return {
-      title: "By shape",
-      element: view.element,
-      update: (target) => view.update(target.query),
-      leave: () => view.leave(),
-    };
+    return view;
   },
 };
 
-class ShapeView {
-  constructor(app, query) {
+export class ShapeView {
+  title = "By shape";
+  /** @type {Shape | null} */ shape = null;
+  /** What is searched, and how much of all that is. @type {SearchedPart[]} */
+  parts = [];
+  /** @type {LoadState} */ state = { done: false, curves: 0, total: 0, bytes: 0 };
+  /** A later turn stops what an earlier one does. */
+  turn = 0;
+  limit = MAX_AUTOLOAD_BYTES;
+  unwatch = () => {};
+
+  constructor(/** @type {App} */ app, /** @type {Query} */ query) {
     this.app = app;
-    this.turn = 0;
-    this.limit = MAX_AUTOLOAD_BYTES;
-    this.parts = null;
     this.loadAll = loadAllLine(() => {
       this.limit = Infinity;
       this.open();
     });
-    this.pad = new DrawingPad(
-      (points, closed) => this.setDrawnShape(points, closed),
-      (text) => app.announce(text),
-    );
-    this.status = h("p", { class: "counted" }, "Draw or paste a curve, or start from a curve of the atlas");
-    this.results = h("ol", { class: "matches" });
-    this.families = h("div", {});
+    this.pad = new DrawingPad((points, closed) => this.setDrawnShape(points, closed), app.announce);
+    this.status = h("p.counted", "Draw or paste a curve, or start from a curve of the atlas");
+    this.results = h("ol.matches");
+    this.families = h("div");
     this.query = parseShapeQuery(query);
     this.options = shapeOptions(this.query, () => this.submit());
-    this.element = this.buildElement();
-  }
-
-  buildElement() {
-    const clear = () => {
-      this.pad.clear();
-      this.pad.element.focus();
-    };
-    const use = ({ points, closed, said }) => {
-      this.pad.show(points, closed);
-      this.setDrawnShape(points, closed);
-      this.app.announce(`${said} read`);
-    };
-    return h(
-      "div",
-      { class: "view wide shape-view" },
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, "By shape"), this.status, this.loadAll.element)),
-      h(
-        "div",
-        { class: "shape-split" },
-        h(
-          "div",
-          { class: "panel" },
-          this.pad.element,
-          this.pad.help,
-          h("div", { class: "toolbar" }, h("button", { type: "button", onclick: clear }, "Clear")),
-          this.options.element,
-          pasteField(use),
-          this.families,
-        ),
-        this.results,
-      ),
-    );
+    this.element = shapeLayout(this);
   }
 
   async start() {
     await this.loadShape();
-    this.unwatch ??= watchPins(this.app, this.element);
+    this.unwatch = watchPins(this.app, this.element);
     this.open();
   }
 
@@ -108,14 +68,12 @@ class ShapeView {
     this.turn += 1;
     const turn = this.turn;
     const listed = requestedFamilies(app.atlas, query.families);
-    fill(
-      this.families,
-      familyChooser(app.atlas, listed, (families) => {
-        query.families = families;
-        this.writeAddress();
-        this.open();
-      }),
-    );
+    const choose = (ids) => {
+      query.families = ids;
+      this.writeAddress();
+      this.open();
+    };
+    fill(this.families, familyChooser(app.atlas, listed, choose));
     const families = [];
     for (const { id } of listed) {
       try {
@@ -169,14 +127,14 @@ class ShapeView {
     this.setShape(curvePoints(family, curve), family.curves.closed[curve] === 1);
   }
 
-  setShape(points, closed) {
+  setShape(/** @type {Float64Array} */ points, closed) {
     this.pad.show(points, closed);
     this.shape = queryShape(points, closed);
     this.query.part ??= !closed;
     this.options.mark();
   }
 
-  setDrawnShape(points, closed) {
+  setDrawnShape(/** @type {Float64Array} */ points, closed) {
     this.shape = queryShape(points, closed);
     if (!this.shape) return;
     Object.assign(this.query, { d: encodeShape(this.shape.points, closed), like: null, part: !closed });
@@ -186,7 +144,8 @@ class ShapeView {
 
   /** Searches all parts, one after another; a later search stops an earlier one. */
   async search() {
-    if (!this.shape || !this.parts) return;
+    const { shape } = this;
+    if (!shape || !this.state.done) return;
     this.turn += 1;
     const turn = this.turn;
     const stopped = () => turn !== this.turn;
@@ -196,8 +155,8 @@ class ShapeView {
     const options = { part: part === true, least, mirror, by };
     this.results.setAttribute("aria-busy", "true");
     const began = performance.now();
-    const candidates = await this.candidates(options, stopped);
-    const found = candidates && (await runInSlices(rankCandidates(candidates, this.shape, options), stopped));
+    const candidates = await this.candidates(shape, options, stopped);
+    const found = candidates && (await runInSlices(rankCandidates(candidates, shape, options), stopped));
     if (!found) return;
     this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
     const items = [];
@@ -205,7 +164,7 @@ class ShapeView {
     for (const one of found.slice(0, MAX_RESULTS)) {
       await needCurves(one.family, [one.curve]);
       if (stopped()) return;
-      items.push(matchItem(this.app, one, this.shape, this.query));
+      items.push(matchItem(this.app, one, shape, this.query));
     }
     this.show(items);
     // Prepares the index for partial curves while idle.
@@ -216,9 +175,9 @@ class ShapeView {
     }
   }
 
-  /** The candidates of all parts; null if stopped. */
-  async candidates(options, stopped) {
-    let candidates = [];
+  /** The candidates of all parts; null if stopped. @param {SearchOptions} options */
+  async candidates(/** @type {Shape} */ shape, /** @type {SearchOptions} */ options, stopped) {
+    /** @type {Candidate[]} */ let candidates = [];
     let searched = 0;
     // The points of one part may be dropped while another one is searched.
     const isTransient = this.parts.some(({ isKept }) => !isKept);
@@ -234,7 +193,7 @@ class ShapeView {
       if (stopped()) return null;
       const index = await shapeIndex(one, options.part ? options.least : null, stopped);
       if (!index) return null;
-      const search = addCandidates(candidates, index, this.shape, options, isTransient);
+      const search = addCandidates(candidates, index, shape, options, isTransient);
       candidates = await runInSlices(search, stopped);
       if (!candidates) return null;
       searched += one.count;
@@ -267,16 +226,11 @@ class ShapeView {
     this.app.replace(routeAddress("shape", formatShapeQuery(this.query), this.app));
   }
 
-  /** An address with another shape opens a new view. */
-  update() {
-    return false;
-  }
-
   leave() {
     this.turn += 1;
-    this.unwatch?.();
+    this.unwatch();
     // The index of a large family is built again when it is searched again.
-    const isLarge = this.parts?.some(({ isKept }) => !isKept) || this.state?.curves < this.state?.total;
+    const isLarge = this.parts.some(({ isKept }) => !isKept) || this.state.curves < this.state.total;
     if (isLarge) releaseIndexes(this.parts);
   }
 }

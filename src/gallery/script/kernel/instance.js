@@ -1,0 +1,107 @@
+// An instance of the kernel: passes requests and answers through its linear memory. The requests are those of
+// crates/coupler-kernel/src/request.rs.
+
+/** A request that the kernel cannot answer, with a sentence that says why. */
+export class KernelError extends Error {}
+
+/** A failure of the kernel itself, after which its instance is not used again. */
+export class KernelFailure extends Error {}
+
+/** The numbers of a pose before the positions of the joints, as Kernel::POSE_HEADER. */
+export const POSE_HEADER = 15;
+
+/** A running kernel. */
+export class KernelInstance {
+  constructor(/** @type {WebAssembly.Module} */ module) {
+    this.exports = /** @type {KernelExports} */ (new WebAssembly.Instance(module, {}).exports);
+    this.exports.kernel_start();
+    this.view = new Float64Array();
+  }
+
+  /**
+   * The answer to a request, both as objects. Arrays of numbers are Float64Arrays of their own.
+   *
+   * @throws {KernelError} if the kernel cannot answer it
+   * @throws {KernelFailure} if the kernel fails
+   */
+  call(/** @type {object} */ request) {
+    const text = new TextEncoder().encode(JSON.stringify(request, exactNumbers));
+    const { json, numbers } = this.#guarded((kernel) => {
+      const place = kernel.kernel_allocate(text.length);
+      new Uint8Array(kernel.memory.buffer, place, text.length).set(text);
+      const parts = kernel.kernel_call(place, text.length);
+      // The call may have moved the memory.
+      const { buffer } = kernel.memory;
+      const [start, length, first, count] = new Uint32Array(buffer, parts, 4);
+      return {
+        json: new TextDecoder().decode(new Uint8Array(buffer, start, length)),
+        numbers: count ? new Float64Array(buffer, first, count) : new Float64Array(),
+      };
+    });
+    const answer = JSON.parse(json, (_, value) => {
+      if (!value?.$) return value;
+      const [start, length] = value.$;
+      return numbers.slice(start, start + length);
+    });
+    if (answer?.error !== undefined) throw new KernelError(answer.error);
+    return answer;
+  }
+
+  /**
+   * The numbers of a study's pose at an input of a pass (Kernel::pose), valid until the next call; empty if there
+   * is none.
+   *
+   * @throws {KernelFailure} if the kernel fails
+   */
+  pose(study, pass, input) {
+    return this.#guarded((kernel) => {
+      const place = kernel.kernel_pose(study, pass, input);
+      return this.#numbers(place, kernel.kernel_pose_length());
+    });
+  }
+
+  /**
+   * The position of a joint at an input of a pass, [x, y], valid until the next call.
+   *
+   * @throws {KernelFailure} if the kernel fails
+   */
+  jointPosition(study, joint, pass, input) {
+    return this.#guarded((kernel) =>
+      this.#numbers(kernel.kernel_joint_position(study, joint, pass, input), 2),
+    );
+  }
+
+  // The same view as before if it is of the same memory: there are sixty poses in a second.
+  #numbers(place, count) {
+    const { buffer } = this.exports.memory;
+    const { view } = this;
+    if (count === 0) return new Float64Array();
+    if (view.buffer !== buffer || view.byteOffset !== place || view.length !== count)
+      this.view = new Float64Array(buffer, place, count);
+    return this.view;
+  }
+
+  /** @template T @param {(kernel: KernelExports) => T} work */
+  #guarded(work) {
+    try {
+      return work(this.exports);
+    } catch (error) {
+      if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+      throw new KernelFailure(`the kernel failed: ${this.#panicMessage() || error.message}`);
+    }
+  }
+
+  #panicMessage() {
+    const { memory, kernel_panic_message: message, kernel_panic_length: length } = this.exports;
+    try {
+      return new TextDecoder().decode(new Uint8Array(memory.buffer, message(), length()));
+    } catch {
+      return "";
+    }
+  }
+}
+
+// The kernel reads numbers as strings to the last bit, which it does not do with those of JSON.
+function exactNumbers(_, value) {
+  return typeof value === "number" && !Number.isInteger(value) ? String(value) : value;
+}

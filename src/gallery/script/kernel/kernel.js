@@ -1,0 +1,147 @@
+// The kernel, which computes everything about linkages: families and their studies, by the page's own objects.
+//
+// After a failure of the kernel, a new instance replaces it, in which families and studies are opened again when
+// they are used.
+
+import { decodeBase64 } from "../data/packed.js";
+import { KernelFailure, KernelInstance } from "./instance.js";
+import { KernelStudy } from "./study.js";
+
+/** What does not work without the kernel, as a sentence. */
+export const NO_KERNEL =
+  "This browser does not run WebAssembly: linkages are not moved, changed, compared in detail or exported.";
+
+/** The kernel of a document, loaded when it is first needed. */
+export class KernelLoader {
+  constructor(/** @type {Document} */ document) {
+    this.document = document;
+    /** @type {Kernel | null} */ this.kernel = null;
+    /** @type {Promise<Kernel> | null} */ this.loading = null;
+  }
+
+  /** Resolves to the kernel. */
+  load() {
+    this.loading ??= this.#load();
+    return this.loading;
+  }
+
+  async #load() {
+    if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function")
+      throw new Error(NO_KERNEL);
+    try {
+      this.kernel = new Kernel(await compileKernel(this.document));
+    } catch (error) {
+      throw new Error(`${NO_KERNEL} (${error.message})`, { cause: error });
+    }
+    return this.kernel;
+  }
+}
+
+async function compileKernel(/** @type {Document} */ document) {
+  const packed = decodeBase64(document.getElementById("kernel")?.textContent);
+  const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+}
+
+/** A kernel with its open families. */
+export class Kernel {
+  constructor(/** @type {WebAssembly.Module} */ module) {
+    this.module = module;
+    this.instance = new KernelInstance(module);
+    /** @type {Map<string, KernelFamily>} */ this.families = new Map();
+  }
+
+  /**
+   * Calls `work` with the current instance, and replaces it if it fails.
+   * @template T @param {(instance: KernelInstance) => T} work
+   */
+  use(work) {
+    try {
+      return work(this.instance);
+    } catch (error) {
+      if (error instanceof KernelFailure) this.instance = new KernelInstance(this.module);
+      throw error;
+    }
+  }
+
+  /** The answer to a request. */
+  call(/** @type {object} */ request) {
+    return this.use((instance) => instance.call(request));
+  }
+
+  /** A family of the atlas (data/reader.js), opened. @param {Family} _ */
+  family({ id, manifest }) {
+    const family = this.families.get(id) ?? new KernelFamily(this, manifest);
+    this.families.set(id, family);
+    return family;
+  }
+
+  /**
+   * A curve of a family with changes: the values that its cell assigns; the others are derived from them.
+   * @param {Family} family @param {number} curve @param {Iterable<[string, number]>} changes @returns {KernelCurve}
+   */
+  curve(family, curve, changes = []) {
+    const { cells, curves, names, assignments } = family;
+    const cell = curves.cell[curve];
+    const value = (slot) => cells.values[cell * names.length + slot];
+    /** @type {CurveRequest} */ const request = {
+      cell: cells.number[cell],
+      curve: [curves.trace[curve], curves.circuit[curve]],
+      values: assignments[cells.assignment[cell]].map((slot) => [names[slot], value(slot)]),
+      changes: [...changes],
+    };
+    return { family: this.family(family), curve: request };
+  }
+
+  /**
+   * Opens the study of a curve, as `curve()` gives it, on the circuit with the index `shown` among all; by
+   * default on its own.
+   * @param {KernelCurve} requested @param {{ shown?: number | null, isRough?: boolean }} options
+   */
+  study(requested, { shown = null, isRough = false } = {}) {
+    return new KernelStudy(this, () => ({
+      method: "open_study",
+      curve: withHandle(requested),
+      shown,
+      is_rough: isRough,
+    }));
+  }
+
+  /** A curve as a file in a text format: { name, text }. @param {KernelCurve} requested */
+  export(requested, format) {
+    return this.call({ method: "export", curve: withHandle(requested), format });
+  }
+
+  /** A manifest fragment with the cells of curves. @param {KernelCurve[]} curves */
+  fragment(curves) {
+    return this.call({ method: "fragment", curves: curves.map(withHandle) }).text;
+  }
+}
+
+function withHandle(/** @type {KernelCurve} */ { family, curve }) {
+  return { ...curve, family: family.handle };
+}
+
+/** An open family of a kernel. */
+class KernelFamily {
+  /** @type {FamilyDescription} */ opened;
+
+  constructor(/** @type {Kernel} */ kernel, manifest) {
+    this.kernel = kernel;
+    this.manifest = manifest;
+    /** @type {KernelInstance | null} */ this.instance = null;
+  }
+
+  /** What the kernel says of the family. */
+  get description() {
+    if (this.instance !== this.kernel.instance) {
+      this.opened = this.kernel.call({ method: "open_family", manifest: this.manifest });
+      this.instance = this.kernel.instance;
+    }
+    return this.opened;
+  }
+
+  get handle() {
+    return this.description.family;
+  }
+}

@@ -1,0 +1,96 @@
+// A study of the kernel: the linkage of a curve in motion.
+
+/** The study of a curve that may not exist; all methods but `close` need one that exists. */
+export class KernelStudy {
+  /** What the kernel says of it. @type {StudyAnswer | MissingCurve} */
+  answer;
+  /** @type {object | null} */ instance = null;
+
+  /** `request()` gives the request that opens the study. @param {Kernel} kernel @param {() => object} request */
+  constructor(kernel, request) {
+    this.kernel = kernel;
+    this.request = request;
+    this.#handle();
+  }
+
+  /** Whether the curve exists; otherwise `answer.reason` says why not. */
+  get exists() {
+    return this.answer.study !== undefined;
+  }
+
+  /** Releases the study. */
+  close() {
+    if (this.exists && this.instance === this.kernel.instance) this.#ask("close_study");
+    this.instance = null;
+  }
+
+  /** The curve to a tolerance. @returns {CurvePath} */
+  path(tolerance) {
+    return this.#ask("path", { tolerance });
+  }
+
+  /** The speed at about `count` places. @returns {Speeds} */
+  speeds(count) {
+    return this.#ask("speeds", { count });
+  }
+
+  /** The measures; those that do not apply are absent. @returns {ComputedMeasures} */
+  measures() {
+    const { values, straight } = this.#ask("measures");
+    const infinities = { inf: Infinity, "-inf": -Infinity };
+    const there = Object.entries(values).filter(([, value]) => value !== null);
+    return {
+      straight,
+      values: Object.fromEntries(there.map(([name, value]) => [name, infinities[value] ?? value])),
+    };
+  }
+
+  /** @returns {Cognates | null} */
+  cognates() {
+    return this.#ask("cognates");
+  }
+
+  /** @returns {Centrodes | null} */
+  centrodes(samples) {
+    return this.#ask("centrodes", { samples });
+  }
+
+  /** The reading at the nearest point of the curve. */
+  nearest(x, y) {
+    return readingOf(this.#ask("nearest", { point: [x, y] }));
+  }
+
+  /** The reading at an input of a pass. */
+  reading(pass, input) {
+    return readingOf(this.#ask("reading", { pass, input }));
+  }
+
+  /** The numbers of the pose at an input of a pass (instance.js), valid until the next call. */
+  pose(pass, input) {
+    const study = this.#handle();
+    return this.kernel.use((instance) => instance.pose(study, pass, input));
+  }
+
+  /** The position of a joint at an input of a pass, [x, y], valid until the next call. */
+  jointPosition(joint, pass, input) {
+    const study = this.#handle();
+    return this.kernel.use((instance) => instance.jointPosition(study, joint, pass, input));
+  }
+
+  #ask(method, more = {}) {
+    return this.kernel.call({ method, study: this.#handle(), ...more });
+  }
+
+  #handle() {
+    if (this.instance !== this.kernel.instance) {
+      this.answer = this.kernel.call(this.request());
+      this.instance = this.kernel.instance;
+    }
+    return this.answer.study;
+  }
+}
+
+/** At limits the speed is infinite, which JSON cannot say. @returns {Reading | null} */
+function readingOf(answer) {
+  return answer && { ...answer, speed: answer.speed ?? Infinity };
+}

@@ -1,0 +1,246 @@
+// The shapes that pass between modules.
+type Box = ArrayLike<number> & Iterable<number>;
+/** Coordinates [x0, y0, x1, y1, …]. */
+type Points = ArrayLike<number>;
+type Point = [x: number, y: number];
+type Size = { width: number; height: number };
+/** Maps the plane to the screen: X = x + scale · px, Y = y − scale · py. */
+type Placement = { scale: number; x: number; y: number };
+/** A polyline [x0, y0, x1, y1, …], without a repeated first point if it is closed. */
+type Outline = { points: Float64Array; closed: boolean };
+/** z → (re + i·im) z̃ + (x + iy), where z̃ is the conjugate of z if mirrored, else z. */
+type Similarity = { mirror: boolean; re: number; im: number; x: number; y: number };
+type Complex = { re: Float64Array; im: Float64Array };
+type Matrix = [number, number, number, number, number, number];
+type Atlas = ReturnType<typeof import("./data/atlas.js").openAtlas>;
+type Kernel = import("./kernel/kernel.js").Kernel;
+type KernelStudy = import("./kernel/study.js").KernelStudy;
+type Place = { pass: number; input: number; isBeyond?: boolean };
+type Timeline = ReturnType<typeof import("./view/plate/timeline.js").timelineOf>;
+type Parameter = ReturnType<typeof import("./view/plate/parameters.js").changeableParameters>[number];
+type Shape = NonNullable<ReturnType<typeof import("./shape/query-shape.js").queryShape>>;
+type Histogram = ReturnType<typeof import("./find/histogram.js").histogramOf>;
+type DrawnCurve = ReturnType<typeof import("./view/page-picture.js").curvesOnPaper>[number];
+type SolvedCurve = NonNullable<ReturnType<typeof import("./view/curve-reading.js").solveCurve>>;
+type SearchedPart = ReturnType<typeof import("./view/shape/indexes.js").searchedParts>[number];
+type ComparisonQuery = ReturnType<typeof import("./view/compare/align.js").parseComparisonQuery>;
+type ShapeQuery = ReturnType<typeof import("./view/shape/query.js").parseShapeQuery>;
+type FindView = import("./view/find/find-view.js").FindView;
+type ShapeView = import("./view/shape/shape-view.js").ShapeView;
+type MovingLayer = import("./view/plate/moving-layer.js").MovingLayer;
+type FindQuery = ReturnType<typeof import("./find/query.js").parseFindQuery>;
+type Plate = import("./view/plate/plate.js").Plate;
+type PlateFigure = import("./view/plate/figure.js").PlateFigure;
+type Stage = import("./view/plate/stage.js").Stage;
+type Drive = import("./view/plate/drive.js").Drive;
+type Pose = import("./view/plate/study.js").Pose;
+type PageView = import("./view/page.js").PageView;
+type CurveTable = import("./find/table.js").CurveTable;
+type Filters = import("./find/filter.js").Filters;
+type Series = import("./data/series.js").Series;
+
+/** What all views share; an address is opened, or replaced without opening it. */
+type App = {
+  atlas: Atlas;
+  kernel: import("./kernel/kernel.js").KernelLoader;
+  pins: import("./view/pins.js").Pins;
+} & Record<"announce" | "go" | "replace", (text: string) => void>;
+type Query = Map<string, string>;
+type Target = { path: string[]; query: Query };
+/** A view of the gallery; `update` returns whether it handles a further address of its route. */
+type View = { element: Element; title: string; update?(target: Target): boolean } & ViewEvents;
+type ViewEvents = Partial<Record<"shown" | "leave", () => void>>;
+/** A route with a label is in the navigation; one without belongs to its `parent`. */
+type Route = Partial<Record<"label" | "parent", string>> & {
+  name: string;
+  href?(app: App): string;
+  matches(target: Target, app: App): boolean;
+  open(app: App, target: Target): View | Promise<View>;
+};
+type Measure = { name: string; unit: string; definition: string; word: boolean };
+/** A family as the summary of the atlas lists it; without a script it has no data. */
+type ListedFamily = Record<"id" | "title" | "linkage", string> &
+  Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &
+  Record<"page_format" | "script", string | null>;
+type AtlasSummary = { title: string; program: string; book: string[] } & Listed;
+type Listed = { measures: Measure[]; families: ListedFamily[] };
+type Words = { values: string[]; codes: Uint8Array };
+/**
+ * Cells by their index; `assignment` is the index of the list of names that a cell assigns, `status` 0 if
+ * it is assembled, 1 in part, 2 not at all.
+ */
+type Cells = { count: number; number: Uint32Array; values: Float64Array } & CellCodes;
+type CellCodes = { assignment: Uint16Array; status: Uint8Array };
+/** Curves by their index, valid where a piece of the table is loaded; their cells are indices too. */
+type Curves = Record<"trace" | "circuit", Uint16Array> & {
+  count: number;
+  cell: Uint32Array;
+  closed: Uint8Array;
+  measures: Record<string, Float64Array>;
+  words: Record<string, Words>;
+};
+/** An entry of the index in a family's head; the numbers are those of the first and the last cell. */
+type PieceEntry = Record<"bytes" | "cells" | "curves", number> & { pages?: number; traces?: number } & {
+  numbers: [number, number];
+  ranges?: ([number, number] | null)[];
+};
+/** What the program says of a family; its manifest is for the kernel. */
+type FamilyHead = Record<"id" | "title" | "linkage" | "manifest", string> &
+  Record<"names" | "measures" | "words", string[]> &
+  Record<"source" | "legend", string | null> & {
+    layout: "panels" | "chart" | "coupler-grid";
+    /** The number of panels on a page; null if it does not say which cells a page has. */
+    panels: number | null;
+    sampling: { step?: number; samples?: number; spacing?: string };
+    is_length: boolean;
+    paper: { width: number; height: number; color: string };
+    free: number[];
+    /** The distinct lists of the indices that a cell assigns; `free` are all that cells assign. */
+    assignments: number[][];
+    pieces: { table: PieceEntry[]; curves: PieceEntry[] };
+  };
+/** A family; captions, points and pages, which may be dropped again, are read with data/family.js. */
+type Family = Omit<FamilyHead, "measures" | "words" | "pieces"> &
+  Record<"table" | "outlines", Series> & {
+    cells: Cells;
+    curves: Curves;
+    pageCount: number;
+    ranges: [number, number][];
+    /** The greatest number of a traced point. */
+    traces: number;
+    measureNames: { numbers: string[]; words: string[] };
+    load(piece: Piece): Promise<void>;
+    used(piece: Piece): void;
+  };
+/** A view as the data have it, with numbers of cells, traces and circuits, and as it is drawn, with indices. */
+type StoredView = { cell: number; scale: number; origin: Point; curves: Point[] };
+type PageDrawing = { cell: number; scale: number; origin: Point; curves: number[] };
+/** The points of curves, and the texts of cells; `start` is the index of a curve's first point. */
+type PieceData = Record<"caption" | "note" | "reason", string[]> & {
+  box: Float64Array;
+  start: Uint32Array;
+  points: Uint16Array;
+  pages: Map<number, StoredView[]>;
+  pageOfKey?: Map<string, number>;
+};
+/** A piece of a series; `data` are null until it is loaded, and empty for a piece of the table. */
+type Piece = Record<"number" | "bytes" | "cells" | "curves" | "pages" | "holds", number> &
+  Record<"firstCell" | "firstCurve" | "firstPage", number> & {
+    name: "table" | "curves";
+    file: string;
+    numbers: [number, number];
+    data: PieceData | null;
+    loading: Promise<unknown> | null;
+  };
+
+/** A curve for the kernel (crates/coupler-kernel/src/request.rs), before its family has a handle. */
+type CurveRequest = { cell: number; curve: Point } & Record<"values" | "changes", [string, number][]>;
+type KernelCurve = { family: { handle: number }; curve: CurveRequest };
+type FamilyDescription = Record<"is_length" | "has_all_circuits", boolean> & {
+  family: number;
+  names: (KernelName & Record<"is_whole" | "is_derived", boolean>)[];
+};
+type KernelName = { name: string; min: number | null; max: number | null };
+type Pass = { from: number; to: number; from_is_flat: boolean; to_is_flat: boolean; sides: number[] };
+type Circuit = { passes: Pass[]; closed: boolean };
+type Coordinate = { value: number; is_constant: boolean; is_parameter: boolean };
+type MovablePoint = { name: string; along: Coordinate; across: Coordinate };
+type Slot = { foot: number; through: number; base: [number, number]; near: Point; far: Point };
+type Mechanism = Record<"bars" | "plates" | "guides", number[][]> &
+  Record<"frame" | "fixed" | "pins", number[]> &
+  Record<"fixed_at" | "frame_at", Float64Array> & {
+    blocks: { at: number; line: [number, number] }[];
+    slots: Slot[];
+    actuators: [number, number][];
+    wheels: [number, number, number][];
+  };
+/** What the kernel says of a curve that exists (crates/coupler-kernel/src/description.rs). */
+type StudyAnswer = CurveValues &
+  Record<"study" | "shown" | "joint", number> &
+  Record<"is_length" | "is_mirrored" | "has_cognates" | "has_pole", boolean> &
+  Record<"box" | "others_box" | "curve_box", Box> & {
+    /** All circuits; `home` is the index of the curve's own, `shown` of the one that is shown. */
+    circuits: Circuit[];
+    home: number | null;
+    shortfall: string | null;
+    reason: null;
+    joints: string[];
+    traced: number[];
+    others: { joint: number; points: Float64Array }[];
+    crank: { pivot: number; pin: number; arc: Float64Array; limits: Float64Array; can_turn: boolean } | null;
+    four_bar: { class: string; transmission_range: Point | null } | null;
+    mechanism: Mechanism;
+  };
+/** What it says otherwise: why not. */
+type MissingCurve = Pick<StudyAnswer, "circuits"> &
+  Partial<Pick<StudyAnswer, "values" | "point">> & { study?: undefined; reason: string };
+type CurveValues = { values: Record<string, number>; point: MovablePoint | null };
+type Candidates = Pick<StudyAnswer, "circuits" | "is_length"> & { home?: number | null; shown?: number };
+/** A moving element of a plate; those of slots know their slot and its index. */
+type MovingPart = { element: Element; shape?: Slot; slot?: number; data: PartData };
+type PartData = (at: Float64Array, scale: number, ends: Float64Array, part: MovingPart) => string;
+/** A study as a plate shows it; `box` is the area swept by the linkage. */
+type Study = StudyAnswer & { kernel: KernelStudy; timeline: Timeline; size: number };
+type CurvePath = { lead: Float64Array; dashes: Float64Array; starts: Float64Array };
+type Speeds = Record<"passes" | "inputs" | "speeds", Float64Array>;
+type Measured = Record<string, number | string>;
+type ComputedMeasures = { values: Measured; straight: StraightPortion | null };
+type StraightPortion = { points: Float64Array; from: Place; to: Place };
+type Lengths = Record<"frame" | "crank" | "coupler" | "rocker" | "along" | "across", number>;
+type Cognates = { lengths: Lengths[]; pivots: Float64Array[]; reached: Float64Array };
+type Centrodes = { fixed: Float64Array; moving: Float64Array; frame: [number, number] };
+/** At a point of a curve: the speed is per radian or unit of length, `mu` in degrees. */
+type Reading = { pass: number; input: number; place: Point; speed: number; mu: number | null };
+type Column = Record<"name" | "unit" | "definition", string> & {
+  group: ColumnGroup;
+  kind: "words" | "numbers";
+};
+type ColumnGroup = "first" | "more" | "parameters";
+type Bounds = { low?: number; high?: number };
+/** A filter of a column: bounds, which are inclusive, or words. */
+type Filter = Bounds | Set<string>;
+/** How much of the tables of a search is loaded: curves, of all, and the size of all in bytes. */
+type LoadState = { done: boolean; curves: number; total: number; bytes: number };
+/** What the page makes of the kernel's text has an ending of its own and `convert`. */
+type ExportFormat = Record<"label" | "note" | "type" | "kernel", string> & { ending?: string } & Converted;
+type Converted = { convert?(text: string): Promise<Uint8Array<ArrayBuffer>> };
+type ShapeIndex = CurveIndex & { family: Family; closed: Uint8Array; points: Float64Array | null };
+type CurveIndex = Record<"kept" | "re" | "im" | "size", Float32Array> &
+  Record<"first" | "count", number> & { windows: Uint8Array[] | null };
+type QueryOutlines = { open: Outline; closed: Outline };
+/** Where and how a shape lies on a curve, by the curve's length; a whole curve has no span. */
+type Seed = { mirror: boolean; reversed: boolean; start: number; span?: number; value?: number };
+type Candidate = { index: ShapeIndex; curve: number; value: number; seeds: Seed[] };
+type SearchOptions = { part?: boolean; mirror?: boolean; least?: number; by?: "rms" | "greatest" };
+type CurveOfFamily = { family: Family; curve: number };
+type Fit = { rms: number; greatest: number; similarity: Similarity; from: number; to: number };
+type Match = CurveOfFamily & Fit & { name: string };
+/** A curve to compare; one with changes has what the kernel draws instead. */
+type ComparedCurve = CurveOfFamily & ChangedCurve & { name: string; key: string; release(): void };
+type ChangedCurve = { changes: Map<string, number>; requested?: KernelCurve; shown?: number | null };
+type Markup = { name: string; attributes: Query; children: Markup[]; parent: Markup | null };
+type TypedArray = Uint8Array | Uint16Array | Uint32Array | Float64Array;
+type PackedColumn = string | number | null;
+type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };
+type Base64Decoder = { fromBase64(data: string): Uint8Array<ArrayBuffer> };
+type Chunk = Pick<PieceData, "box" | "points" | "caption" | "note" | "reason"> & { counts: Uint16Array };
+type KernelExports = Record<KernelFunction, (...of: number[]) => number> & { memory: WebAssembly.Memory };
+type KernelFunction = `kernel_${"start" | "allocate" | "call" | "pose" | "joint_position"}` | KernelLength;
+type KernelLength = "kernel_pose_length" | "kernel_panic_message" | "kernel_panic_length";
+type TagOf<N extends string> = N extends `${infer T}.${string}` ? T : N;
+type HtmlElementOf<N extends string> =
+  TagOf<N> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<N>] : HTMLElement;
+type SvgElementOf<N extends string> =
+  TagOf<N> extends keyof SVGElementTagNameMap ? SVGElementTagNameMap[TagOf<N>] : SVGElement;
+/**
+ * A grid of `count` tiles of at least `least` pixels, `gap` apart, with pictures of an aspect ratio, height to
+ * width, and `below` pixels for text. `tile` creates a tile, an element with a link in it; `need` loads what it
+ * shows, null if it is there; `fillTile` then adds its text, and `draw` what takes longer, when there is time.
+ */
+type TileOptions = Record<"count" | "least" | "gap" | "aspect" | "below", number> & {
+  label: string;
+  tile(k: number): HTMLElement;
+  need(k: number): Promise<unknown> | null;
+  isLoaded(): boolean;
+  failed(message: string): void;
+} & Record<"fillTile" | "draw", (element: HTMLElement, k: number) => void>;

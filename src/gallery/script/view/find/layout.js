@@ -1,0 +1,49 @@
+// The layout of the Find view, and the message shown when no curve passes the filters.
+
+import { buttonOf, h } from "../dom.js";
+import { exportMenu } from "../export/menu.js";
+import { columnLabel, formatCount } from "../labels.js";
+
+/** The element of a view with its parts, and the buttons that it updates: { element, displayButtons, clear }. */
+export function findLayout(/** @type {FindView} */ view) {
+  const show = (name, label) => buttonOf(label, () => view.showAs(name), { "data-show": name });
+  const displayButtons = [show("sheet", "Grid"), show("table", "Table")];
+  const clear = buttonOf("Clear all filters", () => view.setFilters(new Map()), { class: "quiet" });
+  const wide = window.matchMedia("(min-width: 60rem)").matches;
+  const heading = h("div", h("h1", "Find"), view.countLabel, view.loadAll.element, view.message);
+  const sorter = h("span.field.row", h("label", { for: "find-sort" }, "Sort by"), view.sorter);
+  const display = h("div.segments.end", { role: "group", "aria-label": "Show as" }, displayButtons);
+  const panel = [h("summary", "Filters"), view.families, view.panel.element];
+  const element = h(
+    "div.view.wide.find-view",
+    h(
+      "div.head",
+      heading,
+      exportMenu(view.app, () => view.names()),
+    ),
+    h(
+      "div.find-split",
+      h("details.find-panel", { open: wide }, panel),
+      h("div", h("div.toolbar", sorter, view.direction, clear, display), view.results),
+    ),
+  );
+  return { element, displayButtons, clear };
+}
+
+/**
+ * A message for filters that no curve passes, and for each filter a button that removes it, with the number
+ * of curves that would pass then; calls `without(name)` with the name of its column.
+ */
+export function noResults(/** @type {Filters} */ filters, without, isPartial = false) {
+  const names = [...filters.fails.keys()];
+  const way = (name) => {
+    const left = formatCount(filters.countWithout(name), "curve");
+    return h(
+      "li",
+      buttonOf(`Remove ${columnLabel(name)}: ${left}`, () => without(name)),
+    );
+  };
+  const none = isPartial ? "None of the loaded curves passes" : "No curve passes";
+  const sentence = names.length === 1 ? `${none} this filter.` : `${none} all of these filters.`;
+  return h("div.no-results", h("p", sentence), h("ul.toolbar", names.map(way)));
+}

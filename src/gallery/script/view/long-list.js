@@ -1,0 +1,52 @@
+// Lists of which only the visible part is in the document: their height, and how they are printed.
+
+import { h } from "./dom.js";
+
+/** The greatest height of an element, in pixels: Firefox allows 17.9 million, Chromium 33.5 million. */
+export const MAX_HEIGHT = 15e6;
+
+/**
+ * The pixels of content per pixel scrolled, of a list of a height in a window: 1, unless the list is too
+ * high. Its element then has the greatest height, and scrolling moves the content faster.
+ */
+export function scrollScale(height, windowHeight) {
+  return height <= MAX_HEIGHT ? 1 : (height - windowHeight) / (MAX_HEIGHT - windowHeight);
+}
+
+/**
+ * Calls `layOut()` before printing, which puts the printed items into the document and returns a line to
+ * precede them, or null, and `restore()` afterwards. Returns { isPrinting, end() }.
+ */
+export function onPrint(element, layOut, restore) {
+  let line = null;
+  const state = {
+    isPrinting: false,
+    end: () => {
+      window.removeEventListener("beforeprint", before);
+      window.removeEventListener("afterprint", after);
+    },
+  };
+  const before = () => {
+    if (!element.isConnected || state.isPrinting) return;
+    state.isPrinting = true;
+    line = layOut();
+    if (line) element.before(line);
+  };
+  const after = () => {
+    if (!state.isPrinting) return;
+    state.isPrinting = false;
+    line?.remove();
+    restore();
+  };
+  window.addEventListener("beforeprint", before);
+  window.addEventListener("afterprint", after);
+  return state;
+}
+
+/** A line that says how many of how many things are printed; null for one or none. */
+export function printedCountNote(printed, count, things) {
+  if (count < 2) return null;
+  const [some, all] = [printed, count].map((number) => number.toLocaleString("en"));
+  const which = printed < count ? `the first ${some} of ${all}` : `all ${all}`;
+  return h("p.note.on-paper", `Printed: ${which} ${things}`);
+}

@@ -1,0 +1,115 @@
+// The figure of a plate: what is drawn of a study, and how it moves.
+
+import { KernelFailure } from "../../kernel/instance.js";
+import { DialView } from "./dial-view.js";
+import { Drive } from "./drive.js";
+import { Overlays } from "./overlays.js";
+import { pathsOfStudy, straightSummary, visibleStraightPortion } from "./paths.js";
+import { SpeedView } from "./speed-view.js";
+import { Stage } from "./stage.js";
+import { Pose, circuitTitle, velocityArrow } from "./study.js";
+import { clampPart, partOfInput } from "./timeline.js";
+import { Transport } from "./transport.js";
+
+// Chord errors of a path relative to its size: rough while a slider is being moved, fine when it has rested.
+const ROUGH_PATH = 3e-4;
+const FINE_PATH = 2e-5;
+// The number of places of the graph of the speed.
+const SPEED_PLACES = 400;
+
+/** The drawing of the linkage of a curve, with its playback controls and its readings. */
+export class PlateFigure {
+  /** What is drawn; the last that exists. @type {Study | null} */
+  study = null;
+  /** Why what was asked for cannot be drawn. @type {string | null} */
+  reason = null;
+  /** Changed values by their names. @type {Map<string, number>} */
+  changes = new Map();
+  /** The names of the overlays that are on. @type {Set<string>} */
+  on = new Set();
+  /** The measures, if they are not those of the atlas. @type {Measured | null} */
+  measured = null;
+  /** @type {StraightPortion | null} */ portion = null;
+  /** @type {CurvePath} */ path;
+  pose = new Pose();
+  stage = new Stage();
+
+  constructor(/** @type {Family} */ family, /** @type {number} */ curve) {
+    this.family = family;
+    this.curve = curve;
+    this.drive = new Drive(this);
+    this.transport = new Transport(this.drive, this.stage);
+    this.overlays = new Overlays(this.stage);
+    this.dial = new DialView();
+    this.speed = new SpeedView((part) => this.drive.seekAndPause(part));
+    this.stage.onview = () => this.draw();
+  }
+
+  /** Whether the atlas contains what is shown. */
+  get isRecorded() {
+    return this.changes.size === 0 && this.study !== null && this.study.shown === this.study.home;
+  }
+
+  /** Draws another study. */
+  show(/** @type {Study} */ study, isRough) {
+    const { drive } = this;
+    this.path = study.kernel.path((isRough ? ROUGH_PATH : FINE_PATH) * study.size);
+    drive.setStudy(study);
+    this.#markStraight(study, isRough);
+    this.stage.show(study, this.pathsOf(study, isRough));
+    this.overlays.show(study, this.on, isRough);
+    this.transport.show(study, circuitTitle(study.is_length, study.circuits[study.shown]));
+    this.dial.show(study);
+    const { timeline } = study;
+    const partOf = (/** @type {Place} */ at) => clampPart(timeline, partOfInput(timeline, at.pass, at.input));
+    const parts = this.portion && [partOf(this.portion.from), partOf(this.portion.to)];
+    this.speed.show(study, study.kernel.speeds(SPEED_PLACES), parts);
+    this.stage.keepInFrame();
+    this.draw();
+  }
+
+  // The measures of the atlas, or computed ones if something is changed.
+  #markStraight(/** @type {Study} */ study, isRough) {
+    const { family, curve, isRecorded } = this;
+    const found = isRough ? null : study.kernel.measures();
+    this.measured = isRecorded ? null : (found?.values ?? null);
+    this.portion = found && visibleStraightPortion(study, found);
+    const isKnown = isRecorded || found;
+    this.transport.showStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
+  }
+
+  pathsOf(/** @type {Study} */ study, isRough) {
+    return pathsOfStudy(study, this.path, this.portion, { on: this.on, isRough });
+  }
+
+  /** Draws the linkage at the place of the drive. */
+  draw() {
+    const { study, drive, pose, stage, speed } = this;
+    if (!study) return;
+    const { pass, part, place } = drive;
+    if (!this.guarded(() => pose.move(study, place.pass, place.input))) return;
+    stage.pose(pose.joints);
+    this.overlays.pose(pose.joints, stage.view, pose.instant);
+    this.dial.pose(pose.transmission);
+    this.transport.update(part, place.input);
+    speed.update(part, Math.hypot(...pose.velocity));
+    const frame = { top: speed.top, size: stage.size, heading: Math.sign(pass.to - pass.from) };
+    stage.moving.speed(this.on.has("velocity") ? velocityArrow(pose.velocity, frame) : null);
+  }
+
+  // Runs `work`; whether it succeeded. If the kernel fails, the linkage stands still until something is changed.
+  guarded(work) {
+    try {
+      work();
+      return true;
+    } catch (error) {
+      if (!(error instanceof KernelFailure)) throw error;
+      this.reason = error.message;
+      this.stage.impossible(this.reason, "Stopped");
+      this.drive.toggle(false);
+      this.drive.isHalted = true;
+      this.transport.stop();
+      return false;
+    }
+  }
+}

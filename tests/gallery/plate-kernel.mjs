@@ -1,0 +1,100 @@
+// Tests what the page does without WebAssembly, and after a failure of the kernel.
+
+import assert from "node:assert/strict";
+
+import { eventually, openGallery } from "./browser.mjs";
+import { REDUCED_MOTION, inputNow } from "./plate-support.mjs";
+
+const SENTENCE = /^This browser does not run WebAssembly: /;
+
+const withoutWebAssembly = (page) =>
+  page.addInitScript(() => {
+    delete globalThis.WebAssembly;
+  });
+
+/** Makes the function of the kernel with a name fail when `window.failing` is its name, and then no more. */
+const failingKernel = (page) =>
+  page.addInitScript(() => {
+    const { Instance } = WebAssembly;
+    WebAssembly.Instance = function instance(...more) {
+      const { exports } = new Instance(...more);
+      const failing = { ...exports };
+      for (const name of ["kernel_pose", "kernel_call"])
+        failing[name] = (...numbers) => {
+          if (window.failing !== name) return exports[name](...numbers);
+          window.failing = null;
+          throw new WebAssembly.RuntimeError("unreachable");
+        };
+      return { exports: failing };
+    };
+  });
+
+export const KERNEL = [
+  [
+    "3.17",
+    "without WebAssembly a plate shows its curve and says what does not work",
+    async ({ browser, folder }) => {
+      const { page, go, close } = await openGallery(browser, folder, "/evans/curve/1.1.1", {
+        before: withoutWebAssembly,
+      });
+      assert.match(await page.locator(".plate .error").textContent(), SENTENCE);
+      await page.waitForSelector(".still-plate path");
+      assert.ok((await page.locator("table.measures tbody tr:visible").count()) > 20);
+      await page.click(".export-button");
+      await page.getByRole("menuitem", { name: "CSV points" }).click();
+      await eventually(
+        async () => SENTENCE.test(await page.textContent(".export-status")),
+        "an export says why it is not made",
+      );
+      await go("/evans/curve/2.1.1?p=3");
+      assert.match(await page.locator(".plate .error").textContent(), SENTENCE);
+      await go("/find?family=evans");
+      await page.waitForSelector(".results > li");
+      await go("/evans/1?curve=3.1.1");
+      await page.waitForSelector(".page-sheet .picture");
+      await go(
+        `/compare?c=${["evans:1.1.1", "evans:2.1.1?p=3", "evans:3.1.1"].map(encodeURIComponent).join()}`,
+      );
+      await page.waitForSelector(".pinned-tiles li");
+      assert.equal(await page.locator(".pinned-tiles li").count(), 2);
+      assert.match(
+        await page.locator(".compare-view .lede").textContent(),
+        /skipped evans:2\.1\.1\?p=3: This browser/,
+      );
+      await close();
+    },
+  ],
+  [
+    "3.18",
+    "a failure of the kernel is reported, and the plate goes on after it",
+    async ({ browser, folder }) => {
+      const { page, close } = await openGallery(browser, folder, "/evans/curve/1.1.1", {
+        before: failingKernel,
+        ...REDUCED_MOTION,
+      });
+      const reason = page.locator(".stage .reason");
+      const before = await inputNow(page);
+      await page.evaluate(() => {
+        window.failing = "kernel_pose";
+      });
+      await page.keyboard.press("ArrowRight");
+      await eventually(() => reason.isVisible(), "it is not reported");
+      assert.match(await reason.textContent(), /^Stopped: the kernel failed: unreachable/);
+      // A change opens the family and its study again.
+      await page.getByRole("spinbutton", { name: "Value of p", exact: true }).fill("2.2");
+      await eventually(() => reason.isHidden(), "the plate does not go on");
+      await page.locator("h1").click();
+      await page.keyboard.press("ArrowRight");
+      await eventually(async () => (await inputNow(page)) > before, "it does not move");
+      await page.evaluate(() => {
+        window.failing = "kernel_call";
+      });
+      await page.getByRole("spinbutton", { name: "Value of p", exact: true }).fill("2.4");
+      await eventually(() => reason.isVisible(), "a failing study is not reported");
+      await page.waitForTimeout(300);
+      await page.getByRole("spinbutton", { name: "Value of p", exact: true }).fill("2.5");
+      await eventually(() => reason.isHidden(), "the plate does not go on");
+      await close();
+    },
+  ],
+];
