@@ -85,7 +85,15 @@ export const FILTERING = [
       await page.evaluate(() => window.scrollTo(0, 20000));
       await gallery.settled();
       const names = () => page.locator(".results > li > a").evaluateAll((links) => links.map((a) => a.href));
-      await eventually(async () => !(await names())[0].endsWith("/1.1.1"), "tiles further down are there");
+      // The tiles in the window follow the scrolling: they are those further down when they stay.
+      let last = "";
+      const stay = async () => {
+        const [before, now] = [last, (await names()).join()];
+        last = now;
+        await page.waitForTimeout(100);
+        return now === before && !now.split(",")[0].endsWith("/1.1.1");
+      };
+      await eventually(stay, "tiles further down are there");
       const href = await page.locator(".results > li > a").nth(20).getAttribute("href");
       const link = page.locator(`.results > li > a[href="${href}"]`);
       const depth = await link.evaluate((a) => {
