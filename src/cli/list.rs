@@ -51,7 +51,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         let unit = if m.unit.is_empty() { "-" } else { m.unit };
         format!("{:<16} {unit:<4} {}\n", m.name, m.definition)
     });
-    let booleans = measure::BOOLEANS.iter().map(|(name, class)| format!("{name:<16} -    the class is {class}\n"));
+    // A boolean with the name of its measure is in the list already.
+    let booleans = measure::BOOLEANS
+        .iter()
+        .filter(|boolean| boolean.name != boolean.measure)
+        .map(|measure::Boolean { name, measure, word }| format!("{name:<16} -    the {measure} is {word}\n"));
     section(Topic::Measures, "measures", measures.chain(booleans).collect());
     let columns = measure::COLUMNS.iter().map(|column| format!("{:<16} {}\n", column.name, column.definition));
     section(Topic::Columns, "columns", columns.collect());

@@ -105,7 +105,7 @@ for (const folder of process.argv.slice(2)) {
     const left = filters.rows();
     passingRows(orders.by("length", "numbers", true), filters.failing);
     for (const scale of scales) binCounts(scale, left);
-    for (const name of ["class", "symmetric", "turn"]) filters.wordCounts(name);
+    for (const name of ["class", "symmetric", "is_full_turn"]) filters.wordCounts(name);
     times.push(performance.now() - began);
   }
   times.sort((a, b) => a - b);

@@ -189,7 +189,11 @@ fn every_measure_can_be_used_in_where_sort_and_texts() {
     for measure in coupler_curves::measure::ALL {
         let name = measure.name;
         let uses = format!("where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
-        if measure.is_word {
+        if coupler_curves::measure::BOOLEANS.iter().any(|boolean| boolean.name == name) {
+            plan(&format!("{GOOD}where = \"{name} or not {name}\"\ncaption = \"{{{name}}}\"\n"));
+            let report = problems(&format!("{GOOD}where = \"{name} > 0\"\nsort = \"{name}\"\n"));
+            assert_eq!(report.matches("expected a number, found a condition").count(), 2, "{report}");
+        } else if measure.is_word {
             let report = problems(&format!("{GOOD}where = \"{name} > 0\"\nsort = \"{name}\"\n"));
             assert_eq!(report.matches(&format!("`{name}` is a word")).count(), 2, "{report}");
             plan(&format!("{GOOD}caption = \"{{{name}}}\"\n"));

@@ -105,9 +105,8 @@ fn crank_json(study: &Study, numbers: &mut Numbers) -> Option<Value> {
         _ => None,
     });
     let [pivot, pin] = crank?;
-    let reverses = !circuit.is_closed || (0..circuit.passes.len()).any(|pass| circuit.reverses_after(pass));
     let (mut arc, mut limits) = (Vec::new(), Vec::new());
-    if reverses {
+    if !circuit.is_full_turn() {
         let by = |a: &usize, b: &usize| circuit.inputs[*a].total_cmp(&circuit.inputs[*b]);
         let (least, most) = ((0..circuit.len()).min_by(by)?, (0..circuit.len()).max_by(by)?);
         let at = |sample: usize| circuit.positions.point(pin, sample);

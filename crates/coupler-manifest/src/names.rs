@@ -6,6 +6,7 @@ use crate::grid::{self, GridValues};
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
+use coupler_curves::measure::BOOLEANS;
 use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
 use coupler_curves::template::Template;
 
@@ -182,7 +183,9 @@ fn report_unused_name(name: &str, span: Span, (linkage, parameters): (&str, &[&s
 /// Whether a condition or a sort key uses a measure whose value is a word; reports it.
 fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
     let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return false };
-    let word = Family::word_measure_names().find(|word| expression.names().iter().any(|name| name == word));
+    let is_boolean = |word: &&str| BOOLEANS.iter().any(|boolean| boolean.name == *word);
+    let mut words = Family::word_measure_names().filter(|word| !is_boolean(word));
+    let word = words.find(|word| expression.names().iter().any(|name| name == word));
     if let Some(word) = word {
         let problem = Problem::error(value.span(), format!("`{word}` is a word, not a number"));
         parser.report(problem.with_help(

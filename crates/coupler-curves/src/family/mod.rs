@@ -217,7 +217,7 @@ impl Family {
         let own = names.iter().map(|name| (name.as_str(), Kind::Number));
         let is_number = |measure: &&measure::Measure| !measure.is_word;
         let measures = measure::ALL.iter().filter(is_number).map(|measure| (measure.name, Kind::Number));
-        let booleans = measure::BOOLEANS.iter().map(|(name, _)| (*name, Kind::Boolean));
+        let booleans = measure::BOOLEANS.iter().map(|boolean| (boolean.name, Kind::Boolean));
         own.chain(measures).chain(booleans).collect()
     }
 
@@ -232,7 +232,12 @@ impl Family {
         let numbers: Vec<usize> = (0..measure::ALL.len()).filter(is_number).collect();
         let mut used = expression.slots().iter().filter_map(|slot| slot.checked_sub(self.names.len()));
         // The booleans follow the numbers.
-        used.any(|slot| numbers.get(slot).map_or(measure::defines_booleans(measure), |k| *k == measure))
+        let boolean = |slot: usize| measure::BOOLEANS.get(slot - numbers.len());
+        let is_used_by = |slot: usize| match numbers.get(slot) {
+            Some(k) => *k == measure,
+            None => boolean(slot).is_some_and(|boolean| boolean.measure == measure::ALL[measure].name),
+        };
+        used.any(is_used_by)
     }
 
     /// Whether the caption lines show a measure.
@@ -245,7 +250,8 @@ impl Family {
         measure::ALL.iter().enumerate().filter(|(k, _)| self.is_computed[*k])
     }
 
-    /// The names of the measures that are words, which captions may show but expressions cannot use.
+    /// The names of the measures that are words, which captions may show; in expressions only those can be used that are
+    /// also the names of booleans.
     pub fn word_measure_names() -> impl Iterator<Item = &'static str> {
         measure::ALL.iter().filter(|measure| measure.is_word).map(|measure| measure.name)
     }
@@ -259,7 +265,7 @@ impl Family {
     pub fn is_column_name(name: &str) -> bool {
         const COLUMNS: [&str; 8] = ["cell", "trace", "circuit", "branch", "sample", "input_deg", "status", "reason"];
         let is_measure = measure::ALL.iter().any(|measure| measure.name == name);
-        COLUMNS.contains(&name) || is_measure || measure::BOOLEANS.iter().any(|(boolean, _)| *boolean == name)
+        COLUMNS.contains(&name) || is_measure || measure::BOOLEANS.iter().any(|boolean| boolean.name == name)
     }
 
     /// Whether `where` keeps a curve with these measures.
@@ -285,9 +291,7 @@ impl Family {
                 Some((_, measure::Value::Number(value))) => *value,
                 _ => f64::NAN,
             },
-            Some(slot) => {
-                measure::BOOLEANS.get(slot - count).map_or(f64::NAN, |(_, word)| measure::bool_value(word, measures))
-            }
+            Some(slot) => measure::BOOLEANS.get(slot - count).map_or(f64::NAN, |boolean| boolean.value(measures)),
         }
     }
 }

@@ -15,11 +15,14 @@ pub struct FourBar {
     pub rocker: f64,
 }
 
-/// Grashof's classes (Natesan, table 3.1), in the frame of the fixed link.
+/// Grashof's classes (Natesan, table 3.1), in the frame of the fixed link and with the crank as the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FourBarClass {
-    /// The crank or the rocker is shortest, and turns fully.
+    /// The crank is shortest, and turns fully; the rocker rocks.
     CrankRocker,
+    /// The rocker is shortest, and turns fully; the crank rocks. In table 3.1 a crank rocker has the driver crank as its
+    /// shortest link, so this one is its inversion, as in McCarthy's table 2.2.
+    RockerCrank,
     /// The frame is shortest, and crank and rocker turn fully.
     DragLink,
     /// The coupler is shortest, and turns fully; crank and rocker rock.
@@ -32,8 +35,9 @@ pub enum FourBarClass {
 
 impl FourBarClass {
     /// Every class.
-    pub const ALL: [FourBarClass; 5] = [
+    pub const ALL: [FourBarClass; 6] = [
         FourBarClass::CrankRocker,
+        FourBarClass::RockerCrank,
         FourBarClass::DragLink,
         FourBarClass::DoubleRocker,
         FourBarClass::TripleRocker,
@@ -44,6 +48,7 @@ impl FourBarClass {
     pub fn name(self) -> &'static str {
         match self {
             FourBarClass::CrankRocker => "crank-rocker",
+            FourBarClass::RockerCrank => "rocker-crank",
             FourBarClass::DragLink => "drag-link",
             FourBarClass::DoubleRocker => "double-rocker",
             FourBarClass::TripleRocker => "triple-rocker",
@@ -152,6 +157,8 @@ impl FourBar {
             FourBarClass::DragLink
         } else if coupler == shortest {
             FourBarClass::DoubleRocker
+        } else if rocker == shortest {
+            FourBarClass::RockerCrank
         } else {
             FourBarClass::CrankRocker
         }
@@ -177,6 +184,7 @@ mod tests {
         assert_eq!(class(3.0, 2.0, 1.0, 2.0), FourBarClass::ChangePoint, "Roberts, figure 36");
         assert_eq!(class(4.0, 2.0, 2.0, 2.0), FourBarClass::TripleRocker, "Roberts, figure 39");
         assert_eq!(class(1.0, 3.0, 3.0, 3.0), FourBarClass::DragLink);
+        assert_eq!(class(2.0, 2.59, 2.59, 1.0), FourBarClass::RockerCrank, "Evans, driven by its rocker");
         assert_eq!(class(0.1, 0.2, 0.3, 0.4), FourBarClass::ChangePoint, "0.1 + 0.4 and 0.2 + 0.3");
         assert_eq!(class(2.0, 2.0, 2.0, 2.0), FourBarClass::ChangePoint, "a rhombus");
     }

@@ -1,5 +1,17 @@
 use super::{Measure, TracedCurve, Value};
 
+/// The measure `is_full_turn`, which is also a boolean.
+pub const IS_FULL_TURN: Measure = Measure {
+    name: "is_full_turn",
+    unit: "",
+    is_word: true,
+    definition: "whether the input turns fully on this circuit, yes or no, also through change points; no for an actuator; a condition in `where`",
+    compute: |curve: &TracedCurve| Value::Word(if curve.circuit.is_full_turn() { YES } else { "no" }),
+};
+
+/// The value of `is_full_turn` on a full turn.
+pub const YES: &str = "yes";
+
 /// The measure `input_min_deg`.
 pub const INPUT_MIN: Measure = Measure {
     name: "input_min_deg",
@@ -19,11 +31,9 @@ pub const INPUT_MAX: Measure = Measure {
 };
 
 fn extreme_input(curve: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
-    let passes = &curve.circuit.passes;
-    let reverses = passes.iter().any(|pass| pass.input_direction() != passes[0].input_direction());
-    if curve.circuit.is_closed && !reverses {
+    if curve.circuit.is_full_turn() {
         return Value::Missing;
     }
-    let ends = passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);
+    let ends = curve.circuit.passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);
     Value::Number(ends.fold(start, pick))
 }

@@ -37,7 +37,7 @@ pub use transmission::transmission_angle;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use crate::linkage::{FourBarClass, JointId, Linkage};
+use crate::linkage::{JointId, Linkage};
 use crate::motion::{Circuit, Motion};
 use curve_segment::CurveSegment;
 use sampled_curve::SampledCurve;
@@ -183,10 +183,11 @@ impl Measure {
 }
 
 /// All measures, in the order of the columns.
-pub static ALL: [Measure; 33] = [
+pub static ALL: [Measure; 34] = [
     class::CLASS,
     four_bar_type::TYPE,
     four_bar_type::SHORTEST,
+    input_range::IS_FULL_TURN,
     input_range::INPUT_MIN,
     input_range::INPUT_MAX,
     swing::OUTPUT_SWING,
@@ -219,25 +220,39 @@ pub static ALL: [Measure; 33] = [
     dwell::MEASURES[5],
 ];
 
-/// The boolean names of `where`, each with the value of the measure `class` for which it is true.
-pub const BOOLEANS: [(&str, &str); 5] = [
-    ("is_crank_rocker", "crank-rocker"),
-    ("is_drag_link", "drag-link"),
-    ("is_double_rocker", "double-rocker"),
-    ("is_triple_rocker", "triple-rocker"),
-    ("is_change_point", "change-point"),
-];
-
-/// Whether the measure at an index of [`ALL`] is the one that defines the [`BOOLEANS`].
-pub fn defines_booleans(measure: usize) -> bool {
-    ALL[measure].name == class::CLASS.name
+/// A boolean name of `where`: true where a measure that is a word has a certain value, false where it has another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Boolean {
+    /// Its name.
+    pub name: &'static str,
+    /// The name of the measure.
+    pub measure: &'static str,
+    /// The value of the measure for which it is true.
+    pub word: &'static str,
 }
 
-/// The value of one of the [`BOOLEANS`] as a number, 1 or 0; NaN if the curve has no class.
-pub fn bool_value(word: &str, values: &[Value]) -> f64 {
-    match ALL.iter().zip(values).find(|(measure, _)| measure.name == class::CLASS.name) {
-        Some((_, Value::Word(class))) => f64::from(u8::from(*class == word)),
-        _ => f64::NAN,
+/// All booleans.
+pub static BOOLEANS: [Boolean; 7] = [
+    Boolean::of_class("is_crank_rocker", "crank-rocker"),
+    Boolean::of_class("is_rocker_crank", "rocker-crank"),
+    Boolean::of_class("is_drag_link", "drag-link"),
+    Boolean::of_class("is_double_rocker", "double-rocker"),
+    Boolean::of_class("is_triple_rocker", "triple-rocker"),
+    Boolean::of_class("is_change_point", "change-point"),
+    Boolean { name: input_range::IS_FULL_TURN.name, measure: input_range::IS_FULL_TURN.name, word: input_range::YES },
+];
+
+impl Boolean {
+    const fn of_class(name: &'static str, class: &'static str) -> Boolean {
+        Boolean { name, measure: class::CLASS.name, word: class }
+    }
+
+    /// Its value as a number, 1 or 0, with the values of [`ALL`]; NaN if the measure does not apply.
+    pub fn value(&self, values: &[Value]) -> f64 {
+        match ALL.iter().zip(values).find(|(measure, _)| measure.name == self.measure) {
+            Some((_, Value::Word(word))) => f64::from(u8::from(*word == self.word)),
+            _ => f64::NAN,
+        }
     }
 }
 
@@ -254,18 +269,20 @@ pub fn compute_selected(curve: &TracedCurve, is_selected: impl Fn(usize) -> bool
     ALL.iter().enumerate().map(value).collect()
 }
 
-const _: () = assert!(BOOLEANS.len() == FourBarClass::ALL.len());
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linkage::FourBarClass;
 
     #[test]
     fn every_class_has_a_boolean() {
         for class in FourBarClass::ALL {
-            let boolean =
-                BOOLEANS.iter().find(|(_, word)| *word == class.name()).unwrap_or_else(|| panic!("{}", class.name()));
-            assert_eq!(boolean.0, format!("is_{}", class.name().replace('-', "_")));
+            let name = format!("is_{}", class.name().replace('-', "_"));
+            let boolean = BOOLEANS.iter().find(|boolean| boolean.name == name).unwrap_or_else(|| panic!("{name}"));
+            assert_eq!((boolean.measure, boolean.word), ("class", class.name()));
+        }
+        for boolean in &BOOLEANS {
+            assert!(ALL.iter().any(|measure| measure.name == boolean.measure && measure.is_word), "{boolean:?}");
         }
     }
 }

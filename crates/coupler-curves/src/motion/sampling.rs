@@ -76,6 +76,12 @@ impl Circuit {
         self.passes.last().filter(|_| self.is_closed).map(|pass| pass.to.input.value)
     }
 
+    /// Whether the input turns fully: the circuit is closed and the input never reverses, also through change points.
+    /// The length of an actuator never turns.
+    pub fn is_full_turn(&self) -> bool {
+        self.is_closed && (0..self.passes.len()).all(|pass| !self.reverses_after(pass))
+    }
+
     /// Whether the input reverses at the end of a pass, because a dyad is flat there.
     pub fn reverses_after(&self, pass: usize) -> bool {
         let last = pass + 1 == self.passes.len();

@@ -42,6 +42,44 @@ fn a_crank_rocker_turns_fully_on_each_branch() {
     assert_eq!(passes([4.0, 1.0, 3.0, 3.5], MotionOptions::default()), [vec![(0, 360_000, 1)]]);
 }
 
+/// The measure `is_full_turn` and its boolean, for linkages of every kind.
+#[test]
+fn the_input_turns_fully_or_rocks() {
+    use coupler_curves::measure::{ALL, BOOLEANS, TracedCurve, Value, compute_all};
+    let chebyshev = coupler_curves::catalogue::find("chebyshev").unwrap();
+    let parameters: Vec<&str> = chebyshev.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    let value =
+        |name: &&str| [("p", 2.0), ("a", 1.0), ("k", 0.5)].iter().find(|(n, _)| n == name).map_or(2.59, |v| v.1);
+    let driven_by_coupler = chebyshev.linkage(&parameters.iter().map(value).collect::<Vec<f64>>()).unwrap();
+    let change_point = four_bar([3.0, 1.0, 2.0, 2.0], all());
+    let mut limited = four_bar([4.0, 1.0, 3.0, 3.5], all());
+    limited.motion_options.range = Some([0.0, 90.0]);
+    let of_catalogue = |id: &str, turns: bool| (id.to_owned(), crate::catalogue::default_linkage(id), turns);
+    for (name, linkage, turns) in [
+        ("driven by its coupler".to_owned(), driven_by_coupler, true),
+        ("through a change point".to_owned(), change_point, true),
+        ("over a quarter turn".to_owned(), limited, false),
+        ("rocker-crank".to_owned(), four_bar([4.0, 3.5, 3.0, 1.0], all()), false),
+        of_catalogue("hoeken", true),
+        of_catalogue("klann", true),
+        of_catalogue("geared-five-bar", true),
+        of_catalogue("scotch-yoke", true),
+        of_catalogue("inverted-slider-crank", true),
+        of_catalogue("hart-inversor", false),
+        of_catalogue("linear-actuator", false),
+    ] {
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
+        assert!(!motion.circuits.is_empty(), "{name}");
+        for circuit in &motion.circuits {
+            let values = compute_all(&TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]));
+            let word = ALL.iter().zip(&values).find(|(measure, _)| measure.name == "is_full_turn").unwrap().1;
+            assert_eq!(*word, Value::Word(if turns { "yes" } else { "no" }), "{name}");
+            let boolean = BOOLEANS.iter().find(|boolean| boolean.name == "is_full_turn").unwrap();
+            assert_eq!(boolean.value(&values), f64::from(u8::from(turns)), "{name}");
+        }
+    }
+}
+
 #[test]
 fn a_double_rocker_rocks_above_and_below_its_frame() {
     let [below, above]: [_; 2] = passes([4.0, 3.0, 1.0, 3.0], all()).try_into().unwrap();
@@ -265,7 +303,8 @@ proptest! {
         let class = FourBar { frame, crank, coupler, rocker }.class();
         let motion = motion(lengths, all(), Sampling::Step(5.0));
         let turns = motion.circuits.first().is_some_and(|c| c.passes[0].from.flat_dyads.is_empty());
-        let expected = class == FourBarClass::DragLink || class == FourBarClass::CrankRocker && crank < rocker;
+        let expected = matches!(class, FourBarClass::DragLink | FourBarClass::CrankRocker);
         prop_assert_eq!(turns, expected);
+        prop_assert!(motion.circuits.iter().all(|circuit| circuit.is_full_turn() == expected), "{}", class);
     }
 }

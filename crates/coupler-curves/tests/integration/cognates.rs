@@ -176,7 +176,7 @@ fn cognates_are_driven_by_links_that_turn_fully() {
         assert_eq!(cognates.others.map(|c| c.counterparts[0]), turns, "{bars:?}");
         for (cognate, class) in cognates.others.iter().zip(classes) {
             let motion = Motion::solve(&cognate.to_linkage([], &all()).unwrap(), &Sampler::new(Sampling::Samples(8)));
-            let turns_fully = motion.circuits.iter().all(|c| c.is_closed && c.passes.len() == 1);
+            let turns_fully = motion.circuits.iter().all(|circuit| circuit.is_full_turn());
             assert_eq!(turns_fully, matches!(class, FourBarClass::CrankRocker | FourBarClass::DragLink), "{bars:?}");
         }
     }

@@ -3,7 +3,7 @@
 import { NO_WORD } from "../data/family.js";
 import { DERIVED_COLUMNS } from "./table.js";
 
-const FIRST_WORDS = ["class", "symmetric", "turn"];
+const FIRST_WORDS = ["class", "symmetric", "is_full_turn"];
 const FIRST_NUMBERS = [
   "mu_worst_deg",
   "straight_length",

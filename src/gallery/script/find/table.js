@@ -30,7 +30,6 @@ export const DERIVED_COLUMNS = {
 };
 
 const SYMMETRY_WORDS = ["not symmetric", "symmetric"];
-const INPUT_WORDS = ["between limits", "full turn"];
 
 /**
  * The rows of families, of each its first `counts[k]` curves, by default all: `family[row]` and `curve[row]`
@@ -114,11 +113,6 @@ export class CurveTable {
       for (let row = 0; row < this.count; row += 1)
         if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
       return { values: SYMMETRY_WORDS, codes };
-    }
-    if (name === "turn") {
-      const limits = this.numbers("input_min_deg");
-      for (let row = 0; row < this.count; row += 1) codes[row] = Number.isNaN(limits[row]) ? 1 : 0;
-      return { values: INPUT_WORDS, codes };
     }
     const values = [];
     let row = 0;

@@ -6,6 +6,7 @@ import { h } from "./dom.js";
 // The labels of measures other than their names in words.
 const MEASURE_LABELS = {
   shortest: "shortest link",
+  is_full_turn: "full turn of the input",
   input_min_deg: "least input",
   input_max_deg: "greatest input",
   mu_min_deg: "least transmission angle",
@@ -94,7 +95,6 @@ const COLUMN_LABELS = {
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
   symmetric: "symmetry",
-  turn: "input",
   symmetry: "kind of symmetry",
 };
 
