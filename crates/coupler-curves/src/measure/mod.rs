@@ -16,6 +16,7 @@ mod path;
 mod remez;
 mod sampled_curve;
 mod shape;
+mod six_bar;
 mod speed_ratio;
 mod straight;
 mod straightest;
@@ -183,10 +184,11 @@ impl Measure {
 }
 
 /// All measures, in the order of the columns.
-pub static ALL: [Measure; 34] = [
+pub static ALL: [Measure; 35] = [
     class::CLASS,
     four_bar_type::TYPE,
     four_bar_type::SHORTEST,
+    six_bar::SIX_BAR,
     input_range::IS_FULL_TURN,
     input_range::INPUT_MIN,
     input_range::INPUT_MAX,

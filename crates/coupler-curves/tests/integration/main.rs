@@ -13,6 +13,7 @@ mod mccarthy;
 mod measures;
 mod rates;
 mod sextic;
+mod six_bars;
 mod straight_line;
 mod thesis;
 

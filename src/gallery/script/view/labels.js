@@ -6,6 +6,7 @@ import { h } from "./dom.js";
 // The labels of measures other than their names in words.
 const MEASURE_LABELS = {
   shortest: "shortest link",
+  six_bar: "kind of six-bar",
   is_full_turn: "full turn of the input",
   input_min_deg: "least input",
   input_max_deg: "greatest input",
