@@ -1,6 +1,8 @@
 //! McCarthy's position analysis, sections 2.2 and 2.3, equation by equation; angles are in radians.
 
-use super::FourBar;
+use std::f64::consts::PI;
+
+use super::{FourBar, JointKind, Linkage};
 use crate::geometry::trig::{acos, atan2, cos, sin};
 
 /// The inverted slider-crank of McCarthy 2.2: a crank about O whose pin A slides on a line that turns about C.
@@ -17,6 +19,23 @@ pub struct InvertedSliderCrank {
 }
 
 impl InvertedSliderCrank {
+    /// The inverted slider-crank in a linkage: a crank on a fixed pivot, whose pin slides on a line that turns about
+    /// another; `e` is not negative. `None` if there is none, or the linkage is seen from another link.
+    pub fn from_linkage(linkage: &Linkage) -> Option<InvertedSliderCrank> {
+        if linkage.seen_from.is_some() {
+            return None;
+        }
+        let slot = |kind| match kind {
+            JointKind::Slot { base, offset, .. } => Some((base, offset)),
+            _ => None,
+        };
+        linkage.joints.iter().filter_map(|joint| slot(joint.kind)).find_map(|([c, a], offset)| {
+            let JointKind::Crank { pivot, length } = linkage.joints[a].kind else { return None };
+            let fixed = |joint| linkage.links[0].position(joint);
+            Some(InvertedSliderCrank { g: (fixed(c)? - fixed(pivot)?).norm(), r: length, e: offset.abs() })
+        })
+    }
+
     /// The slide s = |AB| at a crank angle, McCarthy (2.42); `None` where the linkage cannot be assembled. The other
     /// assembly has the slide -s.
     pub fn slide(&self, theta: f64) -> Option<f64> {
@@ -56,7 +75,29 @@ impl InvertedSliderCrank {
         }
         let nearest = (g - r).abs();
         let least = if nearest >= e { 0.0 } else { acos((g * g + r * r - e * e) / (2.0 * r * g)) };
-        Some([least, std::f64::consts::PI])
+        Some([least, PI])
+    }
+
+    /// The least and the greatest output angle psi on a circuit, continuous; `None` where the linkage cannot be
+    /// assembled.
+    ///
+    /// Where the output turns fully, -pi and pi. Where the crank turns fully and the output rocks, both are in [0, pi],
+    /// for a positive slide; with a negative one the range is the mirror image, in [-pi, 0]. Otherwise both rock, the
+    /// output about pi, and the greatest angle exceeds pi.
+    ///
+    /// # Source
+    /// As McCarthy, section 2.2, recommends, from the limits of the other crank: the line is a tangent of the crank's
+    /// circle where psi is extreme, so that `g cos psi + e`, its distance from O, is r or -r there.
+    pub fn psi_range(&self) -> Option<[f64; 2]> {
+        let InvertedSliderCrank { g, r, e } = *self;
+        let e = e.abs();
+        self.crank_range()?;
+        let direction = |distance: f64| acos(((distance - e) / g).clamp(-1.0, 1.0));
+        Some(match () {
+            () if (g - r).abs() < e => [direction(r), 2.0 * PI - direction(r)],
+            () if r > g => [-PI, PI],
+            () => [direction(r), direction(-r)],
+        })
     }
 
     /// The least and the greatest slide s >= 0; `None` where the linkage cannot be assembled.
@@ -78,6 +119,23 @@ impl FourBar {
     pub fn output_angles(&self, theta: f64) -> Option<[f64; 2]> {
         // Left of A -> C is clockwise of the diagonal C -> A, whose direction is delta.
         solve_angle(self.output_coefficients(theta))
+    }
+
+    /// The angles of the crank from O -> C, in [0, pi], at which the rocker reverses: crank and coupler are on one line,
+    /// extended, and folded. The angles in [-pi, 0] are their negatives. `None` for one that is not reached, and where
+    /// the rocker's pin is at O, whatever the angle.
+    ///
+    /// # Source
+    /// Natesan (4.8) is the extended one of Roberts's linkage. The crank's own limits, with coupler and rocker on one
+    /// line, are (4.3), (4.4), (4.6) and (4.9).
+    pub fn rocker_limits(&self) -> [Option<f64>; 2] {
+        let FourBar { frame: p, crank: r, coupler: a, rocker: s } = *self;
+        // With a coupler longer than the crank the rocker's pin is behind O where they are folded.
+        [r + a, r - a].map(|reach| {
+            let squares = [p * p, reach * reach, s * s];
+            let angle = clamped_acos(squares[0] + squares[1] - squares[2], squares.iter().sum(), 2.0 * p * reach.abs());
+            angle.filter(|_| reach != 0.0).map(|angle| if reach < 0.0 { PI - angle } else { angle })
+        })
     }
 
     /// The coupler angle phi, measured about A from OA, at an input and an output angle, McCarthy (2.57).

@@ -2,7 +2,7 @@
 //! chapter 8).
 
 use super::sextic::bisect;
-use super::{FourBar, Sextic};
+use super::{FourBar, Sextic, length_tolerance};
 use crate::geometry::{Point, Vector};
 
 /// The symmetrical linkages of Natesan's chapter 8, given by three lengths: the frame p, one short link, and two
@@ -45,6 +45,24 @@ impl SymmetricalFourBar {
                 (FourBar { frame, crank: long, coupler: short, rocker: long }, Vector::new(short / 2.0, 0.0))
             }
         }
+    }
+
+    /// The form of a four-bar and its coupler point, with its frame, short and long length, as [`Self::four_bar`] takes
+    /// them; lengths that agree to within a few ulps count as equal. `None` for other proportions.
+    ///
+    /// The link called short is that in the role of the short one, whatever its length.
+    pub fn from_four_bar(four_bar: FourBar, point: Vector) -> Option<(SymmetricalFourBar, [f64; 3])> {
+        let FourBar { frame, crank, coupler, rocker } = four_bar;
+        let tolerance = length_tolerance(frame + crank + coupler + rocker);
+        let forms = [
+            (SymmetricalFourBar::Evans, [frame, crank, rocker]),
+            (SymmetricalFourBar::Chebyshev, [frame, coupler, rocker]),
+        ];
+        forms.into_iter().find(|(form, [frame, short, long])| {
+            let (expected, expected_point) = form.four_bar(*frame, *short, *long);
+            let differences = [expected.crank - crank, expected.coupler - coupler, (expected_point - point).norm()];
+            differences.iter().all(|difference| difference.abs() <= tolerance)
+        })
     }
 
     /// The x-coordinate of the axis of symmetry.

@@ -101,6 +101,53 @@ proptest! {
         }
     }
 
+    /// The range of psi against (2.45) at many crank angles: nothing is outside, and both ends are reached.
+    #[test]
+    fn the_output_of_the_inverted_slider_crank_stays_in_its_range(g in 0.3f64..3.0, r in 0.3f64..3.0, e in 0.0f64..4.0) {
+        let formulas = InvertedSliderCrank { g, r, e };
+        let (Some([low, high]), Some([from, to])) = (formulas.psi_range(), formulas.crank_range()) else {
+            prop_assert!(e > g + r);
+            return Ok(());
+        };
+        const STEPS: usize = 4000;
+        // Near a limit the slide has a root, and psi changes fast: more angles there.
+        let angles = (0..=STEPS).map(|k| {
+            let x = k as f64 / STEPS as f64;
+            from + (to - from) * x * x
+        });
+        let turn = 2.0 * std::f64::consts::PI;
+        let mut found = Vec::new();
+        for theta in angles.flat_map(|theta| [theta, -theta]) {
+            let Some(size) = formulas.slide(theta) else { continue };
+            // Where both rock, a circuit has slides of both signs; otherwise this is that of the positive ones.
+            let slides = if from > 0.0 { vec![size, -size] } else { vec![size] };
+            for s in slides {
+                let psi = formulas.psi(theta, s);
+                let (turns, middle) = (high - low == turn, (low + high) / 2.0);
+                let continuous = psi - turn * ((psi - middle) / turn).round();
+                prop_assert!(turns || continuous > low - 1e-7 && continuous < high + 1e-7, "{continuous} {low} {high}");
+                found.push(continuous);
+            }
+        }
+        found.sort_by(f64::total_cmp);
+        prop_assert!(found[0] - low < 2e-2 && high - found[found.len() - 1] < 2e-2, "{:?} {low} {high}", [found[0], found[found.len() - 1]]);
+    }
+
+    /// (4.8), and its counterpart: crank, coupler and frame make a triangle with the rocker, and the rocker rests.
+    #[test]
+    fn the_rocker_reverses_where_crank_and_coupler_are_collinear(l in prop::array::uniform4(0.3f64..3.0)) {
+        let bar = FourBar { frame: l[0], crank: l[1], coupler: l[2], rocker: l[3] };
+        for (limit, sense) in bar.rocker_limits().into_iter().zip([1.0, -1.0]) {
+            let reach = bar.crank + sense * bar.coupler;
+            let is_triangle = reach.abs() + bar.rocker > bar.frame && (reach.abs() - bar.rocker).abs() < bar.frame;
+            prop_assert_eq!(limit.is_some(), is_triangle);
+            let Some(theta) = limit else { continue };
+            prop_assert!((0.0..=std::f64::consts::PI).contains(&theta));
+            let b = Vector::new(trig::cos(theta), trig::sin(theta)) * reach;
+            prop_assert!(((b - Vector::new(bar.frame, 0.0)).norm() - bar.rocker).abs() < 1e-11);
+        }
+    }
+
     #[test]
     fn a_slider_stays_on_its_line(crank in 0.2f64..2.0, coupler in 0.2f64..3.0, offset in -2.0f64..2.0, turn in 0.0f64..6.0) {
         let mut builder = LinkageBuilder::default();
@@ -188,6 +235,28 @@ const JERK: [f64; 9] =
 /// The central difference of a joint's positions about a sample.
 fn difference(circuit: &Circuit, joint: JointId, i: usize, weights: &[f64; 9]) -> Vector {
     (0..9).map(|k| circuit.positions.point(joint, i + k - 4).coords * weights[k]).sum()
+}
+
+/// The regimes of the inverted slider-crank in closed form.
+#[test]
+fn the_inverted_slider_cranks_output_rocks_or_turns() {
+    let range = |g, r, e| InvertedSliderCrank { g, r, e }.psi_range().map(|range| range.map(trig::degrees));
+    let near = |found: Option<[f64; 2]>, expected: [f64; 2]| {
+        found.is_some_and(|found| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12 * (1.0 + b.abs())))
+    };
+    // Without offset the line is a tangent of the crank's circle: sin 30 = 1 / 2 to either side of the normal.
+    assert!(near(range(2.0, 1.0, 0.0), [60.0, 120.0]));
+    assert!(near(range(1.0, 2.0, 0.0), [-180.0, 180.0]), "Whitworth's quick return");
+    // g cos psi + e = 1 and -1: cosines of 1 / 4 and -3 / 4.
+    let [low, high] = [0.25, -0.75].map(|cosine| trig::degrees(trig::acos(cosine)));
+    assert!(near(range(2.0, 1.0, 0.5), [low, high]));
+    // Both rock: the line reaches the crank's circle only up to cosine (1 - 1.5) / 2.
+    let low = trig::degrees(trig::acos(-0.25));
+    assert!(near(range(2.0, 1.0, 1.5), [low, 360.0 - low]));
+    assert_eq!(range(2.0, 1.0, 3.5), None);
+    let linkage = crate::catalogue::default_linkage("inverted-slider-crank");
+    assert_eq!(InvertedSliderCrank::from_linkage(&linkage), Some(InvertedSliderCrank { g: 2.0, r: 1.0, e: 0.5 }));
+    assert_eq!(InvertedSliderCrank::from_linkage(&crate::catalogue::default_linkage("klann")), None);
 }
 
 #[test]

@@ -34,8 +34,71 @@ fn lengths() -> impl Strategy<Value = FourBar> {
     })
 }
 
+/// The coefficients of (7.7) by the powers of X and Y, for a symmetrical four-bar of frame p and crank r, with its
+/// coupler point at b from both pins and the angle beta, given by sine and cosine, from the coupler to it. The bracket
+/// that is missing after `sin^2 beta (1 + sin^2 beta` is added.
+fn thesis_centred_equation([p, r, b]: [f64; 3], [sine, cosine]: [f64; 2]) -> Vec<([usize; 2], f64)> {
+    let (s, c, q) = (sine * sine, cosine * cosine, b * b - r * r);
+    let (s2, c2) = (2.0 * sine * cosine, c - s);
+    let (t, b2, p2, p4) = (s2 * s2, b * b, p * p, p * p * p * p);
+    vec![
+        ([6, 0], t),
+        ([4, 0], p2 * s * (1.0 - 3.0 * c) + 2.0 * t * q - 4.0 * b2 * t * s),
+        ([4, 1], -2.0 * p * s * s2),
+        ([4, 2], 3.0 * t),
+        ([2, 0], p4 / 4.0 * s * (1.0 - 3.0 * s) - 2.0 * p2 * q * s + q * q * t + 2.0 * b2 * p2 * s * t),
+        ([2, 1], p * s2 * (s * (p2 - 4.0 * b2 + 4.0 * r * r) - 8.0 * b2 * c2 * s)),
+        ([2, 2], 2.0 * p2 * s * s - 8.0 * b2 * s * t + 4.0 * q * t),
+        ([2, 3], -4.0 * p * s2 * s),
+        ([2, 4], 3.0 * t),
+        ([0, 6], t),
+        ([0, 5], -2.0 * p * s2 * s),
+        ([0, 4], 2.0 * t * q + p2 * s * (1.0 + c) - 4.0 * b2 * s * t),
+        ([0, 3], p * s2 * s * (-p2 - 4.0 * b2 + 4.0 * r * r) - 8.0 * b2 * p * s2 * s * c2),
+        (
+            [0, 2],
+            p4 / 4.0 * s * (1.0 + s) + q * q * t + 2.0 * p2 * q * s - 4.0 * b2 * p2 * s * (1.0 - 6.0 * c + 6.0 * c * c),
+        ),
+        ([0, 1], p / 2.0 * s2 * s * (-p4 / 4.0 - 4.0 * q * q - 2.0 * p2 * q) + 2.0 * b2 * p * p2 * s2 * c2 * s),
+        ([0, 0], p2 * s * s * (p4 / 16.0 + q * q + p2 / 2.0 * q) - b2 * p4 * t * s / 4.0),
+    ]
+}
+
 proptest! {
     #![proptest_config(crate::random())]
+
+    /// (7.7): about the middle of the frame a symmetrical four-bar has no odd powers of X, and these coefficients.
+    #[test]
+    fn the_centred_equation_is_that_of_the_thesis(
+        (p, r, coupler) in (0.3f64..3.0, 0.3f64..3.0, 0.3f64..3.0), across in prop_oneof![0.1f64..3.0, -3.0f64..-0.1],
+    ) {
+        let bar = FourBar { frame: p, crank: r, coupler, rocker: r };
+        let centred = Sextic::from_four_bar(bar, Vector::new(coupler / 2.0, across)).unwrap().centred_coefficients();
+        let b = (coupler * coupler / 4.0 + across * across).sqrt();
+        let expected = thesis_centred_equation([p, r, b], [across / b, coupler / 2.0 / b]);
+        let lead = expected[0].1;
+        for (i, j) in (0..=6).flat_map(|i| (0..=6 - i).map(move |j| (i, j))) {
+            let value = expected.iter().find(|(powers, _)| *powers == [i, j]).map_or(0.0, |(_, value)| value / lead);
+            let found = centred[i][j];
+            prop_assert!(i % 2 == 0 || found == 0.0, "X^{i} Y^{j}: {found}");
+            prop_assert!((found - value).abs() <= 1e-9 * (1.0 + value.abs()), "X^{i} Y^{j}: {found} {value}");
+        }
+    }
+
+    /// About the middle of the frame the equation of any four-bar has the same points.
+    #[test]
+    fn the_centred_equation_has_the_same_points(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0)) {
+        let point = Vector::new(along, across);
+        let Some(sextic) = Sextic::from_four_bar(bar, point) else { return Ok(()) };
+        let centred = sextic.centred_coefficients();
+        let power = |x: f64, n: usize| (0..n).fold(1.0, |product, _| product * x);
+        for p in [Point::new(0.3, 0.7), Point::new(-1.0, 2.0), Point::new(2.5, -0.4)] {
+            let [value, size] = sextic.evaluate(p);
+            let all = (0..=6).flat_map(|i| (0..=6 - i).map(move |j| (i, j)));
+            let sum: f64 = all.map(|(i, j)| centred[i][j] * power(p.x - bar.frame / 2.0, i) * power(p.y, j)).sum();
+            prop_assert!((sum - value).abs() <= 1e-12 * size, "{p}: {sum} {value} of {size}");
+        }
+    }
 
     #[test]
     fn every_sample_satisfies_its_equation(bar in lengths(), (along, across) in (-3.0f64..3.0, -3.0f64..3.0), flat: bool) {

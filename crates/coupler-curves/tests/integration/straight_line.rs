@@ -2,7 +2,7 @@
 
 use coupler_curves::catalogue;
 use coupler_curves::geometry::{Point, Vector, distance_to_segment, trig};
-use coupler_curves::linkage::{Sextic, SymmetricalFourBar};
+use coupler_curves::linkage::{FourBar, Sextic, SymmetricalFourBar};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 
 const BOTH: [SymmetricalFourBar; 2] = [SymmetricalFourBar::Evans, SymmetricalFourBar::Chebyshev];
@@ -15,6 +15,19 @@ fn frame_lengths() -> impl Iterator<Item = f64> {
 fn sextic(kind: SymmetricalFourBar, [frame, short, long]: [f64; 3]) -> Sextic {
     let (four_bar, point) = kind.four_bar(frame, short, long);
     Sextic::from_four_bar(four_bar, point).unwrap()
+}
+
+#[test]
+fn forms_are_recognised_by_their_lengths() {
+    for kind in BOTH {
+        for [frame, short, long] in [[2.0, 1.0, 2.6], [0.1, 0.7, 0.3], [4.0, 2.0, 2.0]] {
+            let (four_bar, point) = kind.four_bar(frame, short, long);
+            assert_eq!(SymmetricalFourBar::from_four_bar(four_bar, point), Some((kind, [frame, short, long])));
+            assert_eq!(SymmetricalFourBar::from_four_bar(four_bar, point + Vector::new(0.0, 0.01)), None);
+            let other = FourBar { rocker: four_bar.rocker * 1.01, ..four_bar };
+            assert_eq!(SymmetricalFourBar::from_four_bar(other, point), None);
+        }
+    }
 }
 
 /// The conditions (8.10) and (8.19), and at any size (8.8) and (8.16).

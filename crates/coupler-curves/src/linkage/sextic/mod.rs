@@ -40,6 +40,51 @@ struct EquationTerms {
     v: [f64; 2],
 }
 
+impl EquationTerms {
+    /// The equation in the frame with its origin at (`origin`, 0), with 1 as the coefficient of `x^6`.
+    fn equation(&self, origin: f64) -> Polynomial {
+        let equation = combine(&self.factors(origin), -4.0 * self.u[0]);
+        // Divided by the coefficient of (x^2 + y^2)^3: the square of the coupler's length, times |u|^2.
+        equation.scaled(1.0 / equation.0[6][0])
+    }
+
+    /// For each coefficient of [`EquationTerms::equation`], the sum of the magnitudes of its terms.
+    fn equation_sizes(&self, origin: f64) -> Polynomial {
+        let lead = combine(&self.factors(origin), -4.0 * self.u[0]).0[6][0];
+        let mut factors = self.factors(origin).map(|factor| Polynomial(factor.0.map(|row| row.map(f64::abs))));
+        // The constants of E1 and E2 are differences themselves: of these squares and the square of a crank.
+        let far = self.frame - origin;
+        factors[0].0[0][0] += 2.0 * (origin * origin + self.u[0]);
+        factors[1].0[0][0] += 2.0 * (far * far + self.v[0]);
+        combine(&factors, 4.0 * self.u[0]).scaled(1.0 / lead)
+    }
+
+    /// The polynomials that the equation is combined from.
+    fn factors(&self, origin: f64) -> [Polynomial; 7] {
+        let EquationTerms { frame, dot, cross: sine, u: [u2, u_difference], v: [_, v_difference] } = *self;
+        let far = frame - origin;
+        let line = |c, x, y| Polynomial::circle(c, [x, y], 0.0);
+        [
+            // E1 and E2 of (6.4): x cos t + y sin t = E1 / 2b, and the same about the rocker's pivot, turned by gamma.
+            Polynomial::circle(origin * origin + u_difference, [2.0 * origin, 0.0], 1.0),
+            Polynomial::circle(far * far + v_difference, [-2.0 * far, 0.0], 1.0),
+            line(-far * sine, sine, -dot),
+            line(0.0, 0.0, u2),
+            line(-far * dot, dot, sine),
+            line(-u2 * origin, -u2, 0.0),
+            Polynomial::circle(-sine * origin * far, [sine * (origin - far), -frame * dot], sine),
+        ]
+    }
+}
+
+/// The sum of the squares of both sums of products, and the square of the last factor times `right`.
+fn combine([e1, e2, sine1, sine2, cosine1, cosine2, last]: &[Polynomial; 7], right: f64) -> Polynomial {
+    let first = sine1.times(e1).plus(&sine2.times(e2));
+    let second = cosine1.times(e1).plus(&cosine2.times(e2));
+    let squares = first.times(&first).plus(&second.times(&second));
+    squares.plus(&last.times(last).scaled(right))
+}
+
 impl Sextic {
     /// The equation of the curve of a coupler point, given along the coupler from the crank pin towards the rocker
     /// pin, and to its left.
@@ -60,18 +105,7 @@ impl Sextic {
             u: [u2, difference(u2, crank)],
             v: [v2, difference(v2, rocker)],
         };
-        let EquationTerms { dot, cross: sine, .. } = parts;
-        // From (6.4): x cos t + y sin t = E1 / 2b, and the same about the rocker's pivot, turned by gamma.
-        let e1 = Polynomial::circle(parts.u[1], [0.0, 0.0], 1.0);
-        let e2 = Polynomial::circle(frame * frame + parts.v[1], [-2.0 * frame, 0.0], 1.0);
-        let line = |c, x, y| Polynomial::circle(c, [x, y], 0.0);
-        let first = line(-frame * sine, sine, -dot).times(&e1).plus(&line(0.0, 0.0, u2).times(&e2));
-        let second = line(-frame * dot, dot, sine).times(&e1).plus(&line(0.0, -u2, 0.0).times(&e2));
-        let right = Polynomial::circle(0.0, [-frame * sine, -frame * dot], sine);
-        let squares = first.times(&first).plus(&second.times(&second));
-        let equation = squares.plus(&right.times(&right).scaled(-4.0 * u2));
-        // Divided by the coefficient of (x^2 + y^2)^3: the square of the coupler's length, times |u|^2.
-        let equation = equation.scaled(1.0 / equation.0[6][0]);
+        let equation = parts.equation(0.0);
         Some(Sextic { equation, terms: parts, change_points: change_points(four_bar, point) })
     }
 
@@ -81,6 +115,24 @@ impl Sextic {
     /// If `i` or `j` is above 6.
     pub fn coefficient(&self, i: usize, j: usize) -> f64 {
         self.equation.0[i][j]
+    }
+
+    /// The coefficients in the frame with its origin in the middle of the line of the pivots, by the powers of
+    /// X = x - frame / 2 and of y, as [`Sextic::coefficient`] gives them about the crank's pivot. Those that are not
+    /// larger than the rounding errors of their terms are 0; for a curve that is symmetrical about X = 0 these are all
+    /// those of odd powers of X.
+    ///
+    /// # Source
+    /// Natesan (7.6), and (7.7) for a symmetrical four-bar, times the square of the sine of 2 beta. In (7.5) `- y^2` is
+    /// `+ y^2`, as in (6.5), and in (7.7) the bracket after `sin^2 beta (1 + sin^2 beta` is missing.
+    pub fn centred_coefficients(&self) -> [[f64; 7]; 7] {
+        // Some twenty products and sums in each coefficient.
+        const ROUNDING: f64 = 32.0 * f64::EPSILON;
+        let middle = self.terms.frame / 2.0;
+        let (equation, sizes) = (self.terms.equation(middle).0, self.terms.equation_sizes(middle).0);
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| if equation[i][j].abs() <= ROUNDING * sizes[i][j] { 0.0 } else { equation[i][j] })
+        })
     }
 
     /// The left side of the equation at a point, and the sum of the magnitudes of its terms, to which its rounding
